@@ -20,10 +20,9 @@ from tempfile import TemporaryDirectory
 from time import process_time
 from typing import Any
 
-from synth.atlas.asked.opened import open_atlas
+from synth.atlas.building import AtlasPlan, build_atlas
 from synth.atlas.columns import COLUMNS
-from synth.atlas.made.building import build_atlas
-from synth.atlas.made.plan import AtlasPlan
+from synth.atlas.opened import open_atlas
 
 PLACE = Path(__file__).resolve().parent / "results" / "atlas.json"
 ROWS = 500_000

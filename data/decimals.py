@@ -3,7 +3,7 @@
 Sines and solutions of equations differ in their last digits from processor to processor. Nine decimals are far from
 where they differ, and what is special about the geometry of a sheet is told within the precision that its digits
 show. A ring of solids that moves by its proportions alone, as Bennett's, could not move with nine: `ring` of
-`synth.patterns.rings.axes` keeps fourteen of what has a closed form.
+`synth.patterns.hinged_rings` keeps fourteen of what has a closed form.
 """
 
 from __future__ import annotations

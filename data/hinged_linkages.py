@@ -12,12 +12,17 @@ from graphs.convert.table import Mechanism
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from synth.patterns.hinged_rings import (
+    bennett,
+    kaleidocycle,
+    line_symmetric,
+    plane_symmetric,
+    ring,
+    sarrus as sarrus_panels,
+    trihedral,
+)
 from synth.patterns.panels import sheet_of_faces
-from synth.patterns.platforms.legs import platform
-from synth.patterns.rings.axes import ring
-from synth.patterns.rings.bennett import bennett, sarrus as sarrus_panels
-from synth.patterns.rings.bricard import line_symmetric, plane_symmetric, trihedral
-from synth.patterns.rings.kaleidocycles import kaleidocycle
+from synth.patterns.platforms import platform
 
 
 def sarrus() -> HingedSolids:

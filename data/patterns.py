@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import cos, pi, sin, sqrt
 
 from graphs.mechanism.sheet import Sheet
-from synth.patterns.creases import bases, tessellations, twists
+from synth.patterns import creases
 from synth.patterns.panels import sheet_of_faces
 
 Point = tuple[float, ...]
@@ -13,18 +13,18 @@ Point = tuple[float, ...]
 
 def miura(rows: int, columns: int, fold_deg: float = 40.0, title: str = "") -> Sheet:
     """Return a folded Miura mesh of rows x columns parallelograms (sides 1 and 1.3, acute angle 65 degrees)."""
-    mesh = tessellations.folded_miura(rows, columns, fold_deg * pi / 180, 65 * pi / 180, 1.0, 1.3, title)
+    mesh = creases.folded_miura(rows, columns, fold_deg * pi / 180, 65 * pi / 180, 1.0, 1.3, title)
     return mesh
 
 
 def bird_base() -> Sheet:
     """Return the crease pattern of the bird base: 16 triangles, flat."""
-    return bases.bird_base()
+    return creases.bird_base()
 
 
 def square_twist(twist_deg: float = 22.5) -> Sheet:
     """Return a square twist: a central square, four pleats and four corners, flat; all vertices marked alike."""
-    return twists.polygon_twist(4, twist_deg * pi / 180, title="Square twist")
+    return creases.polygon_twist(4, twist_deg * pi / 180, title="Square twist")
 
 
 def fourbar_vertex() -> Sheet:

@@ -22,7 +22,7 @@ from graphs.mechanism.vertex_edge import VertexEdgeGraph as VertexEdgeGraph
 from graphs.reduce.ride_alongs import reduce as reduce
 from synth.advice.advised import advise as advise
 from synth.assembly.found import positions as positions
-from synth.atlas.asked.opened import open_atlas as open_atlas
+from synth.atlas.opened import open_atlas as open_atlas
 from synth.compliance.stated import states as states
 from synth.drawing.mechanisms.pictures import draw as draw
 from synth.folding.motion import fold as fold
@@ -34,7 +34,7 @@ from synth.moving.motion import move as move
 from synth.notebook import load_ipython_extension as load_ipython_extension
 from synth.overconstraint.explained import explain as explain
 from synth.patterns.generated import generate as generate
-from synth.realisation.forms.on_cone import realise_on_cone as realise_on_cone
+from synth.realisation.on_cone import realise_on_cone as realise_on_cone
 from synth.realisation.realised import realise as realise
 from synth.surfaces.cone import map_to_cones as map_to_cones
 from synth.surfaces.cylinder import map_to_cylinders as map_to_cylinders

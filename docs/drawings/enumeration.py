@@ -24,8 +24,7 @@ from graphs.errors import numbered
 from graphs.ids import LinkId
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from synth.atlas.made.building import build_atlas
-from synth.atlas.made.plan import AtlasPlan
+from synth.atlas.building import AtlasPlan, build_atlas
 from synth.drawing import Scene
 from synth.drawing.mechanisms.chains import ChainLook, OrderOnCircle, chain_scene
 from synth.drawing.scene.shapes import NORMAL, STRONG, Disc, Layer, Line, Point, Polygon, Shape

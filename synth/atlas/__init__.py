@@ -1,7 +1,7 @@
-"""The atlas: all types up to a size in one file, asked in plain words.
+"""The atlas: all types up to a size in one file, queried in plain words.
 
-Building: `AtlasPlan` says what is in it, `build_atlas` lists it, resumably. Asking: `open_atlas`; `Atlas.query` by
-conditions on `COLUMNS`, `Atlas.sql`, `Atlas.show`, `find_type`. Theory: docs/theory/atlas.md.
+Building: `AtlasPlan` says which types, `build_atlas` lists them, resumably. Queries: `open_atlas`; `Atlas.query`
+by conditions on `COLUMNS`, `Atlas.sql`, `Atlas.show`, `find_type`. Theory: docs/theory/atlas.md.
 """
 
 from __future__ import annotations

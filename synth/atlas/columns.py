@@ -1,16 +1,39 @@
-"""What an atlas says of a type: its columns, what they hold, and of which kinds of types.
+"""The columns of an atlas, their values as they are stored, and the types that the literature names.
 
-Theory: docs/theory/atlas.md.
+A value that no atlas writes is damage, reported with its place. Names are in ``synth/atlas/named.json`` with their
+sources; the theory says how the file is made. Theory: docs/theory/atlas.md.
 """
 
 from __future__ import annotations
 
+import json
+from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from math import inf
+from pathlib import Path
+from typing import Any
 
-from enumerate.runner.columns import Column, ListColumn
+from enumerate.runner.columns import Column, ListColumn, unstored
+from enumerate.strings.panel_strings import ChainString
+from graphs.errors import StoreError, shown
 from graphs.mechanism.arrangement import ARRANGEMENTS
+from graphs.plain_text import plain
 
-__all__ = ["COLUMNS", "KINDS", "SCHEMA", "AtlasColumn", "stored_columns"]
+__all__ = [
+    "COLUMNS",
+    "KINDS",
+    "SCHEMA",
+    "AtlasColumn",
+    "NamedType",
+    "damaged",
+    "name_of_type",
+    "named_types",
+    "stored_columns",
+    "text_values",
+    "value_of",
+]
 
 SCHEMA = 2
 """Version of the columns and of what they mean."""
@@ -26,7 +49,7 @@ _DRAWN = ("sc", "scd")
 class AtlasColumn:
     """A column of the table of types; `says` describes its value in words.
 
-    `kinds` are those of types that have a value there; with an index rows are found by it without a full scan.
+    `kinds` are the kinds of types that have a value there; an indexed column finds rows without a full scan.
     """
 
     holds: Column
@@ -38,7 +61,7 @@ class AtlasColumn:
 COLUMNS: dict[str, AtlasColumn] = {
     "id": AtlasColumn(str, "canonical id; of an order, the chain's and the joints in order", indexed=True),
     "kind": AtlasColumn(str, "chain, sc, scd, string or order", indexed=True),
-    "name": AtlasColumn(str, "what the literature calls it", indexed=True),
+    "name": AtlasColumn(str, "name in the literature", indexed=True),
     "links": AtlasColumn(int, "links; of a string, panels and both bodies", indexed=True),
     "joints": AtlasColumn(int, "joints (creases)", indexed=True),
     "dof": AtlasColumn(int, "degrees of freedom by count; of a string, between its ends", indexed=True),
@@ -64,34 +87,123 @@ COLUMNS: dict[str, AtlasColumn] = {
     "fractionated": AtlasColumn(bool, "whether one link or joint cuts it in two", ("chain",)),
     "inversions": AtlasColumn(int, "links that differ as ground", ("chain",), indexed=True),
     "grounds": AtlasColumn(ListColumn(","), "one ground link of each inversion", ("chain",)),
-    "ride_alongs": AtlasColumn(int, "ride-alongs that can be taken off", _DRAWN, indexed=True),
+    "ride_alongs": AtlasColumn(int, "ride-alongs that can be removed", _DRAWN, indexed=True),
     "chain_id": AtlasColumn(str, "id of the kinematic chain", ("sc", "scd", "order"), indexed=True),
     "sc_id": AtlasColumn(str, "id of the SC graph", ("scd",), indexed=True),
     "reduced": AtlasColumn(str, "id of the chain that is left without ride-alongs", _DRAWN, indexed=True),
     "planar_analogue": AtlasColumn(str, "id of the SC graph with all centres at infinity", ("sc",)),
     "spherical_analogue": AtlasColumn(str, "id of the SC graph with one centre for all loops", ("sc",)),
-    "general_form": AtlasColumn(str, "id of the SC graph with centres as different as can be", ("sc",)),
+    "general_form": AtlasColumn(str, "id of the SC graph with as many different centres as possible", ("sc",)),
     "stands_for": AtlasColumn(str, "joints that a string stands for, such as UPS", ("string",)),
     "panels": AtlasColumn(str, "id of a string as panels", ("string",), indexed=True),
-    "distance": AtlasColumn(str, "of the ends of a string: coincident, fixed or variable", ("string",)),
-    "modes": AtlasColumn(int, "ways in which the vertices of a string may lie", ("string",)),
-    "comment": AtlasColumn(str, "of a string: axes that are parallel, freedoms fewer than creases", ("string",)),
+    "distance": AtlasColumn(str, "distance of the ends of a string: coincident, fixed or variable", ("string",)),
+    "modes": AtlasColumn(int, "arrangements of the vertices of a string", ("string",)),
+    "comment": AtlasColumn(str, "for a string: parallel axes, fewer freedoms than creases", ("string",)),
     "circuits": AtlasColumn(ListColumn(" ", kind=str), "how each loop winds round the cone", ("order",)),
     "open_loops": AtlasColumn(int, "loops that are open circuits", ("order",)),
     "layers": AtlasColumn(int, "fewest layers on the cone", ("order",)),
     "most_layers": AtlasColumn(int, "most layers on the cone", ("order",)),
     "full_rank": AtlasColumn(bool, "no first-order motion beyond the count on the cone", ("order",)),
     "realised": AtlasColumn(bool, "whether panels with coordinates were found", ("scd",), indexed=True),
-    "flat": AtlasColumn(bool, "realised as a flat sheet; else as a pose in space", ("scd",)),
+    "flat": AtlasColumn(bool, "realised as a flat sheet; else in space", ("scd",)),
     "least_angle_deg": AtlasColumn(float, "least angle of a panel", ("scd",)),
     "edge_ratio": AtlasColumn(float, "shortest edge by longest", ("scd",)),
-    "fold_deg": AtlasColumn(float, "how far the crease that turns most folds before panels meet", ("scd",)),
-    "fold_end": AtlasColumn(str, "what ends that motion", ("scd",)),
+    "fold_deg": AtlasColumn(float, "largest fold angle before panels collide", ("scd",)),
+    "fold_end": AtlasColumn(str, "reason for the end of that motion", ("scd",)),
     "fold_file": AtlasColumn(str, "the realised type (FOLD)", ("scd",)),
 }
 """By their names, in the order in which they are stored."""
 
 
 def stored_columns() -> dict[str, Column]:
-    """Return the columns as the runner of enumerations takes them."""
+    """Return the columns in the form of the runner of enumerations."""
     return {name: column.holds for name, column in COLUMNS.items()}
+
+
+_NAMES = {int: "a whole number", float: "a number", str: "a text", bool: "0 or 1"}
+_NEVER_EMPTY = ("id", "kind")
+
+
+def value_of(path: Path, name: str, stored: Any) -> Any:
+    """Return the value of a column as stored by SQLite; None if it is unknown, or the kind of type has none.
+
+    Raise StoreError, with the path of the atlas, if it is no value of this column.
+    """
+    if stored is None and name not in _NEVER_EMPTY:
+        return None
+    holds = COLUMNS[name].holds
+    if isinstance(holds, ListColumn):
+        return _list_of(path, name, stored, holds)
+    if name == "kind" and stored not in KINDS:
+        raise damaged(path, name, stored, f"one of {', '.join(KINDS)}")
+    is_of_type = isinstance(stored, (int, float) if holds is float else int if holds is bool else holds)
+    if not is_of_type or (holds is bool and stored not in (0, 1)) or stored in (inf, -inf):
+        raise damaged(path, name, stored, _NAMES[holds])
+    return bool(stored) if holds is bool else stored
+
+
+def text_values(path: Path, what: str, values: Iterable[Any]) -> None:
+    """Check that values of the view of relations, or of a statement, are texts; StoreError if one is not."""
+    for value in values:
+        if not isinstance(value, str):
+            raise damaged(path, what, value, "a text")
+
+
+def damaged(path: Path, what: str, value: Any, expected: str) -> StoreError:
+    """Return the error for a value that no atlas writes."""
+    return StoreError(
+        f"{plain(path, 4096)}: is damaged: {what} is {shown(value)}; expected {expected}; try to build it again"
+    )
+
+
+def _list_of(path: Path, name: str, stored: Any, column: ListColumn) -> tuple[Any, ...]:
+    kind = column.kind or object
+    try:
+        values = unstored(stored) if isinstance(stored, str) else None
+    except (ValueError, TypeError, RecursionError):
+        values = None
+    if values is None or not all(isinstance(value, kind) for value in values):
+        raise damaged(path, name, stored, "a list in JSON")
+    return values
+
+
+@dataclass(frozen=True, slots=True)
+class NamedType:
+    """A type that has a name, and the source that uses it."""
+
+    kind: str
+    id: str
+    name: str
+    source: str
+
+
+@cache
+def named_types() -> tuple[NamedType, ...]:
+    """Return all types of the file, in its order.
+
+    Returns
+    -------
+    tuple of NamedType
+
+    Examples
+    --------
+    >>> next(entry for entry in named_types() if entry.name == "Watt chain").id
+    'k1:E`hW'
+    """
+    text = files("synth.atlas").joinpath("named.json").read_text(encoding="utf-8")
+    return tuple(NamedType(**entry) for entry in json.loads(text))
+
+
+@cache
+def _names() -> dict[tuple[str, str], str]:
+    names: dict[tuple[str, str], list[str]] = {}
+    for entry in named_types():
+        names.setdefault((entry.kind, entry.id), []).append(entry.name)
+    return {key: "; ".join(dict.fromkeys(every)) for key, every in names.items()}
+
+
+def name_of_type(kind: str, code: str) -> str | None:
+    """Return the name of a type, or None; a string has the name of the joints for which it stands."""
+    if kind == "string":
+        return ChainString.parse(code).mechanism
+    return _names().get((kind, code))

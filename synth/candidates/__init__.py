@@ -1,4 +1,4 @@
-"""Conical candidates evaluated: a job for the runner, whose rows tell circuits, layers, ranks, ways to go."""
+"""Conical candidates evaluated: a job for the runner, with rows of circuits, layers, ranks, senses of rotation."""
 
 from __future__ import annotations
 

@@ -1,14 +1,13 @@
 """Conical candidates evaluated: a job for the runner of every enumerator (`enumerate.runner.running`).
 
 A row is a cyclic order of a chain's joints, or an order with opposites, or joints on slots or at sampled angles.
-Candidates come from `enumerate.conical.query`; what is said of them from `synth.candidates.values`,
-`synth.conformed.all_angles`, `synth.conformed.rates` and `synth.conformed.behaviours`. Theory:
+Candidates come from `enumerate.conical.query`, their values from `synth.candidates.rows`. Theory:
 docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from math import degrees
@@ -21,10 +20,10 @@ from enumerate.runner.columns import Column
 from enumerate.runner.job import Counting, Row, Unit
 from enumerate.runner.running import rows_of
 from graphs.arrays import Floats, Ints
-from graphs.errors import InvariantError, UnsolvableError
+from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.files.native.documents import dumps
 from graphs.identity.chains import chain_id
-from graphs.ids import JointId, LinkId
+from graphs.ids import LinkId
 from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import Cone, Cylinder, Surface
@@ -34,9 +33,8 @@ from synth.conformed.rates import ConformedChain
 
 __all__ = ["CandidateCountJob", "CandidateJob", "Filter"]
 
-_PLACED = 20_000
-_SETS = 1 << 15
-"""Placements of a unit, symmetric ones apart; orders with opposites of a unit of cyclic orders."""
+_PLACED, _SETS = 20_000, 1 << 15
+"""Placements per unit, without symmetric ones; orders with opposites per unit of cyclic orders."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +45,7 @@ class Filter:
     ----------
     column : str
     value : object
-        What the column must hold; None: see the limits.
+        The required value of the column; None: see the limits.
     least, most : int or None
 
     Examples
@@ -62,7 +60,7 @@ class Filter:
     most: int | None = None
 
     def admits(self, value: Any) -> bool:
-        """Tell whether a value will do."""
+        """Check whether a value meets the condition."""
         if self.value is not None:
             return bool(value == self.value)
         return (self.least is None or value >= self.least) and (self.most is None or value <= self.most)
@@ -77,13 +75,13 @@ class CandidateJob:
     chain : SCGraph
         Connected.
     grounds : tuple of (link id or None)
-        Fixed links; None: no link is fixed, and nothing is said of ways.
+        Fixed links; None: no link is fixed, and rows have no senses of rotation.
     slots : int, optional
         Joints on so many equal slots of the circle; else cyclic orders.
     opposites : bool
         A row for each order with opposites.
     samples : int, optional
-        So many sets of angles, at random, for each cyclic order.
+        So many random sets of angles for each cyclic order.
     seed : int
     surface : Cone or Cylinder, optional
         Link angles, or lengths, and Grashof classes on it. Without it the classes are those on a cylinder.
@@ -119,19 +117,19 @@ class CandidateJob:
 
     def __post_init__(self) -> None:
         if sum((self.slots is not None, self.opposites, self.samples is not None)) > 1:
-            raise InvariantError("candidates", "slots, opposites and samples together", "one of them")
+            raise InvariantError("candidates", "several of slots, opposites and samples", "one of them")
         if self.surface is not None and not self.placed:
-            told = f"a {self.surface.kind} for orders without angles"
-            raise InvariantError("surface", told, "slots or samples with it")
+            what = f"a {self.surface.kind} for orders without angles"
+            raise InvariantError("surface", what, "slots or samples with it")
         for ground in self.grounds:
             ConformedChain.of(self.chain, ground)  # connected, and the ground is a link
         if not self.chain.independent_loops:
-            raise UnsolvableError("the chain has no loops: every placement of its joints is as good as another")
+            raise UnsolvableError("the chain has no loops, so all placements of its joints are equivalent")
         _ = self.query
         for condition in self.filters:
             if condition.column not in self.columns:
-                told = f"no column {condition.column!r} here"
-                raise InvariantError("filter", told, " ".join(self.columns))
+                what = f"there is no column {shown(condition.column)} in these rows"
+                raise InvariantError("filter", what, f"one of {', '.join(self.columns)}")
 
     @property
     def placed(self) -> bool:
@@ -145,19 +143,13 @@ class CandidateJob:
 
     @cached_property
     def _candidate_chains(self) -> dict[LinkId | None, CandidateChain]:
-        loops = loops_of_chain(self.chain)
-        return {ground: self._candidate_chain(ground, loops) for ground in self.grounds}
-
-    def _candidate_chain(self, ground: LinkId | None, loops: Sequence[Sequence[JointId]]) -> CandidateChain:
         number = {joint: i for i, joint in enumerate(self.chain.joints)}
-        code = chain_id(self.chain)
-        return CandidateChain(
-            ConformedChain.of(self.chain, ground),
-            code,
-            ground is not None,
-            tuple(map(str, self.chain)),
-            tuple(tuple(number[joint] for joint in loop) for loop in loops),
-        )
+        loops = tuple(tuple(number[joint] for joint in loop) for loop in loops_of_chain(self.chain))
+        code, links = chain_id(self.chain), tuple(map(str, self.chain))
+        return {
+            ground: CandidateChain(ConformedChain.of(self.chain, ground), code, ground is not None, links, loops)
+            for ground in self.grounds
+        }
 
     @cached_property
     def columns(self) -> dict[str, Column]:
@@ -167,7 +159,7 @@ class CandidateJob:
 
     @property
     def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
+        """The identity of the job, in JSON values."""
         return {
             "enumerate": "conical",
             **self.query.key,
@@ -216,7 +208,7 @@ class CandidateJob:
         return rows
 
     def _sampled(self, slots: Ints, payload: Portion) -> Floats:
-        """Return azimuths at random in given cyclic orders; the portion seeds them, so that runs agree."""
+        """Return random azimuths in some cyclic orders; the portion seeds them, so that runs agree."""
         assert self.samples is not None
         place = self.grounds.index(payload.ground)
         rng = np.random.default_rng([self.seed, place, *payload.prefix])
@@ -227,29 +219,17 @@ class CandidateJob:
         return np.asarray(np.take_along_axis(starts, np.repeat(slots, self.samples, axis=0), axis=1))
 
     def rows(self) -> list[dict[str, Any]]:
-        """Return all rows as dictionaries, worked out in this process."""
+        """Return all rows as dictionaries, computed in this process."""
         return list(rows_of(self))
 
     def places(self, row: Mapping[str, Any]) -> Floats:
-        """Return the azimuths of the joints of a row, radians; of an order, evenly spaced, opposites too.
-
-        Parameters
-        ----------
-        row : mapping
-            Column to value.
-        """
+        """Return the azimuths of the joints of a row, radians; of an order, evenly spaced, opposites too."""
         if "azimuths_deg" in row:
             return np.asarray(np.radians(row["azimuths_deg"]))
         return np.array(row["slots"]) * (2 * np.pi / self.query.rounds.slots)
 
     def linkage(self, row: Mapping[str, Any]) -> SurfaceLinkage:
-        """Return the linkage of a row; of an order, one whose joints, with the opposites, are evenly spaced.
-
-        Parameters
-        ----------
-        row : mapping
-            Column to value.
-        """
+        """Return the linkage of a row; of an order, one whose joints, with the opposites, are evenly spaced."""
         chain = self.chain
         ground = next((link for link in chain if str(link) == row.get("ground")), None)
         fixed = SCGraph(chain.nodes, chain.joints, chain.loops, ground=ground)
@@ -281,11 +261,11 @@ class CandidateCountJob(Counting):
 
     @property
     def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
+        """The identity of the job, in JSON values."""
         return {"count": "conical", **self.rows.key}
 
     def units(self) -> list[Unit]:
-        """Return those of the job."""
+        """Return the units of the job."""
         return self.rows.units()
 
     def work(self, payload: Portion) -> list[Row]:

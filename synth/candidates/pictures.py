@@ -51,12 +51,12 @@ def picture_of_row(job: CandidateJob, row: dict[str, Any]) -> Scene:
     """
     linkage = job.linkage(row)
     chain = ConformedChain.of(linkage.chain, linkage.chain.ground)
-    told = title_of_picture(row, int(links_in_layers(chain, job.places(row)).layers.max()) + 1)
-    return draw_conformed(chain, job.places(row), job.surface or _ANY, told, grounded=bool(row["ground"]))
+    title = title_of_picture(row, int(links_in_layers(chain, job.places(row)).layers.max()) + 1)
+    return draw_conformed(chain, job.places(row), job.surface or _ANY, title, grounded=bool(row["ground"]))
 
 
 def title_of_picture(row: Mapping[str, Any], layers: int) -> str:
-    """Return the title of a picture of a candidate: order, circuits, and in how many layers it is drawn.
+    """Return the title of a picture of a candidate: order, circuits, and the number of layers in it.
 
     A cyclic order is drawn at one choice of angles; its row, and the title, have the layers of all choices.
     """
@@ -66,7 +66,7 @@ def title_of_picture(row: Mapping[str, Any], layers: int) -> str:
 
 
 class PictureSink:
-    """A sink that draws each row to a new folder, then hands it on.
+    """A sink that draws each row to a new folder, then passes it on.
 
     Parameters
     ----------
@@ -81,30 +81,18 @@ class PictureSink:
         self._number = 0
 
     def start(self, job: Any) -> Collection[int]:
-        """Make a folder beside the place of this one.
-
-        Raises
-        ------
-        FileError
-            If there is something at its place, or it cannot be made.
-        """
+        """Make a folder beside its place; FileError if something is there, or it cannot be made."""
         remove_left(self._place)
         self._folder = FolderBeside(self._place)
         return self._inner.start(job)
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
-        """Draw, and hand on.
-
-        Raises
-        ------
-        UnsolvableError
-            If there are too many.
-        """
+        """Draw the rows and pass them on; UnsolvableError if there are too many."""
         assert self._folder is not None
         for row in rows:
             self._number += 1
             if self._number > _MOST:
-                raise UnsolvableError(f"more than {_MOST} pictures: ask for fewer candidates")
+                raise UnsolvableError(f"more than {_MOST} pictures; try fewer candidates")
             scene = picture_of_row(self._job, row_as_dict(self._job.columns, row))
             save_scene(scene, self._folder.path / f"{self._number:05d}.png")
         self._inner.take(number, rows, seconds)

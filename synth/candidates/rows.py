@@ -1,6 +1,7 @@
-"""Rows of conical candidates: names of columns, and values.
+"""Rows of conical candidates: names of columns, and values, computed for many candidates at a time.
 
-Theory: docs/theory/conical-candidates.md.
+Layers: `synth.conformed.layers`; rank and behaviour: `synth.conformed.rates`, `synth.conformed.behaviours`; over
+all angles: `synth.conformed.all_angles`. Theory: docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
@@ -8,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import combinations
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,7 +19,6 @@ from enumerate.runner.columns import Column, ListColumn, RangeColumn
 from enumerate.runner.job import Row
 from graphs.arrays import Floats, Ints
 from graphs.mechanism.surfaces import Cone, Surface
-from synth.candidates.values import four_bar_classes, half_turns, loop_circuits
 from synth.conformed.all_angles import (
     Allowed,
     OverAngles,
@@ -29,11 +30,68 @@ from synth.conformed.all_angles import (
 from synth.conformed.behaviours import Way, behaviour_of_motion, link_arcs
 from synth.conformed.layers import layers
 from synth.conformed.rates import ConformedChain, first_order
-from synth.surfaces.circuit import wrapped
+from synth.fourbar.closing import grashof_class, planar_differences, spherical_differences
+from synth.surfaces.circuit import HALF_TURN, Circuits, circuits, wrapped
 from synth.surfaces.cone import link_angles
 from synth.surfaces.cylinder import chords
 
-__all__ = ["CandidateChain", "order_rows", "placed_rows"]
+__all__ = ["CandidateChain", "four_bar_classes", "half_turns", "loop_circuits", "order_rows", "placed_rows"]
+
+
+def loop_circuits(loops: Sequence[Sequence[int]], places: npt.ArrayLike) -> tuple[Circuits, ...]:
+    """Return the circuits of loops, each its joints in loop order, at azimuths float[..., J], radians."""
+    t = np.asarray(places, dtype=float)
+    of_loops = []
+    for loop in loops:
+        mine = t[..., list(loop)]
+        of_loops.append(circuits(wrapped((np.roll(mine, -1, axis=-1) - mine).round(12))))
+    return tuple(of_loops)
+
+
+def half_turns(
+    chain: ConformedChain, places: npt.ArrayLike
+) -> tuple[list[tuple[int, int]], npt.NDArray[np.bool_]]:
+    """Return the pairs of joints that share a link, and which of these steps are a half turn, bool[..., pairs].
+
+    Such steps have no sign; azimuths are float[..., J], radians.
+    """
+    t = np.asarray(places, dtype=float)
+    pairs = sorted({pair for joints in chain.joints_of for pair in combinations(joints, 2)})
+    return pairs, np.abs(_steps(t, pairs)) > HALF_TURN
+
+
+def _steps(places: Floats, pairs: Sequence[tuple[int, int]]) -> Floats:
+    """Return the steps between the joints of each pair, float[..., pairs], radians."""
+    first, second = (list(side) for side in zip(*pairs, strict=True))
+    return wrapped(places[..., second] - places[..., first])
+
+
+def four_bar_classes(
+    loops: Sequence[Sequence[int]], places: npt.ArrayLike, surface: Surface | None
+) -> list[npt.NDArray[np.str_]]:
+    """Return ``Grashof``, ``non-Grashof`` or ``folding`` for each loop of four joints; other loops are skipped.
+
+    The class depends on the cone; without a surface it is that on a cylinder. Azimuths are float[..., J]. A
+    crossed loop is Grashof on a cylinder; on a steep cone it need not be (docs/misprints.md 000-6).
+
+    >>> places = np.radians([0, 150, 20, 160])
+    >>> [str(four_bar_classes([(0, 1, 2, 3)], places, surface)[0]) for surface in (None, Cone(0.3))]
+    ['Grashof', 'non-Grashof']
+    """
+    t = np.asarray(places, dtype=float)
+    classes = []
+    for loop in loops:
+        if len(loop) != 4:
+            continue
+        mine = t[..., list(loop)]
+        steps = wrapped(np.roll(mine, -1, axis=-1) - mine)
+        if isinstance(surface, Cone):
+            differences = spherical_differences(link_angles(steps, surface.angle))
+        else:
+            differences = planar_differences(chords(steps, 1.0))
+        classes.append(grashof_class(differences))
+    return classes
+
 
 _ALLOWED = {
     Allowed.BOTH: "both ways",
@@ -65,10 +123,10 @@ class LoopCircuits(NamedTuple):
 
 @dataclass(frozen=True)
 class CandidateChain:
-    """A chain with one ground link, its id, and what all its rows have in common.
+    """A chain with one ground link, its id, and the common properties of all its rows.
 
-    `grounded`: a link is fixed; else rows have no ways. `links` are names in the order of rows, `loops` the joints
-    of each loop in loop order.
+    `grounded`: a link is fixed; else rows have no senses of rotation. `links` are names in the order of rows,
+    `loops` the joints of each loop in loop order.
     """
 
     chain: ConformedChain
@@ -84,12 +142,12 @@ class CandidateChain:
 
     @property
     def single(self) -> bool:
-        """Whether the chain has one freedom by its count."""
+        """Whether the mobility of the chain by count is 1."""
         return len(self.chain.joints) == 3 * len(self.chain.loops) + 1
 
     @cached_property
     def rate_formulas(self) -> RateFormulas:
-        """What the analysis over all angles needs."""
+        """The data of the analysis over all angles."""
         return RateFormulas.of(self.chain)
 
     @cached_property
@@ -100,8 +158,8 @@ class CandidateChain:
 
     def ways_of_links(self, words: Sequence[str]) -> tuple[tuple[str, str], ...]:
         """Return (link, word) for each link, in the order of rows."""
-        told = ["fixed", *words[1:]]
-        return tuple((name, told[k]) for name, k in zip(self.links, self._turned, strict=True))
+        words = ["fixed", *words[1:]]
+        return tuple((name, words[k]) for name, k in zip(self.links, self._turned, strict=True))
 
     def columns(self, placed: bool, opposites: bool, surface: Surface | None, slots: bool) -> dict[str, Column]:
         """Return names and types of columns."""
@@ -147,8 +205,8 @@ class CandidateChain:
         if not opposites:
             return tuple(self.names[i] for i in sorted(range(len(row)), key=row.__getitem__))
         half = len(row)
-        told = sorted((slot % half, self.names[i] + "'" * (slot >= half)) for i, slot in enumerate(row))
-        return tuple(name for _, name in told)
+        order = sorted((slot % half, self.names[i] + "'" * (slot >= half)) for i, slot in enumerate(row))
+        return tuple(name for _, name in order)
 
     def circuits_of_loops(self, places: Floats) -> list[LoopCircuits]:
         """Return the circuits of all loops, of each row."""
@@ -179,22 +237,18 @@ def order_rows(candidate: CandidateChain, slots: Ints, symmetry: Ints, opposites
     deep = layers(candidate.chain, places).reshape(-1, per_row)
     full = never_singular(candidate.rate_formulas, places[::per_row]).tolist() if candidate.single else []
     allowed = over_angles(candidate.rate_formulas, flat) if candidate.grounded and candidate.single else None
-    made: list[Row] = []
+    rows: list[Row] = []
     for i, start in enumerate(candidate.common(slots, opposites)):
         mine = slice(i * per_row, (i + 1) * per_row)
         turns = np.array([of_loops.turns for of_loops in circuits[mine]])
-        row: list[Any] = [*start, int(symmetry[i]), *circuits[i * per_row][:-1], _ranges(turns)]
+        ranges = tuple(zip(turns.min(axis=0).tolist(), turns.max(axis=0).tolist(), strict=True))
+        row: list[Any] = [*start, int(symmetry[i]), *circuits[i * per_row][:-1], ranges]
         row += [int(deep[i].min())] if opposites else [int(deep[i].min()), int(deep[i].max())]
         row += full[i : i + 1]
         if allowed is not None:
             row += _ways(candidate, allowed, mine, opposites)
-        made.append(tuple(row))
-    return made
-
-
-def _ranges(turns: Ints) -> tuple[tuple[int, int], ...]:
-    """Return least and greatest number of turns of each loop."""
-    return tuple(zip(turns.min(axis=0).tolist(), turns.max(axis=0).tolist(), strict=True))
+        rows.append(tuple(row))
+    return rows
 
 
 def _ways(candidate: CandidateChain, over: OverAngles, mine: slice, opposites: bool) -> list[Any]:
@@ -202,7 +256,8 @@ def _ways(candidate: CandidateChain, over: OverAngles, mine: slice, opposites: b
     linkage = _together(over.linkage[mine])
     words = [_WORD_OF_A_LINK[allowed] for allowed in links]
     if opposites:
-        signs = [_sign_of(over.signs[mine][0, list(joints)]) for joints in candidate.chain.joints_of]
+        certain = [over.signs[mine][0, list(joints)] for joints in candidate.chain.joints_of]
+        signs = [int(row[np.abs(row).argmax()]) for row in certain]
         sense = next(
             (s for s, allowed in zip(signs[1:], links[1:], strict=True) if s and allowed == Allowed.ONE), 1
         )
@@ -219,13 +274,8 @@ def _ways(candidate: CandidateChain, over: OverAngles, mine: slice, opposites: b
     ]
 
 
-def _sign_of(signs: npt.NDArray[np.int8]) -> int:
-    """Return the certain sign of a link that goes one way."""
-    return int(signs[np.abs(signs).argmax()])
-
-
 def _together(allowed: npt.NDArray[np.int8]) -> Allowed:
-    """Return what several orders with opposites allow together."""
+    """Return the common verdict of several orders with opposites."""
     seen = set(allowed.tolist())
     if len(seen) == 1:
         return Allowed(seen.pop())
@@ -234,12 +284,7 @@ def _together(allowed: npt.NDArray[np.int8]) -> Allowed:
 
 
 def placed_rows(
-    candidate: CandidateChain,
-    places: Floats,
-    slots: Ints,
-    symmetry: Ints,
-    on_slots: bool,
-    surface: Surface | None,
+    candidate: CandidateChain, places: Floats, slots: Ints, symmetry: Ints, on_slots: bool, surface: Surface | None
 ) -> list[Row]:
     """Return rows of joints at azimuths, float[r, J], between 0 and 2 pi, on a surface or on any.
 
@@ -258,7 +303,7 @@ def placed_rows(
     sizes = None if surface is None else _link_sizes(places, pairs, surface)
     ways = _placed_ways(candidate, places) if candidate.grounded else None
     joined = [(candidate.names[a], candidate.names[b]) for a, b in pairs]
-    made: list[Row] = []
+    rows: list[Row] = []
     for i, start in enumerate(candidate.common(slots, False)):
         here = tuple(joined[k] for k in np.flatnonzero(half[i]).tolist())
         of_loops = tuple(str(of_loop[i]) for of_loop in classes)
@@ -271,14 +316,13 @@ def placed_rows(
             row += [tuple((*pair, float(f"{x:.10g}")) for pair, x in zip(joined, sizes[i], strict=True))]
         if ways is not None:
             row += ways[i]
-        made.append(tuple(row))
-    return made
+        rows.append(tuple(row))
+    return rows
 
 
 def _link_sizes(places: Floats, pairs: Sequence[tuple[int, int]], surface: Surface) -> list[list[float]]:
     """Return the link angles, degrees, or lengths between joints of each link."""
-    first, second = (list(side) for side in zip(*pairs, strict=True))
-    steps = wrapped(places[:, second] - places[:, first])
+    steps = _steps(places, pairs)
     if isinstance(surface, Cone):
         angles: list[list[float]] = np.degrees(link_angles(steps, surface.angle)).tolist()
         return angles
@@ -294,7 +338,7 @@ def _placed_ways(candidate: CandidateChain, places: Floats) -> list[list[Any]]:
     return [
         [
             candidate.ways_of_links([word[way] for way in ways]),
-            _ALLOWED[(Allowed.ONE if one_way else Allowed.BOTH) if told else Allowed.UNKNOWN],
+            _ALLOWED[(Allowed.ONE if one_way else Allowed.BOTH) if is_known else Allowed.UNKNOWN],
         ]
-        for ways, one_way, told in zip(behaviour.ways.tolist(), behaviour.one_way.tolist(), known, strict=True)
+        for ways, one_way, is_known in zip(behaviour.ways.tolist(), behaviour.one_way.tolist(), known, strict=True)
     ]

@@ -1,4 +1,4 @@
-"""What a generator made, with what is known of it. Theory: docs/theory/generators.md."""
+"""What a generator makes, with what is known of it. Theory: docs/theory/generators.md."""
 
 from __future__ import annotations
 
@@ -8,23 +8,30 @@ from math import degrees
 from typing import Any
 
 from graphs.answer.mechanisms import mobility
-from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.printing import Block, Printed
+from synth.folding.alike.reaching import fold_to
 from synth.patterns.catalogue import GENERATORS
-from synth.patterns.folded import folded
 from synth.patterns.generator import FOLD, Generator
 
-__all__ = ["Generated", "generate"]
+__all__ = ["Generated", "folded", "generate"]
+
+
+def folded(sheet: Sheet, angle: float) -> Sheet:
+    """Return a flat sheet folded on the branch of its assignment up to a largest fold angle, radians.
+
+    Raise UnsolvableError if it does not fold, or not so far.
+    """
+    last_frame: Sheet = fold_to(sheet, angle).folding.frames()[-1]
+    return last_frame
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Generated(Printed):
-    """A mechanism of a generator.
-
-    It prints as ``synth generate`` does.
+    """A mechanism that a generator makes. It prints as ``synth generate`` does.
 
     Attributes
     ----------
@@ -32,17 +39,17 @@ class Generated(Printed):
     values : mapping of str to float
         Of all parameters; radians.
     fold : float or None
-        How far it is folded, radians; None as it is made.
+        Largest fold angle, radians; None if the mechanism is not folded.
     mechanism : Sheet, HingedSolids or JointedLinkage
     freedoms : int
-        Of finite motion, as the source says.
+        Of finite motion, by the source.
     count : int or None
-        Mobility by count of a general member of its type.
+        Mobility by count of a generic realisation of its type.
 
     Examples
     --------
-    >>> made = generate("miura")
-    >>> made.generator.name, made.freedoms
+    >>> miura = generate("miura")
+    >>> miura.generator.name, miura.freedoms
     ('miura', 1)
     """
 
@@ -59,7 +66,7 @@ class Generated(Printed):
         return None if self.count is None else self.freedoms - self.count
 
     def to_json(self) -> dict[str, Any]:
-        """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
+        """Return the keys that scripts rely on (docs/command-json.md)."""
         units = {parameter.name: parameter.unit for parameter in self.generator.parameters}
         return {
             "name": self.generator.name,
@@ -82,8 +89,9 @@ class Generated(Printed):
         lines: list[Block] = [f"{self.generator.title}: {with_values}" if with_values else self.generator.title]
         if self.fold is not None:
             lines.append(f"folded to {degrees(self.fold):g} degrees")
+        freedoms = numbered(self.freedoms, "degree of freedom", "degrees of freedom")
         count = "not known" if self.count is None else f"{self.count}, h = {self.overconstraint}"
-        lines.append(f"freedoms of finite motion {self.freedoms}, by its source; count of its type M = {count}")
+        lines.append(f"{freedoms} of finite motion, by the source; count of its type M = {count}")
         return [*lines, f"conditions: {self.generator.conditions}", f"source: {self.generator.source}"]
 
     def __repr__(self) -> str:
@@ -91,16 +99,20 @@ class Generated(Printed):
 
 
 def generate(name: str, *, fold: float | None = None, **parameters: float) -> Generated:
-    """Make a known pattern or linkage by its parameters.
+    """Make a known pattern or linkage from its parameters.
 
     Parameters
     ----------
     name : str
         One of `synth.patterns.GENERATORS`.
     fold : float, optional
-        Fold angle of the crease that moves most, radians, of what is made flat; by default it stays flat.
+        Fold angle of the crease that moves most, radians, for a flat pattern; by default it stays flat.
     **parameters
         Those of the generator; lengths in any unit, angles in radians.
+
+    Returns
+    -------
+    Generated
 
     Raises
     ------
@@ -111,19 +123,21 @@ def generate(name: str, *, fold: float | None = None, **parameters: float) -> Ge
 
     Examples
     --------
-    >>> made = generate("miura", rows=3, columns=3)
-    >>> made.mechanism, made.freedoms, made.count, made.overconstraint
+    >>> sheet = generate("miura", rows=3, columns=3)
+    >>> sheet.mechanism, sheet.freedoms, sheet.count, sheet.overconstraint
     (<Sheet: 9 faces, 12 creases, 16 vertices, flat>, 1, 0, 1)
     """
     if name not in GENERATORS:
-        raise InvariantError("generator", f"{shown(name)} is no generator", ", ".join(GENERATORS))
+        raise InvariantError("generator", f"there is no generator {shown(name)}", ", ".join(GENERATORS))
     generator = GENERATORS[name]
     values = generator.values(parameters)
     mechanism = generator.make(**values)
     if fold is not None:
         if not generator.foldable or not isinstance(mechanism, Sheet):
-            raise UnsolvableError(f"{name} is not made flat, and is not folded: its parameters say its pose")
+            raise UnsolvableError(
+                f"{name} is not a flat pattern, so it is not folded: its parameters set its shape"
+            )
         fold = FOLD.checked(fold)
         mechanism = folded(mechanism, fold)
-    counted = mobility(mechanism, exact=False, pose=False).mobility
-    return Generated(generator, values, fold, mechanism, generator.freedoms(values), counted)
+    by_count = mobility(mechanism, exact=False, pose=False).mobility
+    return Generated(generator, values, fold, mechanism, generator.freedoms(values), by_count)

@@ -1,4 +1,4 @@
-"""A generator: a function that makes a mechanism, its parameters with ranges, what its source says."""
+"""A generator: a function that makes a mechanism, its parameters with ranges, and the facts from its source."""
 
 from __future__ import annotations
 
@@ -30,14 +30,15 @@ class Parameter:
     name : str
     unit : {"count", "length", "angle"}
     default, least, most : float
-        Both ends belong to the range; radians.
+        Both ends belong to the range; angles in radians.
     meaning : str
 
     Examples
     --------
-    >>> from synth.patterns.catalogue import GENERATORS
-    >>> [(one.name, one.unit) for one in GENERATORS["miura"].parameters]
-    [('rows', 'count'), ('columns', 'count'), ('sector', 'angle'), ('straight', 'length'), ('zigzag', 'length')]
+    >>> count("rows", 3, 1, 9, "number of rows of panels").checked(12)
+    Traceback (most recent call last):
+    ...
+    graphs.errors.InvariantError: rows = 12; expected a whole number from 1 to 9 [parameter]
     """
 
     name: str
@@ -48,20 +49,7 @@ class Parameter:
     meaning: str
 
     def checked(self, value: float) -> float:
-        """Return a value that is in range; counts as whole numbers.
-
-        Raises
-        ------
-        InvariantError
-            If it is out of range, or a count is not whole.
-
-        Examples
-        --------
-        >>> count("rows", 3, 1, 9, "number of rows of panels").checked(12)
-        Traceback (most recent call last):
-        ...
-        graphs.errors.InvariantError: rows = 12; expected a whole number from 1 to 9 [parameter]
-        """
+        """Return a value that is in range, a count as a whole number; InvariantError for others."""
         whole = self.unit != "count" or value == int(value) if isfinite(value) else False
         if not whole or not self.least - DOUBLE.same_point <= value <= self.most + DOUBLE.same_point:
             raise InvariantError("parameter", f"{self.name} = {self.told(value)}", self.range)
@@ -74,7 +62,7 @@ class Parameter:
         return f"{kind} from {self.told(self.least)} to {self.told(self.most)}"
 
     def told(self, value: float) -> str:
-        """Return a value as it is printed, with its unit."""
+        """Return a value with its unit, as it is printed."""
         if self.unit == "angle":
             return f"{degrees(value):.6g} degrees"
         return f"{value:.6g}"
@@ -102,20 +90,19 @@ class Generator:
     Attributes
     ----------
     name : str
-        By which it is asked for.
     title : str
     make : callable
-        Takes the parameters by name; gives a sheet, solids hinged at edges, or a linkage with joints of all kinds.
+        Takes the parameters by name; returns a sheet, hinged solids, or a linkage with joints of all kinds.
     parameters : tuple of Parameter
     freedoms : callable
-        Takes the values of the parameters; gives the freedoms of finite motion, as the source says.
+        Takes the values of the parameters; returns the freedoms of finite motion, by the source.
     conditions : str
-        When these are the freedoms: the way that is meant, what the proportions must obey.
+        When these are the freedoms: the branch that is meant, what the proportions must obey.
     source : str
     foldable : bool
-        Whether it is flat, and can be had folded to an angle.
+        Whether it is flat, and can be folded to an angle.
     relations : str
-        What its parameters must obey together, within their ranges; empty if any will do.
+        What its parameters must obey together, within their ranges; empty if there is nothing.
     """
 
     name: str
@@ -128,21 +115,15 @@ class Generator:
     foldable: bool = False
     relations: str = ""
 
-    def values(self, given: Values) -> dict[str, float]:
-        """Return all parameters, defaults where none are given, each in its range.
-
-        Raises
-        ------
-        InvariantError
-            If a parameter is not known or out of range.
-        """
+    def values(self, chosen: Values) -> dict[str, float]:
+        """Return the values of all parameters; InvariantError if one is unknown or out of range."""
         known = {parameter.name for parameter in self.parameters}
-        for name in given:
+        for name in chosen:
             if name not in known:
-                told = f"{self.name} has no parameter {shown(name)}"
-                raise InvariantError("parameter", told, ", ".join(sorted(known)) or "none: it has no parameters")
-        return {one.name: one.checked(given.get(one.name, one.default)) for one in self.parameters}
+                what = f"{self.name} has no parameter {shown(name)}"
+                raise InvariantError("parameter", what, ", ".join(sorted(known)) or "no parameters")
+        return {one.name: one.checked(chosen.get(one.name, one.default)) for one in self.parameters}
 
 
 FOLD = Parameter("fold", "angle", 0.0, radians(0.5), radians(170.0), "fold angle of the crease that moves most")
-"""How far what is foldable is folded."""
+"""The largest fold angle of a foldable pattern."""

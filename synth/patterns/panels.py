@@ -1,4 +1,4 @@
-"""Sheets made of panels: corners at one place are one vertex, sides are listed with their letters."""
+"""Sheets from panels: corners at the same place are one vertex, sides are listed with their letters."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _NONE: Mapping[frozenset[int], str] = MappingProxyType({})
 def sheet_of_panels(
     panels: Sequence[Corners], title: str = "", letters: Mapping[frozenset[int], str] = {}
 ) -> Sheet:
-    """Return the sheet of panels given by the places of their corners; corners at one place are one vertex.
+    """Return the sheet of panels by the places of their corners; corners at the same place are one vertex.
 
     Vertices are numbered as they come; `letters` has the assignment of pairs of them, other creases are
     unassigned.
@@ -61,10 +61,6 @@ def sheet_of_faces(
 
 
 def rounded(sheet: Sheet, digits: int) -> Sheet:
-    """Return a sheet with its coordinates rounded to so many decimals.
-
-    >>> rounded(Sheet(3, (), "", ((0, 1, 2),), ((0, 0), (1 / 3, 0), (0, 1))), 2).coordinates
-    ((0.0, 0.0), (0.33, 0.0), (0.0, 1.0))
-    """
+    """Return a sheet with its coordinates rounded to so many decimals."""
     assert sheet.coordinates is not None
     return replace(sheet, coordinates=tuple(tuple(round(x, digits) + 0.0 for x in p) for p in sheet.coordinates))

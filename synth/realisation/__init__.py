@@ -1,12 +1,9 @@
-"""Types as things: panels with coordinates, as a flat sheet or as a pose in space; linkages on cones.
+"""Types with coordinates: flat sheets of panels, configurations in space, linkages on cones.
 
-`realise` takes a type, draws its panels, and says what they look like. Below it: `pattern` (what is to be drawn),
-`starting` (a barycentric drawing), `improving` (its shape, creases to their centres), `drawing` (one try after the
-other), `space` (to a pose in space), `figures`, `refusing` (what no flat sheet has), `simplest` (the drawn type of
-an SC graph), `many` (stores and folders at once). `wanted`: drawings that are flat-foldable, or symmetric;
-`special`: members that move although counts say no.
-`forms`: strips of R/- strings; `realise_on_cone` lays a type with one centre round a cone. Theory:
-docs/theory/realisation.md.
+`realise` draws the panels of a type (`realised`): `pattern` has its panels in numbers, `drawing` draws them with
+the `conditions` of flat-foldable and symmetric sheets, `measures` has angles, lengths and shape, `space` lifts
+drawings. `strips` are those of R/- strings; `on_cone` lays a type with one centre round a cone; `many` realises
+stores and folders; `special` finds members that move although counts say no. Theory: docs/theory/realisation.md.
 """
 
 from __future__ import annotations

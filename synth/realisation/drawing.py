@@ -1,30 +1,359 @@
 """Drawings of a pattern in the plane, one after the other: each from another start, to other lengths.
 
-Theory: docs/theory/realisation.md.
+The start is barycentric, with a convex border. Tutte's theorem: in a convex border, with every other vertex in a
+weighted mean of its neighbours, the panels of a 3-connected pattern are strictly convex and none overlap. Rules S1
+and S2 of SCD graphs say that patterns are, with a *hub* in each hole joined to all vertices round it; the hub is
+where the centre across the hole begins. A panel that cannot be convex gets a hub too, and is a star round it.
+
+Then the shape is improved: corners neither sharp nor flat, edges alike, creases to their centres. The cost is a
+sum of squares that grow without bound where a corner closes or opens; no step may turn a panel over. Each step
+goes to where creases meet their centres, as far as derivatives tell, and within that to the better shape
+(Gauss-Newton, damped). A finite centre is a point, an infinite one a direction; both are unknowns beside the
+vertices.
+
+Source: W. T. Tutte, How to draw a graph, Proc. London Math. Soc. 13 (1963). Theory: docs/theory/realisation.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property, partial
 
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.geometry import common_direction, unit
+from graphs.mechanism.sheet import sides_of_face
+from graphs.rank.spaces import split
+from graphs.tolerances import DOUBLE
 from synth.motion.walk.allowance import Allowance
-from synth.realisation.figures import crossings
-from synth.realisation.improving import improved
-from synth.realisation.measures import opened_angles
-from synth.realisation.pattern import Pattern
-from synth.realisation.pointing import first_unknowns
-from synth.realisation.starting import barycentric_start
-from synth.realisation.wanted.wishes import Wishes
+from synth.realisation.conditions import Condition, Wishes, together
+from synth.realisation.measures import corner_angles, crossings, edge_lengths, is_drawn, opened_angles, sums_at
+from synth.realisation.pattern import Pattern, Pointing
 
-__all__ = ["Drawn", "drawings"]
+__all__ = ["Drawn", "barycentric_start", "drawings", "first_unknowns", "improved", "off_centres"]
+
+_SPREAD = 0.5
+
+
+def barycentric_start(
+    pattern: Pattern, random: np.random.Generator | None = None
+) -> tuple[Floats, Floats, Floats]:
+    """Return places of the vertices, hubs of holes, and hubs of panels that cannot be convex.
+
+    Edges are about 1 long. The generator gives every edge a weight; without it all weights are equal.
+    """
+    rings = [*pattern.holes, *(panel for place, panel in enumerate(pattern.panels) if pattern.bent[place])]
+    spokes = [(v, pattern.vertices + hub) for hub, ring in enumerate(rings) for v in ring]
+    pairs = np.concatenate([pattern.edges, np.array(spokes, np.int64).reshape(-1, 2)])
+    weights = np.ones(len(pairs)) if random is None else np.exp(_SPREAD * random.standard_normal(len(pairs)))
+    count = pattern.vertices + len(rings)
+    matrix = np.zeros((count, count))
+    for (a, b), weight in zip(pairs.tolist(), weights.tolist(), strict=True):
+        matrix[[a, b], [a, b]] += weight
+        matrix[[a, b], [b, a]] -= weight
+    around = np.array(pattern.outer)
+    angles = 2 * np.pi * np.arange(len(around)) / len(around)
+    places = np.zeros((count, 2))
+    places[around] = np.column_stack([np.cos(angles), np.sin(angles)])
+    inner = np.setdiff1d(np.arange(count), around)
+    if len(inner):
+        right = -matrix[np.ix_(inner, around)] @ places[around]
+        places[inner] = np.linalg.solve(matrix[np.ix_(inner, inner)], right)
+    ends = places[pattern.edges]
+    places /= np.exp(np.log(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)).mean())
+    in_panels = pattern.vertices + len(pattern.holes)
+    return places[: pattern.vertices], places[pattern.vertices : in_panels], places[in_panels:]
+
+
+_LEFT, _RIGHT = np.array([-1.0, 1.0]), np.array([1.0, -1.0])
+"""Signs of (y, x), by which a vector (x, y) is turned to the left, to the right."""
+
+
+def first_unknowns(pattern: Pattern, places: Floats, in_holes: Floats, in_panels: Floats) -> Floats:
+    """Return the unknowns of a drawing: vertices, a point for each centre that is no vertex, hubs of bent panels.
+
+    The point of an infinite centre is its direction, of length 1. Points in holes are float[H, 2]; hubs of panels,
+    float[B, 2], are those of `barycentric_start`. Returns float[V + C + B, 2].
+    """
+    points = [
+        _common_direction(pattern, places, pointing)
+        if pointing.infinite
+        else in_holes[list(pointing.holes)].mean(axis=0)
+        for pointing in pattern.free_centres
+    ]
+    return np.concatenate([places, np.array(points).reshape(-1, 2), in_panels])
+
+
+def off_centres(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
+    """Return the sine of the angle by which each crease misses its centre, and the derivatives.
+
+    Lengths are taken as constant in the derivatives, which are exact where nothing is off. There is a value for
+    each row of ``Pattern.aims``, then by how much the direction of each infinite centre is longer than 1: float[A
+    + D], with derivatives float[A + D, 2 (V + C + B)].
+    """
+    a, b, centre, infinite = pattern.aims.T
+    along = unknowns[b] - unknowns[a]
+    reach = (1 - infinite)[:, None] / 2
+    to = unknowns[centre] - reach * (unknowns[a] + unknowns[b])
+    sizes = np.sqrt((along**2).sum(axis=1) * (to**2).sum(axis=1))
+    scale = np.maximum(sizes, DOUBLE.same_point)  # in the middle of a crease a centre has no direction from there
+    by_along, by_to = to[:, ::-1] * _RIGHT / scale[:, None], along[:, ::-1] * _LEFT / scale[:, None]
+    half = reach * by_to
+    rows, directions = np.arange(len(pattern.aims)), pattern.directions
+    derivatives = np.zeros((len(rows) + len(directions), *unknowns.shape))
+    derivatives[rows, b] = by_along - half
+    derivatives[rows, a] = -by_along - half
+    derivatives[rows, centre] += by_to
+    derivatives[len(rows) + np.arange(len(directions)), directions] = unknowns[directions]
+    off = (along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0]) / scale
+    longer = ((unknowns[directions] ** 2).sum(axis=1) - 1.0) / 2
+    return np.concatenate([off, longer]), derivatives.reshape(len(derivatives), unknowns.size)
+
+
+def _common_direction(pattern: Pattern, places: Floats, pointing: Pointing) -> Floats:
+    """Return the mean direction of creases, whichever way they run."""
+    ends = places[[pattern.creases[crease] for crease in pointing.creases]]
+    return common_direction(unit(ends[:, 1] - ends[:, 0]))
+
+
+_ROUNDS = 40
+_SHARP = np.radians(35.0)
+"""Corners sharper than this, or as near to 180 degrees, cost more than they should."""
+_LENGTH = 1.1
+_BORDER = 0.15
+"""Part of the mean turn at a vertex of the border below which the border is nearly straight there."""
+_OFF = 30.0
+"""Cost of a crease off its centre, per sine of the angle."""
+_SEEN = np.radians(6.0)
+"""Sides of bent panels that are seen from the hub under less than this cost more than they should."""
+_TIGHT = 1e-14
+"""Conditions that are off by less are met: no step can do better."""
+_ENOUGH = 1e-3
+"""A step that gains less than this part is the last, where creases are near to their centres."""
+_LEAST = 1e-9
+"""A step that gains less than this part may gain by rounding alone: it is none."""
+_DIGITS = 6
+"""Decimals that each step keeps, edges being about 1 long: where a symmetric drawing leaves its symmetry, steps
+would make more of the rounding errors of the step before than of anything else."""
+_IDLE = 1e-6
+"""Motions of the whole plane of length 1 by which conditions are off by less than this change nothing."""
+_NEAR, _NOTHING = 1e-4, 1e-5
+"""Creases off their centres by less than the first are near; where they are not, a step that gains less than the
+second is the last."""
+
+
+@dataclass(frozen=True)
+class _Cost:
+    """Residuals at a drawing, and by how much creases miss their centres, with derivatives."""
+
+    residuals: Floats
+    by: Floats
+    off: Floats
+    off_by: Floats
+
+    @property
+    def merit(self) -> float:
+        return float(self.residuals @ self.residuals + _OFF * np.abs(self.off).sum())
+
+    @property
+    def back(self) -> Floats:
+        """The shortest step by which each crease turns to its centre."""
+        return self._split[0]
+
+    @property
+    def free(self) -> Floats:
+        """Steps, in columns, by which no crease turns off its centre."""
+        return self._split[1]
+
+    @cached_property
+    def by_free(self) -> Floats:
+        """Derivatives of the residuals along these."""
+        free: Floats = self.by @ self.free
+        return free
+
+    @cached_property
+    def _split(self) -> tuple[Floats, Floats]:
+        parts = split(self.off_by)
+        rank, right = parts.rank, parts.right
+        return (right[:rank].T / parts.values[:rank]) @ parts.left[:, :rank].T, right[rank:].T
+
+
+@dataclass(frozen=True, slots=True)
+class _Aims:
+    """A convex border, logarithms of the lengths of edges, and the exact conditions."""
+
+    convex: bool
+    lengths: Floats
+    exactly: Condition
+
+
+@np.errstate(divide="ignore", invalid="ignore")  # steps on which vertices coincide are not taken
+def improved(
+    pattern: Pattern,
+    start: Floats,
+    *,
+    convex: bool = True,
+    aims: Floats | None = None,
+    conditions: Sequence[Condition] = (),
+    allowance: Allowance | None = None,
+) -> Floats | None:
+    """Return a drawing of better shape in which creases point to their centres; None if none was found.
+
+    Drawings are float[V + C + B, 2], the first one with panels that are convex, or seen from their hubs; edges of
+    the result have the mean length 1, or that of the aims, float[E], logarithms of lengths, by default 0.
+    Conditions are met exactly, besides that creases point to their centres. The allowance counts steps: where it
+    is used up the shape that was reached is returned.
+    """
+    exactly = together([partial(off_centres, pattern), *conditions])
+    goal = _Aims(convex, np.zeros(len(pattern.edges)) if aims is None else aims, exactly)
+    unknowns, cost = start, _cost(pattern, start, goal)
+    damping = 1e-2
+    for _ in range(_ROUNDS):
+        if cost is None:
+            return None
+        better, lower = None, 10.0
+        while better is None and damping < 1e8 and (allowance is None or allowance.take()):
+            step = _tried(unknowns, cost, damping, exactly) - unknowns
+            trial = np.round(unknowns + _held(pattern, unknowns, cost, step), _DIGITS)
+            tried = _cost(pattern, trial, goal)
+            if tried is not None and tried.merit < (1.0 - _LEAST) * cost.merit:
+                better = tried
+            else:
+                damping, lower = damping * 6.0, 2.0
+        if better is None:
+            break
+        gained = (cost.merit - better.merit) / cost.merit
+        unknowns, cost, damping = trial, better, max(damping / lower, 1e-6)
+        if gained < (_ENOUGH if np.abs(cost.off).max(initial=0.0) < _NEAR else _NOTHING):
+            break
+    return _closed(pattern, unknowns, exactly)
+
+
+def _closed(pattern: Pattern, unknowns: Floats, exactly: Condition) -> Floats | None:
+    """Return the drawing with all creases on their centres and all conditions met, moved as little as possible."""
+    for _ in range(12):
+        off, by = exactly(unknowns)
+        if np.abs(off).max(initial=0.0) <= _TIGHT:
+            break
+        if not np.isfinite(by).all():  # vertices coincide
+            return None
+        unknowns = unknowns - (np.linalg.pinv(by, rcond=DOUBLE.zero) @ off).reshape(unknowns.shape)
+    angles, _ = opened_angles(pattern, unknowns[: pattern.vertices])
+    off, _ = exactly(unknowns)
+    if np.abs(off).max(initial=0.0) > DOUBLE.closed or not is_drawn(pattern, angles):
+        return None
+    return unknowns
+
+
+def _tried(unknowns: Floats, cost: _Cost, damping: float, exactly: Condition) -> Floats:
+    """Return where a step leads that goes to the least cost, and a part of the way to where nothing is off.
+
+    Creases turn on the way, so that the step misses their centres in second order. That is taken back; else the
+    gain in shape would have to outweigh it, and steps would be short.
+    """
+    if not len(cost.off):
+        step = -_least(cost.by, cost.residuals, damping)
+        return unknowns + step.reshape(unknowns.shape)
+    part = 1.0 / (1.0 + damping)
+    there = -part * (cost.back @ cost.off)
+    within = cost.free @ _least(cost.by_free, cost.residuals + cost.by @ there, damping)
+    trial = unknowns + (there - within).reshape(unknowns.shape)
+    missed = exactly(trial)[0] - (1.0 - part) * cost.off
+    trial -= (cost.back @ missed).reshape(unknowns.shape)
+    return trial
+
+
+def _held(pattern: Pattern, unknowns: Floats, cost: _Cost, step: Floats) -> Floats:
+    """Return a step without the motions of the whole plane that change nothing.
+
+    There are none in it but for rounding, which the damping alone keeps small: it would turn the drawing by more
+    in each round.
+    """
+    points = np.ones(len(unknowns))
+    points[pattern.directions] = 0.0
+    middle = points[:, None] * (points @ unknowns / points.sum())
+    motions = np.zeros((3, *unknowns.shape))
+    motions[0, :, 0] = motions[1, :, 1] = points
+    motions[2] = (unknowns - middle)[:, ::-1] * (-1.0, 1.0)
+    rows = unit(motions.reshape(3, -1))
+    idle = rows[np.abs(cost.off_by @ rows.T).max(axis=0, initial=0.0) < _IDLE]
+    along = np.linalg.qr(idle.T)[0]
+    return step - (along @ (along.T @ step.ravel())).reshape(step.shape)
+
+
+def _least(by: Floats, residuals: Floats, damping: float) -> Floats:
+    """Return the damped solution of least squares.
+
+    It is found by a QR decomposition: where corners are sharp derivatives are large, and squares of them would
+    square the rounding errors too.
+    """
+    size = by.shape[1]
+    q, r = np.linalg.qr(np.vstack([by, damping**0.5 * np.eye(size)]))
+    return np.asarray(np.linalg.solve(r, q[: len(by)].T @ residuals), dtype=np.float64)
+
+
+def _cost(pattern: Pattern, unknowns: Floats, goal: _Aims) -> _Cost | None:
+    """Return the cost of a drawing.
+
+    None where vertices coincide, a panel is turned over or the border is not convex as it should be.
+    """
+    places = unknowns[: pattern.vertices]
+    points = np.concatenate([places, unknowns[len(unknowns) - int(pattern.bent.sum()) :]])
+    if len(np.unique(points, axis=0)) < len(points):
+        return None
+    angles, by = opened_angles(pattern, places)
+    if not is_drawn(pattern, angles):
+        return None
+    lengths, by_lengths = edge_lengths(places, pattern.edges)
+    lengths = lengths - goal.lengths
+    rows = [
+        *_near(angles, by, _SHARP, 1.0),
+        *_near(pattern.widest - angles, by, _SHARP, -1.0),
+        _LENGTH * (lengths + lengths**3),
+        _LENGTH * (1 + 3 * lengths[:, None] ** 2) * by_lengths,
+    ]
+    room = [(pattern.outer, np.pi if goal.convex else 2 * np.pi), *((ring, 2 * np.pi) for ring in pattern.holes)]
+    for ring, whole in room:
+        sums = sums_at(pattern, np.array(ring, np.int64))
+        left = whole - sums @ angles
+        if left.min() <= 0.0:
+            return None
+        rows += _near(left, sums @ by, _BORDER * 2 * np.pi / len(ring), -1.0)
+    residuals, derivatives = np.concatenate(rows[::2]), np.concatenate(rows[1::2])
+    padded = np.zeros((len(residuals), unknowns.size))
+    padded[:, : derivatives.shape[1]] = derivatives
+    off, off_by = goal.exactly(unknowns)
+    if not (np.isfinite(off).all() and np.isfinite(off_by).all()):
+        return None
+    if not pattern.bent.any():
+        return _Cost(residuals, padded, off, off_by)
+    seen, by_seen = _seen(pattern, unknowns)
+    if seen.min() <= 0.0 or crossings(pattern, places):
+        return None
+    return _Cost(np.concatenate([residuals, seen]), np.concatenate([padded, by_seen]), off, off_by)
+
+
+def _seen(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
+    """Return the cost of sides of bent panels that are hardly seen from their hub; negative if one is not seen."""
+    hubs = range(len(unknowns) - int(pattern.bent.sum()), len(unknowns))
+    panels = [pattern.panels[place] for place in np.flatnonzero(pattern.bent)]
+    sides = [(b, hub, a) for hub, panel in zip(hubs, panels, strict=True) for a, b in sides_of_face(panel)]
+    angles, by = corner_angles(unknowns, np.array(sides, np.int64))
+    costs, by_costs = _near(angles, by, _SEEN, 1.0)
+    return np.where(angles > 0.0, costs, -1.0), by_costs
+
+
+def _near(angles: Floats, by: Floats, size: float, sign: float) -> tuple[Floats, Floats]:
+    """Return residuals that grow as angles come near to 0, and derivatives; ``sign`` is that of their own."""
+    residuals = (size / angles) ** 2
+    return residuals, (-2.0 * sign * residuals / angles)[:, None] * by
+
 
 _VARIED = 0.35
 _APART = 1e-3
-"""Centres nearer to each other or to a vertex than this, in units of the extent, are taken as one."""
+"""Centres nearer to each other or to a vertex than this, in units of the extent, count as the same point."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,11 +398,11 @@ def drawings(
         if aims is not None and symmetry is not None:
             aims = symmetry.evened(aims)
         unknowns = first_unknowns(pattern, *start)
-        found = improved(pattern, unknowns, convex=convex, aims=aims, conditions=conditions, allowance=allowance)
-        if found is None:
+        shaped = improved(pattern, unknowns, convex=convex, aims=aims, conditions=conditions, allowance=allowance)
+        if shaped is None:
             continue
-        places = found[: pattern.vertices]
-        if crossings(pattern, places) or not _are_apart(pattern, found):
+        places = shaped[: pattern.vertices]
+        if crossings(pattern, places) or not _are_apart(pattern, shaped):
             continue
         if symmetry is not None:
             places = symmetry.upright(places)
@@ -81,9 +410,9 @@ def drawings(
 
 
 def _are_apart(pattern: Pattern, unknowns: Floats) -> bool:
-    """Tell whether centres across holes are different from each other and from the vertices."""
-    free = [one for one in pattern.pointings if one.vertex is None]
-    finite = [pattern.vertices + place for place, one in enumerate(free) if not one.infinite]
+    """Check that centres across holes are different from each other and from the vertices."""
+    free = pattern.free_centres
+    finite = [pattern.vertices + place for place, pointing in enumerate(free) if not pointing.infinite]
     extent = np.ptp(unknowns[: pattern.vertices], axis=0).max()
     for place in finite:
         others = np.delete(unknowns[: pattern.vertices + len(free)], place, axis=0)

@@ -1,6 +1,7 @@
-"""What is to be drawn of a type: panels, creases and borders in numbers, and which creases point to which centre.
+"""The panels, creases and borders of a type in numbers, and which creases point to which centre.
 
 A bounded face without open edges is an inner vertex; one with open edges is a hole; the outer face is the border.
+Also walks round vertices and holes, the simplest type with a drawing, and a check for types without a flat sheet.
 Theory: docs/theory/realisation.md.
 """
 
@@ -9,19 +10,32 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+import networkx as nx
 import numpy as np
 
+from enumerate.scd.graphs import mechanism_of, scd_graphs_of
 from graphs.arrays import Flags, Floats, Ints
 from graphs.convert.panels import rings_of
-from graphs.errors import UnsolvableError
+from graphs.convert.table import Mechanism, to_scd
+from graphs.errors import UnsolvableError, numbered, shown
 from graphs.ids import JointId, LinkId
-from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre
 from graphs.mechanism.drawing import FaceKind
+from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
-from graphs.mechanism.sheet import Edge, sides_of_face
+from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
 
-__all__ = ["Pattern", "Pointing", "pattern_of"]
+__all__ = [
+    "Pattern",
+    "Pointing",
+    "Sides",
+    "check_holes",
+    "creases_round",
+    "half_turns",
+    "pattern_of",
+    "sides_of",
+    "simplest_drawn",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,22 +84,32 @@ class Pattern:
     def bent(self) -> Flags:
         """bool[P]: which panels cannot be convex.
 
-        Two sides of a convex panel at most have lines through a point outside it, or through one of its vertices:
+        At most two sides of a convex panel have lines through a point outside it, or through one of its vertices:
         a link with three axes through a centre is no convex panel.
         """
-        links = [self._links_at(one) for one in self.pointings]
+        links = [self._links_at(pointing) for pointing in self.pointings]
         return np.array([any(row.count(panel) > 2 for row in links) for panel in range(len(self.panels))])
+
+    @property
+    def free_centres(self) -> list[Pointing]:
+        """The pointings to centres that are no vertices, in the order of their numbers."""
+        return [pointing for pointing in self.pointings if pointing.vertex is None]
+
+    @cached_property
+    def panel_of_side(self) -> dict[Edge, int]:
+        """The panel on the left of each directed side."""
+        return {side: number for number, panel in enumerate(self.panels) for side in sides_of_face(panel)}
 
     @cached_property
     def widest(self) -> Floats:
-        """float[K]: below which angle each corner stays: 180 degrees, or 360 in a panel that cannot be convex."""
+        """float[K]: upper bounds of the angles of corners: pi, or 2 pi in a panel that cannot be convex."""
         widest: Floats = np.where(self.bent[self.panel_of_corner], 2 * np.pi, np.pi)
         return widest
 
-    def _links_at(self, one: Pointing) -> list[int]:
+    def _links_at(self, pointing: Pointing) -> list[int]:
         """Return the panels of all creases through a centre, once for each crease."""
-        ends = [set(self.creases[crease]) for crease in one.creases]
-        ends += [set(crease) for crease in self.creases if one.vertex in crease]
+        ends = [set(self.creases[crease]) for crease in pointing.creases]
+        ends += [set(crease) for crease in self.creases if pointing.vertex in crease]
         sides = [[set(side) for side in sides_of_face(panel)] for panel in self.panels]
         return [place for end in ends for place, row in enumerate(sides) if end in row]
 
@@ -97,15 +121,15 @@ class Pattern:
 
     @cached_property
     def aims(self) -> Ints:
-        """int64[A, 4]: the ends of each crease that points to a centre, the centre, whether it is infinite.
+        """int64[A, 4]: the ends of each crease that points to a centre, the centre, and whether it is infinite.
 
-        Centres that are no vertices are numbered on from these.
+        Centres that are no vertices have the numbers after those of the vertices.
         """
         rows, free = [], self.vertices
-        for one in self.pointings:
-            centre = free if one.vertex is None else one.vertex
-            free += one.vertex is None
-            rows += [(*self.creases[crease], centre, one.infinite) for crease in one.creases]
+        for pointing in self.pointings:
+            centre = free if pointing.vertex is None else pointing.vertex
+            free += pointing.vertex is None
+            rows += [(*self.creases[crease], centre, pointing.infinite) for crease in pointing.creases]
         return np.array(rows, np.int64).reshape(-1, 4)
 
     @cached_property
@@ -128,7 +152,7 @@ def pattern_of(scd: SCDGraph) -> Pattern:
     rings = _rings(scd)
     outer_vertex = _border_vertex(scd, scd.drawing.outer_face)
     if outer_vertex is None:
-        raise UnsolvableError("the panels close to a surface without a border: it cannot lie flat")
+        raise UnsolvableError("the panels form a closed surface without a border, which cannot lie flat")
     outer = next(ring for ring in rings if outer_vertex in ring)
     holes = tuple(ring for ring in rings if ring is not outer)
     return Pattern(
@@ -140,6 +164,18 @@ def pattern_of(scd: SCDGraph) -> Pattern:
         outer[::-1],
         holes,
         tuple(_pointings(scd, holes)),
+    )
+
+
+def sheet_of_places(pattern: Pattern, places: Floats) -> Sheet:
+    """Return the panels of a pattern at places, float[V, 2] or float[V, 3], their creases unassigned."""
+    creases = len(pattern.creases)
+    return Sheet(
+        pattern.vertices,
+        tuple((int(a), int(b)) for a, b in pattern.edges),
+        "U" * creases + "B" * (len(pattern.edges) - creases),
+        pattern.panels,
+        tuple(tuple(map(float, row)) for row in places),
     )
 
 
@@ -169,27 +205,20 @@ def _pointings(scd: SCDGraph, holes: tuple[tuple[int, ...], ...]) -> list[Pointi
         loop = scd.drawing.loop_of_face(face.index)
         if loop is not None:
             faces_of.setdefault(frozenset(loop.joints), []).append(face.index)
-    found = []
-    for one in scd.centre_classes():
-        faces = [face for loop in one.loops for face in faces_of[_joints_of(scd, loop)]]
+    pointings = []
+    for centre_class in scd.centre_classes():
+        loops = [frozenset(scd.drawing.loops[loop].joints) for loop in centre_class.loops]
+        faces = [face for joints in loops for face in faces_of[joints]]
         implicit = [face for face in faces if scd.drawing.kind_of_face(face) is FaceKind.IMPLICIT]
         vertex = _explicit_vertex(scd, faces)
-        ends = {joint: scd.drawing.ends_of_joint(joint) for joint in one.joints}
-        creases = tuple(sorted(number[joint] for joint in one.joints if vertex not in ends[joint]))
+        ends = {joint: scd.drawing.ends_of_joint(joint) for joint in centre_class.joints}
+        creases = tuple(sorted(number[joint] for joint in centre_class.joints if vertex not in ends[joint]))
         if not creases:
             continue
         across = [_border_vertex(scd, face) for face in implicit]
         places = tuple(place for place, ring in enumerate(holes) if any(v in ring for v in across))
-        found.append(Pointing(creases, _is_infinite(one), vertex, places))
-    return found
-
-
-def _joints_of(scd: SCDGraph, loop: int) -> frozenset[JointId]:
-    return frozenset(scd.drawing.loops[loop].joints)
-
-
-def _is_infinite(one: CentreClass) -> bool:
-    return one.centre is Centre.INFINITE
+        pointings.append(Pointing(creases, centre_class.centre is Centre.INFINITE, vertex, places))
+    return pointings
 
 
 def _explicit_vertex(scd: SCDGraph, faces: list[int]) -> int | None:
@@ -199,3 +228,118 @@ def _explicit_vertex(scd: SCDGraph, faces: list[int]) -> int | None:
             corner = scd.faces[face].corners[0]
             return scd.vertices[corner.link][corner.last_side]
     return None
+
+
+@dataclass(frozen=True, slots=True)
+class Sides:
+    """Which side follows which along its panel, counter-clockwise (`after`) and clockwise (`before`).
+
+    A side is a pair of vertices, directed so that its panel is on the left. `creases` gives the crease that a side
+    is, in both directions; sides of the border are not in it.
+    """
+
+    after: dict[Edge, Edge]
+    before: dict[Edge, Edge]
+    creases: dict[Edge, int]
+
+
+def sides_of(pattern: Pattern) -> Sides:
+    """Return which side of a pattern follows which."""
+    after: dict[Edge, Edge] = {}
+    for panel in pattern.panels:
+        sides = list(sides_of_face(panel))
+        after.update(zip(sides, [*sides[1:], sides[0]], strict=True))
+    creases = {side: number for number, (a, b) in enumerate(pattern.creases) for side in ((a, b), (b, a))}
+    return Sides(after, {second: first for first, second in after.items()}, creases)
+
+
+def creases_round(pattern: Pattern) -> list[tuple[int, ...]]:
+    """Return the creases in the order in which a walk meets them, round each inner vertex, then each hole."""
+    sides = sides_of(pattern)
+    starts = [next(side for side in sides.after if side[0] == vertex) for vertex in pattern.inner.tolist()]
+    starts += [next(side for side in sides_of_face(ring[::-1]) if side in sides.after) for ring in pattern.holes]
+    return [_walk(sides, start) for start in starts]
+
+
+def _walk(sides: Sides, start: Edge) -> tuple[int, ...]:
+    """Return the creases that a walk crosses which keeps an inner vertex, or a hole, on one hand."""
+    crossed = []
+    side = start
+    while True:
+        if side in sides.creases:
+            crossed.append(sides.creases[side])
+            side = side[::-1]  # the same crease, seen from the next panel
+        side = sides.after[side]
+        if side == start:
+            return tuple(crossed)
+
+
+def check_holes(pattern: Pattern) -> None:
+    """Raise `UnsolvableError` for a hole round which creases cannot turn once, their centre being outside it.
+
+    Round a hole the directions in which creases leave it turn once, against the rays from a centre outside it too.
+    In a panel with k sides between two such creases, away from the hole, they turn by at most k - 1 half turns
+    against the rays, and by none where they meet in the centre: along a side the direction crosses rays one way,
+    at each corner it turns by less than half a turn. The message names the panels round the hole and what each
+    allows.
+    """
+    for pointing in pattern.pointings:
+        turns_round = (half_turns(pattern, pointing, hole) for hole in pointing.holes)
+        short = [turns for turns in turns_round if turns is not None and sum(turns.values()) < 2]
+        # A finite centre that is no vertex may lie in one of the holes.
+        if len(short) > (not pointing.infinite and pointing.vertex is None):
+            turns = short[-1]
+            names = ", ".join(shown(pattern.links[panel]) for panel in turns)
+            panels = f"panel {names}" if len(turns) == 1 else f"panels {names}"
+            parts = " + ".join(map(str, turns.values()))
+            raise UnsolvableError(
+                "in a flat sheet the directions of creases would turn by 2 half turns round the hole between "
+                f"{panels}, whose centre is outside it; they can turn by {sum(turns.values())} there: by {parts}"
+            )
+
+
+def half_turns(pattern: Pattern, pointing: Pointing, hole: int) -> dict[int, int] | None:
+    """Return by how many half turns at most creases turn in each panel round a hole.
+
+    The pointing is to a centre outside the hole, which is a place in ``pattern.holes``. None where something hangs
+    into the hole: the panels round it are not just those between its creases.
+    """
+    ring = pattern.holes[hole]
+    inside = {panel: _sides_in(around, ring) for panel, around in enumerate(pattern.panels)}
+    inside = {panel: sides for panel, sides in inside.items() if sides}
+    reaching = [place for place, ends in enumerate(pattern.creases) if pointing.vertex in ends]
+    creases = [crease for crease in (*pointing.creases, *reaching) if set(pattern.creases[crease]) & set(ring)]
+    if len(creases) != len(inside):
+        return None
+    return {panel: max(len(pattern.panels[panel]) - 2 - sides - 1, 0) for panel, sides in inside.items()}
+
+
+def _sides_in(panel: tuple[int, ...], ring: tuple[int, ...]) -> int:
+    """Return the number of open edges that a panel has round a hole."""
+    border = {frozenset(side) for side in sides_of_face(ring)}
+    return sum(frozenset(side) in border for side in sides_of_face(panel))
+
+
+_MORE_SIDES = 4
+"""Links have at most so many more sides than the link with the most joints has joints."""
+
+
+def simplest_drawn(mechanism: Mechanism) -> tuple[SCDGraph, tuple[str, ...]]:
+    """Return the SCD graph of a mechanism, and notes on how it was chosen.
+
+    For an SC graph it is the first with the fewest open edges. Raises `UnsolvableError` if it has no
+    drawing, or no valid placement of open edges.
+    """
+    if isinstance(mechanism, SCDGraph) or not isinstance(mechanism, SCGraph):
+        return to_scd(mechanism), ()
+    if not nx.check_planarity(nx.Graph(mechanism))[0]:
+        raise UnsolvableError("the chain is not planar: its panels cannot be drawn without crossings")
+    widest = max(dict(mechanism.degree).values())
+    for most in range(max(3, widest), widest + _MORE_SIDES + 1):
+        mechanism_of(mechanism, most)  # raises where there can be no placement
+        placements = list(scd_graphs_of(mechanism, most))
+        if placements:
+            scd = min(placements, key=lambda placement: placement.counts.open_edges)
+            number = numbered(scd.counts.open_edges, "open edge")
+            return scd, (f"an SCD graph of the fewest open edges was taken: {number}",)
+    raise UnsolvableError(f"no placement of open edges with links of up to {widest + _MORE_SIDES} sides is valid")

@@ -1,4 +1,4 @@
-"""A type as a thing: a flat sheet of panels, or a pose of it in space.
+"""A type with coordinates: a flat sheet of panels, or a configuration of it in space.
 
 Theory: docs/theory/realisation.md.
 """
@@ -16,7 +16,7 @@ from enumerate.strings.panel_strings import ChainString
 from graphs.arrays import Floats
 from graphs.canonical import MARGIN, signed
 from graphs.convert.table import Mechanism, to_scd
-from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.extent import LEAST, MOST
 from graphs.given import check_given
 from graphs.identity.drawings import map_id
@@ -25,21 +25,16 @@ from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed
 from graphs.rank.generic import exact_mobility
 from graphs.rank.pose import pose_mobility
-from graphs.tolerances import DOUBLE
 from synth.folding.configuration import SheetConfiguration, configuration_of_sheet
 from synth.motion.branches import first_branch, search_for
 from synth.motion.walk.allowance import Allowance
+from synth.realisation.conditions import Kept, Wishes, wishes_for
 from synth.realisation.drawing import Drawn, drawings
-from synth.realisation.figures import ShapeFigures, figures_of
-from synth.realisation.forms.strips import drawn_string, folded_strip, is_strip, strips
-from synth.realisation.pattern import Pattern, pattern_of
-from synth.realisation.refusing import check_holes
-from synth.realisation.simplest import simplest_drawn
-from synth.realisation.space.lifting import lifted
-from synth.realisation.space.receding import receded, with_finite_centres
-from synth.realisation.special.answer import SpecialSearch
-from synth.realisation.special.search import SpecialWishes, search_special
-from synth.realisation.wanted.wishes import Kept, Wishes, wishes_for
+from synth.realisation.measures import ShapeFigures, figures_of, first_order_freedoms
+from synth.realisation.pattern import Pattern, check_holes, pattern_of, sheet_of_places, simplest_drawn
+from synth.realisation.space import lifted, receded, with_finite_centres
+from synth.realisation.special.search import OTHER_TYPE, SpecialSearch, SpecialWishes, search_special, turns_all
+from synth.realisation.strips import drawn_string, folded_strip, is_strip, strips
 
 __all__ = ["Kind", "NotFoundError", "Realised", "realise"]
 
@@ -47,15 +42,15 @@ Kind = Literal["sheet", "space"]
 
 _TRIES = 12
 _HEIGHTS = (0.6, 0.3)
-"""Parts of its heights to which a pose in space is flattened where its shape is not good. The map is affine, so
-panels stay planar, and axes that meet go on meeting."""
+"""Fractions to which heights in space are reduced where the shape is not good. The map is affine, so panels stay
+planar, and axes that meet go on meeting."""
 _WORK, _STEPS = 10_000_000_000, 3
-"""Cubes of the number of coordinates that steps of improvement may go through: types of a hundred vertices never
-come to the end of them, one of a thousand does at once. Each realisation has some steps, whatever its size."""
+"""Allowance for steps of improvement, each at the cube of the number of coordinates: types of a hundred
+vertices never use it up, one of a thousand does at once. Each realisation has some steps, whatever its size."""
 _SMALLEST, _LARGEST = 1e2 * LEAST, 1e-2 * MOST
-"""Sizes: what is folded in space is not quite as large as it is drawn."""
+"""Sizes: a folded sheet is not quite as large as its drawing."""
 _OTHER_QUESTION = "realise gives a type new coordinates, those of a sheet, and takes no branch"
-_USED_UP = "the search ended, its allowance of work was used up"
+_USED_UP = "the search ended early: its allowance of work was used up"
 
 
 class NotFoundError(UnsolvableError):
@@ -63,7 +58,7 @@ class NotFoundError(UnsolvableError):
 
 
 Raised = Callable[[Pattern, Floats, np.random.Generator], tuple[Floats, Floats]]
-"""What makes a pose in space of a drawing: places, and numbers above 0 at valleys."""
+"""From a drawing to a configuration in space: places, and numbers above 0 at valleys."""
 
 
 @dataclass(frozen=True)
@@ -76,24 +71,24 @@ class Realised(Printed):
     scd : SCDGraph
         The type.
     configuration : SheetConfiguration
-        Its sheet where it lies.
+        Its sheet with the coordinates.
     figures : ShapeFigures
     mobility : int
         Exact generic mobility of the type.
     freedoms : int or None
-        First-order freedoms at this pose; None where singular values do not tell.
+        First-order freedoms at this configuration; None where singular values do not decide.
     folds : bool or None
-        Of a flat sheet: whether a way was found to fold it in which every crease turns. None in space.
+        For a flat sheet, whether a folding branch was found on which every crease turns. None in space.
     convex : bool
         Whether the border of the drawing is convex.
     bent : tuple of link id
         Panels that are not convex: three axes or more pass through one centre.
     number, tries : int
-        Which try it is, and how many drawings were tried.
+        Number of this try, and the largest number of tries.
     notes : tuple of str
-        What was chosen where the input leaves it open.
+        Choices that the input leaves open.
     kept : Kept
-        How well the drawing is flat-foldable, and symmetric, where it was to be.
+        How well the drawing is flat-foldable and symmetric, if this was asked for.
     """
 
     kind: Kind
@@ -114,19 +109,20 @@ class Realised(Printed):
     def sheet(self) -> Sheet:
         """Its panels, in the order of the links; edge ``i`` is joint ``i`` in the order of ``scd.joints``.
 
-        Then come borders. Valleys and mountains are those of the pose, or of a way to fold the flat sheet.
+        Then come borders. Valleys and mountains are those of the configuration, or of a folding branch of the flat
+        sheet.
         """
         return self.configuration.drawn
 
     @property
     def rank(self) -> tuple[bool, bool, float]:
-        """What it is chosen by: whether it moves as it should, whether it folds, its quality."""
+        """Key of the choice: whether it moves as the type, whether it folds, its quality."""
         quality = self.figures.quality
         return self.kind == "sheet" or self.freedoms == self.mobility, self.folds is not False, quality
 
     @property
     def good(self) -> bool:
-        """Whether no better one need be looked for."""
+        """Whether the search can end with it."""
         moves, folds, quality = self.rank
         return moves and folds and quality >= 1.0
 
@@ -151,34 +147,34 @@ class Realised(Printed):
     def blocks(self) -> list[Block]:
         """Return the lines that are printed."""
         shape = self.figures
-        told = [f"note: {note}" for note in self.notes]
-        told += [
-            f"{'a flat sheet' if self.kind == 'sheet' else 'a pose in space'} of {self.scd}",
+        lines = [f"note: {note}" for note in self.notes]
+        lines += [
+            f"{'a flat sheet' if self.kind == 'sheet' else 'a configuration in space'} of {self.scd}",
             f"drawing  {map_id(self.scd)}, read back from the coordinates",
             f"corners {np.degrees(shape.least_angle):.3g} to {np.degrees(shape.greatest_angle):.3g} degrees, "
             f"shortest side {shape.edge_ratio:.2g} of the longest, vertices {shape.least_distance:.2g} of the "
-            f"extent apart, panels plane to {shape.planarity:.0e}",
+            f"extent apart, panels planar to {shape.planarity:.0e}",
         ]
         if self.bent:
             names = ", ".join(shown(link) for link in self.bent)
-            told.append(f"not convex: panel(s) {names}, of which three axes or more pass through one centre")
+            panels = f"panel {names}" if len(self.bent) == 1 else f"panels {names}"
+            lines.append(f"not convex: {panels}, with three axes or more through one centre")
         if not self.convex:
-            told.append("the border is not convex")
-        told.append(f"mobility {self.mobility}, exact; {self._freedoms()} at this pose")
+            lines.append("the border is not convex")
+        lines.append(
+            f"mobility {self.mobility}, exact; {first_order_freedoms(self.freedoms)} at this configuration"
+        )
         if self.folds is not None:
-            told.append(self._folding())
-        told += self.kept.lines()
-        told.append(f"try {self.number + 1} of {self.tries}")
-        return list(told)
-
-    def _freedoms(self) -> str:
-        found = "an unknown number of" if self.freedoms is None else str(self.freedoms)
-        return f"{found} first-order freedom(s)"
+            lines.append(self._folding())
+        lines += self.kept.lines()
+        lines.append(f"try {self.number + 1} of {self.tries}")
+        return list(lines)
 
     def _folding(self) -> str:
         if self.folds:
-            return "folds with every crease turning, as mountains and valleys say"
-        return f"no folding drawing found in {self.tries} tries: on each some creases stay flat"
+            return "folds with every crease turning, with these mountains and valleys"
+        tries = numbered(self.tries, "try", "tries")
+        return f"no folding drawing found in {tries}: on each some creases stay flat"
 
     def __repr__(self) -> str:
         return f"<Realised: {self.kind}, {self.sheet!r}>"
@@ -228,34 +224,34 @@ def realise(
     every: bool = False,
     all_joints: bool = True,
 ) -> Realised | SpecialSearch:
-    """Give a type coordinates, or look for members of special dimensions that move.
+    """Give a type coordinates, or search for realisations with special dimensions that move.
 
     Parameters
     ----------
-    mechanism : SCDGraph, or what has one; SCGraph; ChainString
-        Of an SC graph without a drawing of its links, the SCD graph of fewest open edges is taken, which is told;
-        of an R/- string a strip of panels, and of an open chain of such panels too.
+    mechanism : SCDGraph, or a mechanism that has one; SCGraph; ChainString
+        For an SC graph, whose links have no drawing, the SCD graph of fewest open edges is chosen, with a note;
+        an R/- string, or an open chain of such panels, becomes a strip of panels.
     kind : {"sheet", "space"}, optional
-        A flat sheet, or a pose in space with every crease folded.
+        A flat sheet, or a configuration in space with every crease folded.
     size : float, optional
-        The longer side of the box round the drawing.
+        The longer side of the bounding box of the drawing.
     seed : int, optional
-        Other seeds give other drawings; the same gives the same.
+        Another seed gives another drawing; the same gives the same.
     tries : int, optional
-        How many drawings are tried at most. The first of good shape that folds is taken, or the best.
+        Largest number of drawings. The first of good shape that folds is chosen, or else the best.
     flat_foldable : bool, optional
-        Of a sheet: every other sector about an inner vertex sums to 180 degrees, and reflections in the creases
+        For a sheet: every other sector about an inner vertex sums to 180 degrees, and reflections in the creases
         round a hole close.
     symmetric : bool, optional
-        Of a sheet: the drawing has the largest group of symmetries of the type with which it folds, or else with
-        which one was found. Each group is tried so many times.
+        For a sheet: the drawing has the largest group of symmetries of the type with which it folds, or else the
+        largest that was found. Each group gets the given number of tries.
     mode : str, optional
-        Of an R/- string: which of `ChainString.modes`, or one that is its reverse; without it all points in which
-        creases meet lie on one side.
+        For an R/- string: one of `ChainString.modes`, or the reverse of one; without it all points in which
+        creases meet are on one side.
     freedoms : int, optional
-        Look for a member that moves with so many freedoms although a general one has fewer: families of special
-        geometry are tried one after the other, flat sheets first, then axes in space (``kind="space"``: these
-        alone). Of an SC graph no panels are drawn.
+        Search for a realisation that moves with so many freedoms although a generic one has fewer: families of
+        special geometry are tried one after the other, flat sheets first, then axes in space
+        (``kind="space"``: these alone). For an SC graph no panels are drawn.
     geometry : str, optional
         With `freedoms`: only families with this in their name.
     every : bool, optional
@@ -266,15 +262,15 @@ def realise(
     Returns
     -------
     Realised or SpecialSearch
-        The second with `freedoms`: what was tried and found, none being an answer too.
+        The second with `freedoms`: the families and the results, possibly none.
 
     Raises
     ------
     UnsolvableError
-        If the mechanism has no drawing, its panels close to a surface without a border, it has no flat sheet, or
-        it cannot be flat-foldable or symmetric.
+        If the mechanism has no drawing, its panels form a closed surface, it has no flat sheet, or it cannot be
+        flat-foldable or symmetric.
     NotFoundError
-        If nothing was found in so many tries.
+        If nothing was found in all tries.
     InvariantError
         If an option is out of its range.
 
@@ -289,18 +285,20 @@ def realise(
     _check(kind, size, seed, tries)
     if freedoms is not None:
         if flat_foldable or symmetric or size != 1.0 or mode:
-            told = "freedoms with flat_foldable, symmetric, size or mode"
-            raise InvariantError("freedoms", told, "freedoms alone: the first two are among the families tried")
-        search = SpecialWishes(freedoms, kind == "sheet", seed, tries, geometry, every, all_joints)
-        return _special(mechanism, search)
+            what = "freedoms with flat_foldable, symmetric, size or mode"
+            raise InvariantError("freedoms", what, "freedoms alone: the first two are among the families tried")
+        if isinstance(mechanism, ChainString):
+            raise InvariantError("string", "special geometry of an R/- string", "a type with a loop")
+        wishes = SpecialWishes(freedoms, kind == "sheet", seed, tries, geometry, every, all_joints)
+        return search_special(mechanism, wishes)
     if geometry or every or not all_joints:
         raise InvariantError("freedoms", "geometry, every or all_joints without freedoms", "a number of freedoms")
     if kind == "space" and (flat_foldable or symmetric):
-        raise InvariantError("kind", "a pose in space that is flat-foldable or symmetric", "a sheet")
+        raise InvariantError("kind", "a flat-foldable or symmetric configuration in space", "a sheet")
     if isinstance(mechanism, ChainString) and (flat_foldable or symmetric):
         raise InvariantError("string", "an R/- string that is flat-foldable or symmetric", "an SCD graph")
     if mode and not isinstance(mechanism, ChainString):
-        raise InvariantError("mode", f"the mode {shown(mode)} of {mechanism!r}", "a mode of an R/- string only")
+        raise InvariantError("mode", f"the mode {shown(mode)} for {mechanism!r}", "an R/- string with it")
     if isinstance(mechanism, ChainString):
         scd, notes = drawn_string(mechanism, mode)
     else:
@@ -309,20 +307,19 @@ def realise(
     raised: Raised = lifted
     if kind == "sheet":
         check_holes(pattern)
-    elif any(one.infinite for one in pattern.pointings):
+    elif any(pointing.infinite for pointing in pattern.pointings):
         pattern, raised = with_finite_centres(pattern), partial(_receded, pattern)
     allowance = Allowance(max(_STEPS, _WORK // (2 * pattern.vertices) ** 3))
-    asked = _Asked(kind, scd, pattern, map_id(scd), size, seed, tries, notes, raised, allowance)
-    if not (flat_foldable or symmetric) and is_strip(asked.pattern):
-        return _best(replace(asked, raised=folded_strip), [(Wishes(), strips(asked.pattern, seed, tries))])
-    wishes = wishes_for(asked.pattern, flat_foldable=flat_foldable, symmetric=symmetric)
-    some = asked.allowance
-    return _best(asked, [(one, drawings(asked.pattern, seed, tries, one, some)) for one in wishes])
+    task = _Task(kind, scd, pattern, map_id(scd), size, seed, tries, notes, raised, allowance)
+    if not (flat_foldable or symmetric) and is_strip(pattern):
+        return _best(replace(task, raised=folded_strip), [(Wishes(), strips(pattern, seed, tries))])
+    choices = wishes_for(pattern, flat_foldable=flat_foldable, symmetric=symmetric)
+    return _best(task, [(choice, drawings(pattern, seed, tries, choice, allowance)) for choice in choices])
 
 
 @dataclass(frozen=True, slots=True)
-class _Asked:
-    """What is to be realised, and how; in space, centres at infinity are drawn as points."""
+class _Task:
+    """A type to be realised, with the options; in space, centres at infinity are drawn as points."""
 
     kind: Kind
     scd: SCDGraph
@@ -337,95 +334,89 @@ class _Asked:
 
     @property
     def ended(self) -> tuple[str, ...]:
-        """A word on a search that ended too early."""
+        """A note on a search that ended too early."""
         return (_USED_UP,) if self.allowance.left <= 0 else ()
 
 
 def _receded(
-    given: Pattern, pattern: Pattern, places: Floats, random: np.random.Generator
+    original: Pattern, pattern: Pattern, places: Floats, random: np.random.Generator
 ) -> tuple[Floats, Floats]:
-    """Return a pose in which centres that were drawn as points are at infinity, as they are in what is given."""
-    return receded(pattern, tuple(one for one in given.pointings if one.infinite), places, random)
+    """Return a configuration in which centres drawn as points are at infinity, as in the original pattern."""
+    return receded(pattern, [pointing for pointing in original.pointings if pointing.infinite], places, random)
 
 
-def _best(asked: _Asked, sources: Sequence[tuple[Wishes, Iterable[Drawn]]]) -> Realised:
-    """Return the best realisation of the first source of drawings that gives one which folds, or else one."""
+def _best(task: _Task, sources: Sequence[tuple[Wishes, Iterable[Drawn]]]) -> Realised:
+    """Return the best realisation of the first source of drawings that gives one which folds, or else any."""
     reasons: dict[str, None] = {}
     first: Realised | None = None
     for wishes, drawn in sources:
-        best = _best_of(asked, wishes, drawn, reasons)
+        best = _best_of(task, wishes, drawn, reasons)
         if best is not None and best.folds is not False:
-            return replace(best, notes=(*best.notes, *asked.ended))
+            return replace(best, notes=(*best.notes, *task.ended))
         first = first or best
     if first is not None:
-        return replace(first, notes=(*first.notes, *asked.ended))
+        return replace(first, notes=(*first.notes, *task.ended))
     why = "; ".join(reasons) or "no drawing without crossings in which creases point to their centres"
-    why = "; ".join((why, *asked.ended))
-    raise NotFoundError(f"not found in {asked.tries * len(sources)} tries: {why}")
+    why = "; ".join((why, *task.ended))
+    tries = numbered(task.tries * len(sources), "try", "tries")
+    raise NotFoundError(f"no realisation was found in {tries}: {why}")
 
 
-def _best_of(asked: _Asked, wishes: Wishes, tried: Iterable[Drawn], reasons: dict[str, None]) -> Realised | None:
+def _best_of(task: _Task, wishes: Wishes, tried: Iterable[Drawn], reasons: dict[str, None]) -> Realised | None:
     best: Realised | None = None
     for drawn in tried:
         try:
-            found = replace(_shaped(asked, drawn), kept=wishes.kept(asked.pattern, drawn.places))
+            realised = replace(_shaped(task, drawn), kept=wishes.kept(task.pattern, drawn.places))
         except UnsolvableError as error:
             reasons[str(error)] = None
             continue
-        if best is None or _is_better(found, best):
-            best = found
+        if best is None or _is_better(realised, best):
+            best = realised
         if best.good:
             break
     return best
 
 
-def _is_better(one: Realised, other: Realised) -> bool:
-    """Tell whether one ranks above another: of those that are as good but for rounding neither does."""
-    *said, quality = one.rank
-    *before, least = other.rank
-    return said > before or (said == before and quality > least + MARGIN)
+def _is_better(realised: Realised, other: Realised) -> bool:
+    """Check whether a realisation ranks above another: of those that differ only by rounding neither does."""
+    *verdict, quality = realised.rank
+    *other_verdict, other_quality = other.rank
+    return verdict > other_verdict or (verdict == other_verdict and quality > other_quality + MARGIN)
 
 
-def _shaped(asked: _Asked, drawn: Drawn) -> Realised:
-    """Return what a drawing gives; in space the first pose of good shape, or else the best, steep ones first."""
-    best = _realised(asked, drawn, 1.0)
+def _shaped(task: _Task, drawn: Drawn) -> Realised:
+    """Return the realisation of a drawing; in space the first of good shape, steep ones first, or the best."""
+    best = _realised(task, drawn, 1.0)
     for height in _HEIGHTS:
-        if best.good or asked.kind == "sheet" or asked.raised is folded_strip:
+        if best.good or task.kind == "sheet" or task.raised is folded_strip:
             break
-        found = _realised(asked, drawn, height)
-        best = found if _is_better(found, best) else best
+        lower = _realised(task, drawn, height)
+        best = lower if _is_better(lower, best) else best
     return best
 
 
-def _realised(asked: _Asked, drawn: Drawn, height: float) -> Realised:
-    """Return what a drawing gives; refuse one that is of another type when it is read back."""
-    sheet = _placed(asked, drawn, height)
-    if map_id(to_scd(sheet)) != asked.code:
-        raise UnsolvableError("the axes of a loop meet that the type does not ask to")
+def _realised(task: _Task, drawn: Drawn, height: float) -> Realised:
+    """Return the realisation of a drawing; refuse one that is of another type when it is read back."""
+    sheet = _placed(task, drawn, height)
+    if map_id(to_scd(sheet)) != task.code:
+        raise UnsolvableError(OTHER_TYPE)
     at = configuration_of_sheet(sheet)
-    at, folds = _folded(at) if asked.kind == "sheet" else (at, None)
-    pattern = asked.pattern
+    at, folds = _folded(at) if task.kind == "sheet" else (at, None)
+    pattern = task.pattern
     return Realised(
-        kind=asked.kind,
-        scd=asked.scd,
+        kind=task.kind,
+        scd=task.scd,
         configuration=at,
         figures=figures_of(pattern, sheet, drawn.angles),
-        mobility=exact_mobility(asked.scd).mobility,
+        mobility=exact_mobility(task.scd).mobility,
         freedoms=pose_mobility(sheet).dof,
         folds=folds,
         convex=drawn.convex,
         bent=tuple(link for link, bent in zip(pattern.links, pattern.bent, strict=True) if bent),
         number=drawn.number,
-        tries=asked.tries,
-        notes=asked.notes,
+        tries=task.tries,
+        notes=task.notes,
     )
-
-
-def _special(mechanism: Mechanism | ChainString, search: SpecialWishes) -> SpecialSearch:
-    """Return what a search for special geometry finds; strings have no loops."""
-    if isinstance(mechanism, ChainString):
-        raise InvariantError("string", "special geometry of an R/- string", "a type with a loop")
-    return search_special(mechanism, search)
 
 
 def _check(kind: str, size: float, seed: int, tries: int) -> None:
@@ -434,43 +425,33 @@ def _check(kind: str, size: float, seed: int, tries: int) -> None:
     if not _SMALLEST <= size <= _LARGEST:
         raise InvariantError("size", f"the size is {size:g}", f"a number from {_SMALLEST:g} to {_LARGEST:g}")
     if seed < 0 or tries < 1:
-        raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, one try or more")
+        raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, 1 try or more")
 
 
-def _placed(asked: _Asked, drawn: Drawn, height: float) -> Sheet:
-    """Return the panels with coordinates of the size that is asked for; in space, heights times a number."""
-    pattern = asked.pattern
+def _placed(task: _Task, drawn: Drawn, height: float) -> Sheet:
+    """Return the panels with coordinates of the requested size; in space, heights times a number."""
+    pattern = task.pattern
     places = drawn.places - drawn.places.min(axis=0)
     places = places * (1.0 / places.max())
-    creases, turns = len(pattern.creases), None
-    if asked.kind == "space":
-        places, turns = asked.raised(pattern, places, np.random.default_rng((asked.seed, drawn.number)))
+    turns = None
+    if task.kind == "space":
+        places, turns = task.raised(pattern, places, np.random.default_rng((task.seed, drawn.number)))
         places[:, 2] *= height
-    sheet = Sheet(
-        pattern.vertices,
-        tuple((int(a), int(b)) for a, b in pattern.edges),
-        "U" * creases + "B" * (len(pattern.edges) - creases),
-        pattern.panels,
-        tuple(tuple(map(float, row)) for row in asked.size * places),
-    )
+    sheet = sheet_of_places(pattern, task.size * places)
     return sheet if turns is None else _lettered(sheet, turns)
 
 
 def _folded(at: SheetConfiguration) -> tuple[SheetConfiguration, bool]:
-    """Return a flat sheet with the mountains and valleys of a way to fold in which every crease turns, if any.
+    """Return a flat sheet with the mountains and valleys of a folding branch on which every crease turns, if any.
 
     It folds as well to the other side: the first crease is a valley.
     """
     joints = len(at.joints)
-    way = first_branch(at.linkage, _turns_all, search_for(joints, np.ones(joints)))
-    if way is None:
+    branch = first_branch(at.linkage, turns_all, search_for(joints, np.ones(joints)))
+    if branch is None:
         return at, False
-    drawn, sheet = (_lettered(one, signed(way.rates)) for one in (at.drawn, at.sheet))
+    drawn, sheet = (_lettered(panels, signed(branch.rates)) for panels in (at.drawn, at.sheet))
     return replace(at, given=drawn, drawn=drawn, sheet=sheet), True
-
-
-def _turns_all(rates: Floats) -> bool:
-    return bool(np.abs(rates).min(initial=1.0) > DOUBLE.zero_rate)
 
 
 def _lettered(sheet: Sheet, turns: Floats) -> Sheet:

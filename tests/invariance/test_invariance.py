@@ -13,7 +13,7 @@ from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.folding.configuration import configuration_of_sheet
 from synth.motion.branches import Search, branches_of
 from synth.motion.singular.joint_order import in_order, joint_order
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import miura
 from tests.agreement.specimens import ROOT
 from tests.invariance.comparing import Table, comparisons
 from tests.invariance.guises import GUISES, guises_of

@@ -29,12 +29,18 @@ from synth.motion.derivatives import BodyTree, Sensitivity, dependence_on_axes, 
 from synth.motion.linkage import PosedLinkage, link_motions, linkage_of_axes, linkage_of_sheet
 from synth.motion.path import driven_path
 from synth.moving.made import posed_on_surface
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import chickenwire, folded_miura, huffman_grid, miura
-from synth.patterns.creases.triangulated import waterbomb, yoshimura
-from synth.patterns.creases.twists import square_twist
-from synth.patterns.rings import bennett as five_bars, bricard
-from synth.patterns.rings.kaleidocycles import kaleidocycle
+from synth.patterns import hinged_rings, hinged_rings as five_bars
+from synth.patterns.creases import (
+    chickenwire,
+    fan,
+    folded_miura,
+    huffman_grid,
+    miura,
+    square_twist,
+    waterbomb,
+    yoshimura,
+)
+from synth.patterns.hinged_rings import kaleidocycle
 
 
 @dataclass
@@ -198,7 +204,7 @@ def _of_solids(generator, draw):
 
 
 def _line_symmetric(*numbers):
-    return bricard.line_symmetric(half=np.reshape(numbers, (3, 2, 3)).tolist())
+    return hinged_rings.line_symmetric(half=np.reshape(numbers, (3, 2, 3)).tolist())
 
 
 # --- sheets by their vertices
@@ -311,8 +317,8 @@ _MAKERS = {
     ),
     "Myard": _of_solids(five_bars.myard, _between((0.6, 2.0), (0.4, 0.9))),
     "Bricard, line": _of_solids(_line_symmetric, lambda rng: rng.normal(size=18)),
-    "Bricard, plane": _of_solids(bricard.plane_symmetric, _between((0.0, 0.5))),
-    "Bricard, trihedral": _of_solids(bricard.trihedral, _between(*[(0.6, 1.6)] * 3)),
+    "Bricard, plane": _of_solids(hinged_rings.plane_symmetric, _between((0.0, 0.5))),
+    "Bricard, trihedral": _of_solids(hinged_rings.trihedral, _between(*[(0.6, 1.6)] * 3)),
     "kaleidocycle": _of_solids(lambda tilt: kaleidocycle(6, tilt), _between((0.65, 0.9))),
     "Sarrus": _by_parameters(five_bars.sarrus, _between((0.5, 2.0), (0.8, 2.0), (0.4, 1.5)), "posed"),
     "vertex of four": _vertex(4),

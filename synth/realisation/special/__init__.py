@@ -1,8 +1,7 @@
 """Special geometry: members of a type that move although counts say no.
 
-`search` tries families one after the other: flat sheets with special lines and vertices (`sheets`), axes in space
-(`families`, with `conditions`, `symmetries`, and `solving` by least squares). `judging` follows each member by a
-finite motion; `answer` says what was tried and found. Theory: docs/theory/realisation.md.
+`search` tries the `families` one after the other, flat sheets and axes in space (`axes`), and follows each member
+by a finite motion. Theory: docs/theory/realisation.md.
 """
 
 from __future__ import annotations

@@ -1,2 +1,5 @@
-from synth.realisation.special.answer import SpecialSearch as SpecialSearch
-from synth.realisation.special.search import SpecialWishes as SpecialWishes, search_special as search_special
+from synth.realisation.special.search import (
+    SpecialSearch as SpecialSearch,
+    SpecialWishes as SpecialWishes,
+    search_special as search_special,
+)

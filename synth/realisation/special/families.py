@@ -1,38 +1,266 @@
-"""Families of axes in space whose members may move although counts say no.
+"""Families of special geometry: flat sheets that may fold, axes in space that may move, although counts say no.
 
-Each family adds conditions to those of the type: a symmetry, groups of axes that are parallel or meet, equal
-links, poses along a motion that close. Starts are random, and symmetric where the family is. Theory:
+A family of sheets draws the type with further conditions: flat-foldable vertices, a symmetry, straight lines,
+parallel creases. A family of axes adds conditions to those of the type: a symmetry, groups of axes that are
+parallel or meet, equal links, configurations along a motion that close. Starts are random, and symmetric where the
+family is. Symmetries of a type become symmetries of the axes: half turns, mirrors, rotations about a line. Theory:
 docs/theory/realisation.md.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import combinations, islice
+from math import cos, lcm, pi, radians, sin
 
+import networkx as nx
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.errors import UnsolvableError, numbered
 from graphs.geometry import lines_meet, unit
 from graphs.loops.cycle_space import signed_cycle
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.closure import independent_cycles
 from synth.motion.walk.allowance import Allowance
-from synth.realisation.special.conditions import (
+from synth.realisation.conditions import (
+    Condition,
+    Wishes,
+    agreeing_ratios,
+    bent_line,
+    bundles,
+    flat_folding,
+    panels_between_vertices,
+    parallel_creases,
+    straight_lines,
+    symmetries,
+)
+from synth.realisation.drawing import drawings
+from synth.realisation.pattern import Pattern, sheet_of_places
+from synth.realisation.special.axes import (
     AxisCondition,
     AxisGroup,
     AxisSymmetry,
+    axes_along_a_motion,
+    axes_meeting,
     equal_links,
     meeting,
     normal,
     symmetric,
 )
-from synth.realisation.special.solving import axes_along_a_motion, axes_meeting
-from synth.realisation.special.symmetries import named_motions
 
-__all__ = ["AxisFamily", "TypeOfAxes", "axis_families", "degenerate", "solids_of", "type_of_axes"]
+__all__ = [
+    "AxisFamily",
+    "SheetFamily",
+    "TypeOfAxes",
+    "axis_families",
+    "degenerate",
+    "named_motions",
+    "sheet_families",
+    "solids_of",
+    "type_of_axes",
+]
+
+_MODES = 4
+"""Choices of modes tried per start: signs have to agree round panels too, which no condition ensures."""
+_BENT = (radians(10.0), radians(40.0))
+"""Range of the bend of lines that a symmetry allows to bend: in the most even drawing they are nearly straight."""
+
+
+@dataclass(frozen=True)
+class SheetFamily:
+    """Flat sheets of a type that obey further conditions.
+
+    Lines may be `bent` by a random angle; `ratios` of half-angle tangents may have to agree round panels, in
+    random modes of the vertices.
+    """
+
+    name: str
+    wishes: Wishes
+    bent: bool = False
+    ratios: bool = False
+
+    def members(self, pattern: Pattern, seed: int, tries: int, work: Allowance) -> Iterator[tuple[int, Sheet]]:
+        """Yield drawings as sheets, the longer side about 1, with the number of the try."""
+        if not (self.bent or self.ratios):
+            for drawn in drawings(pattern, seed, tries, self.wishes, work):
+                yield drawn.number, _sheet(pattern, drawn.places)
+            return
+        for number in range(_MODES * tries if self.ratios else tries):
+            random = np.random.default_rng((seed, number))
+            wishes = replace(self.wishes, others=(*self.wishes.others, *self._random(pattern, random)))
+            first = number + self.ratios  # the most even drawing has ratios of nothing
+            for drawn in drawings(pattern, seed, 1, wishes, work, first=first):
+                yield number, _sheet(pattern, drawn.places)
+            if work.used_up:
+                return
+
+    def _random(self, pattern: Pattern, random: np.random.Generator) -> Iterator[Condition]:
+        if self.ratios:
+            yield agreeing_ratios(pattern, (random.random(len(pattern.inner)) < 0.5).tolist())
+        if self.bent:
+            condition = bent_line(pattern, float(random.uniform(*_BENT) * random.choice([-1.0, 1.0])))
+            assert condition is not None
+            yield condition
+
+
+def _sheet(pattern: Pattern, places: Floats) -> Sheet:
+    places = places - places.min(axis=0)
+    return sheet_of_places(pattern, places / places.max())
+
+
+def sheet_families(pattern: Pattern) -> list[SheetFamily]:
+    """Return the families to try, in order; flat-foldable ones only where all vertices can be flat-foldable."""
+    conditions = _of_lines(pattern)
+    groups, bendable = symmetries(pattern), bool(bundles(pattern))
+    families = []
+    for flat in (True, False) if _can_fold_flat(pattern) else (False,):
+        head = ("flat-foldable",) if flat else ()
+        families += [SheetFamily(", ".join((*head, name)), Wishes(flat, None, on)) for name, on in conditions]
+        for group in groups:
+            name = ", ".join((*head, str(group)))
+            families.append(SheetFamily(name, Wishes(flat, group)))
+            if bendable:
+                families.append(SheetFamily(f"{name}, lines bent", Wishes(flat, group), bent=True))
+        if flat:
+            families += _with_ratios(pattern)
+    return families
+
+
+def _with_ratios(pattern: Pattern) -> list[SheetFamily]:
+    """Return the families of flat-foldable sheets without other conditions, or with ratios that agree."""
+    plain = SheetFamily("flat-foldable", Wishes(True))
+    if not panels_between_vertices(pattern):
+        return [plain]
+    name = "flat-foldable, ratios that agree round panels"
+    bent = SheetFamily(f"{name}, lines bent", Wishes(True), bent=True, ratios=True)
+    return [plain, bent, SheetFamily(name, Wishes(True), ratios=True)]
+
+
+def _of_lines(pattern: Pattern) -> list[tuple[str, tuple[Condition, ...]]]:
+    """Return conditions on lines and parallel creases, with their names."""
+    straight = [
+        (f"lines {number} straight", (straight_lines(pattern, bundle),))
+        for number, bundle in enumerate(bundles(pattern), 1)
+    ]
+    parallel = parallel_creases(pattern)
+    if parallel is None:
+        return [*straight]
+    name = "opposite creases of panels parallel"
+    both = [(f"{lines}, {name}", (*conditions, parallel)) for lines, conditions in straight]
+    return [*both, (name, (parallel,)), *straight]
+
+
+def _can_fold_flat(pattern: Pattern) -> bool:
+    try:
+        flat_folding(pattern)
+    except UnsolvableError:
+        return False
+    return True
+
+
+_MOST = 240
+"""Most symmetries of a type that are listed; rings of six have twelve, types with more are very regular."""
+_KINDS = 4
+"""Most kinds of symmetry that are tried, those that move most joints first."""
+
+Image = tuple[int, ...]
+
+
+def named_motions(graph: SCGraph) -> list[tuple[str, AxisSymmetry]]:
+    """Return isometries by which a realisation may be symmetric, for each kind of symmetry of the type.
+
+    A symmetry of order two is a half turn about a line, or a mirror; others are rotations about a line. Images are
+    those of the joints, then of the centre classes, in their order.
+    """
+    joints = len(graph.joints)
+    motions = []
+    for image in _kinds(_automorphisms(graph)):
+        order = _order(image)
+        if order > 2:
+            name = f"turns by {360 / order:.6g} degrees about a line"
+            motions.append((name, AxisSymmetry(image, _turn(order))))
+            continue
+        fixed = f"{numbered(sum(image[place] == place for place in range(joints)), 'joint')} and "
+        fixed += f"{numbered(_links_kept(graph, image), 'link')} on themselves"
+        for name, diagonal in (("line", [-1.0, -1.0, 1.0]), ("plane", [1.0, 1.0, -1.0])):
+            motions.append((f"{name} symmetry, {fixed}", AxisSymmetry(image, np.diag(diagonal))))
+    return motions
+
+
+def _turn(order: int) -> Floats:
+    angle = 2.0 * pi / order
+    return np.array([[cos(angle), -sin(angle), 0.0], [sin(angle), cos(angle), 0.0], [0.0, 0.0, 1.0]])
+
+
+def _automorphisms(graph: SCGraph) -> list[Image]:
+    """Return the images of joints and centre classes in every symmetry but the identity."""
+    joints, classes, links = list(graph.joints), graph.centre_classes(), list(graph.nodes)
+    whole = nx.Graph()
+    for place in range(len(joints)):
+        whole.add_node(place, kind="joint")
+    for number, centre_class in enumerate(classes):
+        whole.add_node(len(joints) + number, kind=centre_class.centre.value)
+    first = len(joints) + len(classes)
+    for number in range(len(links)):
+        whole.add_node(first + number, kind="link")
+    number_of = {link: first + number for number, link in enumerate(links)}
+    for place, ends in enumerate(graph.joints.values()):
+        whole.add_edges_from((place, number_of[link]) for link in ends)
+    for number, centre_class in enumerate(classes):
+        members = [place for place, joint in enumerate(joints) if joint in centre_class.joints]
+        whole.add_edges_from((len(joints) + number, place) for place in members)
+    same_kind = nx.isomorphism.categorical_node_match("kind", None)
+    matcher = nx.isomorphism.GraphMatcher(whole, whole, same_kind)
+    found = islice(matcher.isomorphisms_iter(), _MOST)
+    images = {tuple(mapping[place] for place in range(first)) for mapping in found}
+    return sorted(images - {tuple(range(first))})
+
+
+def _kinds(images: list[Image]) -> list[Image]:
+    """Return one symmetry of each class of conjugates, those that move most first."""
+    left, chosen = set(images), []
+    for image in images:
+        if image in left:
+            chosen.append(image)
+            left -= {_conjugate(image, by) for by in images}
+            left.discard(image)
+
+    def key(image: Image) -> tuple[int, int, Image]:
+        return sum(to == place for place, to in enumerate(image)), _order(image), image
+
+    return sorted(chosen, key=key)[:_KINDS]
+
+
+def _conjugate(image: Image, by: Image) -> Image:
+    moved = [0] * len(image)
+    for place, to in enumerate(image):
+        moved[by[place]] = by[to]
+    return tuple(moved)
+
+
+def _links_kept(graph: SCGraph, image: Image) -> int:
+    """Return how many links have their joints taken to their own joints."""
+    place = {joint: number for number, joint in enumerate(graph.joints)}
+    of_links = [{place[joint] for _, _, joint in graph.edges(link, keys=True)} for link in graph.nodes]
+    return sum({image[joint] for joint in joints} == joints for joints in of_links)
+
+
+def _order(image: Image) -> int:
+    """Return the order of a permutation: the least common multiple of the lengths of its cycles."""
+    lengths, seen = [1], set()
+    for place in range(len(image)):
+        length = 0
+        while place not in seen:
+            seen.add(place)
+            place, length = image[place], length + 1  # noqa: PLW2901
+        lengths.append(max(length, 1))
+    return lcm(*lengths)
+
 
 _TRIPLES = (
     ("two triples of parallel axes", Centre.INFINITE, Centre.INFINITE),
@@ -40,14 +268,14 @@ _TRIPLES = (
     ("two triples of axes through a point each", Centre.FINITE, Centre.FINITE),
 )
 _NOISE = 0.3
-"""By how much joints of equal links begin off a circle: from places anywhere loops fold up, two axes being one."""
+"""How far joints of equal links start from a circle: from arbitrary places loops fold up, with coinciding axes."""
 _APART = 0.02
-"""Axes, and centres, that are nearer than this part of the extent and, of axes, of a radian, are taken as one."""
+"""Axes, and centres, that differ by less than this part of the extent, and axes of a radian, count as the same."""
 
 
 @dataclass(frozen=True)
 class TypeOfAxes:
-    """What a type says about axes: which meet in which centre, and which loops have none."""
+    """The conditions of a type on axes: which meet in which centre, and which loops have none."""
 
     graph: SCGraph
     meetings: tuple[AxisGroup, ...]
@@ -55,15 +283,11 @@ class TypeOfAxes:
 
 
 def type_of_axes(graph: SCGraph) -> TypeOfAxes:
-    """Return what a type says about axes.
-
-    >>> type_of_axes(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])).spatial
-    ((0, 1, 2, 3),)
-    """
+    """Return the conditions of a type on axes."""
     place = {joint: number for number, joint in enumerate(graph.joints)}
     meetings = tuple(
-        AxisGroup(tuple(sorted(place[joint] for joint in one.joints)), one.centre)
-        for one in graph.centre_classes()
+        AxisGroup(tuple(sorted(place[joint] for joint in centre_class.joints)), centre_class.centre)
+        for centre_class in graph.centre_classes()
     )
     spatial = tuple(
         tuple(place[joint] for joint, _ in signed_cycle(loop.joints, graph.joints))
@@ -83,19 +307,10 @@ def _from_least(loop: tuple[int, ...]) -> tuple[int, ...]:
 
 @dataclass(frozen=True)
 class AxisFamily:
-    """Members of a type whose axes obey further conditions.
+    """Realisations of a type whose axes obey further conditions.
 
-    Attributes
-    ----------
-    name : str
-    meetings : tuple of AxisGroup
-        Axes that are parallel, or meet, besides those of the type.
-    motion : AxisSymmetry or None
-        A symmetry.
-    equal : tuple of tuple of int
-        Loops of equal links.
-    poses : bool
-        Whether loops have to close at several poses.
+    `meetings` are axes that are parallel, or meet, besides those of the type; `motion` is a symmetry, `equal` are
+    loops of equal links; `poses` says whether loops have to close at several configurations.
     """
 
     name: str
@@ -117,10 +332,10 @@ class AxisFamily:
             conditions.append(equal_links(loop))
             start[list(loop), :3] = _round_a_circle(len(loop)) + _NOISE * start[list(loop), :3]
         start[:, 3:] = unit(start[:, 3:])
-        found = axes_meeting(conditions, start, work)
-        if found is not None and self.poses:
-            found = axes_along_a_motion(of.graph, conditions, found, work)
-        return None if found is None else found[:joints]
+        rows = axes_meeting(conditions, start, work)
+        if rows is not None and self.poses:
+            rows = axes_along_a_motion(of.graph, conditions, rows, work)
+        return None if rows is None else rows[:joints]
 
 
 def _round_a_circle(count: int) -> Floats:
@@ -129,7 +344,7 @@ def _round_a_circle(count: int) -> Floats:
 
 
 def _carried(start: Floats, motion: AxisSymmetry) -> Floats:
-    """Return rows of which each is where the motion takes the row before it in its cycle."""
+    """Return rows of which each is the image of the row before it in its cycle."""
     rows, done = start.copy(), set()
     for first in range(len(motion.image)):
         place = first
@@ -143,7 +358,7 @@ def _carried(start: Floats, motion: AxisSymmetry) -> Floats:
 
 
 def axis_families(of: TypeOfAxes) -> Iterator[AxisFamily]:
-    """Yield the families that are tried, in their order: groups of axes, equal links, symmetries, poses."""
+    """Yield the families to try, in order: groups of axes, equal links, symmetries, configurations that close."""
     for number, loop in enumerate(of.spatial):
         where = f" in loop {number}" if len(of.spatial) > 1 else ""
         if len(loop) == 6:
@@ -196,10 +411,8 @@ def _one_centre(of: TypeOfAxes, points: Floats, directions: Floats) -> str | Non
             return "axes that meet in a point are parallel"
         else:
             finite.append(lines_meet(points[on], directions[on]).point)
-    for number, one in enumerate(finite):
-        if any(np.linalg.norm(one - other) < _APART for other in finite[:number]):
-            return "two centres are one"
-    for number, one in enumerate(infinite):
-        if any(np.linalg.norm(np.cross(one, other)) < _APART for other in infinite[:number]):
-            return "two centres at infinity are one"
+    if any(np.linalg.norm(centre - other) < _APART for centre, other in combinations(finite, 2)):
+        return "two centres are one"
+    if any(np.linalg.norm(np.cross(centre, other)) < _APART for centre, other in combinations(infinite, 2)):
+        return "two centres at infinity are one"
     return None

@@ -1,18 +1,22 @@
-"""Members of a type that move although counts say no: families of special geometry, tried one after the other.
+"""Realisations that move although counts say no: families of special geometry, tried one after the other.
 
-Theory: docs/theory/realisation.md.
+Each member of a family is followed by a finite motion; `SpecialSearch` reports the families and the members that
+move. Theory: docs/theory/realisation.md.
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import degrees
+from typing import Any
 
 import numpy as np
 
+from graphs.arrays import Floats
 from graphs.convert.table import Mechanism, to_sc, to_scd
-from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.errors import InvariantError, SynthedraError, UnsolvableError, numbered, shown
 from graphs.given import check_given
 from graphs.identity.drawings import map_id
 from graphs.loops.loop import Centre
@@ -20,24 +24,292 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from graphs.mechanism.special import SpecialGeometry
+from graphs.printing import Block, Printed
 from graphs.rank.closure import independent_cycles
 from graphs.rank.generic import exact_mobility
+from graphs.tolerances import DOUBLE
+from synth.motion.branches import Branch, first_branch, search_for
+from synth.motion.configuration import Configuration
+from synth.motion.placement import moved
 from synth.motion.walk.allowance import Allowance
-from synth.realisation.pattern import Pattern, pattern_of
-from synth.realisation.refusing import check_holes
-from synth.realisation.special.answer import FamilyTrial, SpecialMember, SpecialSearch
+from synth.moving.made import configuration_of
+from synth.overconstraint.explained import explain
+from synth.realisation.pattern import Pattern, check_holes, pattern_of
 from synth.realisation.special.families import (
     AxisFamily,
     TypeOfAxes,
     axis_families,
     degenerate,
+    sheet_families,
     solids_of,
     type_of_axes,
 )
-from synth.realisation.special.judging import Moving, judged
-from synth.realisation.special.sheets import sheet_families
 
-__all__ = ["SpecialWishes", "search_special"]
+__all__ = ["FamilyTrial", "Moving", "SpecialMember", "SpecialSearch", "SpecialWishes", "judged", "search_special"]
+
+
+@dataclass(frozen=True)
+class Moving:
+    """A member that moves: its configuration, the number of its branch, and what is special there.
+
+    `h` is the number of redundant closure equations on the branch, ten degrees from where it begins; `reasons` are
+    those that were recognised there.
+    """
+
+    configuration: Configuration
+    number: int
+    h: int
+    reasons: tuple[str, ...]
+
+    @property
+    def branch(self) -> Branch:
+        """The branch that it moves on."""
+        branch = self.configuration.branch(self.number)
+        assert branch is not None
+        return branch
+
+
+_SHARE = 0.02
+"""A joint that turns by less than this part of the largest turn hardly moves."""
+OTHER_TYPE = "axes of a loop meet although they do not in the type"
+"""Why a drawing is of another type when it is read back."""
+
+
+def judged(member: Sheet | HingedSolids, freedoms: int, *, all_joints: bool = True) -> Moving | str:
+    """Return how a member moves, or why it does not qualify.
+
+    Only branches count that were followed by a finite motion and have the freedoms there; of those the first on
+    which all joints turn is chosen.
+    """
+    try:
+        at = configuration_of(member, mend=False)  # coordinates are exact
+        search = search_for(len(at.joints), None)
+        if all_joints and first_branch(at.linkage, turns_all, search) is None:
+            return "no motion of all joints"  # without a proof that nothing moves, which would take long
+        if at.branches is None:
+            return "too large to look for all branches"
+        branches = at.branches.branches
+        moving = [place for place, branch in enumerate(branches) if branch.certainty != "not known"]
+        if not moving:
+            return "nothing moves"
+        whole = [place for place in moving if not (all_joints and branches[place].still)]
+        if not whole:
+            return "some joints do not move"
+        whole = [place for place in whole if not all_joints or _least_share(at, branches[place]) >= _SHARE]
+        if not whole:
+            return "some joints hardly move"
+        fitting = [place for place in whole if branches[place].freedoms == freedoms]
+        if not fitting:
+            least = min((branches[place].freedoms or 0 for place in whole), default=0)
+            return f"moves with {numbered(least, 'freedom')}"
+        explanation = explain(moved(at.linkage, branches[fitting[0]].sample))
+        reasons = dict.fromkeys(reason for equations in explanation.sets for reason in equations.reasons)
+        return Moving(at, fitting[0], explanation.idle, tuple(reasons))
+    except SynthedraError as error:
+        return str(error)
+
+
+def turns_all(rates: Floats) -> bool:
+    """Check that no joint rate is zero."""
+    return bool(np.abs(rates).min(initial=1.0) > DOUBLE.zero_rate)
+
+
+def _least_share(at: Configuration, branch: Branch) -> float:
+    """Return the least turn of a joint, up to where the branch was followed, as a part of the largest."""
+    turned = np.abs(branch.sample - at.linkage.angles)
+    return float(turned.min(initial=np.inf) / turned.max(initial=0.0))
+
+
+def _degrees_of_freedom(number: int) -> str:
+    return numbered(number, "degree of freedom", "degrees of freedom")
+
+
+@dataclass(frozen=True)
+class SpecialMember:
+    """A member with special dimensions that moves.
+
+    `family` names the conditions it was made from, `start` is the number of the random start in its family, from
+    0.
+    """
+
+    family: str
+    start: int
+    moving: Moving
+
+    @property
+    def configuration(self) -> Configuration:
+        """The configuration of the member."""
+        return self.moving.configuration
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """A flat sheet with the mountains and valleys of its branch, or hinged solids."""
+        drawn = self.configuration.given
+        assert isinstance(drawn, Sheet | HingedSolids)
+        if isinstance(drawn, HingedSolids):
+            return drawn
+        signs = self.moving.branch.signs  # creases come first among the edges of the drawing
+        letters = "".join({"+": "V", "-": "M"}.get(sign, "U") for sign in signs)
+        return replace(drawn, assignments=letters + drawn.assignments[len(letters) :])
+
+    @property
+    def freedoms(self) -> int:
+        """Degrees of freedom of the finite motion."""
+        return self.moving.branch.freedoms or 0
+
+    @property
+    def reasons(self) -> tuple[str, ...]:
+        """The reasons that `synth.explain` recognises on the branch."""
+        return self.moving.reasons
+
+    @property
+    def residual(self) -> float:
+        """Loop-closure residual after ten degrees."""
+        return self.moving.branch.error
+
+    @property
+    def mark(self) -> SpecialGeometry:
+        """The mark for the type."""
+        return SpecialGeometry(self.freedoms, (self.family, *self.reasons))
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on."""
+        branch = self.moving.branch
+        return {
+            "family": self.family,
+            "start": self.start,
+            "kind": "sheet" if isinstance(self.mechanism, Sheet) else "axes",
+            "configuration": self.configuration.to_json(branch),
+            "freedoms": self.freedoms,
+            "certainty": branch.certainty,
+            "followed_deg": degrees(branch.followed),
+            "closure": self.residual,
+            "h": self.moving.h,
+            "reasons": list(self.reasons),
+        }
+
+    def lines(self) -> list[Block]:
+        """Return the lines that are printed."""
+        branch = self.moving.branch
+        return [
+            f"found: {self.family} (start {self.start + 1})",
+            f"  {_degrees_of_freedom(self.freedoms)}, {branch.certainty}: traced to "
+            f"{degrees(branch.followed):.0f}°, loop-closure residual {self.residual:.0e}, h = {self.moving.h}",
+            f"  reasons: {', '.join(self.reasons) or 'none recognised'}",
+        ]
+
+
+@dataclass(frozen=True)
+class FamilyTrial:
+    """The result of one family.
+
+    `starts` are the random starts; `work` counts steps of least squares with 60 unknowns, and of improved
+    drawings. `member` is the first that moves as required, `reasons` are those against other starts, with their
+    numbers; `used_up` says that the allowance of work ended the search.
+    """
+
+    name: str
+    starts: int
+    work: float
+    member: SpecialMember | None
+    reasons: tuple[tuple[str, int], ...]
+    used_up: bool = False
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on."""
+        return {
+            "name": self.name,
+            "starts": self.starts,
+            "work": round(self.work),
+            "moves": self.member is not None,
+            "reasons": dict(self.reasons),
+            "used_up": self.used_up,
+        }
+
+    def line(self) -> str:
+        """Return the line that is printed where nothing was found."""
+        why = "; ".join(f"{number} x {shown(reason)}" for reason, number in self.reasons)
+        ended = "; the allowance of work was used up" if self.used_up else ""
+        return f"none: {self.name}, {numbered(self.starts, 'start')}: {why or 'no member was made'}{ended}"
+
+
+@dataclass(frozen=True)
+class SpecialSearch(Printed):
+    """The members of a type that move although counts say no, and every family that was tried.
+
+    Attributes
+    ----------
+    graph : SCGraph
+        The type.
+    freedoms : int
+        The degrees of freedom that members need.
+    mobility : int
+        M of the type by count, joints less closure equations.
+    seed : int
+    trials : tuple of FamilyTrial
+    proof : str or None
+        Why no member moves in all joints, where that is proved.
+    """
+
+    graph: SCGraph
+    freedoms: int
+    mobility: int
+    seed: int
+    trials: tuple[FamilyTrial, ...]
+    proof: str | None = None
+
+    @property
+    def members(self) -> tuple[SpecialMember, ...]:
+        """The members that were found, one per family."""
+        return tuple(trial.member for trial in self.trials if trial.member is not None)
+
+    @property
+    def work(self) -> float:
+        """The work of all families together."""
+        return sum(trial.work for trial in self.trials)
+
+    @property
+    def type_with_mark(self) -> SCGraph:
+        """The type with a mark of the first member; unchanged if there is none."""
+        return self.graph.marked(self.members[0].mark) if self.members else self.graph
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on (docs/command-json.md)."""
+        return {
+            "found": bool(self.members),
+            "drawing": map_id(self.graph) if isinstance(self.graph, SCDGraph) else None,
+            "freedoms_asked": self.freedoms,
+            "mobility": self.mobility,
+            "seed": self.seed,
+            "proof": self.proof,
+            "members": [member.to_json() for member in self.members],
+            "families": [trial.to_json() for trial in self.trials],
+            "work": round(self.work),
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the lines that are printed."""
+        freedoms = _degrees_of_freedom(self.freedoms)
+        if self.proof is not None:
+            return [f"No realisation moves with {freedoms} in all joints: {self.proof}."]
+        members, count = self.members, f"although M = {self.mobility} by count"
+        kinds = f"{numbered(len(members), 'kind')} of special geometry {'moves' if len(members) == 1 else 'move'}"
+        head = (
+            f"{kinds} with {freedoms}, {count}."
+            if members
+            else f"No realisation was found that moves with {freedoms}, {count}. This proves nothing."
+        )
+        lines: list[Block] = [head]
+        for trial in self.trials:
+            lines += [trial.line()] if trial.member is None else trial.member.lines()
+        starts = numbered(sum(trial.starts for trial in self.trials), "start")
+        lines.append(f"tried: {numbered(len(self.trials), 'family', 'families')}, {starts}, work {self.work:.0f}")
+        return lines
+
+    def __repr__(self) -> str:
+        return f"<SpecialSearch: {numbered(len(self.members), 'member')} of {self.graph!r}>"
+
 
 _WORK, _DRAWING = 200.0, 1000.0
 """Units of work of one family: steps of least squares with 60 unknowns; steps that improve drawings."""
@@ -45,7 +317,7 @@ _WORK, _DRAWING = 200.0, 1000.0
 
 @dataclass(frozen=True, slots=True)
 class SpecialWishes:
-    """What is looked for, and how long.
+    """Which members to search for, and how long.
 
     Attributes
     ----------
@@ -55,7 +327,7 @@ class SpecialWishes:
         Whether flat sheets are tried, before axes in space.
     seed : int
     tries : int
-        Random starts of each family, at most.
+        Largest number of random starts of each family.
     geometry : str
         Only families with this in their name.
     every : bool
@@ -74,41 +346,43 @@ class SpecialWishes:
 
 
 def search_special(mechanism: Mechanism, wishes: SpecialWishes) -> SpecialSearch:
-    """Look for members of a type that move with more freedoms than a general member has.
+    """Search for members of a type that move with more freedoms than a generic realisation has.
 
     Parameters
     ----------
-    mechanism : SCGraph, SCDGraph, or what has one
-        A type. Flat sheets are tried of an SCD graph only.
+    mechanism : SCGraph, SCDGraph, or a mechanism that has one
+        A type. Flat sheets are tried for an SCD graph only.
     wishes : SpecialWishes
 
     Returns
     -------
     SpecialSearch
-        With every family that was tried; that none moves proves nothing, but where `proof` says so.
+        With every family that was tried; that none moves proves nothing, unless `proof` says so.
 
     Raises
     ------
     InvariantError
-        If a general member has so many freedoms, or an option is out of its range.
+        If a generic realisation has so many freedoms, or an option is out of its range.
     UnsolvableError
-        If no family has the name that is asked for, or the type has no loop.
+        If no family has the name in `wishes`, or the type has no loop.
 
     Examples
     --------
     >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
-    >>> found = search_special(ring, SpecialWishes(1))
-    >>> found.members[0].reasons[0]
+    >>> search_special(ring, SpecialWishes(1)).members[0].reasons[0]
     'opposite links equal, lengths proportional to the sines of the twists (Bennett)'
     """
     check_given("realise", mechanism, Mechanism)
-    graph = mechanism if isinstance(mechanism, SCGraph) else _type_of(mechanism)
+    if isinstance(mechanism, SCGraph):
+        graph = mechanism
+    else:
+        graph = to_sc(mechanism) if isinstance(mechanism, HingedSolids) else to_scd(mechanism)
     _check(graph, wishes)
     general = exact_mobility(graph).mobility
     if general >= wishes.freedoms:
-        told = f"a general member of the type has {general} already"
-        raise InvariantError("freedoms", told, f"more than {general}, or none asked for")
-    mobility = len(graph.joints) - sum(6 if one.centre is Centre.NONE else 3 for one in independent_cycles(graph))
+        what = f"a generic realisation of the type has {general} already"
+        raise InvariantError("freedoms", what, f"more than {general}, or no number of freedoms")
+    equations = sum(6 if loop.centre is Centre.NONE else 3 for loop in independent_cycles(graph))
     proof = _rigid_loop(graph) if wishes.all_joints else None
     trials: list[FamilyTrial] = []
     if proof is None:
@@ -118,24 +392,20 @@ def search_special(mechanism: Mechanism, wishes: SpecialWishes) -> SpecialSearch
                 break
         if not trials:
             raise UnsolvableError(f"no family of special geometry has {shown(wishes.geometry)} in its name")
+    mobility = len(graph.joints) - equations
     return SpecialSearch(graph, wishes.freedoms, mobility, wishes.seed, tuple(trials), proof)
-
-
-def _type_of(mechanism: Mechanism) -> SCGraph:
-    """Return the SCD graph of what has panels, the SC graph of other things."""
-    return to_sc(mechanism) if isinstance(mechanism, HingedSolids) else to_scd(mechanism)
 
 
 def _check(graph: SCGraph, wishes: SpecialWishes) -> None:
     if wishes.freedoms < 1:
         raise InvariantError("freedoms", f"{wishes.freedoms} freedoms", "1 or more")
     if wishes.seed < 0 or wishes.tries < 1:
-        told = f"seed {wishes.seed}, tries {wishes.tries}"
-        raise InvariantError("tries", told, "a seed of 0 or more, one try or more")
+        what = f"seed {wishes.seed}, tries {wishes.tries}"
+        raise InvariantError("tries", what, "a seed of 0 or more, 1 try or more")
     if not graph.independent_loops:
-        raise UnsolvableError("a type without loops moves in general: no geometry is special")
+        raise UnsolvableError("the type has no loops, so every realisation moves; expected a type with a loop")
     if graph.components > 1:
-        raise UnsolvableError("special geometry is looked for in types of one part")
+        raise UnsolvableError(f"the type has {graph.components} parts; expected a connected type")
 
 
 def _rigid_loop(graph: SCGraph) -> str | None:
@@ -158,21 +428,17 @@ def _trials(graph: SCGraph, wishes: SpecialWishes) -> Iterator[FamilyTrial]:
             if wishes.geometry in family.name:
                 work = Allowance(_DRAWING)
                 sheets = family.members(pattern, wishes.seed, wishes.tries, work)
-                read = ((number, _read_back(graph, sheet)) for number, sheet in sheets)
+                read = (
+                    (number, sheet if map_id(to_scd(sheet)) == map_id(graph) else OTHER_TYPE)
+                    for number, sheet in sheets
+                )
                 yield _trial(f"flat sheet: {family.name}", read, work, wishes)
     of = type_of_axes(graph if not isinstance(graph, SCDGraph) else graph.sc_graph())
     for axis_family in axis_families(of):
         if wishes.geometry in axis_family.name:
             work = Allowance(_WORK)
-
             members = _members(of, axis_family, work, wishes)
             yield _trial(f"axes in space: {axis_family.name}", members, work, wishes)
-
-
-def _read_back(graph: SCGraph, sheet: Sheet) -> Sheet | str:
-    """Return a sheet that is of the type when its coordinates are read, or that it is not."""
-    same = map_id(to_scd(sheet)) == map_id(graph)
-    return sheet if same else "the axes of a loop meet that the type does not ask to"
 
 
 def _members(
@@ -191,7 +457,7 @@ def _members(
 
 
 def _pattern(graph: SCGraph) -> Pattern | None:
-    """Return the pattern of an SCD graph that has a flat sheet; None of others."""
+    """Return the pattern of an SCD graph that has a flat sheet; None for others."""
     if not isinstance(graph, SCDGraph):
         return None
     try:
@@ -205,19 +471,21 @@ def _pattern(graph: SCGraph) -> Pattern | None:
 def _trial(
     name: str, members: Iterable[tuple[int, Sheet | HingedSolids | str]], work: Allowance, wishes: SpecialWishes
 ) -> FamilyTrial:
-    """Return what became of a family: its first member that moves as asked, or why there is none."""
+    """Return the result of a family: its first member that moves as required, or why there is none."""
     begun = work.left
     reasons: Counter[str] = Counter()
     starts = 0
     for number, member in members:
         starts = number + 1
-        found = (
-            member if isinstance(member, str) else judged(member, wishes.freedoms, all_joints=wishes.all_joints)
-        )
-        if isinstance(found, Moving):
-            made = SpecialMember(name, number, found)
-            return FamilyTrial(name, starts, begun - work.left, made, tuple(reasons.items()))
-        reasons[found] += 1
+        verdict: Moving | str
+        if isinstance(member, str):
+            verdict = member
+        else:
+            verdict = judged(member, wishes.freedoms, all_joints=wishes.all_joints)
+        if isinstance(verdict, Moving):
+            moving = SpecialMember(name, number, verdict)
+            return FamilyTrial(name, starts, begun - work.left, moving, tuple(reasons.items()))
+        reasons[verdict] += 1
     missing = wishes.tries - sum(reasons.values())
     if missing > 0 and not work.used_up:
         reasons["no drawing was found"] += missing

@@ -16,7 +16,7 @@ from synth.assembly.found import solutions
 from synth.fourbar.position import output_spherical
 from synth.moving.made import configuration_of
 from synth.patterns import generate
-from synth.patterns.rings.spherical import spherical_ring
+from synth.patterns.hinged_rings import spherical_ring
 
 slow = pytest.mark.slow
 CASES = [

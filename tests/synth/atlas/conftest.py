@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from synth.atlas.asked.opened import Atlas, open_atlas
-from synth.atlas.made.building import build_atlas
-from synth.atlas.made.plan import AtlasPlan
+from synth.atlas.building import AtlasPlan, build_atlas
+from synth.atlas.opened import Atlas, open_atlas
 
 
 @pytest.fixture(scope="session")

@@ -11,8 +11,8 @@ import pytest
 
 from enumerate.runner.columns import ListColumn, stored
 from graphs.errors import SynthedraError
-from synth.atlas.asked.expression import ExpressionError, condition_of
 from synth.atlas.columns import stored_columns
+from synth.atlas.expression import ExpressionError, condition_of
 
 COLUMNS = {"links": int, "angle": float, "kind": str, "planar": bool, "sizes": ListColumn(",")}
 ROWS: list[dict[str, Any]] = [

@@ -10,14 +10,12 @@ from xml.etree import ElementTree
 
 import pytest
 
-import synth.atlas.site.writing as writing
+import synth.atlas.site_pages as writing
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.formats import read
-from synth.atlas.asked.opened import Atlas, open_atlas
-from synth.atlas.made.building import build_atlas
-from synth.atlas.made.plan import AtlasPlan
-from synth.atlas.site.index_page import SEARCHED, data_script, index_page
-from synth.atlas.site.writing import site_of, write_site
+from synth.atlas.building import AtlasPlan, build_atlas
+from synth.atlas.opened import Atlas, open_atlas
+from synth.atlas.site_pages import SEARCHED, data_script, index_page, site_of, write_site
 
 HOSTILE = "</script><script>document.title='taken'</script><img src=x onerror=alert(1)>"
 

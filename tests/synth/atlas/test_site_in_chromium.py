@@ -10,11 +10,9 @@ from typing import Any
 
 import pytest
 
-from synth.atlas.asked.opened import open_atlas
-from synth.atlas.made.building import build_atlas
-from synth.atlas.made.plan import AtlasPlan
-from synth.atlas.site.index_page import SEARCHED, data_script
-from synth.atlas.site.writing import write_site
+from synth.atlas.building import AtlasPlan, build_atlas
+from synth.atlas.opened import open_atlas
+from synth.atlas.site_pages import SEARCHED, data_script, write_site
 from synth.viewer.building import BUILT
 
 pytestmark = pytest.mark.web

@@ -244,7 +244,7 @@ def test_a_unit_of_eight_bars_by_orders():
 @pytest.mark.parametrize(
     ("make", "error", "message"),
     [
-        (lambda: CandidateJob(WATT, slots=9, opposites=True), InvariantError, "together"),
+        (lambda: CandidateJob(WATT, slots=9, opposites=True), InvariantError, "several of"),
         (lambda: CandidateJob(WATT, surface=Cone(0.3)), InvariantError, "without angles"),
         (lambda: CandidateJob(WATT, ("x",)), InvariantError, "no link"),
         (lambda: CandidateJob(WATT, slots=6), InvariantError, "6 slots for 7 joints"),

@@ -21,7 +21,7 @@ def test_query(atlas):
     rows = json.loads(run("atlas", "query", atlas, "all_explicit and fold_deg > 170", "--json").output)
     assert rows
     assert all(row["all_explicit"] is True for row in rows)
-    assert run("atlas", "query", atlas, "links > 100").output.strip() == "none"
+    assert run("atlas", "query", atlas, "links > 100").output.strip() == "no types"
     [row] = json.loads(run("atlas", "query", atlas, "--sql", "SELECT count(*) AS n FROM types", "--json").output)
     assert row["n"] == 12
     assert "[linsk]" in run("atlas", "query", atlas, "linsk = 4", code=2).output

@@ -7,7 +7,7 @@ from commands import run
 
 def test_a_platform_becomes_creases_and_is_seen_in_them(tmp_path):
     legs, creases, back = tmp_path / "legs.json", tmp_path / "creases.json", tmp_path / "back.graphml"
-    assert "freedoms of finite motion 12" in run("generate", "6-sps", "-o", legs).stdout
+    assert "12 degrees of freedom of finite motion" in run("generate", "6-sps", "-o", legs).stdout
     run("convert", legs, creases, "--to", "solids")
     assert len(json.loads(creases.read_text())["axes"]) == 42
     run("convert", creases, back, "--to", "joints")

@@ -11,7 +11,7 @@ from enumerate.conical.rounds import Rounds, placements
 from enumerate.conical.symmetries import links_apart
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from synth.candidates.job import CandidateJob
-from synth.candidates.values import loop_circuits
+from synth.candidates.rows import loop_circuits
 from synth.conformed.all_angles import Allowed, never_singular, orders_with_opposites, over_angles, sampled
 from synth.conformed.behaviours import link_arcs
 from synth.conformed.chords import arc_sets, sign_of_sum

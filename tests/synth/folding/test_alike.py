@@ -11,7 +11,7 @@ from synth.folding.alike import AlikeClosure, alike_classes, fold_to
 from synth.folding.configuration import configuration_of_sheet
 from synth.motion.singular.second_order import rates_at
 from synth.patterns import generate
-from synth.patterns.creases.bases import fan, preliminary_base, waterbomb_base
+from synth.patterns.creases import fan, preliminary_base, waterbomb_base
 
 ASKED = [
     ("waterbomb-base", {}, 30),

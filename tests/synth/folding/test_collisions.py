@@ -11,7 +11,7 @@ from graphs.files.formats import write
 from graphs.mechanism.sheet import Sheet
 from synth.folding.collisions import Panels
 from synth.folding.motion import fold
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import miura
 
 TRIANGLES = [(0, 1, 2), (3, 4, 5)]
 

@@ -23,8 +23,7 @@ from synth.folding.motion import fold
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_axes, linkage_of_sheet
 from synth.motion.path import PathOptions, driven_path
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import fan, miura
 
 ROOT = Path(__file__).resolve().parents[3]
 VERTEX = fan(np.radians([0, 60, 180, 300]), "MVVV")

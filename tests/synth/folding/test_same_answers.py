@@ -13,8 +13,7 @@ from synth.folding.motion import fold
 from synth.motion.branches import branches_of, first_branch
 from synth.motion.linkage import linkage_of_sheet
 from synth.motion.singular.sampling import rates_towards
-from synth.patterns.creases.tessellations import map_sheet
-from synth.patterns.creases.triangulated import resch
+from synth.patterns.creases import map_sheet, resch
 from synth.verdict.judged import mobility
 
 _NOISE = 1e-13

@@ -12,9 +12,8 @@ from synth.motion.closure import ClosureEquations, TangentSpace, corrected
 from synth.motion.linkage import linkage_of_axes, linkage_of_sheet
 from synth.motion.path import driven_path
 from synth.motion.singular.sampling import freedoms_at
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import miura
-from synth.patterns.rings.bennett import bennett
+from synth.patterns.creases import fan, miura
+from synth.patterns.hinged_rings import bennett
 
 RING = [(k, (k + 1) % 6) for k in range(6)]
 

@@ -24,10 +24,9 @@ from synth.motion.derivatives import (
 )
 from synth.motion.linkage import linkage_of_axes, linkage_of_sheet
 from synth.motion.path import driven_path
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import folded_miura, miura
+from synth.patterns.creases import fan, folded_miura, miura
+from synth.patterns.hinged_rings import bennett
 from synth.patterns.panels import sheet_of_faces
-from synth.patterns.rings.bennett import bennett
 
 QUICK = [
     "spherical six-bar", "spherical Stephenson", "on a cone", "planar five-bar", "spatial 8R", "Bennett",

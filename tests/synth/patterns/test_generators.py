@@ -12,9 +12,8 @@ from graphs.mechanism.sheet import Sheet
 from synth.moving.made import configuration_of
 from synth.moving.motion import move
 from synth.patterns import GENERATORS, generate
-from synth.patterns.creases.bases import bird_base
-from synth.patterns.creases.twists import polygon_twist
-from synth.patterns.rings.closing import closed_chain
+from synth.patterns.creases import bird_base, polygon_twist
+from synth.patterns.hinged_rings import closed_chain
 from synth.verdict.judged import mobility
 
 QUICK = ("miura", "bennett", "crash-lock")
@@ -82,12 +81,12 @@ def test_what_is_out_of_range_is_refused_in_one_line(name):
     with pytest.raises(InvariantError, match="has no parameter 'wings'"):
         generate(name, wings=2)
     if not generator.foldable:
-        with pytest.raises(UnsolvableError, match="is not folded"):
+        with pytest.raises(UnsolvableError, match="it is not folded"):
             generate(name, fold=1.0)
 
 
 def test_no_such_generator():
-    with pytest.raises(InvariantError, match="'crane' is no generator; expected miura"):
+    with pytest.raises(InvariantError, match="there is no generator 'crane'; expected miura"):
         generate("crane")
 
 
@@ -211,7 +210,7 @@ def test_a_storey_on_a_panel_moves_only_turned_by_half_a_side(sides):
 
 
 def test_a_quadrilateral_that_is_none_is_refused():
-    with pytest.raises(InvariantError, match="neither alike nor together half a turn"):
+    with pytest.raises(InvariantError, match="neither equal nor together 180 degrees"):
         GENERATORS["huffman-grid"].make(2, 2, 1.0, 1.0)
     with pytest.raises(InvariantError, match="no convex quadrilateral"):
         GENERATORS["huffman-grid"].make(2, 2, 1.3, 0.6, 3.0)

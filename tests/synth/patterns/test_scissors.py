@@ -12,14 +12,7 @@ from synth.motion.singular import freedoms_at
 from synth.motion.singular.second_order import rates_at
 from synth.moving.made import configuration_of
 from synth.patterns import generate
-from synth.patterns.scissors.elements import (
-    CUBE,
-    OCTAHEDRON,
-    TETRAHEDRON,
-    prism,
-    scissor_polyhedron,
-    scissor_ring,
-)
+from synth.patterns.scissors import CUBE, OCTAHEDRON, TETRAHEDRON, prism, scissor_polyhedron, scissor_ring
 
 
 def lengths(linkage):

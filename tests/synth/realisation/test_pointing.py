@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from graphs.identity.drawings import mechanism_from_map_id
+from synth.realisation.drawing import barycentric_start, first_unknowns, off_centres
 from synth.realisation.pattern import pattern_of
-from synth.realisation.pointing import first_unknowns, off_centres
-from synth.realisation.starting import barycentric_start
 
 RING = "m1:a--b-.a-c-.b-d-.c-d-"
 TWO_RINGS = "m1:a-b-.a-c-.bd-e-.c-e-f.d-g-.f-g-"

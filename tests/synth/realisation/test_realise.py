@@ -16,7 +16,7 @@ from graphs.mechanism.drawing import FaceKind
 from graphs.rank.pose import pose_mobility
 from synth.folding.configuration import configuration_of_sheet
 from synth.realisation.drawing import drawings
-from synth.realisation.figures import crossings
+from synth.realisation.measures import crossings
 from synth.realisation.pattern import pattern_of
 from synth.realisation.realised import Realised, realise
 

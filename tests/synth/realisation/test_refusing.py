@@ -8,11 +8,9 @@ from graphs.convert.table import to_scd
 from graphs.errors import UnsolvableError
 from graphs.identity.drawings import map_id, mechanism_from_map_id
 from graphs.mechanism.sheet import Sheet
-from synth.realisation.figures import crossings
-from synth.realisation.measures import corner_angles
-from synth.realisation.pattern import pattern_of
+from synth.realisation.measures import corner_angles, crossings
+from synth.realisation.pattern import check_holes, half_turns, pattern_of
 from synth.realisation.realised import NotFoundError, realise
-from synth.realisation.refusing import check_holes, half_turns
 
 RING = "m1:a-b-.a-c-.b-d-.c-d-;i"
 """Four panels of four sides round a hole, the creases parallel."""

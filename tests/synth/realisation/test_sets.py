@@ -10,7 +10,7 @@ from graphs.files.formats import read, write
 from graphs.identity.drawings import mechanism_from_map_id
 from synth.motion.branches import first_branch
 from synth.motion.linkage import linkage_of_sheet
-from synth.realisation.figures import crossings
+from synth.realisation.measures import crossings
 from synth.realisation.pattern import pattern_of
 from synth.realisation.realised import realise
 

@@ -12,8 +12,7 @@ from commands import run
 import synth
 from graphs.files.formats import read, write
 from graphs.mechanism.sheet import Sheet
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import fan, miura
 from synth.verdict.judged import mobility
 
 KEYS = {

@@ -16,8 +16,7 @@ from synth.folding.motion import fold
 from synth.motion.branches import branches_of
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import fan, miura
 
 
 def disturbed(sheet, noise, seed=0):

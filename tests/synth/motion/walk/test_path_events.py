@@ -13,8 +13,7 @@ from synth.folding.motion import fold
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_axes
 from synth.motion.path import driven_path
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import fan, miura
 
 
 def planar(links, joints, loops, places):

@@ -7,7 +7,7 @@ from graphs.edit.analogues import planar_analogue, spherical_analogue
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read, read_linkage, write
 from graphs.identity.chains import chain_id
-from synth.realisation.forms.on_cone import realise_on_cone
+from synth.realisation.on_cone import realise_on_cone
 from synth.surfaces.linkages import by_sizes, map_linkage
 
 LAMBDA = np.radians(25.0)

@@ -10,10 +10,10 @@ from enumerate.strings.panel_strings import ChainString, strings
 from graphs.convert.table import to_scd
 from graphs.files.formats import read, write
 from synth.motion.linkage import linkage_of_sheet
-from synth.realisation.figures import crossings
-from synth.realisation.forms.strips import drawn_string, strips
+from synth.realisation.measures import crossings
 from synth.realisation.pattern import pattern_of
 from synth.realisation.realised import realise
+from synth.realisation.strips import drawn_string, strips
 
 
 def _freedoms_between_bodies(sheet) -> int:

@@ -17,15 +17,14 @@ from graphs.errors import StoreError
 from graphs.files.formats import read, write
 from graphs.files.patterns.fold import fold_text
 from graphs.identity.drawings import mechanism_from_map_id
-from synth.realisation.many.folder import FolderOfThings, store_beside
-from synth.realisation.many.job import COLUMNS, RealisationJob, summary_of
+from synth.realisation.many import COLUMNS, RealisationFolder, RealisationJob, store_beside, summary_of
 from synth.realisation.realised import realise
 
 CUBE = [(0, 1, 2, 3), (7, 6, 5, 4), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
 OPTIONS = (("kind", "space"), ("tries", 1))
 
 
-class _StoppedAfterOne(FolderOfThings):
+class _StoppedAfterOne(RealisationFolder):
     """A run that is stopped when one unit is there."""
 
     def take(self, number, rows, seconds):
@@ -46,7 +45,7 @@ def test_a_stopped_run_goes_on_and_gives_equal_files(tmp_path):
         run(RealisationJob(source, OPTIONS), _StoppedAfterOne(things))
     assert len(list(things.iterdir())) == 4
     (things / "0000002.fold").unlink()
-    progress = run(RealisationJob(source, OPTIONS), FolderOfThings(things, resume=True))
+    progress = run(RealisationJob(source, OPTIONS), RealisationFolder(things, resume=True))
     assert progress.rows == 2
     for place in (2, 6):
         found = realise(mechanism_from_map_id(codes[place - 1]), **dict(OPTIONS))
@@ -58,9 +57,9 @@ def test_a_stopped_run_goes_on_and_gives_equal_files(tmp_path):
 
 def test_other_types_or_options_are_another_run(tmp_path):
     source = _list_of(["m1:a-b.ac-.b-d.cd-"], tmp_path / "types.jsonl")
-    run(RealisationJob(source, OPTIONS), FolderOfThings(tmp_path / "things"))
+    run(RealisationJob(source, OPTIONS), RealisationFolder(tmp_path / "things"))
     with pytest.raises(StoreError, match="another run"):
-        run(RealisationJob(source), FolderOfThings(tmp_path / "things", resume=True))
+        run(RealisationJob(source), RealisationFolder(tmp_path / "things", resume=True))
 
 
 def test_what_is_not_realised_is_told_with_its_reason(tmp_path):
@@ -81,7 +80,7 @@ def test_two_processes_give_what_one_gives(tmp_path):
     codes = [row["code"] for row in islice(scd_rows(4, 1, 5), 20)]
     job = RealisationJob(_list_of(codes, tmp_path / "types.jsonl"), OPTIONS)
     for workers in (1, 2):
-        run(job, FolderOfThings(tmp_path / f"by-{workers}"), workers=workers)
+        run(job, RealisationFolder(tmp_path / f"by-{workers}"), workers=workers)
     one, two = (list(read_rows(tmp_path / f"by-{workers}.sqlite")) for workers in (1, 2))
     assert one == two
 
@@ -89,7 +88,7 @@ def test_two_processes_give_what_one_gives(tmp_path):
 def test_rows_of_strings_are_realised_in_the_modes_that_they_name(tmp_path):
     rows = tmp_path / "strings.jsonl"
     rows.write_text("".join(f'{{"string": "RR-RR", "mode": "{mode}"}}\n' for mode in "SD"))
-    run(RealisationJob(str(rows)), FolderOfThings(tmp_path / "things"))
+    run(RealisationJob(str(rows)), RealisationFolder(tmp_path / "things"))
     things = [read(tmp_path / "things" / f"{number:07d}.fold") for number in (1, 2)]
     assert [string_of_chain(to_scd(thing)) for thing in things] == [
         (ChainString((2, 2)), "S"),

@@ -13,11 +13,10 @@ from graphs.identity.drawings import map_id, mechanism_from_map_id
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import sides_of_face
+from synth.realisation.conditions import agreeing_ratios, bent_line, bundles, parallel_creases, straight_lines
+from synth.realisation.drawing import barycentric_start
 from synth.realisation.pattern import pattern_of
-from synth.realisation.special.conditions import AxisGroup, derivatives, equal_links, meeting, normal
-from synth.realisation.starting import barycentric_start
-from synth.realisation.wanted.lines import bent_line, bundles, parallel_creases, straight_lines
-from synth.realisation.wanted.ratios import agreeing_ratios
+from synth.realisation.special.axes import AxisGroup, derivatives, equal_links, meeting, normal
 from tests.support.commands import run
 
 QUADS = "m1:a-b.acd-.b-ef.cfgh.di-.e-j.gj-k.hl-i.k-l"

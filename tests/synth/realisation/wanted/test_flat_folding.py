@@ -9,12 +9,11 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read, write
 from graphs.identity.drawings import map_id, mechanism_from_map_id
 from graphs.mechanism.sheet import sides_of_face
-from synth.realisation.figures import crossings
+from synth.realisation.conditions import flat_folding
+from synth.realisation.drawing import barycentric_start, first_unknowns
+from synth.realisation.measures import crossings
 from synth.realisation.pattern import pattern_of
-from synth.realisation.pointing import first_unknowns
 from synth.realisation.realised import realise
-from synth.realisation.starting import barycentric_start
-from synth.realisation.wanted.flat_folding import flat_folding
 
 EXPLICIT = "m1:a---b.ac-.bde.cef--.d-g.fg-"
 IMPLICIT = "m1:a-b-.a-c-.b-d-.c-d-"

@@ -10,9 +10,9 @@ from graphs.errors import UnsolvableError
 from graphs.files.formats import read
 from graphs.identity.drawings import map_id, mechanism_from_map_id
 from graphs.mechanism.drawing import FaceKind
+from synth.realisation.conditions import symmetries
 from synth.realisation.pattern import pattern_of
 from synth.realisation.realised import realise
-from synth.realisation.wanted.symmetry import symmetries
 
 VERTEX, ROUND_A_HOLE = "m1:a-b.ac-.b-d.cd-", "m1:a-b-.a-c-.b-d-.c-d-"
 """Four panels about a vertex, and about a centre across a hole."""

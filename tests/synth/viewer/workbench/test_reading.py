@@ -12,7 +12,7 @@ import synth
 from graphs.creasing.edits import lock_crease, remove_crease
 from graphs.errors import SynthedraError, UnsolvableError
 from graphs.files.formats import read
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import miura
 from synth.viewer.shown import shown_of
 from synth.viewer.workbench.reading import answered, printed
 from tests.support.commands import run

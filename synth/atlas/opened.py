@@ -1,0 +1,532 @@
+"""An open atlas: types by conditions, by SQL statements, and one type with all that is known of it.
+
+The file is opened so that a statement, whoever wrote it, can read types and do nothing else: SQLite's authorizer
+refuses all but SELECT on the views and tables of the atlas; the file is opened read-only, nothing is written
+beside it, and a statement has limits of time, of rows, and of the length of a value. Theory: docs/theory/atlas.md.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+from threading import TIMEOUT_MAX, Timer
+from time import monotonic
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from enumerate.runner.store_units import COMPLAINTS, quoted, reading
+from graphs.edit.named import known
+from graphs.errors import InvariantError, StoreError, SynthedraError, UnsolvableError, numbered, shown
+from graphs.printing import Block, Printed, TableBlock, plain
+from synth.atlas.columns import COLUMNS, SCHEMA, NamedType, named_types, stored_columns, text_values, value_of
+from synth.atlas.expression import condition_of
+
+__all__ = [
+    "Atlas",
+    "AtlasRows",
+    "Neighbour",
+    "Rows",
+    "TypeReport",
+    "open_atlas",
+    "open_guarded",
+    "report_of",
+    "selected",
+    "value_text",
+]
+
+_READABLE = {"type", "types", "relations", "atlas", "json_each", "json_tree"}
+_ALLOWED = {sqlite3.SQLITE_SELECT, sqlite3.SQLITE_RECURSIVE}
+_REFUSED = {
+    "load_extension",
+    "fts3_tokenizer",
+    "randomblob",
+    "zeroblob",
+    "printf",
+    "format",
+    "trim",
+    "ltrim",
+    "rtrim",
+}
+"""Functions that do more than compute with values, make values of any length, or take long in a step."""
+
+_EXPECTED = "one SELECT on types or relations"
+_STEPS = 10_000
+"""Steps of SQLite's machine between two checks of the clock."""
+_LONGEST_VALUE = 300_000
+"""Bytes of a value, ten times those of the largest file: the slowest function then takes a second in one step."""
+_LONGEST_STATEMENT = 20_000
+_LONGEST_PATTERN = 200
+
+
+class Rows(NamedTuple):
+    """The rows that a statement selects; `more`: there are more than the limit."""
+
+    columns: tuple[str, ...]
+    rows: list[tuple[Any, ...]]
+    more: bool
+
+
+@contextmanager
+def open_guarded(path: Path) -> Iterator[sqlite3.Connection]:
+    """Open an atlas for statements that only select; StoreError if it is missing, or is no database."""
+    with reading(path) as connection:
+        connection.execute("PRAGMA temp_store=MEMORY")
+        connection.execute("PRAGMA trusted_schema=OFF")
+        connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, _LONGEST_VALUE)
+        connection.setlimit(sqlite3.SQLITE_LIMIT_SQL_LENGTH, _LONGEST_STATEMENT)
+        connection.setlimit(sqlite3.SQLITE_LIMIT_LIKE_PATTERN_LENGTH, _LONGEST_PATTERN)
+        connection.setlimit(sqlite3.SQLITE_LIMIT_ATTACHED, 0)
+        connection.execute("SELECT 1 FROM json_each('[]')")  # created at its first use, which is refused later
+        connection.set_authorizer(_authorized)
+        yield connection
+
+
+def _authorized(action: int, first: str | None, second: str | None, *_: str | None) -> int:
+    if action in _ALLOWED:
+        return sqlite3.SQLITE_OK
+    if action == sqlite3.SQLITE_READ and (first or "").lower() in _READABLE:
+        return sqlite3.SQLITE_OK
+    if action == sqlite3.SQLITE_FUNCTION and (second or "").lower() not in _REFUSED:
+        return sqlite3.SQLITE_OK
+    return sqlite3.SQLITE_DENY
+
+
+def selected(
+    connection: sqlite3.Connection, statement: str, values: Sequence[Any], *, limit: int, seconds: float
+) -> Rows:
+    """Return the selection of a statement, up to a limit of rows and of seconds.
+
+    `values` are for its placeholders, the connection is from `open_guarded`. Raise InvariantError if the statement
+    is no SELECT on the contents of an atlas, with the message of SQLite; UnsolvableError if it takes longer.
+    """
+    try:
+        with _stopped_after(connection, seconds):
+            cursor = connection.execute(statement, values)
+            rows = cursor.fetchmany(limit + 1)
+    except sqlite3.OperationalError as error:
+        if getattr(error, "sqlite_errorcode", sqlite3.SQLITE_OK) & 0xFF == sqlite3.SQLITE_INTERRUPT:
+            what = f"the query takes longer than {seconds:g} s"
+            raise UnsolvableError(f"{what}; try a narrower one, or a longer time limit") from None
+        raise InvariantError("statement", _said(error), _EXPECTED) from None
+    except (*COMPLAINTS, ValueError, OverflowError) as error:
+        raise InvariantError("statement", _said(error), _EXPECTED) from None
+    if cursor.description is None:
+        raise InvariantError("statement", "the statement selects nothing", _EXPECTED)
+    return Rows(tuple(head[0] for head in cursor.description), rows[:limit], len(rows) > limit)
+
+
+@contextmanager
+def _stopped_after(connection: sqlite3.Connection, seconds: float) -> Iterator[None]:
+    """Interrupt SQLite after some time.
+
+    Another thread does so, since steps may be long. The check of the clock between many steps is for a statement
+    that had not begun when the thread interrupted it.
+    """
+    end = monotonic() + seconds
+    connection.set_progress_handler(lambda: monotonic() > end, _STEPS)
+    timer = Timer(min(seconds, TIMEOUT_MAX), connection.interrupt)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+        timer.join()
+        connection.set_progress_handler(None, 0)
+
+
+def _said(error: Exception) -> str:
+    """Return the message of an error as one printable line: it may quote the statement."""
+    text = " ".join(str(error).split())[:300] or type(error).__name__
+    return text if text.isprintable() else ascii(text)[1:-1]
+
+
+_MOST_NEIGHBOURS, _PRINTED = 200, 12
+"""Neighbours that are listed, and those of each relation that are printed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Neighbour:
+    """A related type; `relation` is such as ``has the chain``, or ``is the chain of``.
+
+    `there`: the atlas holds it.
+    """
+
+    relation: str
+    id: str
+    name: str | None
+    there: bool
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {"relation": self.relation, "id": self.id, "name": self.name, "in_the_atlas": self.there}
+
+
+@dataclass(frozen=True, slots=True)
+class TypeReport(Printed):
+    """A type: its known values by column, its names, and its neighbours.
+
+    `more` counts the neighbours that are not listed.
+    """
+
+    values: dict[str, Any]
+    named: tuple[NamedType, ...]
+    neighbours: tuple[Neighbour, ...]
+    more: int
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on."""
+        return {
+            "type": {name: list(v) if isinstance(v, tuple) else v for name, v in self.values.items()},
+            "names": [{"name": name.name, "source": name.source} for name in self.named],
+            "neighbours": [neighbour.to_json() for neighbour in self.neighbours],
+            "more_neighbours": self.more,
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the lines that are printed."""
+        lines: list[Block] = [f"{name.name}: {name.source}" for name in self.named]
+        rows = [
+            (name.replace("_", " "), value_text(value), COLUMNS[name].says)
+            for name, value in self.values.items()
+            if name != "fold_file"
+        ]
+        lines.append(TableBlock(("what", "value", "meaning"), rows))
+        neighbours, unlisted = self.first_neighbours()
+        if neighbours:
+            lines.append(TableBlock(("relation", "id", "name", "in this atlas"), neighbours))
+        if self.more + unlisted:
+            lines.append(f"and {numbered(self.more + unlisted, 'more related type')}")
+        return lines
+
+    def first_neighbours(self) -> tuple[list[tuple[str, str, str, str]], int]:
+        """Return rows of the first neighbours of each relation, named ones first; and the number of the others."""
+        ranked = sorted(self.neighbours, key=lambda neighbour: (neighbour.relation, neighbour.name is None))
+        rows: list[tuple[str, str, str, str]] = []
+        listed: Counter[str] = Counter()
+        for neighbour in ranked:
+            listed[neighbour.relation] += 1
+            if listed[neighbour.relation] <= _PRINTED:
+                there = "" if neighbour.there else "no"
+                rows.append((neighbour.relation, neighbour.id, neighbour.name or "", there))
+        return rows, len(ranked) - len(rows)
+
+    def __repr__(self) -> str:
+        return f"<TypeReport: {plain(self.values['id'])}>"
+
+
+def report_of(connection: sqlite3.Connection, code: str, path: Path) -> TypeReport | None:
+    """Return the report of a type of an atlas by its id, or its name; None if there is none.
+
+    Raise StoreError, with the path of the atlas, if it is damaged.
+    """
+    row = None
+    for column in ("id", "name", "stands_for"):
+        statement = f"SELECT {quoted(COLUMNS)} FROM type WHERE {column} = ? LIMIT 1"
+        row = row or connection.execute(statement, (code,)).fetchone()
+    if row is None:
+        return None
+    read = {name: value_of(path, name, value) for name, value in zip(COLUMNS, row, strict=True)}
+    values = {name: value for name, value in read.items() if value is not None}
+    neighbours, more = _neighbours(connection, values["id"], path)
+    named = tuple(entry for entry in named_types() if entry.id == values["id"])
+    return TypeReport(values, named, tuple(neighbours), more)
+
+
+def _neighbours(connection: sqlite3.Connection, code: str, path: Path) -> tuple[list[Neighbour], int]:
+    """Return the types to which a type is related, and those related to it; and the number of further ones."""
+    known = "(SELECT name FROM type WHERE type.id = {0} LIMIT 1), EXISTS (SELECT 1 FROM type WHERE type.id = {0})"
+    onward = connection.execute(
+        f"SELECT relation, other, {known.format('other')} FROM relations WHERE id = ?", (code,)
+    ).fetchall()
+    backward = connection.execute(
+        f"SELECT relation, id, {known.format('relations.id')} FROM relations WHERE other = ? AND id <> ? LIMIT ?",
+        (code, code, _MOST_NEIGHBOURS + 1),
+    ).fetchall()
+    text_values(path, "the id of a related type", (related for _, related, *_ in (*onward, *backward)))
+    neighbours = [
+        Neighbour(relation, other, name, bool(there)) for relation, other, name, there in onward if other != code
+    ]
+    neighbours += [
+        Neighbour(_REVERSED[relation], other, name, True)
+        for relation, other, name, _ in backward[:_MOST_NEIGHBOURS]
+    ]
+    if len(backward) <= _MOST_NEIGHBOURS:
+        return neighbours, 0
+    [every] = connection.execute(
+        "SELECT count(*) FROM relations WHERE other = ? AND id <> ?", (code, code)
+    ).fetchone()
+    return neighbours, every - _MOST_NEIGHBOURS
+
+
+_REVERSED = {
+    "has the chain": "is the chain of",
+    "is a drawing, with open edges, of": "is, without open edges,",
+    "reduces to": "is what is left without ride-alongs of",
+    "has the planar analogue": "is the planar analogue of",
+    "has the spherical analogue": "is the spherical analogue of",
+    "has the general form": "is the general form of",
+}
+
+
+def value_text(value: Any) -> str:
+    """Return a value of a column as it is printed; empty if it is unknown."""
+    if isinstance(value, tuple):
+        return ",".join(map(str, value))
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return "" if value is None else f"{value:.6g}" if isinstance(value, float) else plain(value, 10_000)
+
+
+if TYPE_CHECKING:
+    import pandas
+
+
+_LIMIT, _SECONDS = 1000, 30.0
+"""Default limits of rows and seconds of a query."""
+_WHOLE_FILE = "fold_file"
+"""The column that is left out by default: a file each."""
+_SHOWN = ("id", "kind", "name", "links", "joints", "dof", "centres", "all_explicit", "symmetry")
+"""Columns that are printed by default."""
+
+
+@dataclass(frozen=True, slots=True)
+class AtlasRows(Printed):
+    """Types that a query selects: for each, a value for each column.
+
+    A value is None if it is unknown, or the kind of type has none; `more`: there are more than the limit.
+    """
+
+    columns: tuple[str, ...]
+    rows: list[dict[str, Any]]
+    more: bool
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        return iter(self.rows)
+
+    def to_json(self) -> list[dict[str, Any]]:
+        """Return the rows as plain data."""
+        return [{name: _plain_data(value) for name, value in row.items()} for row in self.rows]
+
+    def to_frame(self) -> pandas.DataFrame:
+        """Return the rows as a data frame; UnsolvableError if pandas is not installed."""
+        try:
+            import pandas
+        except ImportError:
+            raise UnsolvableError("a data frame needs pandas: pip install pandas") from None
+        return pandas.DataFrame(self.rows, columns=list(self.columns))
+
+    def blocks(self) -> list[Block]:
+        """Return the table that is printed, and a line where there are more rows."""
+        if not self.rows:
+            return ["no types"]
+        names = self.columns if set(self.columns) != set(_all_columns()) else _SHOWN
+        numbers = [name for name in names if name in COLUMNS and COLUMNS[name].holds in (int, float)]
+        texts = [[value_text(row[name]) for name in names] for row in self.rows]
+        heads = tuple(name.replace("_", " ") for name in names)
+        table = TableBlock(heads, texts, [name.replace("_", " ") for name in numbers])
+        return [table, *["there are more types"] * self.more]
+
+    def __repr__(self) -> str:
+        return f"<AtlasRows: {len(self.rows)} types{', of more' if self.more else ''}>"
+
+
+@dataclass(frozen=True)
+class Atlas:
+    """An atlas in a file, opened anew for each question.
+
+    Attributes
+    ----------
+    path : Path
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from synth.atlas import AtlasPlan, build_atlas
+    >>> with TemporaryDirectory() as folder:
+    ...     _ = build_atlas(f"{folder}/a.sqlite", AtlasPlan(4, creases=0, orders_of=(), realised=False))
+    ...     rows = Atlas(Path(folder) / "a.sqlite").query("all_explicit and vertices <= 6")
+    >>> [(row["id"], row["vertices"]) for row in rows]
+    [('m1:a-b.ac-.b-d.cd-', 5), ('m1:a--b.ac-.b-d.cd-', 6)]
+    """
+
+    path: Path
+
+    def query(
+        self,
+        condition: str = "",
+        *,
+        columns: Sequence[str] = (),
+        sort: str = "",
+        limit: int = _LIMIT,
+        seconds: float = _SECONDS,
+    ) -> AtlasRows:
+        """Return the types that fulfil a condition.
+
+        Parameters
+        ----------
+        condition : str, optional
+            In the grammar of `synth.atlas.expression`; without it, all types.
+        columns : sequence of str, optional
+            By default all but the files.
+        sort : str, optional
+            A column; with ``-`` before it, descending. By default in the order in which types were listed.
+        limit : int, optional
+            Largest number of rows.
+        seconds : float, optional
+            Time limit.
+
+        Raises
+        ------
+        ExpressionError
+            If the condition cannot be read.
+        InvariantError
+            If there is no such column.
+        UnsolvableError
+            If it takes longer.
+        """
+        _check_limits(limit, seconds)
+        selection = tuple(map(_column, columns)) or _all_columns()
+        where, values = ("", ())
+        if condition.strip():
+            where, values = condition_of(condition, stored_columns())
+            where = f" WHERE {where}"
+        order = "rowid"
+        if sort:
+            name = _column(sort.removeprefix("-"))
+            order = f'"{name}" {"DESC" if sort.startswith("-") else "ASC"} NULLS LAST, rowid'
+        rows = self._selected(
+            f"SELECT {quoted(selection)} FROM type{where} ORDER BY {order} LIMIT ?",
+            (*values, limit + 1),
+            limit,
+            seconds,
+        )
+        return AtlasRows(selection, [self._row(selection, row) for row in rows.rows], rows.more)
+
+    def sql(self, statement: str, *, limit: int = _LIMIT, seconds: float = _SECONDS) -> AtlasRows:
+        """Return the selection of a statement from ``types`` and ``relations``; values are as they are stored.
+
+        Raises
+        ------
+        InvariantError
+            If it is no SELECT, or SQLite refuses it.
+        UnsolvableError
+            If it takes longer.
+        """
+        _check_limits(limit, seconds)
+        rows = self._selected(statement, (), limit, seconds)
+        return AtlasRows(rows.columns, [dict(zip(rows.columns, row, strict=True)) for row in rows.rows], rows.more)
+
+    def show(self, code: str) -> TypeReport:
+        """Return all that is known of a type, and of the types it is related to, by its id or name.
+
+        Raises
+        ------
+        InvariantError
+            If the atlas holds no such type.
+        """
+        with open_guarded(self.path) as connection:
+            report = report_of(connection, code, self.path)
+        if report is None:
+            what = f"the atlas holds no type {shown(code)}"
+            raise InvariantError("atlas", what, "an id or a name that synth atlas query prints")
+        return report
+
+    def about(self) -> dict[str, Any]:
+        """Return the version of the schema and of synthedra, the command, and the numbers of types."""
+        with open_guarded(self.path) as connection:
+            row = connection.execute("SELECT schema, synthedra, command FROM atlas").fetchone()
+            counts = dict(connection.execute("SELECT kind, count(*) FROM types GROUP BY kind"))
+        schema, version, command = row or (None, None, None)
+        text_values(self.path, "the command", [version, command])
+        types = {value_of(self.path, "kind", kind): number for kind, number in counts.items()}
+        return {"schema": schema, "synthedra": version, "command": command, "types": types}
+
+    def ids(self, codes: Sequence[str]) -> list[dict[str, Any]]:
+        """Return the rows of the types with some ids, in the order of the ids; of a string, that of its panels."""
+        found = []
+        with open_guarded(self.path) as connection:
+            for code in dict.fromkeys(codes):
+                for column in ("id", "panels"):
+                    statement = f"SELECT {quoted(_all_columns())} FROM type WHERE {column} = ?"
+                    rows = selected(connection, statement, (code,), limit=_LIMIT, seconds=_SECONDS)
+                    found += [self._row(_all_columns(), row) for row in rows.rows]
+        return found
+
+    def _row(self, names: Sequence[str], row: Sequence[Any]) -> dict[str, Any]:
+        return {name: value_of(self.path, name, value) for name, value in zip(names, row, strict=True)}
+
+    def _selected(self, statement: str, values: Sequence[Any], limit: int, seconds: float) -> Rows:
+        with open_guarded(self.path) as connection:
+            return selected(connection, statement, values, limit=limit, seconds=seconds)
+
+    def __repr__(self) -> str:
+        return f"<Atlas: {plain(self.path, 200)}>"
+
+
+def open_atlas(path: str | Path) -> Atlas:
+    """Open an atlas that `synth atlas build` made.
+
+    Parameters
+    ----------
+    path : str or Path
+
+    Returns
+    -------
+    Atlas
+
+    Raises
+    ------
+    StoreError
+        If there is no such file, or it is no atlas of this version.
+
+    Examples
+    --------
+    >>> open_atlas("nowhere.sqlite")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.StoreError: nowhere.sqlite: no such file
+    """
+    place = Path(path)
+    with open_guarded(place) as connection:
+        try:
+            row = selected(connection, "SELECT schema, synthedra FROM atlas", (), limit=1, seconds=_SECONDS).rows
+        except SynthedraError:
+            what = "is no atlas, or one that is not finished; try synth atlas build -o FILE --resume"
+            raise StoreError(f"{place}: {what}") from None
+    if not row or row[0][0] != SCHEMA:
+        version = f"version {shown(row[0][0])}, of synthedra {plain(row[0][1])}" if row else "no version"
+        raise StoreError(f"{place}: is an atlas of {version}; expected version {SCHEMA}; try to build it again")
+    return Atlas(place)
+
+
+def _check_limits(limit: int, seconds: float) -> None:
+    if limit < 1 or not seconds > 0:
+        raise InvariantError(
+            "query", f"{numbered(limit, 'row')} in {seconds} s", "1 or more rows in more than 0 s"
+        )
+
+
+def _all_columns() -> tuple[str, ...]:
+    return tuple(name for name in COLUMNS if name != _WHOLE_FILE)
+
+
+def _column(name: str) -> str:
+    if name not in COLUMNS:
+        raise InvariantError("column", f"there is no column {shown(name)}", known(COLUMNS, name))
+    return name
+
+
+def _plain_data(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return [_plain_data(item) for item in value]
+    if isinstance(value, bytes):
+        return value.hex()
+    return None if isinstance(value, float) and not isfinite(value) else value

@@ -1,0 +1,356 @@
+"""A site of an atlas: static pages to search, filter and fold, which work from a folder without a server.
+
+Scripts are classic ones beside the pages: from ``file://`` browsers load neither modules nor data. A job of types
+writes their files into a new folder, which appears when it is complete.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from html import escape
+from pathlib import Path
+from typing import Any
+
+from enumerate.runner.columns import Column
+from enumerate.runner.job import Job, Progress, Row, Unit
+from enumerate.runner.running import run
+from enumerate.runner.sinks import FolderSink
+from graphs.errors import FileError, SynthedraError, UnsolvableError, numbered
+from graphs.mechanism.sheet import Sheet
+from graphs.plain_text import plain
+from synth.atlas.columns import COLUMNS, damaged
+from synth.atlas.opened import Atlas, TypeReport, open_guarded, report_of, value_text
+from synth.atlas.written import sheet_of_type
+from synth.drawing.catalogue.atlas_types import drawable_of_type
+from synth.drawing.mechanisms.pictures import draw
+from synth.drawing.scene.svg import svg_text
+from synth.templates.formats.svg import svg_of_page
+from synth.templates.pages import pages_of
+from synth.templates.paper import paper_named
+from synth.templates.template import template_of
+from synth.viewer.building import BUILT
+from synth.viewer.pages import check_built, json_in_html
+from synth.viewer.shown import shown_of
+
+__all__ = [
+    "SEARCHED",
+    "Site",
+    "SiteSink",
+    "TypeFiles",
+    "data_script",
+    "document",
+    "files_of_type",
+    "index_page",
+    "site_of",
+    "write_site",
+]
+
+_POLICY = (
+    "default-src 'none'; script-src 'self' file:; style-src 'self' file: 'unsafe-inline'; "
+    "img-src 'self' file: blob: data:; base-uri 'none'; form-action 'none'"
+)
+"""Own scripts, styles and pictures, and nothing else; no requests to anywhere."""
+
+_DOCUMENT = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="{policy}">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{title}</title>
+{styles}
+</head>
+<body>
+{body}
+</body>
+</html>
+"""
+
+
+def document(title: str, styles: Sequence[str], body: str) -> str:
+    """Return a page of a site with an HTML body.
+
+    The title is plain text, escaped here; style sheets are paths from the page.
+    """
+    sheets = "\n".join(f'<link rel="stylesheet" href="{place}">' for place in styles)
+    return _DOCUMENT.format(policy=_POLICY, title=escape(plain(title, 200)), styles=sheets, body=body)
+
+
+SEARCHED = (
+    "id", "kind", "name", "links", "joints", "dof", "centres", "symmetry", "ride_alongs", "all_explicit",
+    "realised", "fold_deg",
+)  # fmt: skip
+"""Columns that the first page knows."""
+
+_INDEX_BODY = """<main id="gallery">
+<h1>{title}</h1>
+<p class="about">{about}</p>
+<noscript>This page searches by a script, and scripts are switched off: see the folder types.</noscript>
+</main>
+<script src="data.js"></script>
+<script src="gallery.js"></script>"""
+
+
+def index_page(title: str, about: str) -> str:
+    """Return the HTML of the first page: its title, and how it was made, both plain text."""
+    body = _INDEX_BODY.format(title=escape(plain(title, 200)), about=escape(plain(about, 1000)))
+    return document(title, ["gallery.css"], body)
+
+
+def data_script(rows: Sequence[Mapping[str, Any]], title: str, about: str, digits: int) -> str:
+    """Return the script with the data of the first page: `AtlasData` of web/src/gallery/types.js.
+
+    Rows have the columns `SEARCHED`; `digits` are those of the numbers in names of files.
+    """
+    data = {
+        "title": title,
+        "about": about,
+        "digits": digits,
+        "columns": {name: [row[name] for row in rows] for name in SEARCHED},
+        "says": {name: COLUMNS[name].says for name in SEARCHED},
+    }
+    return f"window.atlasData = {json_in_html(data)};\n"
+
+
+_BOX = (200.0, 150.0)
+"""Largest width and height of a drawing, points."""
+_PRINTED = 180.0
+"""Longer side of a template, millimetres: it fits a page of A4."""
+
+_TYPE_BODY = """<article class="type">
+<p><a href="../index.html">All types</a></p>
+<h1>{title}</h1>
+{names}
+<div class="facts">
+<p><img class="drawing" src="../pictures/{file}-graph.svg" alt="drawing of the type">{links}</p>
+<table>{facts}</table>
+</div>
+{neighbours}
+</article>
+{folding}"""
+_FOLDING = """<main id="page"></main>
+<script type="application/json" id="data">{data}</script>
+<script src="../page.js"></script>"""
+
+
+@dataclass(frozen=True, slots=True)
+class TypeFiles:
+    """The files of a type: its page (HTML), its picture and its graph (SVG).
+
+    The picture is for the list, of the crease pattern if there is one. `fold` is the realised type (FOLD),
+    `template` is for printing, cutting out and folding (SVG).
+    """
+
+    page: str
+    picture: str
+    graph: str
+    fold: str | None
+    template: str | None
+
+
+def files_of_type(report: TypeReport, file: str, places: Mapping[str, str]) -> TypeFiles:
+    """Return the files of a type, with a name without extension.
+
+    `places` has the names of the files of each type of the site, by id.
+    """
+    values = report.values
+    fold, sheet = values.get("fold_file"), sheet_of_type(values)
+    template = None if sheet is None else _template(sheet)
+    title = values.get("name") or values["id"]
+    body = _TYPE_BODY.format(
+        title=_text(title),
+        file=file,
+        names="".join(f"<p>{_text(name.name)}: {_text(name.source)}</p>" for name in report.named),
+        links=_links(file, fold, template),
+        facts="".join(_fact(name, value) for name, value in values.items() if name != "fold_file"),
+        neighbours=_neighbours(report, places),
+        folding="" if sheet is None else _folding(sheet, values["id"]),
+    )
+    page = document(title, ["../page.css", "../gallery.css"], body)
+    graph = _picture(drawable_of_type(values["kind"], values["id"]))
+    return TypeFiles(page, graph if sheet is None else _picture(sheet), graph, fold, template)
+
+
+def _picture(drawable: Any) -> str:
+    return svg_text(draw(drawable, box=_BOX, caption=None))
+
+
+def _text(value: Any) -> str:
+    return escape(plain(value, 2000))
+
+
+def _fact(name: str, value: Any) -> str:
+    text = ", ".join(map(str, value)) if isinstance(value, tuple) else value_text(value)
+    says = f'<td class="says">{_text(COLUMNS[name].says)}</td>'
+    return f"<tr><th>{_text(name.replace('_', ' '))}</th><td>{_text(text)}</td>{says}</tr>"
+
+
+def _links(file: str, fold: str | None, template: str | None) -> str:
+    links = [f'<a href="{file}.fold" download>crease pattern (FOLD)</a>'] * (fold is not None)
+    links += [f'<a href="{file}-template.svg">template to print, cut out and fold</a>'] * (template is not None)
+    return "".join(f"<br>{link}" for link in links)
+
+
+def _neighbours(report: TypeReport, places: Mapping[str, str]) -> str:
+    rows, unlisted = report.first_neighbours()
+    if not rows:
+        return ""
+    lines = [
+        f"<tr><th>{_text(relation)}</th><td>{_linked(code, places)}</td><td>{_text(name)}</td></tr>"
+        for relation, code, name, _ in rows
+    ]
+    more = report.more + unlisted
+    last = f"<p>and {numbered(more, 'more related type')}</p>" if more else ""
+    return f"<h2>Related types</h2><table>{''.join(lines)}</table>{last}"
+
+
+def _linked(code: str, places: Mapping[str, str]) -> str:
+    if code not in places:
+        return f"{_text(code)}"
+    return f'<a href="{places[code]}.html">{_text(code)}</a>'
+
+
+def _folding(sheet: Sheet, code: str) -> str:
+    data = {"shown": [shown_of(sheet, code).to_json()], "workbench": False}
+    return _FOLDING.format(data=json_in_html(data))
+
+
+def _template(sheet: Sheet) -> str | None:
+    """Return a template on one page of A4; None if the panels need more."""
+    try:
+        template = replace(template_of(sheet, size=_PRINTED), steps=())  # on one page, with no other beside it
+        pages = pages_of(template, paper_named("A4"))
+    except SynthedraError:
+        return None
+    return svg_of_page(pages[0]) if len(pages) == 1 else None
+
+
+_UNIT, _WEIGHT = 16, 1000
+"""Types per unit, and the weight of a type: it takes as long as so many rows of a list."""
+_MOST = 100_000
+"""Most types of a site: a file system and a page that is searched take no more."""
+_SCRIPTS = ("page.js", "page.css", "gallery.js", "gallery.css", "LICENSES.txt")
+
+
+@dataclass(frozen=True)
+class Site:
+    """The pages of types of an atlas, by its path and their ids, as a job whose rows are files: name and text."""
+
+    atlas: str
+    ids: tuple[str, ...]
+
+    @property
+    def columns(self) -> dict[str, Column]:
+        """The path of a file in the folder, and its text."""
+        return {"name": str, "text": str}
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """The identity of the job."""
+        return {"site": self.atlas, "types": len(self.ids)}
+
+    @property
+    def digits(self) -> int:
+        """Digits of the numbers in names of files."""
+        return len(str(len(self.ids)))
+
+    def units(self) -> list[Unit]:
+        """Units of some types each, by their numbers."""
+        starts = range(0, len(self.ids), _UNIT)
+        return [Unit((start, min(start + _UNIT, len(self.ids))), _UNIT * _WEIGHT) for start in starts]
+
+    def work(self, payload: tuple[int, int]) -> list[Row]:
+        """Return the files of a unit."""
+        places = {code: self._file(number) for number, code in enumerate(self.ids)}
+        rows: list[Row] = []
+        with open_guarded(Path(self.atlas)) as connection:
+            for number in range(*payload):
+                report = report_of(connection, self.ids[number], Path(self.atlas))
+                if report is None:  # its id was read a moment ago
+                    raise damaged(Path(self.atlas), "the index", self.ids[number], "an id that it finds")
+                rows += self._rows(self._file(number), files_of_type(report, self._file(number), places))
+        return rows
+
+    def _file(self, number: int) -> str:
+        return f"{number + 1:0{self.digits}d}"
+
+    @staticmethod
+    def _rows(file: str, files: TypeFiles) -> Iterable[Row]:
+        yield f"types/{file}.html", files.page
+        yield f"pictures/{file}.svg", files.picture
+        yield f"pictures/{file}-graph.svg", files.graph
+        if files.fold is not None:
+            yield f"types/{file}.fold", files.fold
+        if files.template is not None:
+            yield f"types/{file}-template.svg", files.template
+
+
+class SiteSink(FolderSink):
+    """A sink that writes the files of a site into a new folder; `first` are those that belong to no type."""
+
+    def __init__(self, path: str | Path, first: Mapping[str, str]) -> None:
+        super().__init__(Path(path))
+        self._first = first
+
+    def start(self, job: Job) -> Collection[int]:
+        """Make a folder beside its place, with the files that belong to no type.
+
+        Raise FileError if something is at its place, or it cannot be made.
+        """
+        there = super().start(job)
+        assert self._folder is not None
+        for name in ("types", "pictures"):
+            (self._folder.path / name).mkdir()
+        self.take(0, list(self._first.items()), 0.0)
+        return there
+
+    def take(self, number: int, rows: list[Row], seconds: float) -> None:
+        """Write the files of a unit: a row is a name and a text."""
+        assert self._folder is not None
+        for name, text in rows:
+            try:
+                (self._folder.path / name).write_text(text, encoding="utf-8")
+            except OSError as error:
+                raise FileError(self._path, "", f"cannot be written: {error.strerror}") from None
+
+
+def site_of(atlas: Atlas, condition: str = "", title: str = "") -> tuple[Site, dict[str, str]]:
+    """Return the job of a site, for the types with a condition (by default all), and its other files.
+
+    Raise UnsolvableError if there are no such types, or too many, or the scripts were not built.
+    """
+    check_built()
+    rows = atlas.query(condition, columns=SEARCHED, limit=_MOST)
+    if rows.more or not rows.rows:
+        what = f"more than {_MOST} types" if rows.more else "no types"
+        raise UnsolvableError(f"{what} for a site; try another condition")
+    site = Site(str(atlas.path), tuple(row["id"] for row in rows))
+    about = atlas.about()
+    origin = f"{numbered(len(rows), 'type')}; made by synthedra {about['synthedra']}: {about['command']}"
+    name = title or "Atlas of types"
+    first = {script: (BUILT / script).read_text(encoding="utf-8") for script in _SCRIPTS}
+    first["index.html"] = index_page(name, origin)
+    first["data.js"] = data_script(rows.rows, name, origin, site.digits)
+    return site, first
+
+
+def write_site(
+    atlas: Atlas,
+    path: str | Path,
+    condition: str = "",
+    *,
+    title: str = "",
+    workers: int = 1,
+    report: Callable[[Progress], None] | None = None,
+) -> Path:
+    """Write a site of an atlas into a new folder; return its first page.
+
+    It has the types with a condition, by default all; `report` is called with the progress from time to time.
+    Raise FileError if something is at the place, or it cannot be written; UnsolvableError if there are no such
+    types, or too many, or the scripts were not built.
+    """
+    site, first = site_of(atlas, condition, title)
+    job: Job = site
+    run(job, SiteSink(path, first), workers=workers, report=report)
+    return Path(path) / "index.html"

@@ -1,0 +1,147 @@
+"""Rows of an atlas as files: tables, a folder of mechanisms, drawings on pages, panels with coordinates."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from enumerate.runner.columns import Column, ListColumn
+from enumerate.runner.job import Row, Unit
+from enumerate.runner.running import run
+from enumerate.runner.sinks import sink_for
+from enumerate.strings.graphs import chain_scd
+from graphs.errors import FileError, InvariantError, UnsolvableError, shown
+from graphs.files.atomic import write_text
+from graphs.files.native.documents import dumps
+from graphs.files.patterns.fold import sheet_from_fold
+from graphs.mechanism.sheet import Sheet
+from synth.atlas.columns import COLUMNS
+from synth.atlas.opened import AtlasRows
+from synth.drawing.catalogue.atlas_types import drawable_of_type
+from synth.drawing.catalogue.entries import CatalogueEntry
+from synth.drawing.catalogue.pages import catalogue_pages
+from synth.drawing.catalogue.writing import write_catalogue
+
+__all__ = ["mechanism_file_of_type", "sheet_of_type", "write_rows"]
+
+
+def mechanism_file_of_type(row: Mapping[str, Any]) -> str:
+    """Return the native file of the mechanism of a row with ``kind`` and ``id``.
+
+    Raise InvariantError if there can be no such type, UnsolvableError if it is an order, which has no angles.
+    """
+    kind, code = row["kind"], row["id"]
+    if kind == "order":
+        raise UnsolvableError(f"{shown(code)} is an order without angles, so it has no file")
+    drawable = drawable_of_type(kind, code)
+    return dumps(chain_scd(drawable) if kind == "string" else drawable)
+
+
+def sheet_of_type(values: Mapping[str, Any]) -> Sheet | None:
+    """Return the panels of a type, from its values in an atlas by column; None if none were found.
+
+    Raise FileError if the stored file is damaged.
+    """
+    text, place = values.get("fold_file"), Path(f"fold_file of {values['id']}")
+    if text is None:
+        return None
+    try:
+        document = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise FileError(
+            place, "", f"is not JSON: {error}", "a FOLD document; try to build the atlas again"
+        ) from None
+    return sheet_from_fold(document, place)
+
+
+_PICTURES = (".svg", ".png", ".pdf")
+_THROUGH_SINKS = (".csv", ".jsonl", ".parquet", "")
+
+
+def write_rows(rows: AtlasRows, path: str | Path, *, force: bool = False) -> list[Path]:
+    """Write rows in the format of the extension; without one, a folder with a file for each mechanism.
+
+    Return the paths. The path ends in .csv, .json, .jsonl, .parquet, .svg, .png or .pdf; drawings and folders need
+    columns ``kind`` and ``id``. `force` overwrites a file. Raise FileError for another extension, or if the file
+    cannot be written.
+    """
+    place = Path(path)
+    suffix = place.suffix.lower()
+    if suffix in _PICTURES:
+        return write_catalogue(catalogue_pages(_entries(rows)), place, force=force)
+    if suffix == ".json":
+        write_text(place, json.dumps(rows.to_json(), indent=1, allow_nan=False) + "\n", force=force)
+    elif suffix in _THROUGH_SINKS:
+        if not suffix:
+            _check_mechanisms(rows)
+        run(_Listed(rows), sink_for(place, force=force))
+    else:
+        expected = ", ".join((".csv", ".json", ".jsonl", ".parquet", *_PICTURES))
+        raise FileError(place, "", "the extension is not known", f"{expected}, or a folder")
+    return [place]
+
+
+@dataclass(frozen=True)
+class _Listed:
+    """Rows as a job for a sink."""
+
+    rows: AtlasRows
+
+    @property
+    def columns(self) -> dict[str, Column]:
+        """Names and types of the values; the type of a column of a statement is that of all its values."""
+        return {name: self._type(name) for name in self.rows.columns}
+
+    def _type(self, name: str) -> Column:
+        values = [row[name] for row in self.rows if row[name] is not None]
+        if name in COLUMNS:
+            holds = COLUMNS[name].holds
+            read = tuple if isinstance(holds, ListColumn) else holds
+            if all(isinstance(value, read) for value in values):
+                return holds
+        types = set(map(type, values)) or {str}
+        return int if types == {int} else float if types <= {int, float} else str
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """Rows have no key: no store is made of them."""
+        return {}
+
+    def units(self) -> list[Unit]:
+        """Return one unit of all rows."""
+        return [Unit(None, len(self.rows))]
+
+    def work(self, payload: None) -> list[Row]:
+        """Return the rows."""
+        columns = self.columns.items()
+        return [
+            tuple(_as_text(row[name]) if kind is str else row[name] for name, kind in columns) for row in self.rows
+        ]
+
+    @staticmethod
+    def mechanism_text(row: Mapping[str, Any]) -> str:
+        """Return the file of a row."""
+        return mechanism_file_of_type(row)
+
+
+def _as_text(value: Any) -> str | None:
+    """Return a value of a column of texts; a statement may select others beside them."""
+    if value is None or isinstance(value, str):
+        return value
+    return value.hex() if isinstance(value, bytes) else str(value)
+
+
+def _check_mechanisms(rows: AtlasRows) -> None:
+    if not {"id", "kind"} <= set(rows.columns):
+        raise InvariantError("query", "rows without id and kind", "both columns, for files and drawings")
+
+
+def _entries(rows: AtlasRows) -> Iterator[CatalogueEntry]:
+    _check_mechanisms(rows)
+    for number, row in enumerate(rows, start=1):
+        caption = [row.get("name") or "", f"M = {row['dof']}" if row.get("dof") is not None else ""]
+        drawable = drawable_of_type(row["kind"], row["id"])
+        yield CatalogueEntry(number, drawable, row["id"], ", ".join(filter(None, caption)))

@@ -1,1 +1,0 @@
-"""Crease patterns by their parameters: tessellations, triangulated ones, twists, bases, tubes."""

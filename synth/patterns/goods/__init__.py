@@ -1,1 +1,0 @@
-"""What is made of card, by its parameters: pop-ups and cartons."""

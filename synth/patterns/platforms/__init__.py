@@ -1,1 +1,0 @@
-"""Parallel platforms: a base and a top joined by legs with joints of all kinds."""

@@ -1,1 +1,0 @@
-"""Closed rings of solids hinged at edges, by their parameters: overconstrained ones, and spherical ones."""

@@ -1,1 +1,0 @@
-"""Scissors of links with a kink at their pin: rings in a plane, polyhedra."""

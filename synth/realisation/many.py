@@ -1,0 +1,212 @@
+"""Many types realised at once: a job for the runner of every enumerator, and the folder where its files go.
+
+A row says whether a type was realised, and holds its file; beside the folder is the store of all rows, by which a
+run is resumed. Theory: docs/theory/realisation.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import dataclass, fields
+from functools import cached_property
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, Literal
+
+from enumerate.runner.columns import Column, row_as_dict
+from enumerate.runner.job import Job, Row, Unit
+from enumerate.runner.store import SqliteSink, read_rows
+from enumerate.strings.panel_strings import ChainString
+from graphs.errors import FileError, SynthedraError, UnsolvableError
+from graphs.files.atomic import check_new_folder, write_text
+from graphs.files.native.documents import dumps
+from graphs.files.patterns.fold import fold_text
+from graphs.identity.drawings import map_id
+from graphs.mechanism.sheet import Sheet
+from synth.drawing.catalogue.entries import CatalogueEntry, catalogue_entries
+from synth.drawing.mechanisms.orders import OrderOnCircle
+from synth.realisation.realised import NotFoundError, Realised, realise
+
+__all__ = ["COLUMNS", "Outcome", "RealisationFolder", "RealisationJob", "store_beside", "summary_of"]
+
+
+def store_beside(folder: Path) -> Path:
+    """Return the path of the store of a folder: beside it, with the ending .sqlite."""
+    return folder.with_name(folder.name + ".sqlite")
+
+
+class RealisationFolder:
+    """A sink: a FOLD file for each row that holds one, named by its number, and a store of all rows.
+
+    With `resume` it goes on with what is there; otherwise an existing folder or store is refused. `tell` receives
+    a line on the state of the store (`SqliteSink`), `looking` the part of the store that has been looked through.
+    """
+
+    def __init__(
+        self,
+        folder: str | Path,
+        *,
+        resume: bool = False,
+        tell: Callable[[str], None] | None = None,
+        looking: Callable[[float], None] = lambda part: None,
+    ) -> None:
+        self._folder, self._resume = Path(folder), resume
+        self._store = SqliteSink(store_beside(self._folder), resume=resume, tell=tell, looking=looking)
+        self._columns: tuple[str, ...] = ()
+
+    def start(self, job: Job) -> Collection[int]:
+        """Open the store, make the folder; return the units that are there.
+
+        Raise FileError if the folder cannot be made, or something else is at its place; StoreError if the store is
+        that of another job, or cannot be opened.
+        """
+        if not (self._resume and self._folder.is_dir()):
+            check_new_folder(self._folder)
+        self._columns = tuple(job.columns)
+        units = self._store.start(job)
+        try:
+            self._folder.mkdir(exist_ok=True)
+        except OSError as error:
+            raise FileError(self._folder, "", f"cannot be made: {error.strerror}", "a new folder") from None
+        return units
+
+    def take(self, number: int, rows: list[Row], seconds: float) -> None:
+        """Write the files of a unit, then its rows: every row of the store has its file."""
+        self._write(row_as_dict(self._columns, row) for row in rows)
+        self._store.take(number, rows, seconds)
+
+    def finish(self) -> None:
+        """Mark the store complete; files that were removed since are written again."""
+        self._store.finish()
+        if self._resume:
+            rows = (row_as_dict(self._columns, row) for row in read_rows(self._store.path))
+            self._write(row for row in rows if not self._place_of(row).exists())
+
+    def abort(self) -> None:
+        """Close the store; what is there stays."""
+        self._store.abort()
+
+    def _write(self, rows: Iterable[Mapping[str, Any]]) -> None:
+        for row in rows:
+            if row["mechanism"] is not None:
+                write_text(self._place_of(row), row["mechanism"], force=True)
+
+    def _place_of(self, row: Mapping[str, Any]) -> Path:
+        return self._folder / f"{row['number']:07d}.fold"
+
+
+Outcome = Literal["realised", "not found", "refused"]
+
+_TYPES, _WEIGHT = 4, 1000
+"""Types per unit, and the weight of a type: it takes as long as so many rows of a list."""
+
+COLUMNS: dict[str, Column] = {
+    "number": int,
+    "name": str,
+    "outcome": str,
+    "reason": str,
+    "code": str,
+    "mobility": int,
+    "freedoms": int,
+    "folds": bool,
+    "least_angle_deg": float,
+    "edge_ratio": float,
+    "planarity": float,
+    "least_distance": float,
+    "try": int,
+    "mechanism": str,
+}
+"""Values of a row: the number of a type, from 1, its name, the outcome and its reason; then, if it was realised,
+its id, figures and file (FOLD)."""
+
+
+@dataclass(frozen=True)
+class RealisationJob:
+    """All types of a store, a list or a folder, realised.
+
+    `source` is anything that `synth.drawing.catalogue.entries.catalogue_entries` reads (FileError if it cannot be
+    read); `options` are keyword arguments of `synth.realisation.realise`, JSON values.
+    """
+
+    source: str
+    options: tuple[tuple[str, Any], ...] = ()
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return the state for a worker: without the types, of which each unit has its own."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @property
+    def columns(self) -> dict[str, Column]:
+        """Names and types of the values of a row; figures of types that were not realised are None."""
+        return COLUMNS
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """The identity of the job: a digest of the types, and the options."""
+        digest = sha256()
+        for entry in self._entries:
+            digest.update(f"{entry.number} {entry.name}\n{_text_of(entry)}\n".encode())
+        return {"realise": digest.hexdigest(), **dict(self.options)}
+
+    @property
+    def failures(self) -> list[str]:
+        """Errors of the files of a folder that could not be read."""
+        return self._read[1]
+
+    @property
+    def _entries(self) -> list[CatalogueEntry]:
+        return self._read[0]
+
+    @cached_property
+    def _read(self) -> tuple[list[CatalogueEntry], list[str]]:
+        failures: list[str] = []
+        return list(catalogue_entries(self.source, failures=failures)), failures
+
+    def units(self) -> list[Unit]:
+        """Units of a few types each."""
+        starts = range(0, len(self._entries), _TYPES)
+        portions = (self._entries[start : start + _TYPES] for start in starts)
+        return [Unit(portion, _WEIGHT * len(portion)) for portion in portions]
+
+    def work(self, payload: Iterable[CatalogueEntry]) -> list[Row]:
+        """Return a row for each type of a unit."""
+        return [_row(entry, dict(self.options)) for entry in payload]
+
+
+def summary_of(rows: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
+    """Return how many types of some rows were realised, refused and not found, and which are which."""
+    kept = ("number", "name", "outcome", "reason", "code")
+    types = [{name: row[name] for name in kept} for row in rows]
+    outcomes = [row["outcome"].replace(" ", "_") for row in types]
+    return {**{name: outcomes.count(name) for name in ("realised", "not_found", "refused")}, "types": types}
+
+
+def _row(entry: CatalogueEntry, options: dict[str, Any]) -> Row:
+    outcome: Outcome
+    try:
+        if isinstance(entry.mechanism, OrderOnCircle):
+            raise UnsolvableError("an order of joints round a cone has no panels; try `synth template`")
+        values, outcome, reason = _values(realise(entry.mechanism, mode=entry.mode, **options)), "realised", ""
+    except SynthedraError as error:
+        values, outcome, reason = {}, "not found" if isinstance(error, NotFoundError) else "refused", str(error)
+    values |= {"number": entry.number, "name": entry.name, "outcome": outcome, "reason": reason}
+    return tuple(values.get(column) for column in COLUMNS)
+
+
+def _values(realised: Realised) -> dict[str, Any]:
+    return {
+        "code": map_id(realised.scd),
+        "mobility": realised.mobility,
+        "freedoms": realised.freedoms,
+        "folds": realised.folds,
+        "try": realised.number,
+        "mechanism": fold_text(realised.sheet),
+        **realised.figures.to_json(),
+    }
+
+
+def _text_of(entry: CatalogueEntry) -> str:
+    """Return an entry as text; for a string and an order their names and descriptions."""
+    if isinstance(entry.mechanism, ChainString | OrderOnCircle):
+        return f"{entry.name} {entry.said}"
+    return fold_text(entry.mechanism) if isinstance(entry.mechanism, Sheet) else dumps(entry.mechanism)

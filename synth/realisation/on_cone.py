@@ -1,0 +1,270 @@
+"""A type with one centre as a linkage on a right cone: where its joint axes lie round it, the arcs of its links.
+
+Theory: docs/theory/realisation.md, docs/theory/multiloop.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from math import degrees, isfinite, pi, radians
+from typing import Any
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.convert.table import Mechanism, to_sc
+from graphs.errors import InvariantError, UnsolvableError, numbered
+from graphs.given import check_given
+from graphs.loops.loop import Centre
+from graphs.mechanism.on_surface import Pair, SurfaceLinkage
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.surfaces import Cone
+from graphs.plain_text import plain
+from graphs.printing import Block, Printed, TableBlock
+from graphs.rank.generic import exact_mobility
+from graphs.tolerances import DOUBLE
+from synth.conformed.rates import ConformedChain, first_order
+from synth.moving.made import configuration_of
+from synth.realisation.measures import first_order_freedoms
+from synth.surfaces.circuit import wrapped
+from synth.surfaces.linkages import by_sizes, map_linkage
+from synth.surfaces.several_loops import link_pairs, loop_steps
+
+__all__ = ["CONE_ANGLE", "OnOneCone", "realise_on_cone"]
+
+CONE_ANGLE = radians(30.0)
+"""The default of lambda."""
+
+_OTHER_QUESTION = "realise gives a type new coordinates, those on a cone, and takes no branch"
+_VARIED = 0.35
+_CLEAR = radians(15.0)
+"""Least distance to aim at of a step within a link from zero and from a half turn, which has no sign."""
+_MAPPED = 8
+"""Most links of a loop whose cones are searched for: sign patterns double with each."""
+
+
+@dataclass(frozen=True, slots=True)
+class OnOneCone(Printed):
+    """A linkage on a cone, of a type with one centre; its joint axes are ruling lines.
+
+    Attributes
+    ----------
+    linkage : SurfaceLinkage
+        With its steps and lambda, as ``synth cone`` reads it.
+    clear : float
+        How near a step between two joints of a link comes to zero or to a half turn, radians.
+    circuits : tuple of {"open", "crossed"}
+        One per loop.
+    mobility : int
+        Exact generic mobility of the type.
+    freedoms : int or None
+        First-order freedoms at this configuration; None where singular values do not decide.
+    cones : int or None
+        How many cones the link arcs alone lead to, this one among them; None where they were not searched for.
+    number, tries : int
+        Number of this try, and the largest number of tries.
+    """
+
+    linkage: SurfaceLinkage
+    clear: float
+    circuits: tuple[str, ...]
+    mobility: int
+    freedoms: int | None
+    cones: int | None
+    number: int
+    tries: int
+
+    @property
+    def cone_angle(self) -> float:
+        """lambda, radians."""
+        assert isinstance(self.linkage.surface, Cone)
+        return self.linkage.surface.angle
+
+    @property
+    def arcs(self) -> dict[Pair, float]:
+        """The arc of each link between two of its joints, radians."""
+        return dict(by_sizes(self.linkage).angles or {})
+
+    @property
+    def rank(self) -> tuple[bool, float, int]:
+        """Key of the choice: whether it moves as the type, how clear its steps are, how many loops are open."""
+        return self.freedoms == self.mobility, min(self.clear, _CLEAR), self.circuits.count("open")
+
+    @property
+    def good(self) -> bool:
+        """Whether the search can end with it."""
+        return self.rank == (True, _CLEAR, len(self.circuits))
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on."""
+        chain = self.linkage.chain
+        return {
+            "kind": "cone",
+            "configuration": configuration_of(self.linkage).to_json(other_question=_OTHER_QUESTION),
+            "lambda_deg": degrees(self.cone_angle),
+            "steps_deg": [[a, b, degrees(x)] for (a, b), x in (self.linkage.steps or {}).items()],
+            "link_angles_deg": [[a, b, degrees(x)] for (a, b), x in self.arcs.items()],
+            "loops": [list(loop.joints) for loop in chain.loops],
+            "circuit": list(self.circuits),
+            "clear_deg": degrees(self.clear),
+            "mobility": self.mobility,
+            "freedoms": self.freedoms,
+            "cones_by_link_angles": self.cones,
+            "try": self.number,
+            "tries": self.tries,
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        chain = self.linkage.chain
+        azimuths = zip(chain.joints, self.linkage.places(), strict=True)
+        link_of = link_pairs(chain)
+        rows = [(plain(link_of[pair]), _names(pair), f"{degrees(arc):.6g}") for pair, arc in self.arcs.items()]
+        return [
+            f"a linkage on a cone of lambda {degrees(self.cone_angle):.6g} degrees: {chain}",
+            "azimuths (deg)  " + ", ".join(f"{plain(joint)} {degrees(t):.6g}" for joint, t in azimuths),
+            TableBlock(("link", "joints", "arc (deg)"), rows, numbers=["arc (deg)"]),
+            "circuits " + ", ".join(self.circuits) + f"; steps of links {degrees(self.clear):.3g} degrees or more "
+            "from zero and from a half turn",
+            f"mobility {self.mobility}, exact; {first_order_freedoms(self.freedoms)} at this configuration",
+            self._mapped(),
+            f"try {self.number + 1} of {self.tries}",
+        ]
+
+    def _mapped(self) -> str:
+        if self.cones is None:
+            return f"cones with these arcs were not searched for: a loop has more than {_MAPPED} links"
+        return f"the arcs alone lead to {numbered(self.cones, 'cone')}, this one among them"
+
+    def __repr__(self) -> str:
+        return f"<OnOneCone: lambda {degrees(self.cone_angle):.6g} degrees, {self.linkage.chain!r}>"
+
+
+def realise_on_cone(
+    mechanism: Mechanism, *, cone_angle: float = CONE_ANGLE, seed: int = 0, tries: int = 12
+) -> OnOneCone:
+    """Lay the joint axes of a type with one centre round a right cone.
+
+    Parameters
+    ----------
+    mechanism : anything that has an SC graph
+        All its loops have one finite centre.
+    cone_angle : float, optional
+        lambda, the angle between a ruling line and the plane perpendicular to the axis, radians.
+    seed : int, optional
+        Another seed gives another linkage; the same gives the same.
+    tries : int, optional
+        Largest number of linkages that are tried. The first that moves as its type does, with all loops open,
+        is chosen, or else the best.
+
+    Returns
+    -------
+    OnOneCone
+
+    Raises
+    ------
+    UnsolvableError
+        If the type has no loop, a spatial one, or not one finite centre.
+    InvariantError
+        If an option is out of its range.
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Loop
+    >>> on_cone = realise_on_cone(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]))
+    >>> on_cone.circuits, on_cone.freedoms, len(on_cone.arcs)
+    (('open',), 1, 4)
+    """
+    check_given("realise_on_cone", mechanism, Mechanism)
+    _check(cone_angle, seed, tries)
+    chain = _about_one_centre(to_sc(mechanism))
+    conformed, mobility = ConformedChain.of(chain), exact_mobility(chain).mobility
+    best: OnOneCone | None = None
+    for number, places in enumerate(_placements(chain, seed, tries)):
+        motion = first_order(conformed, places)
+        candidate = OnOneCone(
+            linkage=SurfaceLinkage.placed(chain, places.tolist(), Cone(cone_angle)),
+            clear=_clear(chain, places),
+            circuits=tuple(str(loop.circuits.names()) for loop in loop_steps(chain, places)),
+            mobility=mobility,
+            freedoms=None if motion.undecided else int(motion.freedoms),
+            cones=None,
+            number=number,
+            tries=tries,
+        )
+        if best is None or candidate.rank > best.rank:
+            best = candidate
+        if best.good:
+            break
+    assert best is not None
+    return replace(best, cones=_cones(best.linkage, cone_angle))
+
+
+def _check(cone_angle: float, seed: int, tries: int) -> None:
+    if not (isfinite(cone_angle) and 0.0 < cone_angle < pi / 2):
+        raise InvariantError(
+            "cone angle", f"lambda is {degrees(cone_angle):.6g} degrees", "more than 0 and less than 90"
+        )
+    if seed < 0 or tries < 1:
+        raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, 1 try or more")
+
+
+def _about_one_centre(sc: SCGraph) -> SCGraph:
+    """Return the chain with its loops; refuse one whose axes do not all meet in a point."""
+    if not sc.loops:
+        raise UnsolvableError("the type has no loops; expected a linkage whose axes meet in one centre")
+    if sc.spatial_loops:
+        raise UnsolvableError(
+            f"the type has {numbered(sc.spatial_loops, 'loop')} without a centre; expected one centre of all axes"
+        )
+    centres = sc.centre_classes()
+    if len(centres) > 1:
+        raise UnsolvableError(
+            f"the type has {len(centres)} centres; expected one; try its spherical analogue: "
+            "synth convert --form spherical"
+        )
+    if centres[0].centre is Centre.INFINITE:
+        raise UnsolvableError("the centre is at infinity, so the axes are on a cylinder; expected a finite centre")
+    return SCGraph(list(sc), sc.joints, sc.loops, ground=sc.ground)
+
+
+def _placements(chain: SCGraph, seed: int, tries: int) -> Iterator[Floats]:
+    """Yield azimuths of the joints: those of each loop in turn, then in random orders.
+
+    Gaps are never all alike: a loop of equal arcs is special, and changes branches where it folds together.
+    """
+    number = {joint: place for place, joint in enumerate(chain.joints)}
+    along = dict.fromkeys(number[joint] for loop in chain.loops for joint in loop.joints)
+    order = np.array([*along, *(place for place in number.values() if place not in along)])
+    for attempt in range(tries):
+        random = np.random.default_rng((seed, attempt))
+        gaps = np.exp(_VARIED * random.standard_normal(len(order)))
+        places = np.zeros(len(order))
+        places[random.permutation(order) if attempt else order] = np.cumsum([0.0, *gaps[:-1]])
+        yield 2.0 * np.pi * places / gaps.sum()
+
+
+def _clear(chain: SCGraph, places: Floats) -> float:
+    """Return how near steps between joints of a link come to zero or to a half turn."""
+    at = dict(zip(chain.joints, places.tolist(), strict=True))
+    steps = np.abs(wrapped([at[b] - at[a] for a, b in link_pairs(chain)]))
+    return float(np.minimum(steps, np.pi - steps).min())
+
+
+def _cones(linkage: SurfaceLinkage, angle: float) -> int | None:
+    """Return the number of cones with these link arcs; None if there are too many links to search.
+
+    Raises `UnsolvableError` if the cone that they were laid on is none of these.
+    """
+    if max(len(loop.joints) for loop in linkage.chain.loops) > _MAPPED:
+        return None
+    surfaces = [mapped.surface for mapped in map_linkage(by_sizes(linkage)).surfaces]
+    angles = np.sort([surface.angle for surface in surfaces if isinstance(surface, Cone)])
+    if not (np.abs(angles - angle) < DOUBLE.same_configuration).any():
+        raise UnsolvableError(f"the link arcs do not lead back to lambda {degrees(angle):.6g} degrees")
+    return 1 + int((np.diff(angles) > DOUBLE.same_configuration).sum())  # two roots near each other: one cone
+
+
+def _names(pair: Pair) -> str:
+    return plain(" ".join(map(str, pair)))

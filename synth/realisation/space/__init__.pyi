@@ -1,2 +1,0 @@
-from synth.realisation.space.lifting import lifted as lifted
-from synth.realisation.space.receding import receded as receded
