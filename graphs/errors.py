@@ -1,4 +1,4 @@
-"""One rooted family of exceptions.
+"""One rooted family of exceptions, and the check of arguments.
 
 Every error that synthedra raises on purpose is a :class:`SynthedraError`; its message is one line that
 names the place, what is wrong and what was expected.
@@ -7,8 +7,9 @@ names the place, what is wrong and what was expected.
 from __future__ import annotations
 
 from pathlib import Path
+from types import UnionType
 
-from graphs.plain_text import plain, shown
+from graphs.printing import plain, shown
 
 __all__ = [
     "ArgumentError",
@@ -19,6 +20,7 @@ __all__ = [
     "StoreError",
     "SynthedraError",
     "UnsolvableError",
+    "check_argument",
     "numbered",
     "shown",
 ]
@@ -205,3 +207,46 @@ class StoreError(SynthedraError):
     >>> print(StoreError("six.sqlite: is damaged at unit 3"))
     six.sqlite: is damaged at unit 3
     """
+
+
+def check_argument(verb: str, thing: object, kinds: type | UnionType) -> None:
+    """Refuse what a function of ``synth`` cannot take, and say how to come by what it can.
+
+    Parameters
+    ----------
+    verb : str
+        The name of the function.
+    thing : object
+        What it was given.
+    kinds : type or union of types
+        What it takes.
+
+    Raises
+    ------
+    ArgumentError
+        Naming `synth.read`.
+
+    Examples
+    --------
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> check_argument("fold", "a.fold", Sheet)
+    Traceback (most recent call last):
+    ...
+    graphs.errors.ArgumentError: fold: the text 'a.fold'; expected a Sheet; try synth.fold(synth.read('a.fold'))
+    >>> check_argument("fold", None, Sheet)
+    Traceback (most recent call last):
+    ...
+    graphs.errors.ArgumentError: fold: None; expected a Sheet, as synth.read returns it
+    """
+    if isinstance(thing, kinds):
+        return
+    expected = f"a {kinds.__name__}" if isinstance(kinds, type) else "a mechanism"
+    if isinstance(thing, str | Path):
+        name = shown(str(thing))
+        what = "text" if isinstance(thing, str) else "path"
+        raise ArgumentError(
+            f"{verb}: the {what} {name}; expected {expected}; try synth.{verb}(synth.read({name}))"
+        )
+    number = isinstance(thing, int | float)
+    told = "None" if thing is None else shown(thing) if number else f"an object of type {type(thing).__name__}"
+    raise ArgumentError(f"{verb}: {told}; expected {expected}, as synth.read returns it")

@@ -1,8 +1,8 @@
 """Geometry of points, directions and rotations: arrays in, arrays out, over any leading axes.
 
-Nothing here hangs on the last bit: where several planes, lines or rotations are equally good, the one returned
-depends on the points alone (`graphs.canonical`). Points may coincide, lie in one line, and be 1e40 or 1e-40 apart.
-Zero here means rounding; callers judge what is zero for the precision of a file (`graphs.tolerances`).
+Nothing here depends on the last bit: where several planes, lines or rotations are equally good, the one returned
+depends on the points alone. Points may coincide, lie in one line, and be 1e40 or 1e-40 apart. Zero here means
+rounding; callers judge what is zero for the precision of a file (`graphs.tolerances`).
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Flags, Floats
-from graphs.canonical import MARGIN, canonical_basis
+from graphs.tolerances import MARGIN, canonical_basis
+from graphs.types import Flags, Floats
 
 __all__ = [
     "Fit",

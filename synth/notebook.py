@@ -17,7 +17,7 @@ _SHOWN = {
     "graphs.mechanism.sheet": "Sheet",
     "graphs.mechanism.polyhedron": "PolyhedronModel",
     "graphs.mechanism.solids": "HingedSolids",
-    "graphs.mechanism.on_surface": "SurfaceLinkage",
+    "graphs.mechanism.surfaces": "SurfaceLinkage",
     "graphs.joints.linkage": "JointedLinkage",
     "graphs.mechanism.vertex_edge": "VertexEdgeGraph",
     "enumerate.strings.panel_strings": "ChainString",

@@ -19,7 +19,7 @@ SOURCES = {
 DECOMPOSITIONS = {"svd", "svdvals", "null_space", "matrix_rank", "orth"}
 DECOMPOSING = ("graphs/rank/", "graphs/geometry.py")
 """Where matrices may be taken apart."""
-DECIDING = ("graphs/tolerances.py", "graphs/canonical.py", "graphs/geometry.py", "graphs/rank/singular_values.py")
+DECIDING = ("graphs/tolerances.py", "graphs/tolerances.py", "graphs/geometry.py", "graphs/rank/singular_values.py")
 """Where constants may say what is zero."""
 UNITS = {"LEAST", "EPSILON", "EPS", "eps"}
 """Names that make a small constant of what they are multiplied with."""
@@ -31,8 +31,8 @@ EXEMPT = {
     ("graphs/convert/loose_creases.py", "_OVERLAP"): "part of an area that is covered twice",
     ("graphs/convert/tracing.py", "TOLERANCES"): "welding distances that are tried in turn",
     ("graphs/convert/welding.py", "_SAME"): "grid that parts points found twice, in welding distances",
-    ("graphs/extent.py", "LEAST"): "least extent of coordinates",
-    ("graphs/extent.py", "_THIN"): "what rounding leaves of a line",
+    ("graphs/limits.py", "LEAST"): "least extent of coordinates",
+    ("graphs/limits.py", "_THIN"): "what rounding leaves of a line",
     ("graphs/files/solids/gltf.py", "_METRES"): "units of length",
     ("graphs/joints/linkage.py", "_RIGHT"): "angle at which a file is refused",
     ("graphs/joints/recognising.py", "_FLAT"): "how clear a spherical joint must be",
@@ -198,7 +198,7 @@ def test_small_constants_are_seen(source, names):
         ("np.linalg.svd(a)", True),
         ("take_apart = scipy.linalg.null_space", True),
         ("from numpy.linalg import matrix_rank", True),
-        ("from graphs.rank.spaces import null_space\nnull_space(a)", False),
+        ("from graphs.rank.singular_values import null_space\nnull_space(a)", False),
     ],
 )
 def test_decompositions_are_seen(source, seen):

@@ -13,7 +13,7 @@ from drawings.altered import cropped, legible, thinned
 from drawings.examples import DATA
 from drawings.pieces import in_rows, of_shapes
 from drawings.together import beside, said
-from graphs.arrays import Floats
+from graphs.types import Floats
 from synth.drawing import Scene
 from synth.drawing.labels import spread
 from synth.drawing.scene.palette import FINE, NORMAL

@@ -17,7 +17,7 @@ import numpy as np
 from enumerate.contracted.graphs import decode
 from enumerate.kernel.compiled import compiled
 from enumerate.kernel.labelling import canonical_labels
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = ["total_weights", "weight_of"]
 

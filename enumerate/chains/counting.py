@@ -28,7 +28,7 @@ from enumerate.contracted.listing import frame_of
 from enumerate.contracted.orbits import count_orbits
 from enumerate.kernel.burnside import number_of_orbits
 from enumerate.kernel.compiled import compiled
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = [
     "count_by_burnside",

@@ -29,7 +29,7 @@ import numpy as np
 from enumerate.contracted.binary_links import Units, conditions, place, rigid_sets
 from enumerate.contracted.graphs import contracted_graphs, decode
 from enumerate.contracted.listing import frame_of
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = ["block_cycle_index", "count_connected"]
 

@@ -27,9 +27,9 @@ from enumerate.runner.columns import Column
 from enumerate.runner.job import Counting, Row, Unit
 from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE
 from enumerate.runner.running import rows_of
-from graphs.arrays import Bytes, Ints
 from graphs.errors import UnsolvableError
 from graphs.identity.chains import chain_from_id
+from graphs.types import Bytes, Ints
 
 __all__ = ["ChainJob", "CountJob", "count_job"]
 

@@ -29,8 +29,8 @@ from enumerate.contracted.listing import (
 from enumerate.kernel.bliss_order import MOST_NODES, bliss_orders
 from enumerate.runner.columns import Column, ListColumn
 from enumerate.runner.job import Row
-from graphs.arrays import Bytes, Ints
 from graphs.identity.chains import automorphisms_of, canonical_order
+from graphs.types import Bytes, Ints
 
 __all__ = [
     "COLUMNS",

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from enumerate.kernel.compiled import compiled
-from graphs.arrays import Ints
+from graphs.types import Ints
 
 __all__ = ["fewest_layers", "layers_of_links"]
 

@@ -17,9 +17,8 @@ from enumerate.conical.rounds import Rounds, count_by_burnside, count_by_orbits,
 from enumerate.conical.symmetries import joint_symmetries
 from enumerate.runner.job import Counting, Row, Unit
 from enumerate.runner.running import total_of, tuples_of
-from graphs.arrays import Ints
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.ids import JointId, LinkId
+from graphs.types import Ints, JointId, LinkId
 
 __all__ = ["ConicalCountJob", "ConicalQuery", "Portion", "conical_orders", "count_conical_orders"]
 

@@ -22,8 +22,8 @@ from math import perm
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
-from graphs.arrays import Ints
 from graphs.errors import InvariantError
+from graphs.types import Ints
 
 __all__ = ["Rounds", "canonical_row", "count_by_burnside", "count_by_orbits", "placements", "prefixes"]
 

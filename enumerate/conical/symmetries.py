@@ -10,10 +10,9 @@ from collections.abc import Mapping
 import networkx as nx
 import numpy as np
 
-from graphs.arrays import Ints
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.identity.bliss import subdivided, symmetries_of
-from graphs.ids import JointId, LinkId
+from graphs.identity.chains import subdivided, symmetries_of
+from graphs.types import Ints, JointId, LinkId
 
 __all__ = ["joint_symmetries", "links_apart"]
 

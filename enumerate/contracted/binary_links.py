@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
-from graphs.arrays import Bytes, Ints, Words
+from graphs.types import Bytes, Ints, Words
 
 __all__ = ["EVERY", "Units", "Wanted", "conditions", "no_prefix", "permutations", "place", "rigid_sets", "slots"]
 

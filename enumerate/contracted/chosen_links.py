@@ -17,7 +17,7 @@ from enumerate.contracted.classes import classes_in_order, lies_in, order_of_cla
 from enumerate.contracted.orbits import count_orbits
 from enumerate.contracted.states import beginning, filled, total_at_end
 from enumerate.kernel.compiled import compiled
-from graphs.arrays import Bytes, Flags, Ints
+from graphs.types import Bytes, Flags, Ints
 
 __all__ = ["count_with_a_link"]
 

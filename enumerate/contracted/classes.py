@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
-from graphs.arrays import Bytes, Ints, Words
+from graphs.types import Bytes, Ints, Words
 
 __all__ = ["Classes", "Counters", "classes_in_order", "order_of_classes", "strings_of_classes"]
 

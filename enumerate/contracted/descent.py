@@ -19,7 +19,7 @@ import numpy as np
 from enumerate.contracted.graphs import contract, cubic_graphs, decode, degrees, encode, is_contracted
 from enumerate.kernel.compiled import compiled, doubled
 from enumerate.kernel.labelling import canonical_labels
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = ["descendants", "streamed_graphs"]
 

@@ -13,7 +13,7 @@ from enumerate.contracted.binary_links import rigid_sets
 from enumerate.contracted.maps import map_symmetries
 from enumerate.kernel.compiled import compiled
 from enumerate.kernel.maps import canonical_map, decode_map, faces_of, from_turns
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = ["code_of", "expanded", "joint_matrix", "outer_faces", "outer_frame", "ring", "sets_of"]
 

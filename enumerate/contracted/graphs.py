@@ -21,7 +21,7 @@ from enumerate.contracted.growth import Growth
 from enumerate.kernel.compiled import compiled
 from enumerate.kernel.labelling import canonical_labels
 from enumerate.kernel.row_set import empty_set, insert
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = [
     "MOST_LOOPS",

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
-from graphs.arrays import Bytes
 from graphs.errors import InvariantError
+from graphs.types import Bytes
 
 __all__ = ["Growth"]
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
 from enumerate.kernel.row_set import slot_of
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = ["Cycles", "count_left_in_place", "cycles_of"]
 

@@ -22,7 +22,7 @@ from enumerate.contracted.binary_links import (
 from enumerate.contracted.graphs import decode
 from enumerate.kernel.compiled import compiled
 from enumerate.kernel.labelling import canonical_labels
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = [
     "frame_of",

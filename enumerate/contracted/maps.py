@@ -18,7 +18,7 @@ from enumerate.contracted.growth import Growth
 from enumerate.kernel.compiled import compiled
 from enumerate.kernel.maps import canonical_map, decode_map, faces_of, from_turns, symmetries_of_map
 from enumerate.kernel.row_set import empty_set, insert
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = ["MOST_MAP_LOOPS", "contracted_maps", "cubic_maps", "map_symmetries"]
 

@@ -14,7 +14,7 @@ import numpy as np
 from enumerate.contracted.classes import Classes, classes_in_order, order_of_classes, strings_of_classes
 from enumerate.contracted.states import GROUP, GROUPS, LEVEL, States, add, beginning, filled, step, total_at_end
 from enumerate.kernel.compiled import compiled
-from graphs.arrays import Bytes, Ints, Words
+from graphs.types import Bytes, Ints, Words
 
 __all__ = ["count_orbits"]
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from enumerate.contracted.classes import Classes, Counters
 from enumerate.kernel.compiled import compiled
-from graphs.arrays import Ints, Words
+from graphs.types import Ints, Words
 
 __all__ = ["GROUP", "GROUPS", "LEVEL", "States", "add", "beginning", "filled", "step", "total_at_end"]
 

@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from enumerate.kernel.compiled import compiled
-from graphs.arrays import Ints
+from graphs.types import Ints
 
 __all__ = ["MOST_NODES", "bliss_orders"]
 

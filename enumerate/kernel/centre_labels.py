@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
-from graphs.arrays import Ints, Words
+from graphs.types import Ints, Words
 
 __all__ = ["FINITE", "INFINITE", "MOST_JOINTS", "OUTER", "SPATIAL", "classes_of", "joints_of_faces", "labellings"]
 

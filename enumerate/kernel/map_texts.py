@@ -7,8 +7,8 @@ from string import ascii_letters
 import numpy as np
 
 from enumerate.kernel.maps import END, JOINT, OPEN
-from graphs.arrays import Bytes, Ints
 from graphs.identity.drawings import map_text
+from graphs.types import Bytes, Ints
 
 __all__ = ["LABEL_LETTERS", "map_ids"]
 

@@ -1,6 +1,6 @@
 """The exact rank of drawn mechanisms, many at a time, compiled.
 
-The same rank as `graphs.rank.generic.exact_mobility` finds, by other code: a random member of the type modulo a
+The same rank as `graphs.rank.exact.exact_mobility` finds, by other code: a random member of the type modulo a
 prime of 31 bits, its loops closed face by face. It is done twice, modulo two primes; chance can make a rank too
 small, never too large (about once in 10^7 graphs and prime), so the larger one counts. Theory:
 docs/theory/exact-mobility.md.
@@ -12,7 +12,7 @@ import numpy as np
 
 from enumerate.kernel.centre_labels import FINITE, OUTER
 from enumerate.kernel.compiled import compiled
-from graphs.arrays import Ints, Words
+from graphs.types import Ints, Words
 
 __all__ = ["FREE", "RANK_PRIMES", "class_points", "mobility_of"]
 

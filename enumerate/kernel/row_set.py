@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = ["empty_set", "insert", "slot_of"]
 

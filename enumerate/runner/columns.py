@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from graphs.plain_text import plain
+from graphs.printing import plain
 
 __all__ = ["Column", "ListColumn", "RangeColumn", "row_as_dict", "stored", "unstored"]
 

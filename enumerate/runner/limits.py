@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from graphs.arrays import Flags, Ints
 from graphs.errors import InvariantError
+from graphs.types import Flags, Ints
 
 __all__ = ["ANY_NUMBER", "ONE_OR_MORE", "Limits", "keep_limits", "key_of"]
 

@@ -18,8 +18,8 @@ from enumerate.runner.job import Counting, Row, Unit
 from enumerate.sc.listing import count_drawn, count_drawn_by_burnside, weight_of
 from enumerate.sc.query import SCQuery
 from enumerate.sc.rows import SC_COLUMNS, DrawnChains, sc_rows_of
-from graphs.arrays import Bytes, Ints
 from graphs.errors import UnsolvableError
+from graphs.types import Bytes, Ints
 
 __all__ = ["MapPart", "Maps", "SCCountJob", "SCJob", "drawn_of", "map_units", "maps_for", "sc_count_job"]
 

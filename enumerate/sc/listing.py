@@ -18,7 +18,7 @@ from enumerate.kernel.centre_labels import FINITE, INFINITE, OUTER, classes_of, 
 from enumerate.kernel.compiled import compiled
 from enumerate.kernel.ranks import class_points, mobility_of
 from enumerate.sc.reduced import reduced_joints
-from graphs.arrays import Bytes, Ints, Words
+from graphs.types import Bytes, Ints, Words
 
 __all__ = [
     "centres_of_all",

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from enumerate.kernel.compiled import compiled
-from graphs.arrays import Ints, Words
+from graphs.types import Ints, Words
 
 __all__ = ["reduced_joints"]
 

@@ -15,7 +15,7 @@ from enumerate.runner.job import Row
 from enumerate.runner.limits import ANY_NUMBER
 from enumerate.sc.listing import Centres, centres_of_all, describe, list_drawn
 from enumerate.sc.query import SCQuery
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = ["SC_COLUMNS", "DrawnChains", "sc_rows_of"]
 

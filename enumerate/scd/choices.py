@@ -14,7 +14,7 @@ from enumerate.kernel.compiled import compiled
 from enumerate.kernel.maps import decode_map, faces_of, symmetries_of_map
 from enumerate.kernel.ranks import mobility_of
 from enumerate.scd.patterns import CLOSED, OPENED, has_centre, label_faces, patterns, points_of_pattern
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = [
     "TOO_MANY",

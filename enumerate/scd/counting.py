@@ -21,7 +21,7 @@ from enumerate.scd.choices import (
     symmetries_of,
 )
 from enumerate.scd.patterns import CLOSED, patterns
-from graphs.arrays import Bytes, Flags, Ints
+from graphs.types import Bytes, Flags, Ints
 
 __all__ = ["count_placements"]
 

@@ -1,7 +1,7 @@
 """SCD graphs: every valid placement of open edges on every SC graph, and on every plane tree.
 
 The thesis stops at single examples of SCD graphs (section 3.4); here are all of a size, by the rules of
-`graphs.mechanism.rules` and with the exact rank under the forced geometry (rule S3). Theory:
+`graphs.mechanism.scd` and with the exact rank under the forced geometry (rule S3). Theory:
 docs/theory/scd-enumeration.md.
 """
 

@@ -18,8 +18,8 @@ from enumerate.scd.counting import count_placements
 from enumerate.scd.plane_trees import plane_trees
 from enumerate.scd.query import PlacementQuery, SCDQuery
 from enumerate.scd.rows import SCD_COLUMNS, placements_on, scd_rows_of
-from graphs.arrays import Bytes, Ints
 from graphs.errors import UnsolvableError
+from graphs.types import Bytes, Ints
 
 __all__ = ["AllMechanisms", "Drawn", "Mechanisms", "OneMechanism", "SCDCountJob", "SCDJob", "scd_count_job"]
 

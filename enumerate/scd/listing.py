@@ -29,7 +29,7 @@ from enumerate.scd.choices import (
     ways_to_lay,
 )
 from enumerate.scd.patterns import CLOSED, OPENED, has_centre, patterns
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = ["SCD_FACTS", "list_placements_of", "sides_of_all"]
 

@@ -1,6 +1,6 @@
 """Open edges in the corners of a drawn mechanism: the rules they obey, compiled.
 
-Rules S1 and S2 (`graphs.mechanism.rules`) look at the points that joints and links share: the centres of the
+Rules S1 and S2 (`graphs.mechanism.scd`) look at the points that joints and links share: the centres of the
 classes, and the vertices in faces without a centre that several joints end in. These depend on one thing only: in
 which corners of the faces without a centre there is no open edge. A *pattern* says so for every such corner; it is
 valid or not, however many open edges there are elsewhere. Theory: docs/theory/scd-enumeration.md.
@@ -13,7 +13,7 @@ import numpy as np
 from enumerate.kernel.centre_labels import FINITE, INFINITE
 from enumerate.kernel.compiled import compiled, doubled
 from enumerate.kernel.ranks import FREE
-from graphs.arrays import Bytes, Ints, Words
+from graphs.types import Bytes, Ints, Words
 
 __all__ = ["ANY", "CLOSED", "OPENED", "has_centre", "label_faces", "patterns", "points_of_pattern"]
 

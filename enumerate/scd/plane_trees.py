@@ -11,7 +11,7 @@ from enumerate.contracted.embedded import code_of
 from enumerate.kernel.compiled import compiled
 from enumerate.kernel.maps import END, JOINT, decode_map, from_turns
 from enumerate.kernel.row_set import empty_set, insert
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = ["plane_trees"]
 

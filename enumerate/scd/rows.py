@@ -13,7 +13,7 @@ from enumerate.runner.limits import ANY_NUMBER
 from enumerate.scd.choices import outline
 from enumerate.scd.listing import list_placements_of, sides_of_all
 from enumerate.scd.query import PlacementQuery
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = ["SCD_COLUMNS", "placements_on", "scd_rows_of"]
 

@@ -9,10 +9,10 @@ from itertools import pairwise
 
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.ids import JointId, LinkId
-from graphs.mechanism.rotation import Side
+from graphs.mechanism.drawing import Side
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
+from graphs.types import JointId, LinkId
 
 __all__ = ["chain_sc", "chain_scd", "string_of_chain"]
 

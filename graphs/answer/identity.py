@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import networkx as nx
 
 from graphs.convert.table import Mechanism, graph_of, to_scd
-from graphs.errors import InvariantError, UnsolvableError
-from graphs.given import check_given
+from graphs.errors import InvariantError, UnsolvableError, check_argument
 from graphs.identity.chains import chain_id
 from graphs.identity.drawings import map_id
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -78,7 +77,7 @@ def identify(mechanism: Mechanism | nx.Graph) -> Identity:
     >>> identify(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])).drawing
     'm1:a-b.ac-.b-d.cd-'
     """
-    check_given("identify", mechanism, Mechanism | nx.Graph)
+    check_argument("identify", mechanism, Mechanism | nx.Graph)
     chain, no_chain = _id_or_reason(lambda: chain_id(graph_of(mechanism)))
     drawing, no_drawing = _id_or_reason(lambda: map_id(_drawn(mechanism)))
     notes = [f"no id of the chain: {no_chain}"] * (chain is None)

@@ -8,13 +8,14 @@ from typing import Any
 from graphs.count.equations import overconstraint
 from graphs.count.report import MobilityReport
 from graphs.errors import numbered
-from graphs.mechanism.arrangement import ARRANGEMENTS
-from graphs.mechanism.reading import Reading
+from graphs.mechanism.sc import ARRANGEMENTS
+from graphs.mechanism.sheet import Reading
 from graphs.printing import Block, Printed, TableBlock, html_of, plain
-from graphs.rank.generic import ExactMobility
+from graphs.rank.exact import ExactMobility
 from graphs.rank.pose import PoseMobility
+from graphs.tolerances import DOUBLE
 
-__all__ = ["MobilityAnswer", "power_of_ten"]
+__all__ = ["MobilityAnswer", "notes_of_pose", "power_of_ten"]
 
 _TITLES = {
     "traditional_cgk": "C-G-K (Wiener Eq. 1)",
@@ -194,6 +195,23 @@ def power_of_ten(number: float) -> str:
     """
     digit, power = f"{number:.0e}".split("e")
     return f"{digit}e{int(power)}"
+
+
+def notes_of_pose(pose: PoseMobility) -> list[str]:
+    """Return what is to be said of the certainty of freedoms at a pose."""
+    evidence = pose.spectrum
+    if pose.dof is None:
+        near = ", ".join(f"{value:.1e}" for value in evidence.undecided[:3])
+        why = f"singular values near the noise: {near}" if near else "two counts of small values differ"
+        return [f"indeterminate at this configuration: {why}; precision of the coordinates: {pose.precision}"]
+    notes = []
+    if min(evidence.largest_zero, pose.precision.size) > DOUBLE.closed:
+        zeros = f"singular values up to {evidence.largest_zero:.0e} are noise"
+        notes.append(f"coordinates precise to {pose.precision}: {zeros}")
+    if evidence.nearly:
+        more = numbered(evidence.nearly, "more degree of freedom", "more degrees of freedom")
+        notes.append(f"nearly mobile: {more} if small strains are allowed")
+    return notes
 
 
 def _is_only_flat(answer: MobilityAnswer) -> bool:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from graphs.convert.table import CONVERSIONS, Mechanism, graph_of
 from graphs.edit.analogues import generalised_form, planar_analogue, spherical_analogue
-from graphs.errors import InvariantError, shown
-from graphs.given import check_given
+from graphs.errors import InvariantError, check_argument, shown
 
 __all__ = ["FORMS", "convert"]
 
@@ -41,7 +40,7 @@ def convert(mechanism: Mechanism, kind: str | None = None, *, form: str | None =
     >>> convert(fan, "sc", form="planar").loops[0].centre
     <Centre.INFINITE: 'infinite'>
     """
-    check_given("convert", mechanism, Mechanism)
+    check_argument("convert", mechanism, Mechanism)
     for name, what, known in ((kind, "kind", tuple(CONVERSIONS)), (form, "form", tuple(FORMS))):
         if name is not None and name not in known:
             raise InvariantError(what, f"the {what} {shown(name)}", "one of " + ", ".join(known))

@@ -11,9 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.mechanism.plane import flattened
+from graphs.mechanism.precision import flattened
 from graphs.mechanism.sheet import HINGES, Edge, Sheet, sides_of_face
+from graphs.types import Floats
 
 __all__ = ["creases_on_no_face", "joins_faces", "traced_anew"]
 

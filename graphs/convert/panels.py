@@ -17,12 +17,12 @@ import numpy as np
 from graphs.convert.centres import loops_with_centres
 from graphs.errors import InvariantError, shown
 from graphs.geometry import area_vector
-from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.plane import in_space
-from graphs.mechanism.rotation import face_cycles, trace_faces
+from graphs.mechanism.drawing import face_cycles, trace_faces
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
+from graphs.types import JointId, LinkId
 
 __all__ = ["oriented_panels", "rings_of", "scd_from_panels", "scd_of_placed_panels"]
 

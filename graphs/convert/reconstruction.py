@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from graphs.ids import LinkId
 from graphs.mechanism.drawing import FaceKind
 from graphs.mechanism.polyhedron import PolyhedronModel, RemoteCentre
 from graphs.mechanism.scd import SCDGraph
+from graphs.types import LinkId
 
 __all__ = ["VertexStep", "internal_rods", "polyhedron_of", "vertex_steps"]
 

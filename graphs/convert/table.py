@@ -17,18 +17,18 @@ from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.panels import oriented_panels, scd_from_panels, scd_of_placed_panels
 from graphs.convert.reconstruction import polyhedron_of
 from graphs.errors import UnsolvableError
-from graphs.ids import JointId
 from graphs.joints.as_revolutes import revolutes_of
 from graphs.joints.linkage import JointedLinkage
 from graphs.joints.recognising import recognised
-from graphs.mechanism.on_surface import SurfaceLinkage
-from graphs.mechanism.plane import in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet, sheet_from_model, sides_of_face
 from graphs.mechanism.solids import Axis, HingedSolids
+from graphs.mechanism.surfaces import SurfaceLinkage
 from graphs.mechanism.vertex_edge import VertexEdgeGraph, sc_from_vertex_edge, vertex_edge_from_sc
+from graphs.types import JointId
 
 __all__ = [
     "CONVERSIONS",

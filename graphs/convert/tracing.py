@@ -13,12 +13,11 @@ from functools import cached_property
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.convert.welding import Lines, Network, either_way, networks_of
 from graphs.errors import InvariantError, numbered
 from graphs.geometry import signed_area
-from graphs.mechanism.reading import Reading, Repair, RepairKind
-from graphs.mechanism.sheet import HINGES, Edge, Sheet, sides_of_face
+from graphs.mechanism.sheet import HINGES, Edge, Reading, Repair, RepairKind, Sheet, sides_of_face
+from graphs.types import Floats
 
 __all__ = ["MOST", "TOLERANCES", "trace_sheet"]
 

@@ -17,11 +17,10 @@ import shapely
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
-from graphs.mechanism.reading import Place, RepairKind
-from graphs.mechanism.sheet import Edge
-from graphs.work_limits import check_work
+from graphs.limits import check_work
+from graphs.mechanism.sheet import Edge, Place, RepairKind
+from graphs.types import Floats
 
 __all__ = ["Lines", "Network", "crossings", "either_way", "network_of", "networks_of"]
 

@@ -28,9 +28,8 @@ from graphs.count.equations import (
 )
 from graphs.errors import numbered, shown
 from graphs.loops.loop import Centre
-from graphs.mechanism.arrangement import Arrangement, arrangement_of
 from graphs.mechanism.polyhedron import PolyhedronModel
-from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sc import Arrangement, SCGraph, arrangement_of
 from graphs.mechanism.scd import SCDGraph
 
 __all__ = ["EquationResult", "MobilityReport", "mechanism_class", "mobility_report"]
@@ -83,7 +82,7 @@ class MobilityReport:
         Further counts: V, C, E_ext, E_int, spatial loops, parts, ... as far as the input tells.
     repairs, warnings : tuple of str
     arrangement : str or None
-        How the centres are arranged (`graphs.mechanism.arrangement.ARRANGEMENTS`); None of a polyhedron model.
+        How the centres are arranged (`graphs.mechanism.sc.ARRANGEMENTS`); None of a polyhedron model.
 
     Examples
     --------

@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import Any
 
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
-from graphs.count.relative import relative_spherical_system
+from graphs.count.equations import relative_spherical_system
 from graphs.count.report import mobility_report
 from graphs.creasing.lines import creased_along
 from graphs.errors import InvariantError, UnsolvableError

@@ -10,13 +10,12 @@ from collections.abc import Collection, Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from graphs.count.relative import relative_cgk, relative_spherical_system
+from graphs.count.equations import relative_cgk, relative_spherical_system
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.ids import JointId, LinkId
-from graphs.loops.cycle_space import cut_into_cycles, dependent_loop
-from graphs.loops.loop import Centre, Loop
+from graphs.loops.loop import Centre, Loop, cut_into_cycles, dependent_loop
 from graphs.mechanism.sc import SCGraph
+from graphs.types import JointId, LinkId
 
 __all__ = ["Edit", "add_crease", "add_loop", "add_ride_along", "fresh", "lock_joint"]
 

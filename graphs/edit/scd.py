@@ -10,14 +10,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from graphs.count.relative import relative_polyhedron
+from graphs.count.equations import relative_polyhedron
 from graphs.edit.sc import Edit, fresh
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.drawing import FaceKind
-from graphs.mechanism.rotation import Side
+from graphs.mechanism.drawing import FaceKind, Side
 from graphs.mechanism.scd import SCDGraph
+from graphs.types import JointId, LinkId
 
 __all__ = ["crease_link", "lock_hinge", "make_explicit", "make_implicit", "ride_along"]
 

@@ -21,10 +21,10 @@ from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.check import Checker
 from graphs.files.names_as_text import names_from_text
 from graphs.files.text import read_text
-from graphs.ids import JointId
 from graphs.joints.kinds import JointKind, kind_named
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.sc import SCGraph
+from graphs.types import JointId
 
 __all__ = [
     "as_linkage",

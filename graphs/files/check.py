@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
 from graphs.errors import FileError, InvariantError, shown
-from graphs.work_limits import how_to_raise, most
+from graphs.limits import how_to_raise, most
 
 __all__ = ["Checker"]
 

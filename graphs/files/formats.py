@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 
 from graphs.convert.table import Mechanism, to_sc, to_sheet
-from graphs.errors import FileError, OpenError, UnsolvableError
+from graphs.errors import FileError, OpenError, UnsolvableError, check_argument
 from graphs.files.atomic import Beside
 from graphs.files.bare import (
     as_linkage,
@@ -39,11 +39,10 @@ from graphs.files.patterns.fold import fold_text, read_fold
 from graphs.files.patterns.legend import UNSTATED, Legend, Told
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
 from graphs.files.text import load_json
-from graphs.given import check_given
 from graphs.joints.linkage import JointedLinkage
-from graphs.mechanism.on_surface import SurfaceLinkage
-from graphs.mechanism.plane import flattened
+from graphs.mechanism.precision import flattened
 from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.surfaces import SurfaceLinkage
 
 __all__ = ["READERS", "WRITERS", "Entry", "read", "read_all", "read_linkage", "write"]
 
@@ -212,7 +211,7 @@ def write(
     ...     write(four_bar, Path(folder, "four-bar.json")), write(four_bar, Path(folder, "bare.g6"), lossy=True)
     ((), ('1 loop and its centre',))
     """
-    check_given("write", mechanism, Mechanism)
+    check_argument("write", mechanism, Mechanism)
     path = Path(path)
     suffix = path.suffix.lower()
     writer = WRITERS.get(suffix)

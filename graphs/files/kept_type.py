@@ -8,7 +8,7 @@ from typing import Any
 from graphs.convert.table import Mechanism, to_sc
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.identity.classes import class_code
+from graphs.identity.chains import class_code
 from graphs.joints.kinds import JointKind
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel

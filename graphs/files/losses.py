@@ -10,13 +10,13 @@ from graphs.files.names_as_text import are_kept
 from graphs.files.native.names import is_count
 from graphs.joints.linkage import JointedLinkage
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import FLAT, HINGES, Sheet, with_all_edges
 from graphs.mechanism.solids import HingedSolids
-from graphs.plain_text import plain
+from graphs.mechanism.surfaces import SurfaceLinkage
+from graphs.printing import plain
 
 __all__ = [
     "lost_as_bare_graph",

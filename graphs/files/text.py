@@ -12,7 +12,7 @@ from typing import Any, NoReturn
 
 from graphs.errors import FileError, OpenError
 from graphs.files.atomic import reason_of
-from graphs.work_limits import how_to_raise, most
+from graphs.limits import how_to_raise, most
 
 __all__ = ["json_text", "load_json", "read_text"]
 

@@ -21,13 +21,12 @@ from typing import Any, NamedTuple
 import networkx as nx
 
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.ids import JointId, LinkId
 from graphs.loops.classes import centre_classes
-from graphs.loops.cycle_space import cut_into_cycles, signed_cycle
-from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.rotation import Rotation, Side, trace_faces
+from graphs.loops.loop import Centre, Loop, cut_into_cycles, signed_cycle
+from graphs.mechanism.drawing import Rotation, Side, trace_faces
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
+from graphs.types import JointId, LinkId
 
 __all__ = ["drawing_of", "map_code", "map_id", "map_text", "mechanism_from_map_id", "symbols_of"]
 

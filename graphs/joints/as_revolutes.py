@@ -12,9 +12,7 @@ from itertools import count, pairwise
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import across, frame_about, unit
-from graphs.ids import JointId, LinkId
 from graphs.joints.kinds import JointKind
 from graphs.joints.knees import placed_knees
 from graphs.joints.linkage import JointedLinkage, JointPlace, plain_vector
@@ -22,6 +20,7 @@ from graphs.joints.placing import placed
 from graphs.mechanism.precision import extent_of
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import Axis, HingedSolids
+from graphs.types import Floats, JointId, LinkId
 
 __all__ = ["revolutes_of"]
 

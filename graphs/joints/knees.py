@@ -12,13 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import frame_about, unit
-from graphs.ids import JointId
 from graphs.joints.kinds import JointKind
 from graphs.joints.linkage import JointedLinkage, legs
 from graphs.mechanism.precision import precision_of_axes
 from graphs.tolerances import Tolerances
+from graphs.types import Floats, JointId
 
 __all__ = ["Knee", "KneeEnd", "knees_of_type", "placed_knees"]
 

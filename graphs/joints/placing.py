@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import across, unit
-from graphs.ids import JointId
 from graphs.joints.kinds import JointKind
 from graphs.joints.knees import Knee, knees_of_type
 from graphs.joints.linkage import JointedLinkage, JointPlace, plain_vector
 from graphs.loops.loop import Centre
+from graphs.types import Floats, JointId
 
 __all__ = ["placed"]
 

@@ -7,15 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import across, unit
-from graphs.ids import JointId, LinkId
 from graphs.joints.kinds import JointKind
 from graphs.joints.linkage import JointedLinkage, JointPlace, Leg, legs, plain_vector
 from graphs.mechanism.precision import extent_of, precision_of_axes
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from graphs.tolerances import Tolerances
+from graphs.types import Floats, JointId, LinkId
 
 __all__ = ["recognised"]
 

@@ -15,7 +15,7 @@ from typing import Any
 import networkx as nx
 
 from graphs.errors import InvariantError, numbered, shown
-from graphs.extent import check_extent
+from graphs.limits import check_extent
 
 __all__ = ["GROUND", "PointConstraint", "PolyhedronModel", "RemoteCentre"]
 

@@ -11,9 +11,9 @@ from math import hypot
 from types import MappingProxyType
 
 from graphs.errors import InvariantError, shown
-from graphs.extent import LEAST, MOST, check_extent, in_reach
-from graphs.ids import JointId
+from graphs.limits import LEAST, MOST, check_extent, in_reach
 from graphs.mechanism.sc import SCGraph
+from graphs.types import JointId
 
 __all__ = ["Axis", "HingedSolids"]
 

@@ -16,10 +16,9 @@ from types import MappingProxyType
 import networkx as nx
 
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.ids import JointId, LinkId
-from graphs.loops.cycle_space import split_dependent
-from graphs.loops.loop import Centre, Loop
+from graphs.loops.loop import Centre, Loop, split_dependent
 from graphs.mechanism.sc import SCGraph
+from graphs.types import JointId, LinkId
 
 __all__ = ["VertexEdgeGraph", "sc_from_vertex_edge", "vertex_edge_from_sc"]
 

@@ -20,8 +20,8 @@ import scipy.linalg
 import scipy.sparse
 import scipy.sparse.linalg
 
-from graphs.arrays import Flags, Floats, Ints
 from graphs.rank.singular_values import Spectrum, judged, rounding, verdict
+from graphs.types import Flags, Floats, Ints
 
 __all__ = ["number_below", "sparse_spectrum"]
 

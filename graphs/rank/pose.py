@@ -16,16 +16,14 @@ from typing import Any
 import numpy as np
 import scipy.sparse
 
-from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.geometry import unit
-from graphs.ids import JointId
-from graphs.mechanism.plane import in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import (
     Precision,
     extent_of,
+    in_space,
     off_panel_planes,
     off_plane,
     precision_of,
@@ -34,14 +32,13 @@ from graphs.mechanism.precision import (
 )
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
-from graphs.rank.closure import Closure, closure_of
 from graphs.rank.dissection import sparse_spectrum
-from graphs.rank.fields import Reals
-from graphs.rank.general_member import Line, join
+from graphs.rank.exact import Closure, closure_of
+from graphs.rank.general_member import Line, Reals, join
 from graphs.rank.rods import velocity_constraints
-from graphs.rank.singular_values import NEARLY, Spectrum, spectrum
-from graphs.rank.spaces import singular_values
+from graphs.rank.singular_values import NEARLY, Spectrum, singular_values, spectrum
 from graphs.tolerances import DOUBLE, Tolerances
+from graphs.types import Floats, JointId
 
 __all__ = [
     "PoseMobility",

@@ -22,8 +22,8 @@ from graphs.errors import NumericalError, UnsolvableError, shown
 from graphs.loops.classes import centre_classes
 from graphs.loops.loop import Loop
 from graphs.mechanism.polyhedron import GROUND, PolyhedronModel, VertexId
-from graphs.rank.fields import PRIMES, Field, PrimeField, null_vectors
-from graphs.rank.generic import ExactMobility
+from graphs.rank.exact import ExactMobility
+from graphs.rank.general_member import PRIMES, Field, PrimeField, null_vectors
 
 __all__ = ["exact_mobility_of_model", "place_model", "velocity_constraints"]
 

@@ -15,14 +15,13 @@ import networkx as nx
 
 from graphs.convert.table import Mechanism, to_sc
 from graphs.count.report import mobility_report
-from graphs.errors import InvariantError, numbered, shown
-from graphs.given import check_given
-from graphs.ids import JointId, LinkId
+from graphs.errors import InvariantError, check_argument, numbered, shown
 from graphs.mechanism.sc import SCGraph
 from graphs.printing import Block, Printed, plain
 from graphs.reduce.staying import links_of_loops_that_stay
 from graphs.reduce.taking import RULES, Taken, Terms, take_all
 from graphs.reduce.working import Removal, WorkingGraph
+from graphs.types import JointId, LinkId
 
 __all__ = ["Reduction", "ReductionStep", "reduce"]
 
@@ -230,7 +229,7 @@ def reduce(
     >>> len(reduction.graph), [step.removed for step in reduction.steps]
     (4, [(0, 1)])
     """
-    check_given("reduce", mechanism, Mechanism)
+    check_argument("reduce", mechanism, Mechanism)
     if rule not in RULES:
         raise InvariantError("rule", f"the rule {shown(rule)}", "one of " + ", ".join(RULES))
     sc = to_sc(mechanism)

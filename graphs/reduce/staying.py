@@ -12,11 +12,11 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from graphs.identity.bliss import ColouredGraph, labels_of
-from graphs.ids import LinkId
+from graphs.identity.chains import ColouredGraph, labels_of
 from graphs.loops.loop import Centre
 from graphs.reduce.taking import Taken
 from graphs.reduce.working import WorkingGraph
+from graphs.types import LinkId
 
 __all__ = ["links_of_loops_that_stay"]
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from graphs.ids import JointId, LinkId
-from graphs.loops.cycle_space import cut_into_cycles, dependent_loop, in_span_of
+from graphs.loops.loop import cut_into_cycles, dependent_loop, in_span_of
 from graphs.reduce.working import Path, Removal, WorkingGraph
+from graphs.types import JointId, LinkId
 
 __all__ = ["RULES", "Taken", "Terms", "take_all"]
 

@@ -13,16 +13,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.edit.named import known
-from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.given import check_given
-from graphs.ids import JointId, LinkId
-from graphs.mechanism.plane import lies_flat
+from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
+from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.sheet import Sheet
-from graphs.rank.singular_values import spectrum
-from graphs.rank.spaces import split
+from graphs.rank.singular_values import spectrum, split
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId, LinkId
 from synth.advice.answer import Advice, Creased, Locked
 from synth.advice.diagonals import Diagonal, diagonals_of, loads_on_stresses
 from synth.advice.general_pose import GeneralPose, general_pose
@@ -125,7 +122,7 @@ def advise(
     >>> advice, advice.locks[0].joints, advice.locks[0].weight
     (<Advice: 3 to 0 freedoms, 1 sets>, (1, 3, 4), 3.0)
     """
-    check_given("advise", thing, Movable)
+    check_argument("advise", thing, Movable)
     kept = _Kept(frozenset(joints), frozenset(links), not flaps, dict(weights or {}))
     _check_number("freedoms", freedoms, 0)
     _check_number("limit", limit, 1)

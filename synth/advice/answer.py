@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from graphs.errors import numbered, shown
-from graphs.ids import JointId
 from graphs.printing import Block, Printed, TableBlock
+from graphs.types import JointId
 from synth.advice.diagonals import Diagonal
 from synth.motion.branches import Branch
 from synth.motion.configuration import Configuration

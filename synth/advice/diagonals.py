@@ -13,14 +13,13 @@ from itertools import combinations
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import NumericalError
 from graphs.geometry import principal_axes, signed_area
-from graphs.ids import LinkId
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import sides_of_face
-from graphs.rank.spaces import split
+from graphs.rank.singular_values import split
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, LinkId
 from synth.advice.general_pose import GeneralPose
 from synth.motion.linkage import PosedLinkage, PosedLoop
 

@@ -11,10 +11,10 @@ from math import degrees
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import NumericalError, UnsolvableError, numbered
 from graphs.mechanism.sheet import Sheet
+from graphs.types import Floats
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.beginning import Wanted, beginning
 from synth.motion.branches import Branches

@@ -14,8 +14,8 @@ from heapq import heappop, heappush
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.motion.walk.allowance import Allowance
 
 __all__ = ["Cost", "cheapest_sets", "held"]

@@ -13,10 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.creasing.edits import crease_sheet, lock_crease
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.advice.diagonals import Diagonal
 from synth.folding.configuration import configuration_of_sheet
 from synth.motion.walk.allowance import Allowance

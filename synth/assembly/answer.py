@@ -7,10 +7,9 @@ from dataclasses import dataclass
 from math import degrees
 from typing import Any
 
-from graphs.arrays import Floats
 from graphs.errors import numbered
-from graphs.ids import JointId
 from graphs.printing import Block, Printed, TableBlock, plain
+from graphs.types import Floats, JointId
 from synth.motion.configuration import Configuration
 
 __all__ = ["Position", "Positions"]

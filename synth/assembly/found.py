@@ -8,13 +8,10 @@ from math import isfinite
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats
-from graphs.canonical import canonical_order
-from graphs.errors import InvariantError, SynthedraError, shown
-from graphs.given import check_given
-from graphs.ids import JointId
-from graphs.rank.spaces import rank_of
-from graphs.tolerances import DOUBLE, EPSILON
+from graphs.errors import InvariantError, SynthedraError, check_argument, shown
+from graphs.rank.singular_values import rank_of
+from graphs.tolerances import DOUBLE, EPSILON, canonical_order
+from graphs.types import Flags, Floats, JointId
 from synth.assembly.answer import Position, Positions
 from synth.assembly.circuits import members_of_circuits
 from synth.assembly.family import SMALL, Family, Followed, family_of
@@ -72,7 +69,7 @@ def positions(
     >>> len(found.positions), found.general, found.exhaustive
     (2, 2, True)
     """
-    check_given("positions", thing, Movable)
+    check_argument("positions", thing, Movable)
     at = configuration_of(thing, slides=True)
     linkage = at.linkage
     for joint, angle in drive.items():

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats
 from graphs.errors import NumericalError, UnsolvableError
-from graphs.rank.spaces import rank_of
+from graphs.rank.singular_values import rank_of
 from graphs.tolerances import DOUBLE
+from graphs.types import Flags, Floats
 from synth.assembly.family import Family
 from synth.assembly.kernel import CLOSED, Complexes
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from enumerate.runner.columns import Column, ListColumn
-from graphs.mechanism.arrangement import ARRANGEMENTS
+from graphs.mechanism.sc import ARRANGEMENTS
 
 __all__ = ["COLUMNS", "KINDS", "SCHEMA", "AtlasColumn", "stored_columns"]
 

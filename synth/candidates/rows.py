@@ -15,8 +15,8 @@ import numpy.typing as npt
 
 from enumerate.runner.columns import Column, ListColumn, RangeColumn
 from enumerate.runner.job import Row
-from graphs.arrays import Floats, Ints
 from graphs.mechanism.surfaces import Cone, Surface
+from graphs.types import Floats, Ints
 from synth.candidates.values import four_bar_classes, half_turns, loop_circuits
 from synth.conformed.all_angles import (
     Allowed,

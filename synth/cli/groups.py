@@ -6,7 +6,7 @@ from difflib import get_close_matches
 
 import click
 
-from graphs.plain_text import plain
+from graphs.printing import plain
 
 __all__ = ["NamedGroup"]
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import click
 
-from graphs.extent import LEAST, MOST
-from graphs.plain_text import plain
+from graphs.limits import LEAST, MOST
+from graphs.printing import plain
 
 __all__ = ["BRANCH", "LENGTH", "LENGTH_OR_NONE"]
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from graphs.plain_text import plain
+from graphs.printing import plain
 
 if TYPE_CHECKING:
     from graphs.convert.table import Mechanism

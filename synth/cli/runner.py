@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from graphs.plain_text import LONGEST_CELL
+from graphs.printing import LONGEST_CELL
 from synth.cli.output import FORCE, console, plain, print_json, table, tell_written
 
 if TYPE_CHECKING:

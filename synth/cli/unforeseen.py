@@ -10,7 +10,7 @@ from typing import NoReturn
 
 import click
 
-from graphs.plain_text import plain
+from graphs.printing import plain
 
 __all__ = ["FAULT", "VARIABLE", "end_with_fault"]
 

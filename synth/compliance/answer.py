@@ -9,12 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import canonical_order
 from graphs.errors import numbered, shown
-from graphs.ids import JointId
 from graphs.printing import Block, Printed, TableBlock
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, canonical_order
+from graphs.types import Floats, JointId
 from synth.compliance.equilibrium import Equilibrium
 from synth.compliance.freedoms import State
 from synth.compliance.members import Members

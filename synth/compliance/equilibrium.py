@@ -10,10 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import NumericalError
-from graphs.rank.spaces import null_space
+from graphs.rank.singular_values import null_space
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.compliance.springs import Bent, ElasticLinkage
 from synth.motion.newton import corrected, exactly_held
 from synth.motion.path import driven_path

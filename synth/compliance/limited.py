@@ -11,13 +11,12 @@ from math import acos, atan2, inf, pi, tau
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from graphs.geometry import angles_between, lines_meet
-from graphs.ids import LinkId
 from graphs.rank.singular_values import spectrum
 from graphs.reduce.ride_alongs import ReductionStep, reduce
 from graphs.tolerances import DOUBLE, Tolerances
+from graphs.types import Floats, LinkId
 from synth.compliance.freedoms import state_of
 from synth.compliance.limits_answer import End, Limits, RideAlong, Truss
 from synth.compliance.members import NONE, Members, released

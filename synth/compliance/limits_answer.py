@@ -7,8 +7,8 @@ from math import degrees
 from typing import Any, Literal
 
 from graphs.errors import numbered, shown
-from graphs.ids import JointId
 from graphs.printing import Block, Printed, TableBlock
+from graphs.types import JointId
 from synth.motion.configuration import Configuration
 
 __all__ = ["End", "Limits", "RideAlong", "Truss"]

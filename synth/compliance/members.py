@@ -12,14 +12,12 @@ from itertools import chain, combinations
 import networkx as nx
 import numpy as np
 
-from graphs.arrays import Ints
 from graphs.edit.named import known
 from graphs.errors import InvariantError, shown
-from graphs.ids import JointId, LinkId
-from graphs.loops.cycle_space import signed_cycle
-from graphs.loops.loop import Loop
+from graphs.loops.loop import Loop, signed_cycle
 from graphs.mechanism.sc import SCGraph
-from graphs.rank.closure import independent_cycles
+from graphs.rank.exact import independent_cycles
+from graphs.types import Ints, JointId, LinkId
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["NONE", "Members", "released"]

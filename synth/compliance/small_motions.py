@@ -11,17 +11,15 @@ from math import isfinite, pi
 import numpy as np
 import scipy.linalg
 
-from graphs.arrays import Floats
-from graphs.canonical import leading
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.geometry import unit
-from graphs.ids import LinkId
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from graphs.rank.spaces import inertia
-from graphs.tolerances import DOUBLE
+from graphs.rank.singular_values import inertia
+from graphs.tolerances import DOUBLE, leading
+from graphs.types import Floats, LinkId
 from synth.compliance.equilibrium import Equilibrium
 from synth.compliance.springs import ElasticLinkage
 from synth.motion.linkage import PosedLinkage

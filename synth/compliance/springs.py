@@ -11,12 +11,11 @@ from math import isfinite
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.edit.named import known
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, shown
-from graphs.ids import JointId
-from graphs.rank.spaces import split
+from graphs.rank.singular_values import split
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId
 from synth.motion.branches import MOST_JOINTS, branches_of, search_for
 from synth.motion.closure import ClosureEquations
 from synth.motion.driving import check_closed

@@ -10,11 +10,9 @@ from sys import float_info
 import numpy as np
 from scipy.optimize import brentq
 
-from graphs.arrays import Floats
-from graphs.errors import InvariantError, UnsolvableError
-from graphs.given import check_given
-from graphs.ids import JointId, LinkId
+from graphs.errors import InvariantError, UnsolvableError, check_argument
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId, LinkId
 from synth.compliance.answer import Elastic, PathPose, RestPassed, States, Transition
 from synth.compliance.equilibrium import LoadPath, equilibrium, load_path
 from synth.compliance.freedoms import State, state_of, states_of_sets
@@ -97,7 +95,7 @@ def states(
     >>> found.classes, [(len(one.active), one.freedoms) for one in found.sets]
     (('compliant mechanism',), [(0, 0), (1, 1)])
     """
-    check_given("states", thing, Movable)
+    check_argument("states", thing, Movable)
     at = configuration_of(thing)
     linkage = at.linkage
     stiff = () if springs is None else tuple(one for one, value in springs.stiffness.items() if value)

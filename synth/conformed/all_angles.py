@@ -21,9 +21,9 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Flags, Floats, Ints, Signs
 from graphs.errors import NumericalError
 from graphs.tolerances import DOUBLE
+from graphs.types import Flags, Floats, Ints, Signs
 from synth.conformed.outward import OutwardRate, joint_rates, outward_rates
 from synth.conformed.rates import ConformedChain
 from synth.conformed.sign_reasoning import SignRelations

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from enumerate.kernel.compiled import compiled
-from graphs.arrays import Ints, Signs
+from graphs.types import Ints, Signs
 
 __all__ = ["arc_sets", "sign_of_sum"]
 

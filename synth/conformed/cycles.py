@@ -11,9 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import UnsolvableError
-from graphs.ids import JointId
 from graphs.loops.loop import Loop, cyclic_order
 from graphs.mechanism.sc import SCGraph
+from graphs.types import JointId
 from synth.conformed.rates import ConformedChain
 
 __all__ = ["loops_of_chain", "signed_cycles"]

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.geometry import rotated
 from graphs.mechanism.surfaces import checked_cone_angle
+from graphs.types import Floats
 from synth.conformed.pose import dihedral_angles, joint_axes, measured_dihedral_angles
 from synth.fourbar.position import output_spherical
 from synth.surfaces.circuit import azimuths

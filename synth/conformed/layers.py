@@ -12,8 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from enumerate.conical.layers import fewest_layers, layers_of_links
-from graphs.arrays import Floats, Ints
 from graphs.errors import UnsolvableError
+from graphs.types import Floats, Ints
 from synth.conformed.rates import ConformedChain
 from synth.surfaces.circuit import HALF_TURN
 

@@ -24,9 +24,9 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats, Ints
 from graphs.errors import UnsolvableError
-from graphs.rank.spaces import rank_of
+from graphs.rank.singular_values import rank_of
+from graphs.types import Floats, Ints
 from synth.conformed.chords import arc_sets, sign_of_sum
 from synth.conformed.cycles import signed_cycles
 from synth.conformed.rates import ConformedChain

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.geometry import across, sectors, unit
 from graphs.mechanism.surfaces import checked_cone_angle, joint_axes
+from graphs.types import Floats
 from synth.surfaces.circuit import azimuths
 
 __all__ = [

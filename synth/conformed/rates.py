@@ -20,12 +20,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
-from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.singular_values import spectra
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId, LinkId
 
 __all__ = ["ConformedChain", "FirstOrder", "first_order", "pole_axes", "ring_axes"]
 

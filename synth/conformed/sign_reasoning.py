@@ -19,8 +19,8 @@ import numpy as np
 import numpy.typing as npt
 
 from enumerate.kernel.compiled import compiled
-from graphs.arrays import Ints, Signs
-from graphs.rank.spaces import rank_of
+from graphs.rank.singular_values import rank_of
+from graphs.types import Ints, Signs
 from synth.conformed.rates import ConformedChain
 
 __all__ = ["SignRelations"]

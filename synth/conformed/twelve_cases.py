@@ -15,9 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 
 __all__ = ["COLUMNS", "ROWS", "TableRow", "table4", "table_row"]
 

@@ -12,9 +12,9 @@ from math import cos, pi, sin
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.geometry import unit
 from graphs.mechanism.surfaces import Cylinder, Surface
+from graphs.types import Floats
 from synth.conformed.behaviours import Way, behaviour_of_motion, icrl
 from synth.conformed.layers import LinksInLayers, links_in_layers
 from synth.conformed.rates import ConformedChain, first_order

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from graphs.arrays import Floats
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.atomic import check_place, write_text
 from graphs.files.patterns.fold_poses import fold_text_of_poses
@@ -12,6 +11,7 @@ from graphs.files.patterns.obj import obj_text
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from graphs.types import Floats
 from synth.drawing.scene.raster import check_matplotlib
 from synth.drawing.scene.writing import save_scene
 from synth.drawing.space.bodies import bodies_of, places_of_hinges

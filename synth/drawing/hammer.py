@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Flags, Floats
+from graphs.types import Flags, Floats
 
 __all__ = ["hammer", "hammer_inverse", "region"]
 

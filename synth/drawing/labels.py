@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import unit
+from graphs.types import Floats
 
 __all__ = ["spread"]
 

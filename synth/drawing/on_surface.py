@@ -7,8 +7,8 @@ from math import cos, degrees, pi, radians, sin
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats
 from graphs.mechanism.surfaces import Cone, Cylinder, Surface
+from graphs.types import Flags, Floats
 from synth.conformed.layers import LinksInLayers
 from synth.conformed.rates import ConformedChain
 from synth.drawing.scene.palette import FINE, NORMAL, SMALL, colour_of_class

@@ -7,9 +7,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import numbered
 from graphs.geometry import signed_area
+from graphs.types import Floats
 from synth.drawing.hammer import hammer, region
 from synth.drawing.labels import spread
 from synth.drawing.scene.frame import COLUMN, Frame, framed, page_of

@@ -13,9 +13,9 @@ from math import hypot
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from graphs.geometry import across, unit
+from graphs.types import Floats
 from synth.drawing.labels import spread
 from synth.drawing.scene.frame import Frame, page_of
 from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG

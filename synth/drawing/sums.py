@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphs.arrays import Floats
+from graphs.types import Floats
 from synth.drawing.scene.frame import Frame, page_of
 from synth.drawing.scene.palette import FINE, SMALL, STRONG, colour_of_class
 from synth.drawing.scene.plot import Plot, round_steps

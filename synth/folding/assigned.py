@@ -10,8 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from graphs.creasing.edits import SheetEdit
-from graphs.errors import UnsolvableError
-from graphs.given import check_given
+from graphs.errors import UnsolvableError, check_argument
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.tolerances import DOUBLE
 from synth.folding.configuration import SheetConfiguration, configuration_of_sheet
@@ -56,7 +55,7 @@ def assign_branch(sheet: Sheet | SheetConfiguration, branch: int | str) -> Sheet
     >>> [assign_branch(sheet, number).sheet.assignments[:4] for number in (0, 1)]
     ['VMMM', 'MFMF']
     """
-    check_given("assign_branch", sheet, Sheet | SheetConfiguration)
+    check_argument("assign_branch", sheet, Sheet | SheetConfiguration)
     at = sheet if isinstance(sheet, SheetConfiguration) else configuration_of_sheet(sheet)
     if not at.flat:
         raise UnsolvableError("an assignment says how a flat sheet begins to fold, and this one is folded")

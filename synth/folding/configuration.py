@@ -12,14 +12,13 @@ from math import degrees
 
 import numpy as np
 
-from graphs.answer.mechanisms import lying
-from graphs.arrays import Floats
+from graphs.answer.mechanisms import sheet_in_frame
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import UnsolvableError
-from graphs.ids import JointId
 from graphs.mechanism.precision import keeping, precision_of_sheet, stated
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId
 from synth.folding.collisions import Collision, Panels
 from synth.folding.mending.near import covers
 from synth.folding.mending.nearest import Nearby, Written, beyond_precision, nearby
@@ -232,7 +231,7 @@ def configuration_of_sheet(
     >>> at, at.branches.regular
     (<SheetConfiguration: <PosedLinkage: 2 links, 1 joints, 0 loops>>, True)
     """
-    sheet = stated(lying(sheet, frame), precision)
+    sheet = stated(sheet_in_frame(sheet, frame), precision)
     if sheet.coordinates is None:
         raise UnsolvableError(f"to move needs coordinates, and {sheet!r} has none")
     found = precision_of_sheet(sheet)

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse
 
-from graphs.arrays import Floats, Ints
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import UnsolvableError
 from graphs.geometry import crossing
 from graphs.loops.loop import Centre
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet
+from graphs.types import Floats, Ints
 from synth.folding.vertices import largest_panel
 from synth.motion.bodies import BodyPoses, BodyTree
 from synth.motion.closure import ClosureEquations

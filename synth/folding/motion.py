@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from graphs.given import check_given
-from graphs.ids import JointId
+from graphs.errors import check_argument
 from graphs.mechanism.sheet import Sheet
+from graphs.types import JointId
 from synth.folding.configuration import configuration_of_sheet
 from synth.motion.driving import Asked
 from synth.motion.motion import FRAMES, Motion, motion_of
@@ -73,7 +73,7 @@ def fold(
     >>> np.degrees(folded.path.angles[-1]).round(2).tolist(), folded.freedoms
     ([-48.19, 90.0, 48.19, 90.0], 1)
     """
-    check_given("fold", sheet, Sheet)
+    check_argument("fold", sheet, Sheet)
     return motion_of(
         configuration_of_sheet(sheet, precision=precision),
         Asked(drive or {}, along or {}, branch, frames, report),

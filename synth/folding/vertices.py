@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet
+from graphs.types import Floats
 from synth.motion.linkage import PosedLinkage
 from synth.motion.placement import link_motions
 

@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.fourbar.rounding import ILL_CONDITIONED, rounding_of
 
 __all__ = [

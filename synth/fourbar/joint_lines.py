@@ -11,7 +11,7 @@ from itertools import product
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
+from graphs.types import Floats
 from synth.fourbar.rounding import rounding_of
 
 __all__ = ["in_a_hemisphere", "minimal_supplementary", "supplementary"]

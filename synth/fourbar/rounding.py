@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
+from graphs.types import Floats
 
 __all__ = ["ILL_CONDITIONED", "rounding_of"]
 

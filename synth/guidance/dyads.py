@@ -17,10 +17,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from graphs.geometry import facing, principal_axes
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.guidance.hoop_method import Direction
 from synth.guidance.order import crank_angles, nearest_moving_axis, order_by_crank_angles
 from synth.guidance.orientations import Orientations, unit_vector

@@ -15,11 +15,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
-from graphs.canonical import canonical_order
 from graphs.errors import NumericalError, UnsolvableError
-from graphs.rank.spaces import singular_values, split
-from graphs.tolerances import DOUBLE
+from graphs.rank.singular_values import singular_values, split
+from graphs.tolerances import DOUBLE, canonical_order
+from graphs.types import Floats
 from synth.guidance.dyads import Dyad, dyad_of
 from synth.guidance.orientations import Orientations
 

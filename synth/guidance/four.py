@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from graphs.geometry import best_plane, frame_about, unit
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.guidance.dyads import Dyad, dyad_of
 from synth.guidance.order import order_verdicts
 from synth.guidance.orientations import Orientations

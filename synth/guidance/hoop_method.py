@@ -16,11 +16,10 @@ from typing import Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
-from graphs.canonical import canonical_order
 from graphs.errors import UnsolvableError
 from graphs.geometry import across
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, canonical_order
+from graphs.types import Floats
 from synth.guidance.orientations import Orientations, Pair, unit_vector
 
 __all__ = [

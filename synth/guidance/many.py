@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import canonical_order
 from graphs.errors import UnsolvableError
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, canonical_order
+from graphs.types import Floats
 from synth.guidance.dyads import Dyad, dyad_of
 from synth.guidance.order import nearest_moving_axis
 from synth.guidance.orientations import Orientations

@@ -14,11 +14,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.geometry import across, best_plane
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import EPSILON
+from graphs.types import Floats
 from synth.guidance.hoop_method import (
     DIRECTIONS,
     Direction,

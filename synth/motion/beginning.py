@@ -7,12 +7,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import canonical_basis
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.rank.spaces import null_space
-from graphs.tolerances import DOUBLE
+from graphs.rank.singular_values import null_space
+from graphs.tolerances import DOUBLE, canonical_basis
+from graphs.types import Floats
 from synth.motion.branches import MOST_JOINTS, Branch, Branches
 from synth.motion.configuration import Configuration
 from synth.motion.marked import marked_rates, rates_as_marked

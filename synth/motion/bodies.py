@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs import geometry
-from graphs.arrays import Floats, Ints
-from graphs.ids import LinkId
+from graphs.types import Floats, Ints, LinkId
 from synth.motion.closure import carried
 from synth.motion.derivatives import AxisChange
 from synth.motion.linkage import PosedLinkage

@@ -16,12 +16,9 @@ from typing import Any, Literal
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
-from graphs.canonical import canonical_basis, canonical_order, signed
-from graphs.ids import JointId
-from graphs.rank.singular_values import spectrum
-from graphs.rank.spaces import inertia, rank_of
-from graphs.tolerances import DOUBLE
+from graphs.rank.singular_values import inertia, rank_of, spectrum
+from graphs.tolerances import DOUBLE, canonical_basis, canonical_order, signed
+from graphs.types import Floats, Ints, JointId
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, PosedLoop
 from synth.motion.second_order import RateSpace, largest_only, rates_at, rates_near, spaces_within

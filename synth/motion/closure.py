@@ -15,9 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse
 
-from graphs.arrays import Floats, Ints
 from graphs.geometry import common_direction, frame_about, rotations
 from graphs.loops.loop import Centre
+from graphs.types import Floats, Ints
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["ClosureEquations", "carried", "frames_of"]

@@ -15,15 +15,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.convert.table import Mechanism
 from graphs.errors import UnsolvableError, numbered, shown
-from graphs.ids import JointId
 from graphs.loops.loop import Centre
 from graphs.mechanism.precision import Precision
-from graphs.mechanism.reading import Reading
-from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.sheet import Reading, Sheet
 from graphs.tolerances import Tolerances
+from graphs.types import Floats, JointId
 from synth.motion.branches import MOST_JOINTS, Branch, Branches, branches_of, search_for
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage

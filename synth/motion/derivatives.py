@@ -15,11 +15,11 @@ from functools import cached_property
 import numpy as np
 import scipy.sparse
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from graphs.geometry import crossing
 from graphs.loops.loop import Centre
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.motion.newton import TangentSpace

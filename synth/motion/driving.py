@@ -11,13 +11,11 @@ from math import degrees, pi
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import MARGIN, leading
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.extent import LEAST, MOST, in_reach
-from graphs.ids import JointId
-from graphs.tolerances import DOUBLE
+from graphs.limits import LEAST, MOST, in_reach
+from graphs.tolerances import DOUBLE, MARGIN, leading
+from graphs.types import Floats, JointId
 from synth.motion.beginning import Wanted, beginning
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration

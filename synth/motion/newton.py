@@ -16,9 +16,9 @@ import scipy.linalg
 import scipy.sparse
 from scipy.sparse.linalg import splu
 
-from graphs.arrays import Floats
 from graphs.errors import NumericalError
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.motion.closure import ClosureEquations
 
 __all__ = ["Corrected", "TangentSpace", "corrected", "exactly_held"]

@@ -13,9 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Flags, Floats
-from graphs.canonical import trailing
-from graphs.ids import JointId
+from graphs.tolerances import trailing
+from graphs.types import Flags, Floats, JointId
 from synth.motion.closure import ClosureEquations
 from synth.motion.walk.allowance import Allowance
 from synth.motion.walk.event import PathEvent

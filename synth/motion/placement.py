@@ -11,9 +11,8 @@ from dataclasses import replace
 import networkx as nx
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import rotations
-from graphs.ids import LinkId
+from graphs.types import Floats, LinkId
 from synth.motion.linkage import PosedLinkage
 
 __all__ = ["joints_outwards", "link_motions", "moved"]

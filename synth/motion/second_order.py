@@ -18,10 +18,9 @@ import numpy as np
 import scipy.linalg
 import scipy.sparse
 
-from graphs.arrays import Floats, Ints
-from graphs.canonical import canonical_basis, canonical_order, signed
-from graphs.rank.spaces import inertia, null_space, split
-from graphs.tolerances import DOUBLE
+from graphs.rank.singular_values import inertia, null_space, split
+from graphs.tolerances import DOUBLE, canonical_basis, canonical_order, signed
+from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import TangentSpace
 from synth.motion.singular.definite import definite_weights
@@ -132,7 +131,7 @@ def rates_at(closure: ClosureEquations, angles: Floats, zero: float = DOUBLE.zer
     """Return the rates at which loops stay closed to first order: float[J, s], orthonormal columns.
 
     By singular values; of many joints by orthogonal columns, the largest of what is left first, which takes a
-    third of the time. The columns depend on the space alone (`graphs.canonical`).
+    third of the time. The columns depend on the space alone (`graphs.tolerances`).
     """
     matrix = closure.at(angles)[1].toarray()
     if closure.joints <= _MANY:

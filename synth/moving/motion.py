@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from graphs.given import check_given
-from graphs.ids import JointId
+from graphs.errors import check_argument
+from graphs.types import JointId
 from synth.motion.driving import Asked
 from synth.motion.motion import FRAMES, Motion, motion_of
 from synth.moving.made import Movable, configuration_of
@@ -73,6 +73,6 @@ def move(
     >>> np.degrees(moved.path.angles[-1]).round(6).tolist(), moved.taken.freedoms
     ([30.0, -30.0, 30.0, -30.0], 1)
     """
-    check_given("move", thing, Movable)
+    check_argument("move", thing, Movable)
     at = configuration_of(thing, precision=precision)
     return motion_of(at, Asked(drive or {}, along or {}, branch, frames, report), collisions=collisions)

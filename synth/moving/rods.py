@@ -16,14 +16,13 @@ from typing import Any
 import networkx as nx
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import leading
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.geometry import frame_about, unit
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import precision_of
 from graphs.mechanism.sc import SCGraph
-from graphs.tolerances import Tolerances
+from graphs.tolerances import Tolerances, leading
+from graphs.types import Floats
 from synth.motion.linkage import PosedLinkage, linkage_of_axes
 
 __all__ = ["linkage_of_rods"]

@@ -12,9 +12,8 @@ from math import ceil, cos, inf, sin, tau
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats
-from graphs.ids import LinkId
 from graphs.tolerances import DOUBLE
+from graphs.types import Flags, Floats, LinkId
 from synth.conformed.behaviours import Way, link_arcs
 from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain

@@ -16,7 +16,7 @@ import numpy as np
 
 from graphs.convert.table import Mechanism
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE
 from synth.moving.made import configuration_of, sheet_of

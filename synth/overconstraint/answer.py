@@ -8,8 +8,8 @@ from typing import Any
 
 from graphs.answer.report import power_of_ten
 from graphs.errors import numbered, shown
-from graphs.ids import JointId
 from graphs.printing import Block, Printed, TableBlock, plain
+from graphs.types import JointId
 from synth.motion.configuration import Configuration
 from synth.overconstraint.tolerances import Tolerance
 

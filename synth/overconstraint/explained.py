@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphs.convert.table import Mechanism
-from graphs.given import check_given
+from graphs.errors import check_argument
 from graphs.tolerances import Tolerances
 from synth.motion.linkage import PosedLinkage
 from synth.moving.made import Movable, configuration_of
@@ -41,7 +41,7 @@ def explain(thing: Mechanism | PosedLinkage, *, precision: float | None = None) 
     >>> found.freedoms, found.count, found.idle, found.sets[0].reasons[0]
     (1, -2, 3, 'opposite links equal, lengths proportional to the sines of the twists (Bennett)')
     """
-    check_given("explain", thing, Movable)
+    check_argument("explain", thing, Movable)
     at = configuration_of(thing, precision=precision)
     linkage = at.linkage
     order = first_order(linkage, at.tolerances)

@@ -10,13 +10,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
-from graphs.canonical import canonical_basis
 from graphs.errors import NumericalError
 from graphs.loops.loop import Centre
-from graphs.rank.singular_values import spectrum
-from graphs.rank.spaces import row_space, singular_values, split
-from graphs.tolerances import DOUBLE, Tolerances
+from graphs.rank.singular_values import row_space, singular_values, spectrum, split
+from graphs.tolerances import DOUBLE, Tolerances, canonical_basis
+from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, PosedLoop, axis_lengths
 

@@ -11,11 +11,11 @@ from math import pi
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats, Ints
 from graphs.geometry import lines_meet, rigid_motion, sectors
 from graphs.loops.loop import Centre
-from graphs.rank.spaces import singular_values
+from graphs.rank.singular_values import singular_values
 from graphs.tolerances import DOUBLE, Tolerances
+from graphs.types import Flags, Floats, Ints
 from synth.motion.linkage import PosedLinkage, PosedLoop, axis_lengths
 
 __all__ = ["reasons_of"]

@@ -12,11 +12,9 @@ from math import inf
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import canonical_order
 from graphs.geometry import crossing
-from graphs.ids import JointId
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, canonical_order
+from graphs.types import Floats, JointId
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.overconstraint.idle import FirstOrder, loop_alone

@@ -9,15 +9,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import unit
 from graphs.joints.kinds import JointKind
 from graphs.joints.linkage import JointedLinkage, Leg, legs, plain_vector
 from graphs.joints.recognising import recognised
 from graphs.loops.loop import Centre
 from graphs.mechanism.solids import HingedSolids
-from graphs.rank.spaces import null_space
+from graphs.rank.singular_values import null_space
 from graphs.tolerances import DOUBLE, Tolerances
+from graphs.types import Floats
 from synth.motion.linkage import PosedLinkage, axis_lengths
 from synth.overconstraint.idle import FirstOrder
 

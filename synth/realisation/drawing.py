@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphs.arrays import Floats
+from graphs.types import Floats
 from synth.motion.walk.allowance import Allowance
 from synth.realisation.figures import crossings
 from synth.realisation.improving import improved

@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import angles_between
 from graphs.mechanism.precision import extent_of, off_panel_planes
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.realisation.pattern import Pattern
 
 __all__ = ["ShapeFigures", "crossings", "figures_of"]

@@ -13,11 +13,11 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import unit
 from graphs.mechanism.sheet import sides_of_face
-from graphs.rank.spaces import split
+from graphs.rank.singular_values import split
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.motion.walk.allowance import Allowance
 from synth.realisation.figures import crossings
 from synth.realisation.measures import corner_angles, edge_lengths, is_drawn, opened_angles, sums_at

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, Ints
 from synth.realisation.pattern import Pattern
 
 __all__ = ["corner_angles", "edge_lengths", "is_drawn", "opened_angles", "sums_at"]

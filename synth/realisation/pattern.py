@@ -11,15 +11,14 @@ from functools import cached_property
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats, Ints
 from graphs.convert.panels import rings_of
 from graphs.errors import UnsolvableError
-from graphs.ids import JointId, LinkId
 from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre
 from graphs.mechanism.drawing import FaceKind
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, sides_of_face
+from graphs.types import Flags, Floats, Ints, JointId, LinkId
 
 __all__ = ["Pattern", "Pointing", "pattern_of"]
 

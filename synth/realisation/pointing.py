@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import common_direction, unit
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.realisation.pattern import Pattern, Pointing
 
 __all__ = ["first_unknowns", "off_centres"]

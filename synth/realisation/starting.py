@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphs.arrays import Floats
+from graphs.types import Floats
 from synth.realisation.pattern import Pattern
 
 __all__ = ["barycentric_start"]

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 
 __all__ = ["HALF_TURN", "Circuits", "azimuths", "circuits", "closing_step", "table1", "wrapped"]
 

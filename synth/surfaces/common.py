@@ -14,13 +14,11 @@ import networkx as nx
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.ids import JointId
-from graphs.mechanism.on_surface import Pair, places_of_steps
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.surfaces import Cone, Cylinder, Surface
+from graphs.mechanism.surfaces import Cone, Cylinder, Pair, Surface, places_of_steps
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId
 from synth.fourbar.rounding import ILL_CONDITIONED
 from synth.surfaces.circuit import HALF_TURN, circuits, wrapped
 from synth.surfaces.cone import cone_reach, is_flat

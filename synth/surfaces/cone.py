@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError, numbered
 from graphs.mechanism.surfaces import checked_cone_angle
 from graphs.printing import Block, Printed
+from graphs.types import Floats
 from synth.fourbar.closing import (
     FourBarKind,
     checked_link_angles,

@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Flags, Floats
+from graphs.types import Flags, Floats
 from synth.fourbar.rounding import rounding_of
 from synth.surfaces.loop_sums import sign_patterns
 

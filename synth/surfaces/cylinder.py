@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError, numbered
 from graphs.mechanism.surfaces import Cylinder
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.fourbar.closing import FourBarKind, checked_link_lengths, kind_of_planar
 from synth.fourbar.rounding import ILL_CONDITIONED, rounding_of
 from synth.surfaces.circuit import azimuths

@@ -12,12 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from graphs.errors import UnsolvableError, numbered
-from graphs.given import check_given
-from graphs.ids import JointId
-from graphs.mechanism.on_surface import Pair, SurfaceLinkage
-from graphs.mechanism.surfaces import Cylinder, Surface
+from graphs.errors import UnsolvableError, check_argument, numbered
+from graphs.mechanism.surfaces import Cylinder, Pair, Surface, SurfaceLinkage
 from graphs.printing import Block, Printed, TableBlock, plain
+from graphs.types import JointId
 from synth.surfaces.common import CommonFamily, CommonSurface, common_surfaces
 from synth.surfaces.cone import cone_chords, link_angles
 from synth.surfaces.cylinder import chords, joint_coordinates
@@ -143,7 +141,7 @@ def _sizes_and_chords(linkage: SurfaceLinkage, one: CommonSurface) -> dict[Pair,
 def sizes_on(linkage: SurfaceLinkage, surface: Surface, places: Mapping[JointId, float]) -> dict[Pair, float]:
     """Return the link angles, radians, or lengths between all joints of each link on a surface.
 
-    >>> from graphs.mechanism.on_surface import ring
+    >>> from graphs.mechanism.surfaces import ring
     >>> square = SurfaceLinkage(ring(4), steps={})
     >>> places = dict(zip(square.chain.joints, np.radians([0, 90, 180, 270]), strict=True))
     >>> round(sizes_on(square, Cylinder(1.0), places)["1", "2"], 6)
@@ -238,7 +236,7 @@ def map_linkage(linkage: SurfaceLinkage, tolerance: float = 1e-7) -> LinkageMap:
     >>> [family.interval[0] for family in map_linkage(SurfaceLinkage(chain, steps=steps)).families]
     [0.0]
     """
-    check_given("map_linkage", linkage, SurfaceLinkage)
+    check_argument("map_linkage", linkage, SurfaceLinkage)
     if linkage.sizes is not None:
         by_lengths = linkage.lengths is not None
         return LinkageMap(linkage, *common_surfaces(linkage.chain, linkage.sizes, tolerance, lengths=by_lengths))

@@ -27,8 +27,8 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
+from graphs.types import Floats
 from synth.fourbar.rounding import rounding_of
 
 __all__ = [

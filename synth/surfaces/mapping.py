@@ -16,9 +16,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
-from graphs.ids import JointId
 from graphs.printing import Block, TableBlock, plain
+from graphs.types import Floats, JointId
 from synth.fourbar.closing import FourBarKind
 from synth.fourbar.rounding import ILL_CONDITIONED
 from synth.surfaces.circuit import circuits

@@ -13,11 +13,10 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
-from graphs.ids import JointId
-from graphs.mechanism.on_surface import Pair
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.surfaces import Pair
+from graphs.types import Floats, JointId
 from synth.surfaces.circuit import HALF_TURN, Circuits, circuits, wrapped
 from synth.surfaces.cone import link_angles
 

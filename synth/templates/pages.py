@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from math import prod
 
 from graphs.errors import UnsolvableError
-from graphs.plain_text import plain
+from graphs.printing import plain
 from synth.templates.lines import Piece, Stroke, Text
 from synth.templates.marks import footer
 from synth.templates.note.page import note_page

@@ -6,9 +6,9 @@ from math import isfinite
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.mechanism.sheet import Sheet
+from graphs.types import Floats
 
 __all__ = ["GREATEST", "millimetres", "scale_of", "unit_of"]
 

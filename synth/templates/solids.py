@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import FileError, UnsolvableError, numbered
 from graphs.files.atomic import Beside, check_place
 from graphs.files.solids.gltf import gltf_text
@@ -15,9 +14,10 @@ from graphs.files.solids.mesh import Mesh
 from graphs.files.solids.obj import obj_of_meshes
 from graphs.files.solids.stl import stl_bytes
 from graphs.files.solids.three_mf import three_mf_bytes
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.mechanism.surfaces import Surface
+from graphs.types import Floats
 from synth.conformed.linkages import OnSurface
 from synth.templates.developed.layered import Dimensions, layered
 from synth.templates.developed.solids import solids_on_surface

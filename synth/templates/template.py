@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import Any
 
 from graphs.errors import SynthedraError, UnsolvableError, numbered
-from graphs.mechanism.plane import flattened, in_space
+from graphs.mechanism.precision import flattened, in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.conformed.linkages import OnSurface
 from synth.drawing.scene.shapes import Scene

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 import shapely
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.solids.mesh import Mesh
 from graphs.geometry import rigid_motion
 from graphs.mechanism.sheet import FLAT, Sheet
+from graphs.types import Floats
 from synth.templates.pieces.overlaps import GRID, united
 from synth.templates.pieces.planes import Plane
 from synth.templates.pieces.unfolding import Panels, panels_of

@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 from enumerate.strings.panel_strings import ChainString
 from graphs.convert.table import Mechanism
 from graphs.errors import UnsolvableError
-from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
-from graphs.mechanism.surfaces import Surface
+from graphs.mechanism.surfaces import Surface, SurfaceLinkage
 from synth.conformed.linkages import OnSurface, linkage_on_surfaces, surface_of_number
 from synth.drawing.mechanisms.orders import OrderOnCircle
 from synth.moving.made import sheet_of

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from graphs.errors import FileError
 from graphs.files.atomic import Beside, check_place
-from graphs.plain_text import plain
+from graphs.printing import plain
 from synth.templates.formats.dxf import dxf_of_template
 from synth.templates.formats.pdf import check_reportlab, pdf_of_pages
 from synth.templates.formats.svg import svg_of_page

@@ -10,11 +10,10 @@ from typing import Any, Literal, NamedTuple
 
 import networkx as nx
 
-from graphs.answer.mechanisms import lying, mobility as counted
+from graphs.answer.mechanisms import mobility as counted, sheet_in_frame
 from graphs.answer.report import MobilityAnswer
 from graphs.convert.table import Mechanism
-from graphs.errors import SynthedraError, UnsolvableError
-from graphs.given import check_given
+from graphs.errors import SynthedraError, UnsolvableError, check_argument
 from graphs.mechanism.precision import BY_DIGITS
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block
@@ -144,7 +143,7 @@ def mobility(
     >>> answer.mobility, answer.pose.dof
     (1, 2)
     """
-    check_given("mobility", mechanism, Configuration | Mechanism | nx.Graph)
+    check_argument("mobility", mechanism, Configuration | Mechanism | nx.Graph)
     if precision is not None and isinstance(mechanism, Mechanism):
         mechanism = with_precision(mechanism, precision)
     given = mechanism.given if isinstance(mechanism, Configuration) else mechanism
@@ -154,7 +153,7 @@ def mobility(
     at, reason = None, "its motion was not analysed" if motion is False else ""
     looked_for = pose is not False and motion is not False
     if looked_for and isinstance(given, Sheet):
-        at, reason = asked.of_sheet(lying(given, pose))
+        at, reason = asked.of_sheet(sheet_in_frame(given, pose))
     dual = at.dual if isinstance(at, SheetConfiguration) and geometry else None
     answer = counted(given, exact=exact, hinge_flat=hinge_flat, pose=pose, geometry=geometry, dual=dual)
     if looked_for and not isinstance(given, Sheet) and (answer.pose is not None or motion):

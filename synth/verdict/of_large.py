@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.motion.branches import Certainty, signs_of
 from synth.motion.configuration import Configuration
 from synth.motion.marked import Marked

@@ -10,9 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from graphs.ids import JointId
 from graphs.mechanism.precision import BY_DIGITS, ESTIMATED
 from graphs.tolerances import DOUBLE
+from graphs.types import JointId
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.branches import Branch, Branches, Certainty
 from synth.motion.configuration import Configuration

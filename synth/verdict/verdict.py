@@ -12,8 +12,8 @@ from typing import Any, Literal
 
 import networkx as nx
 
-from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
+from graphs.types import JointId, LinkId
 from synth.motion.branches import Certainty
 
 __all__ = ["AsWritten", "Basis", "Verdict", "Way", "WithinPrecision", "clusters_of"]

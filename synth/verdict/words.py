@@ -13,9 +13,9 @@ from math import degrees
 import networkx as nx
 
 from graphs.errors import numbered, shown
-from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
 from graphs.tolerances import DOUBLE
+from graphs.types import JointId
 from synth.motion.branches import Certainty
 from synth.motion.configuration import Configuration
 from synth.motion.marked import Marked

@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism
 from graphs.geometry import principal_axes
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet, sides_of_face
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.motion.linkage import PosedLinkage
 
 __all__ = ["Bodies", "bodies_of_linkage", "bodies_of_sheet", "hull_faces"]

@@ -11,10 +11,10 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from graphs.arrays import Floats
 from graphs.geometry import lines_meet
 from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre
+from graphs.types import Floats
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage

@@ -12,9 +12,9 @@ from typing import Any, TypeVar
 
 from graphs.convert.table import Mechanism
 from graphs.errors import SynthedraError, UnsolvableError
-from graphs.mechanism.plane import lies_flat
+from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from graphs.plain_text import plain
+from graphs.printing import plain
 from synth.drawing.mechanisms.creases import places_on_page
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.svg import svg_text

@@ -16,10 +16,9 @@ import numpy as np
 import scipy.sparse
 from scipy.sparse.linalg import splu
 
-from graphs.arrays import Ints
-from graphs.ids import LinkId
 from graphs.loops.loop import Centre
 from graphs.tolerances import EPSILON, Tolerances
+from graphs.types import Ints, LinkId
 from synth.motion.closure import frames_of
 from synth.motion.linkage import PosedLinkage, PosedLoop
 from synth.motion.placement import joints_outwards

@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
-from graphs.canonical import leading
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, leading
+from graphs.types import Floats, Ints
 from synth.motion.beginning import Wanted, beginning
 from synth.motion.branches import Branch
 from synth.motion.closure import ClosureEquations

@@ -19,11 +19,11 @@ from graphs.files.native.on_surface import linkage_document, linkage_from_docume
 from graphs.files.native.solids import solids_document, solids_from_document
 from graphs.files.text import json_text
 from graphs.joints.linkage import JointedLinkage
-from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.solids import HingedSolids
+from graphs.mechanism.surfaces import SurfaceLinkage
 from graphs.mechanism.vertex_edge import VertexEdgeGraph
 
 __all__ = ["FORMATS", "NativeObject", "document", "dumps", "from_document"]

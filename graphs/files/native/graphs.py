@@ -9,11 +9,10 @@ from typing import Any
 from graphs.errors import FileError, shown
 from graphs.files.check import Checker
 from graphs.files.native.names import count_or_names, head, is_count, names, written
-from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sc import SCGraph, SpecialGeometry
 from graphs.mechanism.scd import SCDGraph
-from graphs.mechanism.special import SpecialGeometry
+from graphs.types import JointId, LinkId
 
 __all__ = ["read_sc", "read_scd", "sc_document"]
 

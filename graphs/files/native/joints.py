@@ -19,9 +19,9 @@ from graphs.errors import FileError, InvariantError
 from graphs.files.check import Checker
 from graphs.files.native.graphs import read_sc, sc_document
 from graphs.files.native.names import written
-from graphs.ids import JointId
 from graphs.joints.kinds import JointKind, kind_named
 from graphs.joints.linkage import JointedLinkage, JointPlace, Vector
+from graphs.types import JointId
 
 __all__ = ["joints_document", "joints_from_document"]
 

@@ -20,10 +20,9 @@ from graphs.errors import FileError, shown
 from graphs.files.check import Checker
 from graphs.files.native.graphs import read_sc, sc_document
 from graphs.files.native.names import written
-from graphs.ids import JointId
-from graphs.mechanism.on_surface import Pair, SurfaceLinkage, as_planar, places_of_steps
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.surfaces import Cone, Cylinder, Surface
+from graphs.mechanism.surfaces import Cone, Cylinder, Pair, Surface, SurfaceLinkage, as_planar, places_of_steps
+from graphs.types import JointId
 
 __all__ = ["linkage_document", "linkage_from_document"]
 

@@ -16,9 +16,9 @@ from graphs.errors import FileError, shown
 from graphs.files.check import Checker
 from graphs.files.native.graphs import read_sc, sc_document
 from graphs.files.native.names import written
-from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import Axis, HingedSolids, Vector
+from graphs.types import JointId
 
 __all__ = ["solids_document", "solids_from_document"]
 

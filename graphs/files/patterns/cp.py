@@ -12,7 +12,7 @@ from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.check import Checker
 from graphs.files.patterns.traced import traced_sheet
 from graphs.files.text import read_text
-from graphs.mechanism.plane import flat_places
+from graphs.mechanism.precision import flat_places
 from graphs.mechanism.sheet import Sheet, with_all_edges
 
 __all__ = ["cp_text", "sheet_from_cp"]

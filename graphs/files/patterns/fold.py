@@ -22,11 +22,9 @@ from graphs.files.check import Checker
 from graphs.files.patterns.fold_frames import resolved_frame
 from graphs.files.patterns.simple import with_simple_faces
 from graphs.files.text import json_text, load_json
-from graphs.mechanism.plane import flattened
-from graphs.mechanism.precision import written_by
-from graphs.mechanism.reading import WrittenPrecision
-from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet
-from graphs.work_limits import most
+from graphs.limits import most
+from graphs.mechanism.precision import flattened, written_by
+from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, WrittenPrecision
 
 __all__ = ["FoldFrames", "fold_text", "read_fold", "sheet_from_fold"]
 

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
-from graphs.mechanism.plane import flattened
+from graphs.mechanism.precision import flattened
 from graphs.mechanism.sheet import COLLINEAR, Sheet
+from graphs.types import Floats
 
 __all__ = ["with_simple_faces"]
 

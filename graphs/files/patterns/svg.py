@@ -30,9 +30,9 @@ from graphs.files.patterns.svg_digits import precision_of_shapes
 from graphs.files.patterns.svg_work import check_work_of_svg
 from graphs.files.patterns.traced import traced_sheet
 from graphs.files.text import read_text
-from graphs.mechanism.plane import flat_places
+from graphs.mechanism.precision import flat_places
 from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
-from graphs.plain_text import plain
+from graphs.printing import plain
 
 __all__ = ["sheet_from_svg", "svg_text"]
 

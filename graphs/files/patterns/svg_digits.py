@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphs.mechanism.evidence.digits import digits_of
-from graphs.mechanism.reading import WrittenPrecision
+from graphs.mechanism.precision import digits_of
+from graphs.mechanism.sheet import WrittenPrecision
 
 __all__ = ["precision_of_shapes"]
 

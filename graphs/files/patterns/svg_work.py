@@ -7,7 +7,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from graphs.errors import FileError, shown
-from graphs.work_limits import how_to_raise, most
+from graphs.limits import how_to_raise, most
 
 __all__ = ["check_work_of_svg"]
 

@@ -15,8 +15,7 @@ from graphs.errors import FileError, numbered
 from graphs.files.check import Checker
 from graphs.files.patterns.legend import Understood
 from graphs.mechanism.precision import written_by
-from graphs.mechanism.reading import Reading, WrittenPrecision
-from graphs.mechanism.sheet import HINGES, Sheet
+from graphs.mechanism.sheet import HINGES, Reading, Sheet, WrittenPrecision
 
 __all__ = ["traced_sheet"]
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
+from graphs.types import Floats
 
 __all__ = ["Mesh", "is_watertight"]
 

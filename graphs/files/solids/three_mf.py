@@ -8,7 +8,7 @@ from xml.sax.saxutils import quoteattr
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from graphs.files.solids.mesh import Mesh
-from graphs.plain_text import plain
+from graphs.printing import plain
 
 __all__ = ["three_mf_bytes"]
 

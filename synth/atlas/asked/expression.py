@@ -27,7 +27,7 @@ from typing import Any, NamedTuple, NoReturn
 from enumerate.runner.columns import Column, ListColumn, stored
 from graphs.edit.named import known
 from graphs.errors import InvariantError, shown
-from graphs.plain_text import plain
+from graphs.printing import plain
 
 __all__ = ["Condition", "ExpressionError", "condition_of"]
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from enumerate.runner.columns import ListColumn, unstored
 from graphs.errors import StoreError, shown
-from graphs.plain_text import plain
+from graphs.printing import plain
 from synth.atlas.columns import COLUMNS, KINDS
 
 __all__ = ["damaged", "text_values", "value_of"]

@@ -18,8 +18,7 @@ from graphs.errors import SynthedraError
 from graphs.files.ids import mechanism_of_id
 from graphs.identity.chains import automorphisms_of, chain_id
 from graphs.identity.drawings import map_id
-from graphs.mechanism.arrangement import arrangement_of
-from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sc import SCGraph, arrangement_of
 from graphs.reduce.ride_alongs import reduce
 from synth.atlas.made.things import thing_of
 from synth.atlas.names import name_of_type

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from html import escape
 
-from graphs.plain_text import plain
+from graphs.printing import plain
 
 __all__ = ["document"]
 

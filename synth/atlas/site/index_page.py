@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
-from graphs.plain_text import plain
+from graphs.printing import plain
 from synth.atlas.columns import COLUMNS
 from synth.atlas.site.document import document
 from synth.viewer.pages import json_in_html

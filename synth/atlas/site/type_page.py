@@ -9,7 +9,7 @@ from typing import Any
 
 from graphs.errors import SynthedraError
 from graphs.mechanism.sheet import Sheet
-from graphs.plain_text import plain
+from graphs.printing import plain
 from synth.atlas.asked.mechanisms import sheet_of_type
 from synth.atlas.asked.type_report import TypeReport
 from synth.atlas.columns import COLUMNS

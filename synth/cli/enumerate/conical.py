@@ -13,8 +13,8 @@ from synth.cli.surfaces.circles import surface_asked
 
 if TYPE_CHECKING:
     from enumerate.runner.job import Sink
-    from graphs.ids import LinkId
     from graphs.mechanism.sc import SCGraph
+    from graphs.types import LinkId
     from synth.candidates.job import CandidateJob, Filter
 
 __all__ = ["conical"]

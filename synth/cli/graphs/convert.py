@@ -14,7 +14,7 @@ from synth.cli.reading import DRAWN, read
 
 if TYPE_CHECKING:
     from graphs.convert.table import Mechanism
-    from graphs.mechanism.on_surface import SurfaceLinkage
+    from graphs.mechanism.surfaces import SurfaceLinkage
 
 __all__ = ["convert"]
 
@@ -157,7 +157,7 @@ def _write_solids(
     mechanism: Mechanism, target: str, solid: Mapping[str, float | None], *, force: bool
 ) -> tuple[str, ...]:
     from graphs.errors import UnsolvableError
-    from graphs.mechanism.on_surface import SurfaceLinkage
+    from graphs.mechanism.surfaces import SurfaceLinkage
     from synth.moving.made import sheet_of
     from synth.templates.solids import THICKNESS, write_solids
 

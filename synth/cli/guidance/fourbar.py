@@ -12,7 +12,7 @@ from synth.cli.guidance.order import ORIENTATIONS
 from synth.cli.output import FORCE, about, check_output, console, plain, print_json, table
 
 if TYPE_CHECKING:
-    from graphs.arrays import Floats
+    from graphs.types import Floats
     from synth.guidance.fourbars import GuidedFourBar
     from synth.guidance.orientations import Orientations
 

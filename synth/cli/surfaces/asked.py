@@ -14,8 +14,7 @@ from synth.cli.output import about
 from synth.cli.surfaces.circles import NumberList, in_radians, surface_asked
 
 if TYPE_CHECKING:
-    from graphs.mechanism.on_surface import SurfaceLinkage
-    from graphs.mechanism.surfaces import Surface
+    from graphs.mechanism.surfaces import Surface, SurfaceLinkage
     from synth.conformed.linkages import OnSurface
 
 __all__ = ["AskedLinkage", "Kind", "linkage_options"]
@@ -73,7 +72,7 @@ class AskedLinkage:
     def linkage(self) -> SurfaceLinkage:
         """Return the linkage as it is given."""
         from graphs.files.formats import read_linkage
-        from graphs.mechanism.on_surface import SurfaceLinkage
+        from graphs.mechanism.surfaces import SurfaceLinkage
 
         if self.file is not None:
             return read_linkage(self.file)
@@ -82,7 +81,7 @@ class AskedLinkage:
         return self._of_steps().linkage()
 
     def _of_steps(self) -> OnSurface:
-        from graphs.mechanism.on_surface import as_planar
+        from graphs.mechanism.surfaces import as_planar
         from synth.conformed.linkages import loop_of_steps
 
         found = loop_of_steps(in_radians(self.steps or ()), self.surface)

@@ -11,7 +11,7 @@ from synth.cli.surfaces.asked import AskedLinkage, Kind, linkage_options
 from synth.cli.surfaces.circles import NumberList, in_radians
 
 if TYPE_CHECKING:
-    from graphs.mechanism.on_surface import SurfaceLinkage
+    from graphs.mechanism.surfaces import SurfaceLinkage
     from synth.conformed.linkages import OnSurface
     from synth.surfaces.cone import ConeMap
     from synth.surfaces.cylinder import CylinderMap

@@ -10,8 +10,8 @@ import click
 from synth.cli.output import plain
 
 if TYPE_CHECKING:
-    from graphs.ids import JointId
     from graphs.mechanism.sc import SCGraph
+    from graphs.types import JointId
 
 __all__ = ["driven_angles", "numbers_of_joints"]
 

@@ -17,8 +17,8 @@ from synth.cli.reading import DRAWN, read
 from synth.cli.things.driven import driven_angles, numbers_of_joints
 
 if TYPE_CHECKING:
-    from graphs.ids import JointId, LinkId
     from graphs.mechanism.sc import SCGraph
+    from graphs.types import JointId, LinkId
 
 __all__ = ["fold"]
 

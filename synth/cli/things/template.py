@@ -139,7 +139,7 @@ def template(
       synth template types.sqlite --row 7 --size 150 -o seventh.svg
     """
     from graphs.errors import InvariantError
-    from graphs.mechanism.on_surface import SurfaceLinkage
+    from graphs.mechanism.surfaces import SurfaceLinkage
     from synth.drawing.mechanisms.orders import OrderOnCircle
     from synth.templates.paper import paper_named
     from synth.templates.writing import check_template, write_template

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats, Ints
+from graphs.types import Flags, Floats, Ints
 from synth.drawing.layout.embedding import Node
 from synth.drawing.layout.plane import PlaneGraph
 

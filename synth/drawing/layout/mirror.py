@@ -13,8 +13,8 @@ from typing import Any
 
 import networkx as nx
 
-from graphs.identity.bliss import subdivided, symmetries_of
-from graphs.ids import Joints, LinkId
+from graphs.identity.chains import subdivided, symmetries_of
+from graphs.types import Joints, LinkId
 from synth.drawing.layout.embedding import Neighbours, Node, embedded, faces_of, part_of
 
 __all__ = ["mirrored", "swaps_of"]

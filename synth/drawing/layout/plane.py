@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
+from graphs.types import Floats, Ints
 from synth.drawing.layout.embedding import Node, faces_of
 
 __all__ = ["PlaneGraph", "barycentric", "plane_graph"]

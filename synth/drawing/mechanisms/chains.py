@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from math import hypot
 
 from graphs.errors import numbered
-from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
+from graphs.types import JointId, LinkId
 from synth.drawing.layout.mechanisms import Layout, layout_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.mechanisms.signs import joint_dot

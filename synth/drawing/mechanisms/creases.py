@@ -15,10 +15,10 @@ from statistics import median
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import InvariantError, numbered, shown
 from graphs.geometry import signed_area
-from graphs.ids import LinkId
 from graphs.loops.loop import Centre
-from graphs.mechanism.plane import flat_places
+from graphs.mechanism.precision import flat_places
 from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.types import LinkId
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.mechanisms.motions import Doing, Motions, motions_by_verdict, motions_on_branch
 from synth.drawing.mechanisms.sc_graphs import class_numbers

@@ -7,8 +7,8 @@ from collections.abc import Collection
 import numpy as np
 
 from graphs.errors import UnsolvableError, numbered
-from graphs.ids import JointId
 from graphs.mechanism.sheet import Sheet
+from graphs.types import JointId
 from synth.drawing.mechanisms.creases import DrawnPattern, Overlay, width_of_lines
 from synth.drawing.scene.shapes import Line, Shape
 from synth.folding.configuration import SheetConfiguration

@@ -9,9 +9,9 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from graphs.errors import numbered
-from graphs.ids import JointId, LinkId
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE
+from graphs.types import JointId, LinkId
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.beginning import Wanted, beginning
 from synth.moving.made import configuration_of

@@ -12,8 +12,8 @@ from math import cos, pi, sin
 
 from graphs.errors import numbered
 from graphs.loops.loop import Centre
-from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.surfaces import SurfaceLinkage
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.mechanisms.signs import joint_dot
 from synth.drawing.scene.frame import COLUMN, captions_of, framed, page_of

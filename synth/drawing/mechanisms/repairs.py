@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from graphs.mechanism.reading import Reading, RepairKind
-from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.sheet import Reading, RepairKind, Sheet
 from synth.drawing.mechanisms.creases import DrawnPattern, Overlay
 from synth.drawing.scene.palette import NORMAL, STRONG
 from synth.drawing.scene.shapes import Disc, Line, Point, Polygon, Shape

@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from graphs.errors import numbered
-from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 from graphs.reduce.ride_alongs import Reduction, reduce
+from graphs.types import JointId, LinkId
 from synth.drawing.scene.shapes import Disc, Line, Point, Shape
 
 __all__ = ["bands", "said_of_ride_alongs", "taken_off"]

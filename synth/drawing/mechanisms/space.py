@@ -12,11 +12,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from graphs.errors import UnsolvableError, numbered
-from graphs.ids import LinkId
-from graphs.mechanism.plane import in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from graphs.types import LinkId
 from synth.drawing.layout.mechanisms import layout_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.scene.frame import COLUMN, captions_of, framed, page_of

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from textwrap import wrap
 
-from graphs.plain_text import plain
+from graphs.printing import plain
 from synth.drawing.scene.palette import SMALL
 from synth.drawing.scene.shapes import Label, Layer, Point, Scene, text_width
 

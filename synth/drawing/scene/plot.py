@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from math import ceil, floor, log10
 
-from graphs.arrays import Floats
+from graphs.types import Floats
 from synth.drawing.scene.palette import FINE, NORMAL, SMALL
 from synth.drawing.scene.shapes import Label, Line, Point, Shape
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import cos, pi, sin
 from typing import TypeAlias
 
-from graphs.plain_text import plain
+from graphs.printing import plain
 from synth.drawing.scene.palette import NORMAL, SMALL
 
 __all__ = ["Disc", "Label", "Layer", "Line", "Point", "Polygon", "Scene", "Shape", "arc_points", "text_width"]

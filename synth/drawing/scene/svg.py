@@ -11,7 +11,7 @@ from functools import singledispatchmethod
 from xml.sax.saxutils import escape, quoteattr
 
 from graphs.errors import InvariantError, shown
-from graphs.plain_text import LONGEST_CELL, plain
+from graphs.printing import LONGEST_CELL, plain
 from synth.drawing.scene.palette import colour_of
 from synth.drawing.scene.shapes import Disc, Label, Line, Point, Polygon, Scene, Shape
 

@@ -11,10 +11,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import frame_about, principal_axes
-from graphs.ids import LinkId
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, LinkId
 from synth.drawing.space.panels import HINGE, Panels
 from synth.motion.linkage import PosedLinkage
 from synth.motion.placement import link_motions

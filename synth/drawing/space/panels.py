@@ -8,12 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.geometry import area_vector, unit
-from graphs.ids import JointId, LinkId
 from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId, LinkId
 from synth.drawing.scene.palette import FINE, NORMAL, STRONG
 from synth.drawing.scene.shapes import Line, Point, Polygon, Shape
 from synth.drawing.space.view import View, drawn_order

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.files.atomic import Beside
 from graphs.mechanism.sheet import Sheet
+from graphs.types import Floats
 from synth.drawing.scene.frame import Frame, framed, page_of
 from synth.drawing.scene.moving import moved
 from synth.drawing.scene.palette import SMALL

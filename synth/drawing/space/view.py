@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import trailing
 from graphs.geometry import across, principal_axes, unit
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, trailing
+from graphs.types import Floats
 
 __all__ = ["View", "drawn_order", "view_from", "view_from_above", "view_of_motion"]
 

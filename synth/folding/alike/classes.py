@@ -16,12 +16,12 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from graphs.arrays import Flags, Floats, Ints
 from graphs.geometry import lines_meet, principal_axes, unit
 from graphs.loops.loop import Centre
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet, sides_of_face
 from graphs.tolerances import DOUBLE, Tolerances
+from graphs.types import Flags, Floats, Ints
 from synth.motion.linkage import PosedLinkage, axis_lengths
 
 __all__ = ["alike_classes"]

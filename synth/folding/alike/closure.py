@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse
 
-from graphs.arrays import Floats, Ints
+from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 

@@ -14,11 +14,10 @@ from math import degrees
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
-from graphs.canonical import leading
 from graphs.errors import UnsolvableError
 from graphs.mechanism.sheet import Sheet
-from graphs.tolerances import DOUBLE, Tolerances
+from graphs.tolerances import DOUBLE, Tolerances, leading
+from graphs.types import Floats, Ints
 from synth.folding.alike.classes import alike_classes
 from synth.folding.alike.closure import AlikeClosure
 from synth.folding.configuration import SheetConfiguration, configuration_of_sheet

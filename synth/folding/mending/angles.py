@@ -14,8 +14,8 @@ from math import pi
 import numpy as np
 import scipy.sparse
 
-from graphs.arrays import Floats
 from graphs.loops.loop import Centre
+from graphs.types import Floats
 from synth.folding.mending.places import VertexPlaces
 
 __all__ = ["MeantAngles"]

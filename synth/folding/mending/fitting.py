@@ -16,9 +16,8 @@ from typing import NamedTuple
 import numpy as np
 import scipy.sparse
 
-from graphs.arrays import Floats
-from graphs.canonical import leading
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, leading
+from graphs.types import Floats
 from synth.folding.mending.angles import MeantAngles
 from synth.folding.mending.places import VertexPlaces
 from synth.folding.mending.steps import Block, least_step

@@ -11,9 +11,8 @@ from itertools import islice
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import MARGIN
-from graphs.tolerances import DOUBLE, Tolerances
+from graphs.tolerances import DOUBLE, MARGIN, Tolerances
+from graphs.types import Floats
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.motion.second_order import RateSpace, largest_only, rates_at, spaces_within

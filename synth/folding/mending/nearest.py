@@ -14,11 +14,11 @@ from itertools import product
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism
 from graphs.mechanism.precision import Precision
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE, Tolerances
+from graphs.types import Floats
 from synth.folding.mending.angles import MeantAngles
 from synth.folding.mending.fitting import FARTHEST_PATTERN, Fitting
 from synth.folding.mending.near import NearBranch, covers, near_branches, spaces_at, zeros_of

@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import across, best_plane
 from graphs.mechanism.precision import Precision, off_plane
 from graphs.mechanism.sheet import Sheet
+from graphs.types import Floats
 from synth.folding.mending.places import VertexPlaces
 from synth.motion.misfit import EXACT
 

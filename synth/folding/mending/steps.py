@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.rank.spaces import split
+from graphs.rank.singular_values import split
 from graphs.tolerances import EPSILON
+from graphs.types import Floats
 
 __all__ = ["Block", "least_step"]
 

@@ -12,8 +12,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.optimize import nnls
 
-from graphs.arrays import Floats
-from graphs.rank.spaces import inertia
+from graphs.rank.singular_values import inertia
+from graphs.types import Floats
 
 __all__ = ["definite_weights"]
 

@@ -14,8 +14,8 @@ from math import pi
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import TangentSpace, corrected
 from synth.motion.walk.step import STRAY

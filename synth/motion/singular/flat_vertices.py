@@ -12,11 +12,10 @@ from math import pi
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import MARGIN
 from graphs.geometry import lines_meet, sectors, unit
 from graphs.loops.loop import Centre
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, MARGIN
+from graphs.types import Floats
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["FlatVertices"]

@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.rank.spaces import Split, singular_values, split
+from graphs.rank.singular_values import Split, singular_values, split
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import corrected
 

@@ -14,10 +14,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.loops.loop import Centre
-from graphs.rank.spaces import null_space, row_space
+from graphs.rank.singular_values import null_space, row_space
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = [

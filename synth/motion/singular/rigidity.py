@@ -14,9 +14,9 @@ from typing import Literal
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.rank.singular_values import spectrum
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage
 from synth.motion.second_order import rates_at, spaces_within

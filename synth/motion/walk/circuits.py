@@ -11,8 +11,8 @@ from math import degrees
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError, numbered
+from graphs.types import Floats
 from synth.motion.closure import ClosureEquations
 from synth.motion.path import Path
 from synth.motion.second_order import rates_at

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from math import degrees
 from typing import Any, Literal
 
-from graphs.arrays import Floats
 from graphs.errors import numbered, shown
-from graphs.ids import JointId
+from graphs.types import Floats, JointId
 
 __all__ = ["EventKind", "PathEvent", "in_degrees", "named"]
 

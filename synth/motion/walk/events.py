@@ -7,9 +7,8 @@ from math import pi
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats
-from graphs.ids import JointId
 from graphs.tolerances import DOUBLE
+from graphs.types import Flags, Floats, JointId
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import Corrected, corrected
 from synth.motion.walk.event import named

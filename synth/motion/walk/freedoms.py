@@ -7,10 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
-from graphs.canonical import pivots
-from graphs.rank.spaces import row_space
-from graphs.tolerances import DOUBLE
+from graphs.rank.singular_values import row_space
+from graphs.tolerances import DOUBLE, pivots
+from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import TangentSpace
 

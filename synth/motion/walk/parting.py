@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.rank.spaces import row_space, split
+from graphs.rank.singular_values import row_space, split
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.motion.closure import ClosureEquations
 
 __all__ = ["other_ways"]

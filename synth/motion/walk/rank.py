@@ -14,8 +14,8 @@ import numpy as np
 import scipy.linalg
 from scipy.optimize import minimize_scalar
 
-from graphs.arrays import Floats
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import TangentSpace
 from synth.motion.walk.step import Step

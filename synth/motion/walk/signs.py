@@ -13,9 +13,8 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.optimize import nnls
 
-from graphs.arrays import Flags, Floats
-from graphs.canonical import leading
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, leading
+from graphs.types import Flags, Floats
 from synth.motion.newton import Corrected, TangentSpace
 from synth.motion.walk.step import Step
 from synth.motion.walk.walking import Steering, Walk

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from graphs.arrays import Floats
+from graphs.types import Floats
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import Corrected, corrected, exactly_held
 

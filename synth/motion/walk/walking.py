@@ -13,11 +13,9 @@ from math import inf, sqrt
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import leading
 from graphs.errors import shown
-from graphs.ids import JointId
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, leading
+from graphs.types import Floats, JointId
 from synth.motion.closure import ClosureEquations
 from synth.motion.newton import Corrected, corrected, exactly_held
 from synth.motion.walk.allowance import Allowance

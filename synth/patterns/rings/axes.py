@@ -10,10 +10,9 @@ from math import cos, sin
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import Axis, HingedSolids
+from graphs.types import Floats, JointId
 
 __all__ = ["Line", "chain_frames", "ring", "ring_of_sides", "turned"]
 

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from math import atan2, degrees, isclose, pi, sin, tan
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from graphs.types import Floats
 from synth.patterns.panels import sheet_of_faces
 from synth.patterns.rings.axes import chain_frames, lines_of, ring
 

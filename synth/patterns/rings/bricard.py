@@ -10,9 +10,9 @@ from math import cos, hypot, sin
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import unit
 from graphs.mechanism.solids import HingedSolids
+from graphs.types import Floats
 from synth.patterns.rings.axes import Line, ring, ring_of_sides
 
 __all__ = ["line_symmetric", "plane_symmetric", "trihedral"]

@@ -12,10 +12,9 @@ from math import pi
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import canonical_order
 from graphs.errors import UnsolvableError
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, canonical_order
+from graphs.types import Floats
 from synth.patterns.rings.axes import chain_frames
 
 __all__ = ["closed_chain"]

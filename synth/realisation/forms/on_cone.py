@@ -12,18 +12,15 @@ from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.convert.table import Mechanism, to_sc
-from graphs.errors import InvariantError, UnsolvableError, numbered
-from graphs.given import check_given
+from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered
 from graphs.loops.loop import Centre
-from graphs.mechanism.on_surface import Pair, SurfaceLinkage
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.surfaces import Cone
-from graphs.plain_text import plain
-from graphs.printing import Block, Printed, TableBlock
-from graphs.rank.generic import exact_mobility
+from graphs.mechanism.surfaces import Cone, Pair, SurfaceLinkage
+from graphs.printing import Block, Printed, TableBlock, plain
+from graphs.rank.exact import exact_mobility
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.conformed.rates import ConformedChain, first_order
 from synth.moving.made import configuration_of
 from synth.surfaces.circuit import wrapped
@@ -176,7 +173,7 @@ def realise_on_cone(
     >>> found.circuits, found.freedoms, len(found.arcs)
     (('open',), 1, 4)
     """
-    check_given("realise_on_cone", mechanism, Mechanism)
+    check_argument("realise_on_cone", mechanism, Mechanism)
     _check(cone_angle, seed, tries)
     chain = _about_one_centre(to_sc(mechanism))
     conformed, mobility = ConformedChain.of(chain), exact_mobility(chain).mobility

@@ -12,10 +12,10 @@ import numpy as np
 
 from enumerate.strings.graphs import chain_scd
 from enumerate.strings.panel_strings import ChainString
-from graphs.arrays import Floats
 from graphs.geometry import rotated, unit
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, sides_of_face
+from graphs.types import Floats
 from synth.realisation.drawing import Drawn
 from synth.realisation.measures import opened_angles, sums_at
 from synth.realisation.pattern import Pattern

@@ -11,12 +11,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import MARGIN
 from graphs.errors import UnsolvableError, shown
 from graphs.geometry import unit
-from graphs.rank.spaces import null_space
-from graphs.tolerances import DOUBLE
+from graphs.rank.singular_values import null_space
+from graphs.tolerances import DOUBLE, MARGIN
+from graphs.types import Floats
 from synth.realisation.pattern import Pattern
 
 __all__ = ["evenly_folded", "folds_of", "lifted", "planes_over"]

@@ -16,9 +16,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.optimize
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from graphs.geometry import area_vector, lines_meet
+from graphs.types import Floats
 from synth.realisation.pattern import Pattern, Pointing
 from synth.realisation.space.lifting import evenly_folded, folds_of, planes_over
 

@@ -9,11 +9,10 @@ from typing import Any
 from graphs.convert.table import Mechanism
 from graphs.errors import numbered, shown
 from graphs.identity.drawings import map_id
-from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sc import SCGraph, SpecialGeometry
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from graphs.mechanism.special import SpecialGeometry
 from graphs.printing import Block, Printed
 from synth.motion.configuration import Configuration
 from synth.realisation.special.judging import Moving

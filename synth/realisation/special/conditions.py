@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.loops.loop import Centre
+from graphs.types import Floats
 
 __all__ = [
     "AxisCondition",

@@ -12,13 +12,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import lines_meet, unit
-from graphs.loops.cycle_space import signed_cycle
-from graphs.loops.loop import Centre
+from graphs.loops.loop import Centre, signed_cycle
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
-from graphs.rank.closure import independent_cycles
+from graphs.rank.exact import independent_cycles
+from graphs.types import Floats
 from synth.motion.walk.allowance import Allowance
 from synth.realisation.special.conditions import (
     AxisCondition,

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import SynthedraError, numbered
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.motion.branches import Branch, first_branch, search_for
 from synth.motion.configuration import Configuration
 from synth.motion.placement import moved

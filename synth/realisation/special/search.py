@@ -12,16 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.convert.table import Mechanism, to_sc, to_scd
-from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.given import check_given
+from graphs.errors import InvariantError, UnsolvableError, check_argument, shown
 from graphs.identity.drawings import map_id
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from graphs.rank.closure import independent_cycles
-from graphs.rank.generic import exact_mobility
+from graphs.rank.exact import exact_mobility, independent_cycles
 from synth.motion.walk.allowance import Allowance
 from synth.realisation.pattern import Pattern, pattern_of
 from synth.realisation.refusing import check_holes
@@ -101,7 +99,7 @@ def search_special(mechanism: Mechanism, wishes: SpecialWishes) -> SpecialSearch
     >>> found.members[0].reasons[0]
     'opposite links equal, lengths proportional to the sines of the twists (Bennett)'
     """
-    check_given("realise", mechanism, Mechanism)
+    check_argument("realise", mechanism, Mechanism)
     graph = mechanism if isinstance(mechanism, SCGraph) else _type_of(mechanism)
     _check(graph, wishes)
     general = exact_mobility(graph).mobility

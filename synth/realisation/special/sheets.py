@@ -12,9 +12,9 @@ from math import radians
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from graphs.mechanism.sheet import Sheet
+from graphs.types import Floats
 from synth.motion.walk.allowance import Allowance
 from synth.realisation.drawing import drawings
 from synth.realisation.pattern import Pattern

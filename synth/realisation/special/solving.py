@@ -15,10 +15,9 @@ from math import ceil, radians
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import leading
 from graphs.mechanism.sc import SCGraph
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, leading
+from graphs.types import Floats
 from synth.motion.closure import ClosureEquations
 from synth.motion.derivatives import dependence_on_axes
 from synth.motion.linkage import PosedLinkage, linkage_of_axes

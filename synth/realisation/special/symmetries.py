@@ -11,9 +11,9 @@ from math import cos, lcm, pi, sin
 import networkx as nx
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import numbered
 from graphs.mechanism.sc import SCGraph
+from graphs.types import Floats
 from synth.realisation.special.conditions import AxisSymmetry
 
 __all__ = ["named_motions"]

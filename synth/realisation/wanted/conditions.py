@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from graphs.arrays import Floats
+from graphs.types import Floats
 
 __all__ = ["Condition", "together"]
 

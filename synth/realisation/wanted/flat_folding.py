@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError, shown
 from graphs.mechanism.sheet import Edge
+from graphs.types import Floats
 from synth.realisation.measures import opened_angles
 from synth.realisation.pattern import Pattern
 from synth.realisation.wanted.conditions import Condition

@@ -12,8 +12,8 @@ from collections.abc import Iterable
 import networkx as nx
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.mechanism.sheet import Edge
+from graphs.types import Floats
 from synth.realisation.measures import opened_angles
 from synth.realisation.pattern import Pattern
 from synth.realisation.wanted.conditions import Condition

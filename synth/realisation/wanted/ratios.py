@@ -14,8 +14,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.mechanism.sheet import sides_of_face
+from graphs.types import Floats
 from synth.realisation.measures import opened_angles
 from synth.realisation.pattern import Pattern
 from synth.realisation.wanted.conditions import Condition

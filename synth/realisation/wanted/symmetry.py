@@ -13,10 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats, Ints
 from graphs.geometry import rigid_motion
 from graphs.mechanism.sheet import Edge
 from graphs.tolerances import DOUBLE
+from graphs.types import Flags, Floats, Ints
 from synth.realisation.pattern import Pattern
 from synth.realisation.wanted.walking import Sides, sides_of
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
+from graphs.types import Floats
 from synth.realisation.pattern import Pattern
 from synth.realisation.wanted.conditions import Condition
 from synth.realisation.wanted.flat_folding import flat_folding, off_flat

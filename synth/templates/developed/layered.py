@@ -11,11 +11,11 @@ from math import pi
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.mechanism.surfaces import Surface
-from graphs.plain_text import plain
+from graphs.printing import plain
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.conformed.layers import links_in_layers
 from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain

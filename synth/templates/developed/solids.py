@@ -8,9 +8,9 @@ from math import pi
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from graphs.files.solids.mesh import Mesh
+from graphs.types import Floats
 from synth.templates.developed.layered import LayeredLink, LayeredLinkage
 
 __all__ = ["solids_on_surface"]

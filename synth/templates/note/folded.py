@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from graphs.errors import SynthedraError, numbered
-from graphs.mechanism.plane import lies_flat
+from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.sheet import Sheet
 from synth.drawing.mechanisms.space import folded_scene
 from synth.drawing.scene.shapes import Scene

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from graphs.arrays import Floats
+from graphs.types import Floats
 from synth.templates.lines import Point, Stroke
 
 __all__ = ["common_spans", "cut_once", "spans_on", "uncovered"]

@@ -11,9 +11,9 @@ import numpy as np
 import shapely
 from scipy.spatial import cKDTree
 
-from graphs.arrays import Floats
 from graphs.errors import numbered
 from graphs.mechanism.sheet import Sheet, sides_of_face
+from graphs.types import Floats
 from synth.templates.lines import Kind, Piece, Point, Stroke
 from synth.templates.pieces.cuts import cut_once
 from synth.templates.pieces.overlaps import united

@@ -16,8 +16,8 @@ from typing import Any, Literal, get_args
 import numpy as np
 import shapely
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.types import Floats
 from synth.templates.lines import Kind, Piece, Point, Stroke, Text
 from synth.templates.pieces.cuts import common_spans, cut_once, spans_on, uncovered
 from synth.templates.pieces.overlaps import GRID, united

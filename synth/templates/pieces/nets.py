@@ -12,10 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 import shapely
 
-from graphs.arrays import Floats
 from graphs.geometry import unit
 from graphs.mechanism.sheet import FLAT, Sheet, sides_of_face
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.templates.lines import Kind, Piece, Point, Stroke, Text
 from synth.templates.pieces.cuts import cut_once
 from synth.templates.pieces.flat import FOLDS, put_together

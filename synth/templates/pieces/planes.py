@@ -7,12 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from graphs.arrays import Floats
-from graphs.canonical import trailing
 from graphs.errors import UnsolvableError
 from graphs.geometry import across, area_vector, unit
 from graphs.mechanism.sheet import COLLINEAR
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, trailing
+from graphs.types import Floats
 
 __all__ = ["Plane", "plane_of_panel"]
 

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 import shapely
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.geometry import unit
+from graphs.types import Floats
 from synth.templates.pieces.overlaps import lies_over, lies_within
 
 __all__ = ["Joins", "slot_of", "tab_at", "tab_shapes"]

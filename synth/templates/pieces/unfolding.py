@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 import shapely
 
-from graphs.arrays import Floats
-from graphs.canonical import leading
 from graphs.errors import UnsolvableError
 from graphs.geometry import unit
 from graphs.mechanism.sheet import FLAT, Edge, Sheet, sides_of_face
+from graphs.tolerances import leading
+from graphs.types import Floats
 from synth.templates.pieces.overlaps import lies_over
 from synth.templates.pieces.planes import Plane, plane_of_panel
 

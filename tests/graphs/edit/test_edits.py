@@ -5,7 +5,7 @@ from hypothesis import given
 from strategies import randoms, sc_graphs, scd_graphs
 
 from graphs.convert.panels import scd_from_panels
-from graphs.count.relative import relative_polyhedron
+from graphs.count.equations import relative_polyhedron
 from graphs.edit.sc import add_crease, add_loop, add_ride_along, fresh, lock_joint
 from graphs.edit.scd import crease_link, lock_hinge, make_explicit, make_implicit, ride_along
 from graphs.errors import InvariantError, UnsolvableError

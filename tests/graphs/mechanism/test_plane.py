@@ -7,7 +7,7 @@ import pytest
 
 from graphs.answer.mechanisms import mobility
 from graphs.files.formats import read, write
-from graphs.mechanism.plane import flattened
+from graphs.mechanism.precision import flattened
 from graphs.mechanism.sheet import Sheet
 
 FAN = {

@@ -11,8 +11,7 @@ from graphs.count.report import mobility_report
 from graphs.errors import InvariantError
 from graphs.loops.loop import Loop
 from graphs.mechanism.drawing import FaceKind
-from graphs.mechanism.rules import points_of_joints, points_of_links
-from graphs.mechanism.scd import SCDGraph
+from graphs.mechanism.scd import SCDGraph, points_of_joints, points_of_links
 
 FOUR = [(0, 1), (1, 2), (2, 3), (3, 0)]
 RING = [Loop((0, 1, 2, 3))]

@@ -13,8 +13,8 @@ from graphs.files.formats import read
 from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
-from graphs.rank.fields import PRIMES, PrimeField
-from graphs.rank.generic import exact_mobility
+from graphs.rank.exact import exact_mobility
+from graphs.rank.general_member import PRIMES, PrimeField
 from graphs.rank.pose import pose_mobility_of_axes, pose_mobility_of_model
 from graphs.rank.rods import exact_mobility_of_model, place_model
 

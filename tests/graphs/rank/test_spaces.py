@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from graphs.rank.spaces import inertia, null_space, rank_of, row_space, singular_values, split
+from graphs.rank.singular_values import inertia, null_space, rank_of, row_space, singular_values, split
 from graphs.tolerances import DOUBLE
 
 RANDOM = np.random.default_rng(0)

@@ -24,9 +24,9 @@ from graphs.files.patterns.legend import LEFT_OUT, UNSTATED, Legend
 from graphs.files.patterns.strokes import Dash, Stroke, dash_of_line_type
 from graphs.files.patterns.traced import traced_sheet
 from graphs.files.text import read_text
-from graphs.mechanism.plane import flat_places
+from graphs.mechanism.precision import flat_places
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from graphs.plain_text import plain
+from graphs.printing import plain
 
 __all__ = ["dxf_text", "sheet_from_dxf"]
 

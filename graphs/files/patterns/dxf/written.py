@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from graphs.plain_text import plain
+from graphs.printing import plain
 
 __all__ = ["DxfLayer", "DxfLine", "DxfWord", "dxf_of"]
 

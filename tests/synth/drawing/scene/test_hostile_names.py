@@ -7,11 +7,11 @@ from xml.etree import ElementTree
 import pytest
 from commands import run
 
-from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.solids import HingedSolids
+from graphs.mechanism.surfaces import SurfaceLinkage
 from synth.drawing.catalogue.entries import catalogue_entries
 from synth.drawing.catalogue.pages import catalogue_pages
 from synth.drawing.mechanisms.pictures import draw
