@@ -31,25 +31,7 @@ _LONGEST_PLACE = 120
 
 
 def numbered(number: int, word: str, more: str = "") -> str:
-    """Return a number and what it counts, in words for one or for several.
-
-    Parameters
-    ----------
-    number : int
-    word : str
-        What is counted, for one.
-    more : str, optional
-        For several; by default the word with an s.
-
-    Returns
-    -------
-    str
-
-    Examples
-    --------
-    >>> numbered(1, "link"), numbered(2, "link"), numbered(0, "vertex", "vertices")
-    ('1 link', '2 links', '0 vertices')
-    """
+    """Return a number and its noun, whose plural is ``more``, or the word with an s: "1 link", "2 vertices"."""
     return f"{number} {word if number == 1 else more or word + 's'}"
 
 
@@ -103,18 +85,7 @@ class FileError(SynthedraError, ValueError):
 
 
 class OpenError(FileError, OSError):
-    """A file could not be opened, or the system refused to read or write it.
-
-    Parameters
-    ----------
-    file, place, found, expected
-        As of `FileError`.
-
-    Examples
-    --------
-    >>> isinstance(OpenError("a.json", "", "no such file", "a file"), OSError)
-    True
-    """
+    """A file could not be opened, or the system refused to read or write it."""
 
 
 class InvariantError(SynthedraError, ValueError):
@@ -168,75 +139,25 @@ class UnsolvableError(SynthedraError):
 
 
 class ArgumentError(SynthedraError, TypeError):
-    """A function was given something of another kind than it takes.
-
-    Parameters
-    ----------
-    message : str
-
-    Examples
-    --------
-    >>> issubclass(ArgumentError, TypeError)
-    True
-    """
+    """A function got an argument of another kind than it takes."""
 
 
 class NumericalError(SynthedraError):
-    """A numerical method cannot tell, or did not converge.
-
-    Parameters
-    ----------
-    message : str
-
-    Examples
-    --------
-    >>> issubclass(NumericalError, SynthedraError)
-    True
-    """
+    """A numerical method cannot decide, or did not converge."""
 
 
 class StoreError(SynthedraError):
-    """A store of results cannot be used as asked.
-
-    Parameters
-    ----------
-    message : str
-
-    Examples
-    --------
-    >>> print(StoreError("six.sqlite: is damaged at unit 3"))
-    six.sqlite: is damaged at unit 3
-    """
+    """A store of results cannot be used for this command."""
 
 
 def check_argument(verb: str, thing: object, kinds: type | UnionType) -> None:
-    """Refuse what a function of ``synth`` cannot take, and say how to come by what it can.
+    """Refuse an argument of a function of ``synth`` that is not of the kinds it takes, and say how to make one.
 
-    Parameters
-    ----------
-    verb : str
-        The name of the function.
-    thing : object
-        What it was given.
-    kinds : type or union of types
-        What it takes.
-
-    Raises
-    ------
-    ArgumentError
-        Naming `synth.read`.
-
-    Examples
-    --------
     >>> from graphs.mechanism.sheet import Sheet
     >>> check_argument("fold", "a.fold", Sheet)
     Traceback (most recent call last):
     ...
     graphs.errors.ArgumentError: fold: the text 'a.fold'; expected a Sheet; try synth.fold(synth.read('a.fold'))
-    >>> check_argument("fold", None, Sheet)
-    Traceback (most recent call last):
-    ...
-    graphs.errors.ArgumentError: fold: None; expected a Sheet, as synth.read returns it
     """
     if isinstance(thing, kinds):
         return

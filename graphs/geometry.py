@@ -44,76 +44,29 @@ _ROUNDING = 1e-12
 
 
 def unit(vectors: npt.ArrayLike) -> Floats:
-    """Return vectors of length one; zero vectors stay zero.
-
-    Parameters
-    ----------
-    vectors : float[..., d]
-
-    Examples
-    --------
-    >>> unit([[0, 0, 2], [0, 0, 0]]).tolist()
-    [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0]]
-    """
+    """Return vectors, float[..., d], of length one; zero vectors stay zero."""
     given = np.asarray(vectors, dtype=float)
     lengths = np.linalg.norm(given, axis=-1, keepdims=True)
     return np.asarray(given / np.where(lengths > 0.0, lengths, 1.0))
 
 
 def across(vectors: npt.ArrayLike, axes: npt.ArrayLike) -> Floats:
-    """Return the parts of vectors at right angles to axes of any length.
-
-    Parameters
-    ----------
-    vectors, axes : float[..., d]
-        An axis of length zero takes nothing away.
-
-    Examples
-    --------
-    >>> across([1.0, 1.0, 0.0], [0.0, 3.0, 0.0]).tolist()
-    [1.0, 0.0, 0.0]
-    """
+    """Return the parts of vectors, float[..., d], across axes of any length; zero axes take nothing away."""
     given, along = np.asarray(vectors, dtype=float), unit(axes)
     return np.asarray(given - (given * along).sum(axis=-1, keepdims=True) * along)
 
 
 def crossing(vectors: npt.ArrayLike) -> Floats:
-    """Return the matrices of cross products with vectors.
-
-    Parameters
-    ----------
-    vectors : float[..., 3]
-
-    Returns
-    -------
-    float[..., 3, 3]
-
-    Examples
-    --------
-    >>> (crossing([0.0, 0.0, 1.0]) @ [1.0, 0.0, 0.0]).tolist()
-    [0.0, 1.0, 0.0]
-    """
+    """Return the matrices, float[..., 3, 3], of cross products with vectors, float[..., 3]."""
     made = np.asarray(vectors, dtype=float)
     return np.asarray(np.cross(made[..., None, :], np.eye(3)).swapaxes(-1, -2))
 
 
 def frame_about(directions: npt.ArrayLike) -> Floats:
-    """Return right-handed frames about directions, one axis across the coordinate axis that is flattest to it.
+    """Return right-handed frames about directions of any length, float[..., 3]: float[..., 3, 3].
 
-    Parameters
-    ----------
-    directions : float[..., 3]
-        Of any length but zero.
-
-    Returns
-    -------
-    float[..., 3, 3]
-        Rows are orthonormal: two directions across, then the direction.
-
-    Examples
-    --------
-    >>> (frame_about([0.0, 0.0, 2.0]) + 0.0).tolist()
-    [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+    Rows are orthonormal: one across the coordinate axis that is flattest to the direction, another, then the
+    direction.
     """
     axes = unit(directions)
     sizes = np.abs(axes)
@@ -125,12 +78,6 @@ def frame_about(directions: npt.ArrayLike) -> Floats:
 def angles_between(one: npt.ArrayLike, other: npt.ArrayLike) -> Floats:
     """Return the angles between vectors of any length, 0 to pi; small ones have all their digits.
 
-    Parameters
-    ----------
-    one, other : float[..., 3]
-
-    Examples
-    --------
     >>> float(angles_between([1.0, 0.0, 0.0], [1.0, 1e-9, 0.0]))
     1e-09
     """
@@ -139,44 +86,13 @@ def angles_between(one: npt.ArrayLike, other: npt.ArrayLike) -> Floats:
 
 
 def sectors(directions: npt.ArrayLike) -> Floats:
-    """Return the angles between directions that follow each other round, the last from the last to the first.
-
-    Parameters
-    ----------
-    directions : float[..., n, 3]
-
-    Returns
-    -------
-    float[..., n]
-        Radians, 0 to pi.
-
-    Examples
-    --------
-    >>> np.degrees(sectors(np.eye(3))).round(9).tolist()
-    [90.0, 90.0, 90.0]
-    """
+    """Return the angles, 0 to pi, from each direction, float[..., n, 3], to the next in a ring: float[..., n]."""
     given = np.asarray(directions, dtype=float)
     return angles_between(given, np.roll(given, -1, axis=-2))
 
 
 def rotations(axes: npt.ArrayLike, angles: npt.ArrayLike) -> Floats:
-    """Return the matrices of rotations about unit vectors (Rodrigues).
-
-    Parameters
-    ----------
-    axes : float[..., 3]
-    angles : float[...]
-        Radians.
-
-    Returns
-    -------
-    float[..., 3, 3]
-
-    Examples
-    --------
-    >>> rotations([0.0, 0.0, 1.0], np.pi / 2).round(12).tolist()
-    [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
-    """
+    """Return the matrices, float[..., 3, 3], of rotations about unit vectors by angles in radians (Rodrigues)."""
     along = np.asarray(axes, dtype=float)
     x, y, z = np.moveaxis(along, -1, 0)
     c, s = np.cos(angles), np.sin(angles)
@@ -201,19 +117,7 @@ def rotations(axes: npt.ArrayLike, angles: npt.ArrayLike) -> Floats:
 
 
 def rotated(vectors: npt.ArrayLike, axis: npt.ArrayLike, angle: npt.ArrayLike) -> Floats:
-    """Return vectors rotated about a unit vector, right-handed (Rodrigues), without the matrix.
-
-    Parameters
-    ----------
-    vectors, axis : float[..., 3]
-    angle : float[...]
-        Radians.
-
-    Examples
-    --------
-    >>> rotated([1.0, 0, 0], [0, 0, 1.0], np.pi / 2).round(12).tolist()
-    [0.0, 1.0, 0.0]
-    """
+    """Return vectors rotated about a unit vector by radians, right-handed (Rodrigues), without the matrix."""
     v, e = np.asarray(vectors, dtype=float), np.asarray(axis, dtype=float)
     angle = np.asarray(angle, dtype=float)[..., np.newaxis]
     along = (v * e).sum(axis=-1, keepdims=True) * e
@@ -221,27 +125,11 @@ def rotated(vectors: npt.ArrayLike, axis: npt.ArrayLike, angle: npt.ArrayLike) -
 
 
 def nearest_rotation(matrices: npt.ArrayLike, *, mirrored: bool = False) -> Floats:
-    """Return the rotations nearest to matrices, by the sum of squared entries (Kabsch).
+    """Return the rotations nearest to matrices, float[..., d, d], by the sum of squared entries.
 
-    Parameters
-    ----------
-    matrices : float[..., d, d]
-    mirrored : bool, optional
-        Return orthogonal matrices of determinant -1 instead.
-
-    Returns
-    -------
-    float[..., d, d]
-        Where several are equally near (points in one line, in one place), the one that turns least.
-
-    References
-    ----------
-    W. Kabsch, A solution for the best rotation to relate two sets of vectors, Acta Cryst. A32 (1976) 922-923.
-
-    Examples
-    --------
-    >>> nearest_rotation([[0.0, -2.0], [2.1, 0.0]]).round(12).tolist()
-    [[0.0, -1.0], [1.0, 0.0]]
+    ``mirrored`` returns orthogonal matrices of determinant -1 instead. Where several are equally near (points in
+    one line, in one place), it is the one that turns least. Source: W. Kabsch, A solution for the best rotation to
+    relate two sets of vectors, Acta Cryst. A32 (1976) 922-923.
     """
     given = np.asarray(matrices, dtype=float)
     handed = -1.0 if mirrored else 1.0
@@ -275,25 +163,10 @@ def _least_turn(left: Floats, sizes: Floats, right: Floats, handed: float) -> Fl
 
 
 def rigid_motion(before: npt.ArrayLike, after: npt.ArrayLike, *, mirrored: bool = False) -> tuple[Floats, Floats]:
-    """Return the motion that takes points nearest to others, by the sum of squared distances.
+    """Return the motion that takes points, float[..., n, d], nearest to others, by the sum of squared distances.
 
-    Parameters
-    ----------
-    before, after : float[..., n, d]
-    mirrored : bool, optional
-        A motion that mirrors instead.
-
-    Returns
-    -------
-    rotation : float[..., d, d]
-    shift : float[..., d]
-        A point p goes to rotation @ p + shift.
-
-    Examples
-    --------
-    >>> rotation, shift = rigid_motion([[0.0, 0.0], [1.0, 0.0]], [[3.0, 1.0], [3.0, 2.0]])
-    >>> rotation.round(12).tolist(), shift.round(12).tolist()
-    ([[0.0, -1.0], [1.0, 0.0]], [3.0, 1.0])
+    A point p goes to rotation @ p + shift: float[..., d, d] and float[..., d]. ``mirrored`` finds a motion that
+    mirrors instead.
     """
     start, end = np.asarray(before, dtype=float), np.asarray(after, dtype=float)
     here, there = start.mean(axis=-2, keepdims=True), end.mean(axis=-2, keepdims=True)
@@ -305,19 +178,9 @@ def rigid_motion(before: npt.ArrayLike, after: npt.ArrayLike, *, mirrored: bool 
 class Fit:
     """A plane or a line fitted to points.
 
-    Attributes
-    ----------
-    middle : float[..., d]
-        The mean of the points.
-    direction : float[..., d]
-        Of a plane its unit normal, of a line its direction; the largest component is positive.
-    off : float[...]
-        The greatest distance of a point from it.
-
-    Examples
-    --------
-    >>> float(best_plane([[0, 0, 0], [1, 0, 0], [1, 1, 1], [0, 1, 1]]).off) < 1e-12
-    True
+    ``middle``, float[..., d], is the mean of the points; ``direction``, float[..., d], the unit normal of a plane
+    or the direction of a line, its largest component positive; ``off``, float[...], the greatest distance of a
+    point from it.
     """
 
     middle: Floats
@@ -326,25 +189,11 @@ class Fit:
 
 
 def principal_axes(points: npt.ArrayLike) -> tuple[Floats, Floats]:
-    """Return the directions in which points are long, less long and short, about their mean.
+    """Return the directions in which points, float[..., n, d], are long, less long and short, about their mean.
 
-    Parameters
-    ----------
-    points : float[..., n, d]
-
-    Returns
-    -------
-    sizes : float[..., d]
-        The roots of the sums of squared distances along each, descending.
-    axes : float[..., d, d]
-        Rows are orthonormal; the largest component of each is positive. Directions of equal size are those of
-        the canonical basis of their space.
-
-    Examples
-    --------
-    >>> sizes, axes = principal_axes([[0.0, 0.0], [0.0, 2.0], [1.0, 1.0], [-1.0, 1.0], [0.0, 5.0], [0.0, -3.0]])
-    >>> (axes + 0.0).round(12).tolist()
-    [[0.0, 1.0], [1.0, 0.0]]
+    These are sizes, float[..., d], the roots of the sums of squared distances along each, descending, and axes,
+    float[..., d, d], whose rows are orthonormal, the largest component of each positive. Directions of equal size
+    are those of the canonical basis of their space.
     """
     given = np.asarray(points, dtype=float)
     sizes, axes = _axes(given - given.mean(axis=-2, keepdims=True))
@@ -359,17 +208,8 @@ def principal_axes(points: npt.ArrayLike) -> tuple[Floats, Floats]:
 def best_plane(points: npt.ArrayLike) -> Fit:
     """Return the plane (in two dimensions: the line) nearest to points, by the sum of squared distances.
 
-    Parameters
-    ----------
-    points : float[..., n, d]
-        If they lie in one line or one place, many planes are as near, and the normal is the last vector of the
-        canonical basis of all normals.
-
-    Examples
-    --------
-    >>> plane = best_plane([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 1.0], [0.0, 1.0, 1.0]])
-    >>> plane.direction.round(12).tolist(), float(plane.off)
-    ([0.0, 0.0, 1.0], 0.0)
+    If the points, float[..., n, d], lie in one line or one place, many planes are as near, and the normal is the
+    last vector of the canonical basis of all normals.
     """
     middle, around, axes, tied = _fitted(points)
     normal = axes[..., -1, :].copy()
@@ -382,18 +222,9 @@ def best_plane(points: npt.ArrayLike) -> Fit:
 
 
 def best_line(points: npt.ArrayLike) -> Fit:
-    """Return the line nearest to points, by the sum of squared distances.
+    """Return the line nearest to points, float[..., n, d], by the sum of squared distances.
 
-    Parameters
-    ----------
-    points : float[..., n, d]
-        If they spread equally in several directions, the line is along the first vector of their canonical basis.
-
-    Examples
-    --------
-    >>> line = best_line([[0.0, 0.0, 1.0], [0.0, 3.0, 1.0], [0.0, 6.0, 1.0]])
-    >>> line.direction.round(12).tolist(), line.middle.tolist(), float(line.off)
-    ([0.0, 1.0, 0.0], [0.0, 3.0, 1.0], 0.0)
+    If they spread equally in several directions, it is along the first vector of their canonical basis.
     """
     middle, around, axes, tied = _fitted(points)
     direction = _longest(axes, tied)
@@ -402,22 +233,9 @@ def best_line(points: npt.ArrayLike) -> Fit:
 
 
 def common_direction(directions: npt.ArrayLike) -> Floats:
-    """Return the direction that vectors have in the mean, whichever way each runs: that of nearly parallel lines.
+    """Return the mean direction of nearly parallel lines, whichever way each runs: unit vectors, float[..., d].
 
-    Parameters
-    ----------
-    directions : float[..., k, d]
-        Long ones weigh more.
-
-    Returns
-    -------
-    float[..., d]
-        A unit vector; its largest component is positive.
-
-    Examples
-    --------
-    >>> common_direction([[0.0, 1.0, 0.0], [0.0, -2.0, 0.0]]).round(12).tolist()
-    [0.0, 1.0, 0.0]
+    Of directions, float[..., k, d], long ones weigh more; the largest component of the mean is positive.
     """
     sizes, axes = _axes(np.asarray(directions, dtype=float))
     return _longest(axes, _tied(sizes))
@@ -458,12 +276,6 @@ def _tied(sizes: Floats) -> Flags:
 def facing(directions: Floats) -> Floats:
     """Return directions or their negatives: those whose largest component is positive, the first of equal ones.
 
-    Parameters
-    ----------
-    directions : float[..., d]
-
-    Examples
-    --------
     >>> facing(np.array([0.0, -0.8, 0.6])).tolist()
     [0.0, 0.8, -0.6]
     """
@@ -477,22 +289,10 @@ def facing(directions: Floats) -> Floats:
 class Meeting:
     """Where lines meet.
 
-    Attributes
-    ----------
-    point : float[..., d]
-        The point nearest to all lines, by the sum of squared distances; for parallel lines, that abreast of the
-        mean of the points given.
-    off : float[..., k]
-        Its distance from each line.
-    spread : float[...]
-        How clearly the point is known: the least singular value of the equations over the largest; 0 for parallel
-        lines, sin(a / 2) / cos(a / 2) for two at an angle a in the plane.
-
-    Examples
-    --------
-    >>> meeting = lines_meet([[0.0, 0.0, 0.0], [0.0, 0.0, 2.0]], [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-    >>> meeting.point.round(12).tolist(), meeting.off.round(12).tolist()
-    ([0.0, 0.0, 1.0], [1.0, 1.0])
+    ``point``, float[..., d], is nearest to all lines, by the sum of squared distances; for parallel lines, that
+    abreast of the mean of the points on them. ``off``, float[..., k], is its distance from each line. ``spread``,
+    float[...], is how clearly the point is known: the least singular value of the equations over the largest; 0
+    for parallel lines, sin(a / 2) / cos(a / 2) for two at an angle a in the plane.
     """
 
     point: Floats
@@ -501,21 +301,7 @@ class Meeting:
 
 
 def lines_meet(points: npt.ArrayLike, directions: npt.ArrayLike) -> Meeting:
-    """Return the point nearest to several lines.
-
-    Parameters
-    ----------
-    points : float[..., k, d]
-        One on each line.
-    directions : float[..., k, d]
-        Of any length but zero.
-
-    Examples
-    --------
-    >>> meeting = lines_meet([[1.0, 0.0], [0.0, 3.0]], [[1.0, 0.0], [0.0, -2.0]])
-    >>> meeting.point.round(12).tolist(), float(meeting.off.max()) < 1e-12
-    ([0.0, 0.0], True)
-    """
+    """Return the point nearest to lines: a point on each and a direction of any length, float[..., k, d]."""
     on, along = np.asarray(points, dtype=float), unit(directions)
     middle = on.mean(axis=-2)
     around = on - middle[..., None, :]
@@ -533,17 +319,9 @@ def lines_meet(points: npt.ArrayLike, directions: npt.ArrayLike) -> Meeting:
 
 
 def area_vector(corners: npt.ArrayLike) -> Floats:
-    """Return the area of polygons as a vector across them, towards the side on which they run counter-clockwise.
+    """Return the area of polygons, float[..., n, 3], as a vector to the side where they run counter-clockwise.
 
-    Parameters
-    ----------
-    corners : float[..., n, 3]
-        In their order; of a polygon that is not planar, the vector does not depend on how it is filled.
-
-    Examples
-    --------
-    >>> area_vector([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]]).tolist()
-    [0.0, 0.0, 2.0]
+    For a polygon that is not planar, the vector does not depend on how it is filled.
     """
     given = np.asarray(corners, dtype=float)
     if not given.shape[-2]:
@@ -553,17 +331,7 @@ def area_vector(corners: npt.ArrayLike) -> Floats:
 
 
 def signed_area(corners: npt.ArrayLike) -> Floats:
-    """Return the area of polygons in the plane, counter-clockwise positive.
-
-    Parameters
-    ----------
-    corners : float[..., n, 2]
-
-    Examples
-    --------
-    >>> float(signed_area([[0, 0], [0, 1], [2, 1], [2, 0]]))
-    -2.0
-    """
+    """Return the area of polygons in the plane, float[..., n, 2], counter-clockwise positive."""
     given = np.asarray(corners, dtype=float)
     if not given.shape[-2]:
         return np.zeros(given.shape[:-2])

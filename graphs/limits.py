@@ -41,44 +41,15 @@ _THIN = 1e-12
 
 
 def in_reach(numbers: Iterable[float]) -> bool:
-    """Tell whether numbers are finite and none is beyond the range of coordinates.
-
-    Parameters
-    ----------
-    numbers : iterable of float
-
-    Returns
-    -------
-    bool
-
-    Examples
-    --------
-    >>> in_reach((1.0, -2.5)), in_reach((1.0, 1e160)), in_reach((float("nan"),))
-    (True, False, False)
-    """
+    """Return whether numbers are finite and within the range of coordinates."""
     return all(abs(number) <= MOST for number in numbers)
 
 
 def check_extent(points: Sequence[Sequence[float]]) -> float:
-    """Refuse coordinates that reach too far, or lie too close together; a single place has no extent.
+    """Refuse coordinates that reach too far or lie too close together, and return their extent.
 
-    Parameters
-    ----------
-    points : sequence of points
-        All of them with two or three coordinates.
+    Points have two or three coordinates; a single place has no extent. Raises `InvariantError` with the range.
 
-    Returns
-    -------
-    float
-        The extent.
-
-    Raises
-    ------
-    InvariantError
-        With the range.
-
-    Examples
-    --------
     >>> check_extent([(0.0, 0.0), (3.0, 1.0)])
     3.0
     >>> check_extent([(0.0, 0.0), (1e160, 1.0)])
@@ -96,20 +67,8 @@ def check_extent(points: Sequence[Sequence[float]]) -> float:
 
 
 def check_area(points: Sequence[Sequence[float]]) -> None:
-    """Refuse points that all lie in one line: a pattern of them has no area.
+    """Refuse points that all lie in one line, with `InvariantError`; `check_extent` has accepted them.
 
-    Parameters
-    ----------
-    points : sequence of points
-        As of `check_extent`, which they have passed.
-
-    Raises
-    ------
-    InvariantError
-
-    Examples
-    --------
-    >>> check_area([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)])
     >>> check_area([(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)])
     Traceback (most recent call last):
     ...
@@ -156,27 +115,7 @@ LIMITS = {
 
 
 def most(name: str) -> int:
-    """Return the most that is allowed of something.
-
-    Parameters
-    ----------
-    name : str
-        A key of `LIMITS`.
-
-    Returns
-    -------
-    int
-
-    Raises
-    ------
-    FileError
-        If ``SYNTHEDRA_MOST`` cannot be understood.
-
-    Examples
-    --------
-    >>> most("shapes")
-    30000
-    """
+    """Return a limit by its key in `LIMITS`; raises `FileError` if ``SYNTHEDRA_MOST`` cannot be understood."""
     found = dict(LIMITS)
     for part in filter(None, os.environ.get(VARIABLE, "").split(",")):
         match = re.fullmatch(r" *(\w+) *= *(\d{1,15}) *", part, re.ASCII)
@@ -187,26 +126,8 @@ def most(name: str) -> int:
 
 
 def how_to_raise(name: str, needed: int | None = None) -> str:
-    """Return what to expect of something, and how to allow more of it.
+    """Return a limit and how to raise it, for an error message: to what is needed, and at least twice the limit.
 
-    Parameters
-    ----------
-    name : str
-        A key of `LIMITS`.
-    needed : int, optional
-        How much is called for; what is proposed is that, and at least twice the limit.
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    FileError
-        As of `most`.
-
-    Examples
-    --------
     >>> how_to_raise("shapes", 200_000)
     'at most 30000 (SYNTHEDRA_MOST=shapes=200000 allows more)'
     """
@@ -215,29 +136,15 @@ def how_to_raise(name: str, needed: int | None = None) -> str:
 
 
 def check_work(name: str, needed: int, what: str) -> None:
-    """Refuse what calls for too much.
+    """Refuse more work than a limit allows, with `InvariantError`, which a reader of files makes a `FileError`.
 
-    Parameters
-    ----------
-    name : str
-        A key of `LIMITS`.
-    needed : int
-        How much it calls for.
-    what : str
-        What there are so many of, for the message.
+    ``name`` is a key of `LIMITS`, ``what`` the plural noun of what is counted.
 
-    Raises
-    ------
-    InvariantError
-        With the limit, and how to raise it. A reader of files makes a FileError of it.
-
-    Examples
-    --------
-    >>> check_work("basis", 4950, "joints in a part that is not planar")
+    >>> check_work("basis", 4950, "joints")
     Traceback (most recent call last):
     ...
     graphs.errors.InvariantError: 4950 joints in a part that is not planar; expected at most 250 \
-(SYNTHEDRA_MOST=basis=4950 allows more) [limit]
+    (SYNTHEDRA_MOST=basis=4950 allows more) [limit]
     """
     if needed > most(name):
         raise InvariantError("limit", f"{needed} {what}", how_to_raise(name, needed))

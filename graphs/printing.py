@@ -42,27 +42,10 @@ _CUT = "..."
 
 
 def plain(value: object, widest: int = _WIDEST) -> str:
-    r"""Return text that is safe to print: one line, no control characters, not too long.
+    r"""Return text that is safe to print: one line of at most ``widest`` printable letters; None is a dash.
 
-    Parameters
-    ----------
-    value : object
-        None becomes a dash.
-    widest : int, optional
-        Most letters; of longer text the head is left, and three dots.
-
-    Returns
-    -------
-    str
-
-    Examples
-    --------
-    >>> plain("\x1b[31mred")
-    '\\x1b[31mred'
-    >>> plain("a\u202eb", 6)
-    'a\\u...'
-    >>> plain(None)
-    '-'
+    >>> plain("\x1b[31mred"), plain("a\u202eb", 6), plain(None)
+    ('\\x1b[31mred', 'a\\u...', '-')
     """
     text = "-" if value is None else str(value)
     if len(text) <= widest and text.isprintable():
@@ -72,19 +55,8 @@ def plain(value: object, widest: int = _WIDEST) -> str:
 
 
 def plain_lines(text: str) -> str:
-    r"""Return text of several lines whose letters are all printable.
+    r"""Return text of several lines: line feeds stay, other letters that do not print are written as escapes.
 
-    Parameters
-    ----------
-    text : str
-
-    Returns
-    -------
-    str
-        Line feeds stay; other letters that do not print are written as escapes.
-
-    Examples
-    --------
     >>> plain_lines("one\r\ntwo\x07")
     'one\\r\ntwo\\x07'
     """
@@ -92,21 +64,8 @@ def plain_lines(text: str) -> str:
 
 
 def plain_label(value: object, widest: int = _WIDEST) -> str:
-    r"""Return text for a picture: as `plain` makes it, with dollar signs that begin no formula.
+    r"""Return text for a picture, as `plain` makes it, with dollar signs that begin no formula.
 
-    Parameters
-    ----------
-    value : object
-        None becomes a dash.
-    widest : int, optional
-        Most letters, before the dollar signs are marked.
-
-    Returns
-    -------
-    str
-
-    Examples
-    --------
     >>> print(plain_label("$a$"))
     \$a\$
     """
@@ -114,26 +73,10 @@ def plain_label(value: object, widest: int = _WIDEST) -> str:
 
 
 def shown(thing: object) -> str:
-    r"""Return a short, one-line, printable form of anything in quotes, for use in messages.
+    r"""Return the ``repr`` of a value in one printable line of at most 60 letters, for messages.
 
-    Parameters
-    ----------
-    thing : object
-        Told by its ``repr``; of a long one the middle is left out.
-
-    Returns
-    -------
-    str
-        At most 60 letters.
-
-    Examples
-    --------
-    >>> shown("A")
-    "'A'"
-    >>> shown("two\nlines")
-    "'two\\nlines'"
-    >>> len(shown("x" * 10_000))
-    60
+    >>> shown("two\nlines"), len(shown("x" * 10_000))
+    ("'two\\nlines'", 60)
     """
     if isinstance(thing, str) and len(thing) > 2 * _WIDEST:
         thing = thing[:_WIDEST] + thing[-_WIDEST:]  # the middle is left out in any case
@@ -155,25 +98,7 @@ UNWRAPPED = 10_000
 
 @dataclass(frozen=True, slots=True)
 class TableBlock:
-    """A table of texts.
-
-    Attributes
-    ----------
-    columns : tuple of str
-    rows : tuple of tuple of str
-    numbers : collection of str
-        The columns that are set flush right.
-
-    Examples
-    --------
-    >>> print(text_of(["one freedom", TableBlock(("links", "chains"), [("6", "2"), ("8", "16")], ["chains"])]))
-    one freedom
-    <BLANKLINE>
-     links   chains
-     ──────────────
-     6            2
-     8           16
-    """
+    """A table of texts; columns named in ``numbers`` are set flush right."""
 
     columns: tuple[str, ...]
     rows: Sequence[Sequence[str]]
@@ -191,27 +116,9 @@ Block = str | TableBlock
 
 
 def rich_table(*columns: str, numbers: Iterable[str] = (), title: str | None = None) -> Table:
-    """Return an empty table; columns named in ``numbers`` are set flush right.
+    """Return an empty table with heads of columns; those named in ``numbers`` are set flush right.
 
-    Parameters
-    ----------
-    *columns : str
-        Heads of the columns.
-    numbers : iterable of str, optional
-        Heads of the columns that are set flush right.
-    title : str, optional
-        Set above the table; brackets are no markup.
-
-    Returns
-    -------
-    rich.table.Table
-        Without rows.
-
-    Examples
-    --------
-    >>> table = rich_table("n", "name", numbers=["n"])
-    >>> [column.justify for column in table.columns]
-    ['right', 'left']
+    Brackets in the title are no markup.
     """
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
@@ -242,19 +149,8 @@ def console_for(stream: Any, width: int | None) -> Console:
 
 
 def text_of(blocks: Iterable[Block]) -> str:
-    """Return blocks as text, a line of the table a line.
+    """Return blocks as text, without spaces at the ends of lines; lines are not wrapped.
 
-    Parameters
-    ----------
-    blocks : iterable of str or TableBlock
-
-    Returns
-    -------
-    str
-        Without spaces at the ends of lines; lines are not wrapped.
-
-    Examples
-    --------
     >>> print(text_of(["two rows", TableBlock(("n", "name"), [("1", "one"), ("2", "two")], ["n"])]))
     two rows
     <BLANKLINE>
@@ -271,19 +167,8 @@ def text_of(blocks: Iterable[Block]) -> str:
 
 
 def html_of(blocks: Iterable[Block]) -> str:
-    """Return blocks as HTML; names are escaped.
+    """Return blocks as HTML, a paragraph per line and a ``table`` per table; names are escaped.
 
-    Parameters
-    ----------
-    blocks : iterable of str or TableBlock
-
-    Returns
-    -------
-    str
-        A paragraph for a line, a ``table`` for a table.
-
-    Examples
-    --------
     >>> html_of(["a < b"])
     '<p>a &lt; b</p>'
     """
@@ -293,16 +178,7 @@ def html_of(blocks: Iterable[Block]) -> str:
 
 
 class Printed:
-    """An answer that is printed everywhere as the command line prints it.
-
-    Examples
-    --------
-    >>> class Freedoms(Printed):
-    ...     def blocks(self):
-    ...         return ["one freedom"]
-    >>> print(Freedoms())
-    one freedom
-    """
+    """An answer that is printed everywhere as the command line prints it; subclasses define `blocks`."""
 
     __slots__ = ()
 

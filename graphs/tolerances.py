@@ -146,11 +146,6 @@ class Tolerances:
         """Return below which part of the largest a value may be zero at the coordinates that were meant.
 
         Creases are a length long, in units of the extent: their directions are wrong by the precision over it.
-
-        Examples
-        --------
-        >>> Tolerances.nearly(1e-6, 0.5), Tolerances.nearly(0.0, 0.5)
-        (1.6e-05, 1e-09)
         """
         return max(DOUBLE.zero, min(_VAGUE, _NEARLY * precision / length))
 
@@ -167,36 +162,15 @@ _DEPENDS = 1e-12
 
 
 def leading(values: Floats) -> int:
-    """Return the place of the largest absolute value; of those within a millionth of it, the first.
-
-    Parameters
-    ----------
-    values : float[n]
-        At least one.
-
-    Examples
-    --------
-    >>> leading(np.array([0.5, -1.0 + 1e-12, 1.0]))
-    1
-    """
+    """Return the place of the largest absolute value of float[n]; of those within a millionth of it, the first."""
     sizes = np.abs(values)
     return int(np.argmax(sizes >= (1.0 - MARGIN) * sizes.max()))
 
 
 def trailing(values: Floats, scale: float = 0.0) -> int:
-    """Return the place of the least value; of those greater by no more than a millionth, the first.
+    """Return the place of the least value of float[n]; of those greater by no more than a millionth, the first.
 
-    Parameters
-    ----------
-    values : float[n]
-        At least one.
-    scale : float, optional
-        What the millionth is a part of; by default the largest absolute value.
-
-    Examples
-    --------
-    >>> trailing(np.array([3.0, 1.0 + 1e-12, 1.0]))
-    1
+    The millionth is a part of ``scale``, by default of the largest absolute value.
     """
     return int(np.argmax(values <= values.min() + MARGIN * (scale or np.abs(values).max())))
 
@@ -204,13 +178,8 @@ def trailing(values: Floats, scale: float = 0.0) -> int:
 def signed(vector: Floats) -> Floats:
     """Return a vector or its negative: the one whose first entry that is not zero is positive.
 
-    Parameters
-    ----------
-    vector : float[n]
-        Entries below a millionth of the largest are zero.
+    Entries below a millionth of the largest are zero.
 
-    Examples
-    --------
     >>> signed(np.array([1e-17, -0.5, 1.0])).tolist()
     [-1e-17, 0.5, -1.0]
     """
@@ -220,43 +189,18 @@ def signed(vector: Floats) -> Floats:
 
 
 def canonical_basis(columns: Floats) -> Floats:
-    """Return an orthonormal basis of a space that depends on the space alone.
+    """Return a basis of the space of orthonormal columns, float[n, s]: it depends on the space alone.
 
     Its vectors are the projections of some unit vectors onto the space, made orthogonal one after the other: of
     the unit vectors (`pivots`) those are taken of which most lies in the space. The entry of each vector at its
     pivot is positive.
-
-    Parameters
-    ----------
-    columns : float[n, s]
-        Orthonormal columns that span the space.
-
-    Returns
-    -------
-    float[n, s]
-
-    Examples
-    --------
-    Any basis of a plane in space leads to the same:
-
-    >>> plane = np.array([[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]])
-    >>> turn = np.array([[0.6, -0.8], [0.8, 0.6]])
-    >>> (canonical_basis(plane @ turn).round(12) + 0.0).tolist()
-    [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]
     """
     return _reduced(columns)[0]
 
 
 def pivots(columns: Floats) -> list[int]:
-    """Return rows of a basis that tell all others, in the order in which `canonical_basis` takes them.
+    """Return rows of orthonormal columns that determine all others, in the order of `canonical_basis`.
 
-    Parameters
-    ----------
-    columns : float[n, s]
-        Orthonormal columns.
-
-    Examples
-    --------
     >>> pivots(np.array([[0.6, 0.0], [0.8, 0.0], [0.0, 1.0]]))
     [2, 1]
     """
@@ -289,19 +233,7 @@ def _reduced(columns: Floats) -> tuple[Floats, list[int]]:
 def canonical_order(vectors: Sequence[Floats], margin: float = MARGIN) -> list[int]:
     """Return the places of vectors in order: by the first entry in which two differ by more than a margin.
 
-    Vectors that differ nowhere by more keep their order.
-
-    Parameters
-    ----------
-    vectors : sequence of float[n]
-        Of one length.
-    margin : float, optional
-        In the unit of the entries.
-
-    Examples
-    --------
-    >>> canonical_order([np.array([1.0, 2.0]), np.array([1.0 + 1e-12, 1.0])])
-    [1, 0]
+    Vectors of one length that differ nowhere by more, in the unit of their entries, keep their order.
     """
 
     def compared(one: int, other: int) -> int:

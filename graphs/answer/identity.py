@@ -65,10 +65,6 @@ def identify(mechanism: Mechanism | nx.Graph) -> Identity:
     ----------
     mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, SurfaceLinkage or networkx.Graph
 
-    Returns
-    -------
-    Identity
-
     Examples
     --------
     >>> identify(nx.cycle_graph(4)).chain

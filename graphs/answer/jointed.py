@@ -49,17 +49,9 @@ _ONE = "spherical", "planar", "spatial"
 def report_of_joints(linkage: JointedLinkage) -> MobilityReport:
     """Report the mobility of a linkage by count of its joints, each with its freedoms.
 
-    Parameters
-    ----------
-    linkage : JointedLinkage
-        Its loops with a centre count three equations each.
-
-    Examples
-    --------
-    A slider-crank in space, and in a plane:
+    A slider-crank in space, and in a plane, where loops with a centre count three equations each:
 
     >>> from graphs.loops.loop import Loop
-    >>> from graphs.mechanism.sc import SCGraph
     >>> joints = [(0, 1), (1, 2), (2, 3), (3, 0)]
     >>> for loops in ((), (Loop(range(4), "infinite"),)):
     ...     crank = JointedLinkage(SCGraph(4, joints, loops), {3: JointKind.PRISMATIC})
@@ -153,17 +145,11 @@ class Passive:
 
 
 def mobility_of_jointed(linkage: JointedLinkage) -> MobilityAnswer:
-    """Return how a linkage with joints of all kinds moves: by count of its joints, and at its pose as revolutes.
+    """Return the mobility of a linkage with joints of all kinds: by count, and at its configuration as revolutes.
 
-    Loops that are planar as it lies count three equations each. ``counts["passive"]`` are the passive freedoms,
-    ``counts["revolutes"]`` the revolutes whose axes give the freedoms at the pose. Without places there is no
-    pose; a note gives the freedoms of a generic realisation.
-
-    >>> leg = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], ground=0)
-    >>> kinds = {1: JointKind.SPHERICAL, 2: JointKind.SPHERICAL, 3: JointKind.REVOLUTE}
-    >>> answer = mobility_of_jointed(placed(JointedLinkage(leg, kinds)))
-    >>> answer.mobility, answer.counts["passive"], answer.pose.dof
-    (2, 1, 2)
+    Loops that are planar at this configuration count three equations each. ``counts["passive"]`` are the passive
+    freedoms, ``counts["revolutes"]`` the revolutes whose axes give the degrees of freedom at the configuration.
+    Without places there is no configuration; a note gives the degrees of freedom of a random realisation.
     """
     whole = placed(linkage)
     solids = revolutes_of(whole)
@@ -205,9 +191,9 @@ def _if_planar(linkage: JointedLinkage) -> Iterator[str]:
 
 
 def passive_freedoms(linkage: JointedLinkage) -> tuple[Passive, ...]:
-    """Return the freedoms that move links of one leg only: those it has with both its ends held.
+    """Return the freedoms that move links of one leg only: those that a leg has with both its ends held.
 
-    The linkage has places. Of a leg with an open end, one that comes back to its first link, and a lone ring, each
+    The linkage has places. In a leg with an open end, one that comes back to its first link, and a lone ring, each
     row between successive spherical joints is examined; the ground is held, or the longest row of a ring without
     one.
     """
@@ -302,25 +288,9 @@ def _screws_of(kind: JointKind, place: JointPlace, point: Floats) -> Floats:
 
 
 def with_planar_loops(linkage: JointedLinkage) -> JointedLinkage:
-    """Return a linkage with the loops that are planar as it lies given an infinite centre.
+    """Return a linkage whose loops that are planar at its configuration have an infinite centre.
 
-    Loops that have a centre keep it. Without places nothing is found.
-
-    Parameters
-    ----------
-    linkage : JointedLinkage
-
-    Examples
-    --------
-    A slider-crank in the xy plane:
-
-    >>> from graphs.joints.linkage import JointPlace
-    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
-    >>> places = {joint: JointPlace((joint, joint % 2, 0), ((0, 0, 1),)) for joint in range(3)}
-    >>> places[3] = JointPlace((0, 0, 0), ((1, 0, 0),))
-    >>> crank = JointedLinkage(ring, {3: JointKind.PRISMATIC}, places)
-    >>> crank.mobility, with_planar_loops(crank).mobility
-    (-2, 1)
+    Loops that have a centre keep it. Without places nothing changes.
     """
     if not linkage.places:
         return linkage

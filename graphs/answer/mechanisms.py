@@ -108,7 +108,7 @@ def _why_it_differs(answer: MobilityAnswer, mechanism: SCGraph, exact: int) -> s
 def with_pose(
     answer: MobilityAnswer, sheet: Sheet, mechanism: SheetMechanism, *, demanded: bool = False
 ) -> MobilityAnswer:
-    """Add the infinitesimal freedoms of a crease pattern as it lies.
+    """Add the infinitesimal degrees of freedom of a crease pattern at its coordinates.
 
     The overconstraint h is against the count of the answer (Eq. 8). Raises `UnsolvableError` if it is demanded and
     the sheet has no coordinates, `InvariantError` if a hinge has no length.
@@ -176,10 +176,6 @@ def mobility(
         Give loops round holes and cuts of a crease pattern the centre where their axes meet or are parallel.
     dual : SheetMechanism, optional
         Of the crease pattern as it lies, made with the same options, where it is at hand.
-
-    Returns
-    -------
-    MobilityAnswer
 
     Raises
     ------

@@ -134,10 +134,6 @@ def mobility_report(mechanism: SCGraph | PolyhedronModel) -> MobilityReport:
     ----------
     mechanism : SCGraph, SCDGraph or PolyhedronModel
 
-    Returns
-    -------
-    MobilityReport
-
     Examples
     --------
     >>> from graphs.convert.panels import scd_from_panels

@@ -158,11 +158,7 @@ def _reading(
 
 
 def map_text(symbols: Sequence[int], labels: str = "") -> str:
-    """Return the id of symbols and labels.
-
-    >>> map_text([2, 3, 1, 2, 3, 1])
-    'm1:ab.ab'
-    """
+    """Return the id of symbols and labels."""
     joints = max(symbols) - _JOINT + 1
     short = joints <= len(ascii_letters)
 
@@ -186,13 +182,7 @@ def _split(symbols: Sequence[int]) -> Iterator[list[int]]:
 
 
 def symbols_of(code: str) -> tuple[list[int], str]:
-    """Return the symbols and the labels of an id.
-
-    Raises `InvariantError` if it is not an id.
-
-    >>> symbols_of("m1:ab.ab")
-    ([2, 3, 1, 2, 3, 1], '')
-    """
+    """Return the symbols and the labels of an id; raises `InvariantError` if it is not an id."""
     text, _, labels = code.removeprefix(_PREFIX).partition(";")
     if not code.startswith(_PREFIX):
         raise InvariantError("id", f"the id {shown(code)}", f"one that begins with {_PREFIX}")
@@ -220,10 +210,6 @@ def mechanism_from_map_id(code: str) -> SCGraph:
     ----------
     code : str
         ``m1:...``, least or not.
-
-    Returns
-    -------
-    SCGraph or SCDGraph
 
     Raises
     ------

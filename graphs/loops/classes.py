@@ -29,17 +29,8 @@ FEW = 16
 class Merger:
     """A union of loops into classes, each known by one of its loops, the root.
 
-    Parameters
-    ----------
-    loops : sequence of Loop
-        Loops without a centre are in no class.
-
-    Attributes
-    ----------
-    members : dict of int to list of int
-        Root to the loops of its class.
-    joints : dict of int to set of joint ids
-        Root to the joints of its class.
+    Loops without a centre are in no class. ``members`` maps a root to the loops of its class, ``joints`` to their
+    joints.
     """
 
     def __init__(self, loops: Sequence[Loop]) -> None:
@@ -91,13 +82,7 @@ class Merger:
         return self.loops[root].centre
 
     def check_kinds(self) -> None:
-        """Refuse a finite and an infinite class that share two joints, once no more can be merged.
-
-        Raises
-        ------
-        InvariantError
-            Naming a loop of each.
-        """
+        """Refuse a finite and an infinite class that share two joints, once no more can be merged."""
         planar = {joint: root for root in self.members if not self._is_finite(root) for joint in self.joints[root]}
         if not planar:
             return
@@ -121,13 +106,7 @@ class Merger:
 
 
 def merge_spherical(merger: Merger) -> None:
-    """Merge classes with a finite centre that share two joints between them, until no two do.
-
-    Parameters
-    ----------
-    merger : Merger
-        Changed in place.
-    """
+    """Merge classes with a finite centre that share two joints between them, in place, until no two do."""
     _TwoInCommon(merger).close()
 
 
@@ -135,8 +114,8 @@ class _TwoInCommon:
     """Finds classes that share two joints, while classes merge.
 
     Only joints of several classes count, and only classes with two such joints. Two joints that few classes pass
-    are found by pairs of classes with what they share. A crowded joint has a table that tells for every other
-    joint the class that holds both: a second class that wants this place shares the two joints with the first.
+    are found by pairs of classes with what they share. A crowded joint has a table from every other joint to the
+    class that holds both: a second class that would take this place shares the two joints with the first.
     """
 
     def __init__(self, merger: Merger) -> None:

@@ -121,10 +121,6 @@ def cyclic_order(loop: Loop, joints: Joints) -> tuple[JointId, ...]:
     joints : mapping of joint id to (link, link)
         The joints of the graph.
 
-    Returns
-    -------
-    tuple of joint ids
-
     Raises
     ------
     InvariantError
@@ -242,10 +238,6 @@ def dependent_loop(cycles: Sequence[Sequence[JointId]]) -> int | None:
     Parameters
     ----------
     cycles : sequence of sequences of joint ids
-
-    Returns
-    -------
-    int or None
 
     Examples
     --------

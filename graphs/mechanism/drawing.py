@@ -141,11 +141,6 @@ def trace_faces(joints: Joints, rotation: Rotation) -> tuple[tuple[Face, ...], d
     """Return the faces, and for each dart (joint, link it leaves) the index of the face on its left.
 
     A rotation is the sides of each link, counter-clockwise.
-
-    >>> triangle = {"a": (0, 1), "b": (1, 2), "c": (2, 0)}
-    >>> faces, left = trace_faces(triangle, {0: ("a", "c", None), 1: ("b", "a", None), 2: ("c", "b", None)})
-    >>> [face.open_edges for face in faces]
-    [0, 3]
     """
     place = {
         (link, side): i for link, sides in rotation.items() for i, side in enumerate(sides) if side is not None
@@ -183,10 +178,6 @@ def link_vertices(faces: Sequence[Face], rotation: Rotation) -> tuple[int, dict[
 
     Their number is that of open edges and of faces without open edges. Item ``i`` of a link lies between its side
     ``i`` and side ``i + 1``.
-
-    >>> faces, _ = trace_faces({}, {"panel": (None, None, None)})
-    >>> link_vertices(faces, {"panel": (None, None, None)})
-    (3, {'panel': (2, 1, 0)})
     """
     at = {link: [-1] * len(sides) for link, sides in rotation.items()}
     count = 0

@@ -345,18 +345,9 @@ _COARSEST = 3e-3
 class Estimate:
     """An estimated precision.
 
-    Attributes
-    ----------
-    size : float
-        Error of a coordinate, in units of the extent.
-    relations : int
-        How many hold to that.
-    kinds : tuple of str
-        Of which kinds, the most frequent first.
-    by_chance : float
-        How many would by chance.
-    margin : float or None
-        How many times the largest deviation of them the next larger one is; None if there is none.
+    ``size`` is the error of a coordinate, in units of the extent, to which a number of ``relations`` hold, of
+    ``kinds``, the most frequent first; ``by_chance`` is how many would hold by chance. ``margin`` is how many
+    times the largest deviation of them the next larger one is; None if there is none.
     """
 
     size: float

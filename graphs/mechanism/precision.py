@@ -70,22 +70,12 @@ class Digits:
 
 
 def spacing_of(numbers: Floats) -> float:
-    """Return what double precision tells apart at the largest of some numbers.
-
-    >>> spacing_of(np.array([0.5, -1.0])) == EPSILON
-    True
-    """
+    """Return the spacing of double precision at the largest of some numbers."""
     return EPSILON * float(np.abs(numbers).max(initial=0.0))
 
 
 def digits_of(written: Iterable[float] | Floats, extent: float) -> Digits | None:
-    """Return how numbers were rounded, coordinates that reach so far to either side; None if nothing says so.
-
-    >>> digits_of([0.123, 4.561, 7.042, 9.339], 10.0)
-    Digits(error=0.0005, source='3 decimals')
-    >>> digits_of([0.5, 0.25, 0.75], 1.0) is None
-    True
-    """
+    """Return how coordinates that reach so far to either side were rounded; None if nothing says so."""
     numbers = np.unique(np.abs(np.asarray(written, dtype=float).ravel()))
     numbers = numbers[numbers > 4.0 * spacing_of(numbers)]
     if not len(numbers) or extent <= 0.0 or not LEAST <= numbers[-1] <= MOST:
@@ -191,21 +181,9 @@ _KEPT = "_precision"
 class Precision:
     """The error that a coordinate may have.
 
-    Attributes
-    ----------
-    size : float
-        In units of the extent.
-    source : str
-        How it is known: ``stated``, ``2 decimals``, ``single precision``, ``estimated``, ...
-    evidence : str or None
-        What the geometry says of it; None where it was not asked.
-    margin : float or None
-        Of an estimate: how many times the largest deviation of what was meant the next larger one is.
-
-    Examples
-    --------
-    >>> print(Precision(3e-6, "2 decimals"))
-    3e-06 of the extent (2 decimals)
+    ``size`` is in units of the extent, ``source`` says how it is known: ``stated``, ``2 decimals``, ``single
+    precision``, ``estimated``, ... ``evidence`` is the evidence of the geometry, None where that was not examined.
+    ``margin`` of an estimate is how many times the largest deviation of what was meant the next larger one is.
     """
 
     size: float
@@ -242,11 +220,7 @@ def extent_of(points: Floats) -> float:
 
 
 def precision_of(coordinates: Sequence[Sequence[float]]) -> Precision:
-    """Return how precise coordinates are, in any unit of length, by the numbers alone.
-
-    >>> precision_of([(0.0, 0.0), (1.0, 0.0), (0.5, 0.25)]).source
-    'double precision'
-    """
+    """Return how precise coordinates are, in any unit of length, by the numbers alone."""
     points = np.asarray(coordinates, dtype=float)
     extent = extent_of(points)
     if extent == 0.0:
@@ -272,11 +246,7 @@ def written_by(ends: Floats) -> WrittenPrecision | None:
 def stated(sheet: Sheet, length: float | None) -> Sheet:
     """Return a sheet whose coordinates are stated to be wrong by no more than a length, in their unit.
 
-    Without a length it is the sheet as it is. Raises `InvariantError` if the length is no length.
-
-    >>> triangle = Sheet(3, (), "", ((0, 1, 2),), ((0.0, 0.0), (2.0, 0.0), (1.0, 1.5)))
-    >>> precision_of_sheet(stated(triangle, 0.01)).source
-    'stated'
+    Without a length it is the sheet itself. Raises `InvariantError` if the length is no length.
     """
     if length is None:
         return sheet
@@ -365,10 +335,7 @@ def _weighed(written: Precision, estimate: Estimate | None) -> Precision:
 def precision_as_written(sheet: Sheet) -> Precision:
     """Return how precise the coordinates of a sheet are as stated, else by numbers, welded ends and planar panels.
 
-    What the type of a sheet hangs on; nothing is estimated. Raises `ValueError` if the sheet has no coordinates.
-
-    >>> precision_as_written(Sheet(3, (), "", ((0, 1, 2),), ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)))).source
-    'double precision'
+    The type of a sheet depends on it; nothing is estimated. Raises `ValueError` if the sheet has no coordinates.
     """
     if sheet.coordinates is None:
         raise ValueError("the sheet has no coordinates")
@@ -391,11 +358,7 @@ def precision_as_written(sheet: Sheet) -> Precision:
 
 
 def off_plane(points: Floats) -> float:
-    """Return how far points are off one plane at most, in units of their extent.
-
-    >>> off_plane(np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]))
-    0.0
-    """
+    """Return how far points are off one plane at most, in units of their extent."""
     extent = extent_of(points)
     if extent == 0.0 or len(points) < 4 or points.shape[1] < 3:
         return 0.0
@@ -436,11 +399,7 @@ class Flattened:
 
 
 def in_space(coordinates: Sequence[Sequence[float]]) -> Floats:
-    """Return points in space, float[n, 3]: z is 0 where the coordinates, in any unit of length, have none.
-
-    >>> in_space([(1, 2), (3, 4)]).tolist()
-    [[1.0, 2.0, 0.0], [3.0, 4.0, 0.0]]
-    """
+    """Return points in space, float[n, 3]: z is 0 where the coordinates, in any unit of length, have none."""
     points = np.zeros((len(coordinates), 3))
     if len(coordinates):
         points[:, : len(coordinates[0])] = coordinates
@@ -448,27 +407,15 @@ def in_space(coordinates: Sequence[Sequence[float]]) -> Floats:
 
 
 def lies_flat(sheet: Sheet) -> bool:
-    """Return whether a sheet lies in one plane, as far as its coordinates are precise.
-
-    >>> lies_flat(Sheet(4, (), "", ((0, 1, 2, 3),), ((0, 1, 0), (1, 1, 0), (1, 1, 1), (0, 1, 1))))
-    True
-    """
+    """Return whether a sheet lies in one plane, as far as its coordinates are precise."""
     return flattened(sheet) is not None
 
 
 def flattened(sheet: Sheet) -> Flattened | None:
     """Return a sheet as it is seen in its plane; None if it does not lie in one, or has no coordinates.
 
-    Seen is the side on which most faces turn counter-clockwise. A sheet without faces, or in a plane z = constant,
-    is seen against the positive axis.
-
-    Examples
-    --------
-    A square in the plane y = 1, its face seen from the side of smaller y:
-
-    >>> square = flattened(Sheet(4, (), "", ((0, 1, 2, 3),), ((0, 1, 0), (2, 1, 0), (2, 1, 2), (0, 1, 2))))
-    >>> square.places.tolist(), square.turned
-    ([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]], 'turned from the xz plane into the xy plane')
+    It is seen from the side on which most faces turn counter-clockwise. A sheet without faces, or in a plane z =
+    constant, is seen against the positive axis.
     """
     if sheet.coordinates is None:
         return None
@@ -495,9 +442,6 @@ def flat_places(sheet: Sheet, what: str) -> list[tuple[float, float]]:
     """Return the coordinates of a sheet as they are seen in its plane, for a format that is flat.
 
     Raises `UnsolvableError` if the sheet has none, or does not lie in a plane.
-
-    >>> flat_places(Sheet(1, (), "", (), ((1.0, 2.0, 0.0),)), "a picture")
-    [(1.0, 2.0)]
     """
     if sheet.coordinates is None:
         raise UnsolvableError(f"{what} needs coordinates, and the sheet has none")

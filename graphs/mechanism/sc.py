@@ -398,15 +398,8 @@ _REPEATED = 3
 def arrangement_of(sc: SCGraph) -> Arrangement:
     """Return the class of the arrangement of a mechanism's centres.
 
-    Parameters
-    ----------
-    sc : SCGraph or SCDGraph
-
-    Examples
-    --------
     Watt's six-bar chain has two centres on one joint:
 
-    >>> from graphs.loops.loop import Loop
     >>> watt = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
     >>> arrangement_of(SCGraph(6, watt, [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))]))
     'coupled'
@@ -428,11 +421,7 @@ def arrangement_of(sc: SCGraph) -> Arrangement:
 
 
 def centre_graph(sc: SCGraph) -> nx.Graph:
-    """Return the graph of centres: an edge for each two that joints pass both.
-
-    >>> len(centre_graph(SCGraph(3, [(0, 1), (1, 2), (2, 0)])))
-    0
-    """
+    """Return the graph of centres: an edge between two that a joint passes."""
     graph = nx.Graph()
     passing: dict[object, list[int]] = {}
     for number, one in enumerate(sc.centre_classes()):

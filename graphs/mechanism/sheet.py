@@ -95,12 +95,7 @@ class Reading:
         return f"{self.left_out}; state what they are by --colour or --layer" if self.left_out else ""
 
     def told(self, note: str) -> str:
-        """Return a repair as it is noted, with its first places where they are known.
-
-        >>> crossing = Repair("crossing split", "1 crossing split", (((0.5, 0.25),),))
-        >>> Reading((crossing,)).told("1 crossing split")
-        '1 crossing split: at (0.5, 0.25)'
-        """
+        """Return a repair with its first places where they are known."""
         return next((str(repair) for repair in self.repairs if repair.what == note), note)
 
     def to_json(self) -> dict[str, Any]:
@@ -112,24 +107,9 @@ class Reading:
 class WrittenPrecision:
     """The error that a coordinate may have, as it is written.
 
-    Parameters
-    ----------
-    length : float
-        In the unit of the coordinates.
-    source : str
-        How it is known: ``2 decimals``, ``stated``.
-    stated : bool, optional
-        Whether somebody said so; what is stated is not judged by the geometry.
-
-    Raises
-    ------
-    InvariantError
-        If the length is negative, or not finite.
-
-    Examples
-    --------
-    >>> WrittenPrecision(0.005, "2 decimals").stated
-    False
+    ``length`` is in the unit of the coordinates, ``source`` says how it is known: ``2 decimals``, ``stated``. If
+    it is ``stated`` by the user, it is not judged by the geometry. Raises `InvariantError` if the length is
+    negative, or not finite.
     """
 
     length: float
@@ -335,11 +315,7 @@ def with_all_edges(sheet: Sheet) -> Sheet:
 
 
 def sides_of_face(face: Sequence[V]) -> list[tuple[V, V]]:
-    """Return the sides of a face, each from a vertex to the next.
-
-    >>> sides_of_face("abc")
-    [('a', 'b'), ('b', 'c'), ('c', 'a')]
-    """
+    """Return the sides of a face, each from a vertex to the next."""
     return list(zip(face, (*face[1:], face[0]), strict=True))
 
 

@@ -38,13 +38,7 @@ __all__ = [
 
 
 def checked_cone_angle(cone_angle: npt.ArrayLike) -> Floats:
-    """Return cone angles; InvariantError unless 0 <= lambda < pi / 2.
-
-    >>> checked_cone_angle(np.pi / 2)
-    Traceback (most recent call last):
-    ...
-    graphs.errors.InvariantError: the cone angle is 90 degrees; expected 0 or more, and less than 90 [cone angle]
-    """
+    """Return cone angles; raises `InvariantError` unless 0 <= lambda < pi / 2."""
     given = np.asarray(cone_angle, dtype=float)
     wrong = given[~((given >= 0) & (given < np.pi / 2))]
     if wrong.size:
@@ -56,29 +50,11 @@ def checked_cone_angle(cone_angle: npt.ArrayLike) -> Floats:
 
 
 def joint_axes(places: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
-    """Return the directions of joint axes (Hyatt et al. 2020, Eq. 17).
+    """Return the directions of joint axes at azimuths, float[..., J], by lambda of each linkage, float[...].
 
-    Parameters
-    ----------
-    places : float[..., J]
-        Azimuths, radians.
-    cone_angle : float[...]
-        lambda of each linkage.
-
-    Returns
-    -------
-    float[..., J, 3]
-        Unit vectors (cos lambda sin t, -sin lambda, cos lambda cos t).
-
-    Raises
-    ------
-    InvariantError
-        If a cone angle is out of range.
-
-    Examples
-    --------
-    >>> joint_axes([0.0], np.radians(20)).round(12)
-    array([[ 0.        , -0.34202014,  0.93969262]])
+    Azimuths and angles are in radians; the axes are unit vectors (cos lambda sin t, -sin lambda, cos lambda cos
+    t), float[..., J, 3]. Raises `InvariantError` if a cone angle is out of range. Source: Hyatt et al. 2020, Eq.
+    17.
     """
     t = np.asarray(places, dtype=float)
     lam = checked_cone_angle(cone_angle)[..., np.newaxis]
@@ -223,11 +199,7 @@ Surface = Cone | Cylinder
 
 
 def surface_json(surface: Surface | None) -> dict[str, Any]:
-    """Return the size of a surface as plain data.
-
-    >>> surface_json(Cylinder(2.5))
-    {'lambda_deg': None, 'radius': 2.5}
-    """
+    """Return the size of a surface as plain data."""
     return {
         "lambda_deg": degrees(surface.angle) if isinstance(surface, Cone) else None,
         "radius": surface.radius if isinstance(surface, Cylinder) else None,
@@ -389,9 +361,6 @@ def places_of_steps(steps: Mapping[Pair, float], tolerance: float = 1e-7) -> dic
     A step is the projected angle from the first joint to the second, radians; the first joint named is at 0.
     Raises `InvariantError` if steps that lead to one joint two ways disagree by more than the tolerance, or leave
     joints unconnected.
-
-    >>> places_of_steps({("O", "A"): -0.5, ("B", "A"): 0.25}) == {"O": 0.0, "A": -0.5, "B": -0.75}
-    True
     """
     placed: dict[JointId, float] = {}
     left = dict(steps)

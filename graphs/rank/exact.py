@@ -155,8 +155,8 @@ def closure_of(sc: SCGraph, axes: Mapping[JointId, Line], centres: Mapping[int, 
 def _equations(centre: Point | None, field: Field) -> list[tuple[int, int]]:
     """Return which coordinates of the twists must close: (0, k) of the directions, (1, k) of the moments.
 
-    About a finite centre the moments are determined by the directions. For parallel axes one coordinate of
-    the direction tells all three, and the moments are perpendicular to it.
+    About a finite centre the moments are determined by the directions. For parallel axes one coordinate of the
+    direction determines all three, and the moments are perpendicular to it.
     """
     if centre is None:
         return _SPATIAL
@@ -403,10 +403,6 @@ def mobility_without(mechanism: SCGraph, joint: JointId, *, forced: bool = True,
     joint : joint id
     forced, seed
         As for `graphs.rank.exact.exact_mobility`.
-
-    Returns
-    -------
-    int
 
     Examples
     --------

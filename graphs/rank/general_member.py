@@ -275,10 +275,6 @@ def realise(mechanism: SCGraph, field: Field, *, forced: bool = True) -> Realisa
     forced : bool, optional
         As for `incidence_of`.
 
-    Returns
-    -------
-    Realisation
-
     Raises
     ------
     UnsolvableError
@@ -381,7 +377,6 @@ def _axes(incidence: Incidence, points: Sequence[Point], field: Field) -> dict[J
 def join(p: Sequence[Any], q: Sequence[Any], field: Field) -> Line:
     """Return the Pluecker line of two homogeneous points: direction u, and moment of a point on it.
 
-    >>> from graphs.rank.general_member import Reals
     >>> join((0, 0, 0, 1), (1, 0, 0, 1), Reals())
     ((1, 0, 0), (0, 0, 0))
     """

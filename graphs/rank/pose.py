@@ -208,10 +208,6 @@ def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
     model : PolyhedronModel
         With coordinates.
 
-    Returns
-    -------
-    PoseMobility
-
     Raises
     ------
     UnsolvableError

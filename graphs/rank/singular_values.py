@@ -59,13 +59,7 @@ Certainty = Literal["numerical", "nearly mobile", "indeterminate"]
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What singular values are, for one matrix or many.
-
-    Attributes
-    ----------
-    noise, undecided, nearly : bool[..., k]
-        Zero but for noise; not to be told from noise; not zero, but nearly.
-    """
+    """Which singular values of one matrix or many are zero but for noise, undecided, nearly zero: bool[..., k]."""
 
     noise: npt.NDArray[np.bool_]
     undecided: npt.NDArray[np.bool_]
@@ -110,14 +104,10 @@ class Spectrum:
 
 
 def verdict(values: Floats, floors: Floats, nearly: Floats | float = 0.0) -> Verdict:
-    """Judge singular values, as parts of the largest, by what errors would do to them.
+    """Judge singular values, as parts of the largest, by the effect of errors.
 
     Floors say what errors of the size of the data's precision do to each, in the mean; nearly likewise for an
     error of a thousandth of the size.
-
-    >>> judged = verdict(np.array([1.0, 1e-5, 1e-14]), np.full(3, 1e-15), np.full(3, 1e-3))
-    >>> judged.noise.tolist(), judged.undecided.tolist(), judged.nearly.tolist()
-    ([False, False, False], [False, False, True], [False, True, False])
     """
     noise = values <= np.minimum(_NOISE * floors, _LARGE)
     undecided = ~noise & (values <= _CLEAR * floors)
@@ -177,9 +167,6 @@ def spectra(matrices: Floats, error: float, nearly: float) -> Spectra:
     """Return singular values of many matrices, each judged as `spectrum` judges those of one.
 
     No matrix, float[..., m, n], is zero; error and nearly are the length of the errors of the entries of a column.
-
-    >>> spectra(np.array([[[2.0, 0.0], [2.0, 1e-17]]]), 1e-12, 1e-3).verdict.noise.tolist()
-    [[False, True]]
     """
     _, values, rows = np.linalg.svd(matrices, full_matrices=True)
     largest = values[..., :1]
@@ -193,11 +180,7 @@ def rounding(shape: tuple[int, int]) -> float:
 
 
 def judged_at(values: Floats, zero: float) -> Spectrum:
-    """Return the rank of singular values, descending, in any unit; those up to `zero` times the largest are zero.
-
-    >>> judged_at(np.array([2.0, 1.0, 1e-10]), 1e-9).rank, judged_at(np.array([1.0, 2e-9]), 1e-9).rank
-    (2, None)
-    """
+    """Return the rank of descending singular values in any unit; those up to `zero` times the largest are zero."""
     if not values.max(initial=0.0) > 0.0:
         return Spectrum(0, float("inf"), 0.0, 0.0, 0, 0.0)
     return judged(values / values[0], np.full(len(values), zero / _NOISE), np.zeros(len(values)))
@@ -346,11 +329,7 @@ def rank_of(matrix: Floats, zero: float = DOUBLE.zero) -> int:
 
 
 def singular_values(matrices: Floats) -> Floats:
-    """Return the singular values of matrices, descending: float[..., k].
-
-    >>> singular_values(np.diag([1.0, 3.0])).tolist()
-    [3.0, 1.0]
-    """
+    """Return the singular values of matrices, descending: float[..., k]."""
     return np.asarray(np.linalg.svd(matrices, compute_uv=False))
 
 
