@@ -27,8 +27,8 @@ from graphs.convert.reconstruction import polyhedron_of
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.exact import centres_of_loops, closure_modulo, closure_of, exact_mobility, matrix_modulo
-from graphs.rank.general_member import PRIMES, PrimeField, Realisation, Reals, realise
 from graphs.rank.pose import dense
+from graphs.rank.realisation import PRIMES, PrimeField, Realisation, Reals, realise
 from graphs.rank.rods import exact_mobility_of_model
 
 RUNS = 25

@@ -36,7 +36,7 @@ def numbered(number: int, word: str, more: str = "") -> str:
 
 
 class SynthedraError(Exception):
-    r"""Root of every error raised on purpose; its text is one printable line, whatever names it tells.
+    r"""Root of every error raised on purpose; its text is one printable line, whatever names are in it.
 
     Parameters
     ----------
@@ -150,7 +150,7 @@ class StoreError(SynthedraError):
     """A store of results cannot be used for this command."""
 
 
-def check_argument(verb: str, thing: object, kinds: type | UnionType) -> None:
+def check_argument(verb: str, value: object, kinds: type | UnionType) -> None:
     """Refuse an argument of a function of ``synth`` that is not of the kinds it takes, and say how to make one.
 
     >>> from graphs.mechanism.sheet import Sheet
@@ -159,15 +159,17 @@ def check_argument(verb: str, thing: object, kinds: type | UnionType) -> None:
     ...
     graphs.errors.ArgumentError: fold: the text 'a.fold'; expected a Sheet; try synth.fold(synth.read('a.fold'))
     """
-    if isinstance(thing, kinds):
+    if isinstance(value, kinds):
         return
     expected = f"a {kinds.__name__}" if isinstance(kinds, type) else "a mechanism"
-    if isinstance(thing, str | Path):
-        name = shown(str(thing))
-        what = "text" if isinstance(thing, str) else "path"
+    if isinstance(value, str | Path):
+        name = shown(str(value))
+        what = "text" if isinstance(value, str) else "path"
         raise ArgumentError(
             f"{verb}: the {what} {name}; expected {expected}; try synth.{verb}(synth.read({name}))"
         )
-    number = isinstance(thing, int | float)
-    told = "None" if thing is None else shown(thing) if number else f"an object of type {type(thing).__name__}"
-    raise ArgumentError(f"{verb}: {told}; expected {expected}, as synth.read returns it")
+    if value is None or isinstance(value, int | float):
+        received = shown(value)
+    else:
+        received = f"an object of type {type(value).__name__}"
+    raise ArgumentError(f"{verb}: {received}; expected {expected}, as synth.read returns it")

@@ -251,7 +251,7 @@ def _longest(axes: Floats, tied: Flags) -> Floats:
 
 
 def _fitted(points: npt.ArrayLike) -> tuple[Floats, Floats, Floats, Flags]:
-    """Return the mean of points, the points about it, their axes, and which axes are not told from the next."""
+    """Return the mean of points, the points about it, their axes, and which axes are as long as the next."""
     given = np.asarray(points, dtype=float)
     middle = given.mean(axis=-2)
     around = given - middle[..., None, :]

@@ -143,8 +143,7 @@ def check_work(name: str, needed: int, what: str) -> None:
     >>> check_work("basis", 4950, "joints")
     Traceback (most recent call last):
     ...
-    graphs.errors.InvariantError: 4950 joints in a part that is not planar; expected at most 250 \
-    (SYNTHEDRA_MOST=basis=4950 allows more) [limit]
+    graphs.errors.InvariantError: 4950 joints; expected at most 250 (SYNTHEDRA_MOST=basis=4950 allows more) [limit]
     """
     if needed > most(name):
         raise InvariantError("limit", f"{needed} {what}", how_to_raise(name, needed))

@@ -72,16 +72,16 @@ def plain_label(value: object, widest: int = _WIDEST) -> str:
     return plain(value, widest).replace("$", r"\$")
 
 
-def shown(thing: object) -> str:
+def shown(value: object) -> str:
     r"""Return the ``repr`` of a value in one printable line of at most 60 letters, for messages.
 
     >>> shown("two\nlines"), len(shown("x" * 10_000))
     ("'two\\nlines'", 60)
     """
-    if isinstance(thing, str) and len(thing) > 2 * _WIDEST:
-        thing = thing[:_WIDEST] + thing[-_WIDEST:]  # the middle is left out in any case
-    text = ascii(thing) if isinstance(thing, str) and not thing.isprintable() else repr(thing)
-    text = text if text.isprintable() else _escaped(text)  # what is no text may say of itself what it likes
+    if isinstance(value, str) and len(value) > 2 * _WIDEST:
+        value = value[:_WIDEST] + value[-_WIDEST:]  # the middle is left out in any case
+    text = ascii(value) if isinstance(value, str) and not value.isprintable() else repr(value)
+    text = text if text.isprintable() else _escaped(text)  # the repr of other objects may hold any letters
     if len(text) > _WIDEST:
         half = (_WIDEST - len(_CUT)) // 2
         text = text[: _WIDEST - len(_CUT) - half] + _CUT + text[-half:]

@@ -40,10 +40,10 @@ EPSILON = 2.0**-52
 
 _BLURRED, _COARSEST = 30.0, 3e-3
 """Singular values and eigenvalues at rounded coordinates are zero up to this many times the precision, and never
-above the second value: within it nothing that moves is told from what does not."""
+above the second value: within it mobile and rigid mechanisms cannot be told apart."""
 _NEARLY, _VAGUE = 8.0, 0.1
 """Equations between rates are off by so many errors of a direction at most where they hold at the coordinates that
-were meant; above the second value hardly any pattern is told from another."""
+were meant; above the second value hardly any two patterns can be told apart."""
 _MEANT_FLAT = 1e-5
 """Whoever draws or solves for points of one plane puts them this close to it."""
 _MEANT = 1e-6

@@ -34,7 +34,7 @@ class Identity(Printed):
         ``m1:...``, of the mechanism drawn on the sphere, with its centres and, where they are known, the sides of
         its links; mirror images have one id.
     notes : tuple of str
-        Why there is none.
+        Why an id is missing.
 
     Examples
     --------
@@ -53,9 +53,9 @@ class Identity(Printed):
 
     def blocks(self) -> list[Block]:
         """Return the lines that are printed."""
-        told = [f"chain    {self.chain}"] * (self.chain is not None)
-        told += [f"drawing  {self.drawing}"] * (self.drawing is not None)
-        return [*told, *(f"note: {note}" for note in self.notes)]
+        lines = [f"chain    {self.chain}"] * (self.chain is not None)
+        lines += [f"drawing  {self.drawing}"] * (self.drawing is not None)
+        return [*lines, *(f"note: {note}" for note in self.notes)]
 
 
 def identify(mechanism: Mechanism | nx.Graph) -> Identity:
@@ -89,7 +89,7 @@ def _id_or_reason(find: Callable[[], str]) -> tuple[str | None, str]:
 
 
 def _drawn(mechanism: Mechanism | nx.Graph) -> SCGraph:
-    """Return the mechanism with all that its drawing tells."""
+    """Return the mechanism with its drawing."""
     if isinstance(mechanism, Sheet | PolyhedronModel):
         return to_scd(mechanism)
     graph = graph_of(mechanism)

@@ -136,7 +136,7 @@ _ROD = 2
 class Passive:
     """Freedoms of one leg, by its joints, that move its own links only.
 
-    `spins`: it is one, a turn about the line through two spherical joints.
+    `spins`: there is one such freedom, a turn about the line through two spherical joints.
     """
 
     joints: tuple[JointId, ...]
@@ -180,7 +180,7 @@ def mobility_of_jointed(linkage: JointedLinkage) -> MobilityAnswer:
 
 
 def _if_planar(linkage: JointedLinkage) -> Iterator[str]:
-    """Say what a type counts in a plane, if its joints allow it and nothing says in which space its loops are."""
+    """Yield the count of a type in a plane, if its joints allow it and no loop has a centre."""
     chain = linkage.chain
     if linkage.places or chain.loops or not chain.independent_loops:
         return
@@ -227,7 +227,7 @@ def _rows_between_ends(linkage: JointedLinkage, leg: Leg) -> list[tuple[JointId,
 
 
 def freedoms_by_screws(linkage: JointedLinkage) -> int | None:
-    """Return the freedoms at the pose by the screws of the joints, without revolutes; None if not known.
+    """Return the degrees of freedom by the screws of the joints, without revolutes; None if not known.
 
     The linkage has places, and all loops close with six equations.
     """
@@ -260,7 +260,7 @@ def _passive_notes(passive: tuple[Passive, ...]) -> Iterator[str]:
 
 
 def _spins(linkage: JointedLinkage, row: tuple[JointId, ...]) -> bool:
-    """Tell whether a row that moves between ends held is one that turns between two spherical joints."""
+    """Return whether a row that moves between held ends turns between two spherical joints."""
     return sum(linkage.kinds[joint] is JointKind.SPHERICAL for joint in row) == 2
 
 
@@ -311,7 +311,7 @@ def with_planar_loops(linkage: JointedLinkage) -> JointedLinkage:
 
 
 def _is_planar(linkage: JointedLinkage, joints: Sequence[JointId], parallel: float) -> bool:
-    """Tell whether the joints of a loop move its links in one plane, and turn some of them."""
+    """Return whether the joints of a loop move its links in one plane, and turn some of them."""
     if not all(linkage.kinds[joint].planar for joint in joints):
         return False
     turning = [joint for joint in joints if linkage.kinds[joint] is not JointKind.PRISMATIC]

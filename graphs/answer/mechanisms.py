@@ -33,7 +33,6 @@ from graphs.tolerances import DOUBLE
 __all__ = [
     "MOST_JOINTS",
     "mobility",
-    "model_with_exact",
     "model_with_pose",
     "precision_of_steps",
     "sheet_in_frame",
@@ -49,18 +48,26 @@ _LISTED = 12
 """Joints that are named, at most."""
 
 
-def with_exact(answer: MobilityAnswer, mechanism: SCGraph, *, demanded: bool = False) -> MobilityAnswer:
+def with_exact(
+    answer: MobilityAnswer, mechanism: SCGraph | PolyhedronModel, *, demanded: bool = False
+) -> MobilityAnswer:
     """Add the exact generic mobility, and where it differs from the count, why.
 
     It is found whatever the size of the mechanism if it is demanded.
     """
-    joints = len(mechanism.joints)
-    if joints > MOST_JOINTS and not demanded:
+    if isinstance(mechanism, PolyhedronModel):
+        size, unit, most = len(mechanism), "vertices", MOST_JOINTS // 3
+    else:
+        size, unit, most = len(mechanism.joints), "joints", MOST_JOINTS
+    if size > most and not demanded:
         return answer.with_notes(
-            warnings=[f"exact rank skipped: {joints} joints, more than {MOST_JOINTS}; --exact computes it"]
+            warnings=[f"exact rank skipped: {size} {unit}, more than {most}; --exact computes it"]
         )
     try:
-        exact = exact_mobility(mechanism)
+        if isinstance(mechanism, PolyhedronModel):
+            exact = exact_mobility_of_model(mechanism)
+        else:
+            exact = exact_mobility(mechanism)
     except (UnsolvableError, NumericalError) as error:
         return answer.with_notes(warnings=[f"no exact rank: {error}"])
     answer = replace(answer, exact=exact)
@@ -69,29 +76,9 @@ def with_exact(answer: MobilityAnswer, mechanism: SCGraph, *, demanded: bool = F
     return answer.with_notes(warnings=[_why_it_differs(answer, mechanism, exact.mobility)])
 
 
-def model_with_exact(answer: MobilityAnswer, model: PolyhedronModel, *, demanded: bool = False) -> MobilityAnswer:
-    """Add the exact generic mobility of a polyhedron model, whatever its size if it is demanded."""
-    if len(model) > MOST_JOINTS // 3 and not demanded:
-        return answer.with_notes(
-            warnings=[
-                f"exact rank skipped: {len(model)} vertices, more than {MOST_JOINTS // 3}; --exact computes it"
-            ]
-        )
-    try:
-        exact = exact_mobility_of_model(model)
-    except (UnsolvableError, NumericalError) as error:
-        answer = answer.with_notes(warnings=[f"no exact rank: {error}"])
-    else:
-        answer = replace(answer, exact=exact)
-        if exact.mobility != answer.mobility:
-            note = f"the exact generic mobility is {exact.mobility}, by count {answer.mobility}"
-            answer = answer.with_notes(warnings=[note])
-    return answer
-
-
-def _why_it_differs(answer: MobilityAnswer, mechanism: SCGraph, exact: int) -> str:
+def _why_it_differs(answer: MobilityAnswer, mechanism: SCGraph | PolyhedronModel, exact: int) -> str:
     text = f"the exact generic mobility is {exact}, by count {answer.mobility}"
-    if len(mechanism.joints) > _MOST_DIAGNOSED:
+    if isinstance(mechanism, PolyhedronModel) or len(mechanism.joints) > _MOST_DIAGNOSED:
         return text
     diagnosis = diagnose(mechanism)
     if diagnosis.idle:
@@ -162,25 +149,24 @@ def mobility(
     Parameters
     ----------
     mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, SurfaceLinkage, HingedSolids, ...
-        Of joints of other kinds than revolutes the answer is that of `graphs.answer.jointed`.
-        A plain graph is a link-joint graph: each face of a drawing of it is given a finite centre.
+        A plain graph is a link-joint graph: each face of a drawing of it gets a finite centre.
     exact : bool, optional
-        Find the exact generic rank; by default of what is not too large.
+        Find the exact generic rank; by default unless the mechanism is too large.
     hinge_flat : bool, optional
         Make hinges of the flat (F) edges of a crease pattern too.
     pose : int, optional
-        The frame of a FOLD file that is asked about, counts, ranks and freedoms as it lies; by default the
-        pattern as it was read, or if that has no coordinates, the first frame that has. False leaves the
-        freedoms out.
+        The frame of a FOLD file that counts, ranks and degrees of freedom are those of; by default the pattern as
+        it was read, or if that has no coordinates, the first frame that has. False leaves the degrees of freedom
+        at the configuration out.
     geometry : bool, optional
         Give loops round holes and cuts of a crease pattern the centre where their axes meet or are parallel.
     dual : SheetMechanism, optional
-        Of the crease pattern as it lies, made with the same options, where it is at hand.
+        The mechanism of the crease pattern, made with the same options, so that it is not made again.
 
     Raises
     ------
     UnsolvableError
-        If a pose is demanded of a sheet that has no coordinates there.
+        If a pose is demanded and the sheet has no coordinates there.
     FileError, InvariantError
         If there is no such frame, or the mechanism breaks an invariant.
 
@@ -192,15 +178,15 @@ def mobility(
     >>> mobility(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))).pose.dof
     1
     """
-    demanded, wanted = bool(exact), exact is not False
+    demanded = bool(exact)
     if isinstance(mechanism, Sheet):
         drawn = sheet_in_frame(mechanism, None if pose is False else pose)
         dual = dual or mechanism_of_sheet(drawn, hinge_flat=hinge_flat, geometry=geometry)
         return _of_sheet(drawn, dual, exact, pose, hinged=(hinge_flat, geometry))
     if isinstance(mechanism, PolyhedronModel):
         answer = MobilityAnswer.of(mobility_report(mechanism))
-        if wanted:
-            answer = model_with_exact(answer, mechanism, demanded=demanded)
+        if exact is not False:
+            answer = with_exact(answer, mechanism, demanded=demanded)
         return answer if pose is False else model_with_pose(answer, mechanism)
     if isinstance(mechanism, JointedLinkage):
         answer = mobility_of_jointed(mechanism)
@@ -216,7 +202,7 @@ def mobility(
         answer = answer.with_notes(
             warnings=["no degrees of freedom at a configuration: a graph has no coordinates"]
         )
-    if wanted:
+    if exact is not False:
         answer = with_exact(answer, sc, demanded=demanded)
     if pose is not False and isinstance(mechanism, SurfaceLinkage):
         return _conformed(answer, mechanism)
@@ -286,7 +272,7 @@ def _of_sheet(
 
 
 def sheet_in_frame(sheet: Sheet, pose: int | None) -> Sheet:
-    """Return the sheet that is asked about: a frame, or the first that has coordinates."""
+    """Return the sheet of a frame, or without one the first that has coordinates."""
     if sheet.frames is None:
         if pose:
             raise InvariantError("frames", "has no frames", "a .fold file")

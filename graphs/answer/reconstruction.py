@@ -23,7 +23,7 @@ _TOLD = ("vertices", "implicit_centres", "external_edges", "internal_edges")
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Reconstruction(Printed):
-    """A polyhedron model, and how it came about.
+    """A polyhedron model, and the steps of its reconstruction.
 
     Attributes
     ----------

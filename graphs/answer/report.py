@@ -62,15 +62,15 @@ class MobilityAnswer(MobilityReport, Printed):
     Attributes
     ----------
     exact : ExactMobility or None
-        The generic mobility by rank, with its primes; None where it was not asked for or could not be found (a
-        warning says why).
+        The generic mobility by rank, with its primes; None if it was left out or could not be found (a warning
+        says why).
     pose : PoseMobility or None
-        The first-order freedoms where the coordinates are, with the gap of the singular values; None without
+        The infinitesimal degrees of freedom at the coordinates, with the gap of the singular values; None without
         coordinates.
     reading : Reading or None
-        What was done to a drawing when it was read, with places; None of what was not traced.
+        What was done to a drawing when it was read, with places; None if nothing was traced.
     overconstraint : int or None
-        h = freedoms at the pose - M (Wiener 2016, Eq. 8).
+        h = degrees of freedom at the configuration - M (Wiener 2016, Eq. 8).
 
     Notes
     -----
@@ -96,7 +96,7 @@ class MobilityAnswer(MobilityReport, Printed):
 
     @property
     def overconstraint(self) -> int | None:
-        """H = freedoms at the pose - M, where both are known."""
+        """H = degrees of freedom at the configuration - M, where both are known."""
         if self.pose is None or self.pose.dof is None or self.mobility is None:
             return None
         return overconstraint(self.pose.dof, self.mobility)
@@ -142,7 +142,7 @@ class MobilityAnswer(MobilityReport, Printed):
         if self.arrangement not in (None, "none", "single"):
             blocks.append(f"arrangement of centres: {self.arrangement} ({ARRANGEMENTS[self.arrangement]})")
         reading = self.reading or Reading()
-        blocks += [f"repaired: {reading.told(note)}" for note in self.repairs if note != reading.left_out]
+        blocks += [f"repaired: {reading.with_places(note)}" for note in self.repairs if note != reading.left_out]
         blocks += [f"note: {note}" for note in self.warnings]
         return blocks
 
@@ -198,7 +198,7 @@ def power_of_ten(number: float) -> str:
 
 
 def notes_of_pose(pose: PoseMobility) -> list[str]:
-    """Return what is to be said of the certainty of freedoms at a pose."""
+    """Return the notes on the certainty of degrees of freedom at a configuration."""
     evidence = pose.spectrum
     if pose.dof is None:
         near = ", ".join(f"{value:.1e}" for value in evidence.undecided[:3])

@@ -289,8 +289,8 @@ def _coloured(sc: SCGraph, marked: Collection[LinkId]) -> tuple[ColouredGraph, l
     edges: list[tuple[int, int]] = []
     number: dict[tuple[str, Hashable], int] = {}
 
-    def node(kind: str, thing: LinkId | JointId | int, *colour: object) -> None:
-        number[kind, thing] = len(colours)
+    def node(kind: str, name: LinkId | JointId | int, *colour: object) -> None:
+        number[kind, name] = len(colours)
         colours.append((kind, *colour))
 
     for link in sc.nodes:

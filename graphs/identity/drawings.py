@@ -315,7 +315,7 @@ def drawing_of(mechanism: SCGraph) -> tuple[Rotation, tuple[JointId, LinkId]]:
             raise UnsolvableError("a single link has no joint to begin with")
         return mechanism.rotation, (corner.leaving, corner.link)
     if not mechanism.loops:
-        raise UnsolvableError("a tree without open edges has no drawing of its own: give an SCD graph")
+        raise UnsolvableError("a tree without open edges has no drawing of its own; expected an SCD graph")
     cycles = [loop.joints for loop in mechanism.loops]
     rest: set[JointId] = set()
     for cycle in cycles:

@@ -13,7 +13,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError, numbered, shown
 from graphs.types import JointId, Joints, LinkId
 
 __all__ = [
@@ -66,7 +66,7 @@ class Loop:
     name : str, optional
         A name for the loop.
     at : str, optional
-        Name of the centre. Loops that give the same ``at`` share one centre although nothing forces them to
+        Name of the centre. Loops that have the same ``at`` share one centre although nothing forces them to
         (a *specialised* mechanism: the spherical analogue of Watt's chain, say). Leave it out for the most
         general mechanism.
 
@@ -111,8 +111,8 @@ class Loop:
 def cyclic_order(loop: Loop, joints: Joints) -> tuple[JointId, ...]:
     """Return the joints of a loop in cyclic order; refuse what is not one cycle.
 
-    A set of joints that is a cycle has one cyclic order up to start and direction. The joint given first
-    stays first, and the direction is that of the given order where the given order is cyclic.
+    A set of joints that is a cycle has one cyclic order up to start and direction. The first joint stays first,
+    and the direction is kept where the joints are in cyclic order already.
 
     Parameters
     ----------
@@ -145,11 +145,13 @@ def cyclic_order(loop: Loop, joints: Joints) -> tuple[JointId, ...]:
         for link in joints[joint]:
             at_link[link].append(joint)
     if len(seen) < 2:
-        raise InvariantError("loop is a cycle", f"{loop.label} has {len(seen)} joint(s)", "at least two")
+        raise InvariantError("loop is a cycle", f"{loop.label} has {numbered(len(seen), 'joint')}", "at least two")
     for link, here in at_link.items():
         if len(here) != 2:
             raise InvariantError(
-                "loop is a cycle", f"{loop.label} meets link {shown(link)} in {len(here)} joint(s)", "two"
+                "loop is a cycle",
+                f"{loop.label} meets link {shown(link)} in {numbered(len(here), 'joint')}",
+                "two",
             )
     order = _walk(loop.joints, at_link, joints)
     if len(order) != len(seen):
@@ -160,7 +162,7 @@ def cyclic_order(loop: Loop, joints: Joints) -> tuple[JointId, ...]:
 
 
 def _is_cyclic(around: Sequence[JointId], joints: Joints) -> bool:
-    """Whether joints are one cycle in the order given: the common case, told without a dictionary of links."""
+    """Return whether joints are one cycle in their order: the common case, found without a dictionary of links."""
     if len(around) < 3 or any(joint not in joints for joint in around):
         return False
     a, b = joints[around[-1]]
@@ -179,12 +181,12 @@ def _is_cyclic(around: Sequence[JointId], joints: Joints) -> bool:
 
 
 def _walk(
-    given: Sequence[JointId], at_link: Mapping[LinkId, list[JointId]], joints: Joints
+    around: Sequence[JointId], at_link: Mapping[LinkId, list[JointId]], joints: Joints
 ) -> tuple[JointId, ...]:
-    """Follow a 2-regular set of joints from the one given first."""
-    first = given[0]
+    """Follow a 2-regular set of joints from the first."""
+    first = around[0]
     start, link = joints[first]
-    if given[1] in at_link[start] and given[1] not in at_link[link]:
+    if around[1] in at_link[start] and around[1] not in at_link[link]:
         link = start
     order = [first]
     while True:

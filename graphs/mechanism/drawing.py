@@ -13,7 +13,7 @@ from enum import Enum
 from functools import cached_property
 from types import MappingProxyType
 
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError, numbered, shown
 from graphs.loops.loop import Loop
 from graphs.types import JointId, Joints, LinkId
 
@@ -132,7 +132,7 @@ def check_sides(rotation: Rotation) -> None:
         if len(sides) < 3:
             raise InvariantError(
                 "link degree",
-                f"link {shown(link)} has {len(sides)} side(s)",
+                f"link {shown(link)} has {numbered(len(sides), 'side')}",
                 "three or more, open edges included",
             )
 
@@ -288,7 +288,7 @@ class Drawing:
         Counter-clockwise: joint ids, and None for an open edge.
     outer : (joint, "left" or "right"), optional
         The outer face: the one on that side of the joint, looking from its first link to its second. May be left
-        out where there is one face only (trees).
+        out where there is only one face (trees).
     loops : sequence of Loop, optional
         Independent loops; they belong to bounded faces.
     closing : sequence of Loop, optional
@@ -300,7 +300,6 @@ class Drawing:
     vertex_count : int
         V = open edges + faces without open edges.
     outer : (joint, side) or None
-        As given.
     outer_face : int
         Index of the outer face.
     loops : tuple of Loop
@@ -354,7 +353,7 @@ class Drawing:
         joint, side = outer
         if joint not in self.joints or side not in ("left", "right"):
             raise InvariantError(
-                "outer face", f"the outer face is given as {shown(outer)}", "a joint and 'left' or 'right'"
+                "outer face", f"the outer face is {shown(outer)}", "a joint and 'left' or 'right'"
             )
         return self.face_at(joint, side)
 
@@ -431,12 +430,12 @@ class Drawing:
         return self._vertices[link][side - 1], self._vertices[link][side]
 
     def loop_of_face(self, face: int) -> Loop | None:
-        """Return the loop that carries the centre of a face, if one was given for it."""
+        """Return the loop whose centre lies in a face, if any."""
         index = self.face_loops[face]
         return None if index is None else self.loops[index]
 
     def kind_of_face(self, face: int) -> FaceKind:
-        """Tell what lies in a face."""
+        """Return what lies in a face."""
         loop = self.loop_of_face(face)
         if loop is not None and loop.has_centre:
             return FaceKind.IMPLICIT if self.faces[face].open_edges else FaceKind.EXPLICIT

@@ -192,8 +192,8 @@ class Precision:
     margin: float | None = None
 
     def __str__(self) -> str:
-        told = f": {self.evidence}" if self.source == ESTIMATED else ""
-        return f"{self.size:.0e} of the extent ({self.source}{told})"
+        evidence = f": {self.evidence}" if self.source == ESTIMATED else ""
+        return f"{self.size:.0e} of the extent ({self.source}{evidence})"
 
     def to_json(self) -> dict[str, float | str | None]:
         """Return the keys of the key ``configuration`` (docs/command-json.md)."""
@@ -447,7 +447,7 @@ def flat_places(sheet: Sheet, what: str) -> list[tuple[float, float]]:
         raise UnsolvableError(f"{what} needs coordinates, and the sheet has none")
     flat = flattened(sheet)
     if flat is None:
-        raise UnsolvableError(f"{what} is flat, and the sheet is not")
+        raise UnsolvableError(f"{what} is planar, and the sheet is not")
     return [(x, y) for x, y in flat.places.tolist()]
 
 

@@ -28,14 +28,14 @@ __all__ = ["ARRANGEMENTS", "Arrangement", "SCGraph", "SpecialGeometry", "arrange
 
 @dataclass(frozen=True, slots=True)
 class SpecialGeometry:
-    """Finite freedoms of the members of a type whose dimensions obey conditions that the type does not state.
+    """Degrees of freedom of realisations whose dimensions obey conditions that the type does not state.
 
     It is a remark on the type, which stays the same: ids, mobility and tests of equality do not depend on it.
 
     Parameters
     ----------
     freedoms : int
-        Of finite motion, of a member that obeys the conditions.
+        Degrees of freedom of the finite motion of a realisation that obeys the conditions.
     conditions : sequence of str
         What is special, such as ``flat-foldable`` or ``two triples of parallel axes (Sarrus)``.
 
@@ -78,22 +78,22 @@ class SCGraph(nx.MultiGraph):
     links : int or iterable of link ids, optional
         Names of the links, or how many there are (then they are 0, 1, 2, ...).
     joints : mapping of joint id to (link, link), or iterable of (link, link), optional
-        The joints; ids are 0, 1, 2, ... where none are given. Two links may share several joints.
+        The joints; ids of bare pairs are 0, 1, 2, ... Two links may share several joints.
     loops : iterable of Loop, optional
         Independent loops. A loop's joints may come in any order; they are stored in cyclic order. Independent
         cycles that are left out are spatial.
     closing : iterable of Loop, optional
         Loops that *depend* on the others and yet carry a centre: the last face of a closed surface, or the
-        outer one of concentric loops (thesis 3.3.6).
+        outer one of concentric loops (Wiener 3.3.6).
     ground : link id, optional
         The fixed link; without it the graph is a kinematic chain.
     special : SpecialGeometry, optional
-        A mark that members of special dimensions move. The type is the same with and without it.
+        A mark that realisations of special dimensions move. The type is the same with and without it.
 
     Attributes
     ----------
     centres_assumed : bool
-        Whether nobody gave the centres, and each face of an embedding was taken for a loop with one.
+        Whether the input had no centres, and each face of an embedding was taken for a loop with one.
 
     Raises
     ------
@@ -113,9 +113,6 @@ class SCGraph(nx.MultiGraph):
     ... )
     >>> len(watt.centre_classes()), watt.independent_loops
     (2, 2)
-    >>> import networkx as nx
-    >>> nx.is_biconnected(nx.Graph(watt))
-    True
     """
 
     loops: tuple[Loop, ...]
@@ -250,7 +247,7 @@ class SCGraph(nx.MultiGraph):
 
     @property
     def joints(self) -> Mapping[JointId, tuple[LinkId, LinkId]]:
-        """Joint id to its two links, in the order given (read-only)."""
+        """Joint id to its two links, in their order (read-only)."""
         return MappingProxyType(self._joints)
 
     @cached_property
@@ -270,7 +267,7 @@ class SCGraph(nx.MultiGraph):
 
     @property
     def spatial_loops(self) -> int:
-        """Number of independent loops without a centre, given or left over."""
+        """Number of independent loops without a centre, listed in `loops` or not."""
         return self.independent_loops - len(self.centred_loops)
 
     @property

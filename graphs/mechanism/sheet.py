@@ -49,14 +49,14 @@ RepairKind: TypeAlias = Literal[
 ]
 
 _FIRST = 3
-"""So many places are told in a line."""
+"""How many places a line names."""
 
 
 @dataclass(frozen=True, slots=True)
 class Repair:
     """Repairs of one kind.
 
-    `what` says them with their number, as `Sheet.repairs` does. The places are those of all.
+    `what` names them with their number, as `Sheet.repairs` does. The places are those of all.
     """
 
     kind: RepairKind
@@ -69,12 +69,12 @@ class Repair:
         return {"kind": self.kind, "what": self.what, "places": places}
 
     def __str__(self) -> str:
-        """Say them with the first places.
+        """Return the repairs with their first places.
 
         >>> print(Repair("line pruned", "1 line that ends nowhere pruned", (((0.0, 0.25), (1.0, 0.5)),)))
         1 line that ends nowhere pruned: from (0, 0.25) to (1, 0.5)
         """
-        first = ", ".join(_told(place) for place in self.places[:_FIRST])
+        first = ", ".join(_place_text(place) for place in self.places[:_FIRST])
         more = f" and {len(self.places) - _FIRST} more" if len(self.places) > _FIRST else ""
         return f"{self.what}: {first}{more}" if first else self.what
 
@@ -91,10 +91,10 @@ class Reading:
 
     @property
     def warning(self) -> str:
-        """What whoever asks should read first: that the pattern is not the whole drawing; empty if it is."""
+        """The warning that the pattern is not the whole drawing; empty if it is."""
         return f"{self.left_out}; state what they are by --colour or --layer" if self.left_out else ""
 
-    def told(self, note: str) -> str:
+    def with_places(self, note: str) -> str:
         """Return a repair with its first places where they are known."""
         return next((str(repair) for repair in self.repairs if repair.what == note), note)
 
@@ -121,7 +121,7 @@ class WrittenPrecision:
             raise InvariantError("precision", f"the precision is {self.length:g}", "a length, zero or more")
 
 
-def _told(place: Place) -> str:
+def _place_text(place: Place) -> str:
     points = ["({})".format(", ".join(f"{x + 0.0:.6g}" for x in point)) for point in place]
     if len(points) == 2:
         return f"from {points[0]} to {points[1]}"
@@ -144,7 +144,7 @@ Edge = tuple[int, int]
 
 
 class Frames(Protocol):
-    """The frames of the file that a sheet was read from: the same sheet in other poses."""
+    """The frames of the file that a sheet was read from: the same sheet in other configurations."""
 
     @property
     def others(self) -> int:
@@ -152,11 +152,11 @@ class Frames(Protocol):
 
     @property
     def unit(self) -> str | None:
-        """The name that the file gives its unit of length; None where it gives none."""
+        """The name of the unit of length in the file; None where it has none."""
 
     @property
     def left_out(self) -> tuple[str, ...]:
-        """What else the file says of the sheet, by the names that it has there: the sheet does not hold it."""
+        """Names of further data of the file that the sheet does not hold."""
 
     def frame(self, number: int) -> Sheet:
         """Return the sheet of one frame; 0 is the key frame."""
@@ -175,23 +175,24 @@ class Sheet:
         How many; they are 0, 1, 2, ...
     edges : tuple of (vertex, vertex)
     assignments : str
-        One letter an edge, as in FOLD: B border, M mountain, V valley, F flat, U unassigned, C cut, J join.
+        One letter per edge, as in FOLD: B border, M mountain, V valley, F flat, U unassigned, C cut, J join.
     faces : tuple of vertex cycles
     coordinates : tuple of (x, y) or (x, y, z), optional
         One for each vertex.
     title : str
     repairs : tuple of str
-        What was mended on reading.
+        What was repaired on reading.
     fold_angles : tuple of float or None, optional
         One for each edge, in degrees as in files; None where an edge has none.
     spread : float, optional
-        How far points were apart that were made one vertex, in the mean, in the length unit of the coordinates.
+        Mean distance of points that were made one vertex, in the length unit of the coordinates.
     precision : WrittenPrecision, optional
-        How precise the coordinates are as they are written or stated; two sheets are equal whatever theirs is.
+        How precise the coordinates are as they are written or stated.
     frames : Frames, optional
-        The frames of the file it was read from; two sheets are equal whatever theirs are.
+        The frames of the file it was read from.
     reading : Reading, optional
-        What was done to the drawing it was read from, with places; two sheets are equal whatever theirs are.
+        What was done to the drawing it was read from, with places. Equality of sheets does not depend on the last
+        four.
 
     Raises
     ------

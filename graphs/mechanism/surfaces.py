@@ -39,14 +39,17 @@ __all__ = [
 
 def checked_cone_angle(cone_angle: npt.ArrayLike) -> Floats:
     """Return cone angles; raises `InvariantError` unless 0 <= lambda < pi / 2."""
-    given = np.asarray(cone_angle, dtype=float)
-    wrong = given[~((given >= 0) & (given < np.pi / 2))]
+    angles = np.asarray(cone_angle, dtype=float)
+    wrong = angles[~((angles >= 0) & (angles < np.pi / 2))]
     if wrong.size:
-        told = f"{np.degrees(wrong.flat[0]):.12g}"
+        angle = f"{np.degrees(wrong.flat[0]):.12g} degrees"
         raise InvariantError(
-            "cone angle", f"the cone angle is {told} degrees", "0 or more, and less than 90", ("lambda", None)
+            "cone angle",
+            f"the cone angle is {angle}",
+            "0 or more, and less than 90",
+            ("lambda", None),
         )
-    return given
+    return angles
 
 
 def joint_axes(places: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
@@ -214,8 +217,8 @@ Pair = tuple[JointId, JointId]
 class SurfaceLinkage:
     """A linkage whose joint axes are ruling lines of a cone or a cylinder: a developable mechanism.
 
-    It is given by the sizes of its links, link angles of a spherical linkage or lengths of a planar one, which
-    tell the surfaces; or by steps round a surface.
+    It has the sizes of its links, link angles of a spherical linkage or lengths of a planar one, which determine
+    the surfaces; or steps round a surface.
 
     Attributes
     ----------
@@ -268,19 +271,19 @@ class SurfaceLinkage:
         """
         for number, size in enumerate(sizes, start=1):
             if kind == "cone" and not 0.0 < size < pi:
-                told = f"link angle {number} is {degrees(size):.12g} degrees"
-                raise InvariantError("link angle", told, "the angle between two axes, between 0 and 180")
+                wrong = f"link angle {number} is {degrees(size):.12g} degrees"
+                raise InvariantError("link angle", wrong, "the angle between two axes, between 0 and 180")
             if not (size > 0.0 and isfinite(size)):
                 raise InvariantError("length", f"length {number} is {size:.12g}", "a length above 0")
         chain = ring(len(sizes))
         joints = list(chain.joints)
         after = [*joints[1:], joints[0]]
-        given = dict(zip(zip(joints, after, strict=True), map(float, sizes), strict=True))
-        return cls(chain, angles=given) if kind == "cone" else cls(as_planar(chain), lengths=given)
+        size_of = dict(zip(zip(joints, after, strict=True), map(float, sizes), strict=True))
+        return cls(chain, angles=size_of) if kind == "cone" else cls(as_planar(chain), lengths=size_of)
 
     @classmethod
     def placed(cls, chain: SCGraph, places: Sequence[float], surface: Surface | None = None) -> SurfaceLinkage:
-        """Return a linkage whose joints lie at given azimuths, by the steps from each joint to the next.
+        """Return a linkage whose joints lie at azimuths, by the steps from each joint to the next.
 
         Parameters
         ----------
@@ -313,10 +316,10 @@ class SurfaceLinkage:
         return self.lengths if self.angles is None else self.angles
 
     def __repr__(self) -> str:
-        given = "steps between its axes"
+        sizes = "steps between its axes"
         if self.steps is None:
-            given = "link angles" if self.lengths is None else "lengths"
-        return f"<SurfaceLinkage: {self.chain!r}, {given}>"
+            sizes = "link angles" if self.lengths is None else "lengths"
+        return f"<SurfaceLinkage: {self.chain!r}, {sizes}>"
 
     def places(self) -> list[float]:
         """Return the azimuths of the joints, radians, in the order of the chain's joints.

@@ -8,7 +8,13 @@ from graphs.rank.exact import (
     independent_cycles as independent_cycles,
     mobility_without as mobility_without,
 )
-from graphs.rank.general_member import (
+from graphs.rank.pose import (
+    PoseMobility as PoseMobility,
+    pose_mobility as pose_mobility,
+    pose_mobility_of_axes as pose_mobility_of_axes,
+    pose_mobility_of_model as pose_mobility_of_model,
+)
+from graphs.rank.realisation import (
     PRIMES as PRIMES,
     Field as Field,
     Incidence as Incidence,
@@ -17,12 +23,6 @@ from graphs.rank.general_member import (
     Reals as Reals,
     incidence_of as incidence_of,
     realise as realise,
-)
-from graphs.rank.pose import (
-    PoseMobility as PoseMobility,
-    pose_mobility as pose_mobility,
-    pose_mobility_of_axes as pose_mobility_of_axes,
-    pose_mobility_of_model as pose_mobility_of_model,
 )
 from graphs.rank.rods import exact_mobility_of_model as exact_mobility_of_model
 from graphs.rank.singular_values import (

@@ -171,7 +171,7 @@ class _Elimination:
         return np.asarray(own)
 
     def _judge(self, values: Floats, combinations: Floats, step: _Step, *, top: bool) -> Flags:
-        """Record the combinations that are noise, at the top all; tell which are handed up."""
+        """Record the combinations that are noise, at the top all; return which are handed up."""
         vectors = np.zeros((self.named, combinations.shape[1]))
         vectors[step.columns] = combinations
         for inner in step.inner:

@@ -25,13 +25,14 @@ from graphs.errors import NumericalError
 from graphs.loops.classes import class_of_loop
 from graphs.loops.loop import Centre, Loop, added_independent, signed_cycle
 from graphs.mechanism.sc import SCGraph
-from graphs.rank.general_member import PRIMES, Field, Line, Point, PrimeField, Realisation, realise
+from graphs.rank.realisation import PRIMES, Field, Line, Point, PrimeField, Realisation, realise
 from graphs.types import JointId, LinkId
 
 __all__ = [
     "Closure",
     "Diagnosis",
     "ExactMobility",
+    "agreed_rank",
     "closure_modulo",
     "closure_of",
     "diagnose",
@@ -39,6 +40,7 @@ __all__ = [
     "independent_cycles",
     "matrix_modulo",
     "mobility_without",
+    "sparse_modulo",
 ]
 
 _FINITE = [(0, 0), (0, 1), (0, 2)]
@@ -124,14 +126,12 @@ def closure_of(sc: SCGraph, axes: Mapping[JointId, Line], centres: Mapping[int, 
 
     Examples
     --------
-    A general spherical four-bar, modulo a prime: three equations of four rates.
+    A random spherical four-bar, modulo a prime: three equations of four rates.
 
-    >>> from graphs.rank.general_member import PrimeField
-    >>> from graphs.rank.general_member import realise
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
     >>> field = PrimeField(101)
-    >>> member = realise(four_bar, field)
-    >>> closure = closure_of(four_bar, member.axes, {0: member.points[0]}, field)
+    >>> placed = realise(four_bar, field)
+    >>> closure = closure_of(four_bar, placed.axes, {0: placed.points[0]}, field)
     >>> len(closure.rows), closure.joints
     (3, (0, 1, 2, 3))
     """
@@ -168,7 +168,7 @@ def _equations(centre: Point | None, field: Field) -> list[tuple[int, int]]:
 
 @dataclass(frozen=True, slots=True)
 class ExactMobility:
-    """The generic mobility of a type, and what shows it.
+    """The generic mobility of a type, with its evidence.
 
     Attributes
     ----------
@@ -178,15 +178,14 @@ class ExactMobility:
         Joint rates J; of a polyhedron model 3V - 6 velocities.
     rank : int
     primes : tuple of int
-        The primes modulo which the rank was found, each time at another random member.
+        The primes modulo which the rank was found, each time at another random realisation.
     forced : bool
         Whether the vertices of an SCD graph were placed too.
 
     Examples
     --------
-    >>> from graphs.loops.loop import Loop
-    >>> found = exact_mobility(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]))
-    >>> found.mobility, found.unknowns, found.rank
+    >>> exact = exact_mobility(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]))
+    >>> exact.mobility, exact.unknowns, exact.rank
     (1, 4, 3)
     """
 
@@ -197,7 +196,7 @@ class ExactMobility:
     forced: bool
 
     def to_json(self) -> dict[str, Any]:
-        """Return the keys that scripts rely on, and the rank."""
+        """Return the exact mobility as plain data (docs/command-json.md)."""
         return {"mobility": self.mobility, "primes": list(self.primes), "rank": self.rank}
 
 
@@ -214,34 +213,39 @@ def exact_mobility(
     forced : bool, optional
         Place the vertices of an SCD graph too, not only its centres.
     seed : int, optional
-        Another seed is another random member.
+        Random seed; another seed gives another random realisation.
 
     Raises
     ------
     UnsolvableError
-        If the type could not be placed (`graphs.rank.general_member.realise`).
+        If the type could not be placed (`graphs.rank.realisation.realise`).
     NumericalError
         If the primes give different ranks, which all but never happens; another seed settles it.
 
     Examples
     --------
-    >>> from graphs.loops.loop import Loop
     >>> stephenson = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (2, 4), (4, 5), (5, 0)],
     ...                      [Loop((0, 1, 2, 3)), Loop((2, 3, 6, 5, 4))])
     >>> exact_mobility(stephenson).mobility
     1
     """
     ranks = [closure_modulo(mechanism, prime, forced=forced, seed=seed)[1].rank() for prime in primes]
+    joints = len(mechanism.joints)
+    rank = agreed_rank(ranks, primes)
+    return ExactMobility(joints - rank, joints, rank, tuple(primes), forced)
+
+
+def agreed_rank(ranks: Sequence[int], primes: Sequence[int]) -> int:
+    """Return the rank modulo all primes; raises `NumericalError` if they differ."""
     if len(set(ranks)) > 1:
         raise NumericalError(
-            f"the rank is {ranks} modulo {list(primes)}: an unlucky random member; try another seed"
+            f"the rank is {ranks} modulo {list(primes)}: an unlucky random realisation; try another seed"
         )
-    joints = len(mechanism.joints)
-    return ExactMobility(joints - ranks[0], joints, ranks[0], tuple(primes), forced)
+    return ranks[0]
 
 
 def closure_modulo(mechanism: SCGraph, prime: int, *, forced: bool = True, seed: int = 0) -> tuple[Closure, Any]:
-    """Return the closure equations of a random member modulo a prime, and their matrix (`flint.nmod_mat`)."""
+    """Return the closure equations of a random realisation modulo a prime, and their matrix (`flint.nmod_mat`)."""
     field = PrimeField(prime, seed)
     placed = realise(mechanism, field, forced=forced)
     closure = closure_of(mechanism, placed.axes, centres_of_loops(mechanism, placed), field)
@@ -255,9 +259,14 @@ def centres_of_loops(mechanism: SCGraph, placed: Realisation) -> dict[int, Any]:
 
 
 def matrix_modulo(closure: Closure, prime: int) -> Any:
-    """Return the matrix of closure equations: an empty one, with the nonzeros set, which is the fast way."""
-    matrix = nmod_mat(max(len(closure.rows), 1), max(len(closure.joints), 1), prime)
-    for i, row in enumerate(closure.rows):
+    """Return the matrix of closure equations (`flint.nmod_mat`)."""
+    return sparse_modulo(closure.rows, len(closure.joints), prime)
+
+
+def sparse_modulo(rows: Sequence[Mapping[int, int]], columns: int, prime: int) -> Any:
+    """Return a matrix by its nonzeros modulo a prime: to set them in an empty one is the fast way."""
+    matrix = nmod_mat(max(len(rows), 1), max(columns, 1), prime)
+    for i, row in enumerate(rows):
         for j, value in row.items():
             matrix[i, j] = value
     return matrix
@@ -265,17 +274,17 @@ def matrix_modulo(closure: Closure, prime: int) -> Any:
 
 @dataclass(frozen=True, slots=True)
 class Diagnosis:
-    """What the closure equations of a general member say beside its mobility.
+    """Redundant closure equations of a random realisation, immobile joints, links that move as one.
 
     Attributes
     ----------
     mobility : int
         Exact generic mobility.
     idle : int
-        Closure equations that follow from others.
+        Redundant closure equations: they follow from others.
     circuits : tuple of tuple of loops
-        Smallest dependent sets of equations, one for each idle equation: the loops they come from, each a tuple of
-        joint ids.
+        Smallest dependent sets of equations, one for each redundant equation: the loops they come from, each a
+        tuple of joint ids.
     immobile : tuple of joint ids
         Joints that no motion turns.
     clusters : tuple of tuple of link ids
@@ -285,9 +294,8 @@ class Diagnosis:
     --------
     Three links round a centre do not move:
 
-    >>> from graphs.loops.loop import Loop
-    >>> found = diagnose(SCGraph(3, [(0, 1), (1, 2), (2, 0)], [Loop((0, 1, 2))]))
-    >>> found.mobility, found.idle, found.immobile
+    >>> diagnosis = diagnose(SCGraph(3, [(0, 1), (1, 2), (2, 0)], [Loop((0, 1, 2))]))
+    >>> diagnosis.mobility, diagnosis.idle, diagnosis.immobile
     (0, 0, (0, 1, 2))
     """
 
@@ -312,7 +320,7 @@ class Diagnosis:
 
 
 def diagnose(mechanism: SCGraph, prime: int = PRIMES[0], *, forced: bool = True, seed: int = 0) -> Diagnosis:
-    """Say where a mechanism is overconstrained and what in it cannot move.
+    """Find where a mechanism is overconstrained, its immobile joints and its rigid clusters of links.
 
     Parameters
     ----------
@@ -329,12 +337,12 @@ def diagnose(mechanism: SCGraph, prime: int = PRIMES[0], *, forced: bool = True,
 
     Examples
     --------
-    A square twist of nine panels: as many equations as joints, none idle, and nothing moves.
+    A square twist of nine panels: as many equations as joints, none redundant, so it is rigid.
 
     >>> from graphs.files.formats import read
     >>> from graphs.convert.table import to_sc
-    >>> found = diagnose(to_sc(read("data/wiener/square-twist.fold")))
-    >>> found.mobility, found.idle, len(found.immobile), len(found.clusters)
+    >>> diagnosis = diagnose(to_sc(read("data/wiener/square-twist.fold")))
+    >>> diagnosis.mobility, diagnosis.idle, len(diagnosis.immobile), len(diagnosis.clusters)
     (0, 0, 12, 1)
     """
     field = PrimeField(prime, seed)
@@ -367,10 +375,12 @@ def _clusters(
     together: dict[Any, list[LinkId]] = defaultdict(list)
     twist: dict[LinkId, list[tuple[int, ...]]] = {}
     still: list[tuple[int, ...]] = [(0,) * 6 for _ in next(iter(motions.values()), [])]
-    for part, root in enumerate(_roots(mechanism)):
+    for part, links in enumerate(nx.connected_components(mechanism)):
+        root = next(link for link in mechanism if link in links)
         twist[root] = still
         together[part, tuple(still)].append(root)
-        for a, b, joint in _tree(mechanism, root):
+        for a, b in nx.bfs_edges(mechanism, root):
+            joint = next(iter(mechanism[a][b]))
             u, m = axes[joint]
             sign = 1 if mechanism.joints[joint] == (a, b) else -1
             twist[b] = [
@@ -380,15 +390,6 @@ def _clusters(
             together[part, tuple(twist[b])].append(b)
     place = {link: i for i, link in enumerate(mechanism)}
     return tuple(tuple(sorted(links, key=place.__getitem__)) for links in together.values() if len(links) > 1)
-
-
-def _roots(mechanism: SCGraph) -> list[LinkId]:
-    return [next(link for link in mechanism if link in part) for part in nx.connected_components(mechanism)]
-
-
-def _tree(mechanism: SCGraph, root: LinkId) -> list[tuple[LinkId, LinkId, JointId]]:
-    """Return the steps of a spanning tree, each from a link already met to a new one."""
-    return [(a, b, next(iter(mechanism[a][b]))) for a, b in nx.bfs_edges(mechanism, root)]
 
 
 def mobility_without(mechanism: SCGraph, joint: JointId, *, forced: bool = True, seed: int = 0) -> int:
@@ -406,7 +407,6 @@ def mobility_without(mechanism: SCGraph, joint: JointId, *, forced: bool = True,
 
     Examples
     --------
-    >>> from graphs.loops.loop import Loop
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
     >>> mobility_without(four_bar, 0)
     3

@@ -123,7 +123,7 @@ def spectrum(matrix: Floats, error: float | Floats = 0.0, nearly: float | Floats
     error : float or float[n], optional
         Of the entries of each column; rounding errors of double precision are added.
     nearly : like error, optional
-        The errors that are to be told of.
+        The errors that count as nearly mobile.
 
     Examples
     --------
@@ -250,7 +250,7 @@ class Split:
 
     @property
     def evidence(self) -> Spectrum:
-        """The rank with its gap; None for the rank where a value is not told from zero."""
+        """The rank with its gap; the rank is None where a value cannot be told from zero."""
         return judged_at(self.values, self.zero)
 
 

@@ -98,7 +98,7 @@ def test_flat_formats_refuse_what_is_not_flat(suffix, tmp_path):
         ((0, 1, 2), (0, 2, 3)),
         ((0.0, 0.0, 0.0), (1.0, 0.0, 1.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)),
     )
-    with pytest.raises(UnsolvableError, match="is flat, and the sheet is not"):
+    with pytest.raises(UnsolvableError, match="is planar, and the sheet is not"):
         write(bent, tmp_path / f"a{suffix}")
     with pytest.raises(UnsolvableError, match="needs coordinates, and the sheet has none"):
         write(Sheet(3, (), "", ((0, 1, 2),)), tmp_path / f"a{suffix}")

@@ -76,7 +76,7 @@ BROKEN = {
                      outer=(0, "left")),
         "loop '0 1 2 3' is not the outer cycle of a bounded face",
     ),
-    "link degree": (lambda: four_bar(TRIANGLES | {0: (0, 3)}), "link 0 has 2 side(s); expected three or more"),
+    "link degree": (lambda: four_bar(TRIANGLES | {0: (0, 3)}), "link 0 has 2 sides; expected three or more"),
     "explicit centre": (
         lambda: four_bar(loops=[Loop((0, 1, 2, 3), "infinite")]),
         "has an infinite centre but no open edge, so that its links would reach it; expected open edges",
@@ -85,8 +85,8 @@ BROKEN = {
         lambda: four_bar(QUADS | {0: (0, 3, None)}),
         "has open edges, but none between joints 3 and 0; expected one in every corner",
     ),
-    "spatial face": (lambda: four_bar(loops=[]), "has no centre and 0 open edge(s) in 0 corner(s); expected three"),
-    "outer face": (lambda: four_bar(outer=(0, "left")), "the outer face has no centre and 0 open edge(s)"),
+    "spatial face": (lambda: four_bar(loops=[]), "has no centre and 0 open edges in 0 corners; expected three"),
+    "outer face": (lambda: four_bar(outer=(0, "left")), "the outer face has no centre and 0 open edges"),
     "one explicit centre": (
         lambda: watt([0, 1, 2, 3], {0: (6, None, 0, 3), 1: (0, None, 1), 2: (1, None, 2), 3: (3, 2, None, 4)}, "O"),
         "loop '0 1 2 3' and loop '3 4 5 6' have one centre, but two vertices for it",

@@ -27,7 +27,7 @@ from graphs.rank.exact import (
     matrix_modulo,
     mobility_without,
 )
-from graphs.rank.general_member import (
+from graphs.rank.realisation import (
     PRIMES,
     Incidence,
     PrimeField,

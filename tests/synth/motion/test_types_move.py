@@ -8,7 +8,7 @@ from strategies import random_sc
 
 from graphs.errors import UnsolvableError
 from graphs.rank.exact import exact_mobility
-from graphs.rank.general_member import Reals, realise
+from graphs.rank.realisation import Reals, realise
 from synth.motion.branches import branches_of
 from synth.motion.linkage import linkage_of_axes
 

@@ -44,11 +44,11 @@ PRIMES = (2**61 - 1, 2**61 - 31)
 
 
 class Field(Protocol):
-    """Numbers that are added, multiplied, drawn at random, inverted, and told from zero.
+    """Numbers that are added, multiplied, drawn at random, inverted, and compared with zero.
 
     Examples
     --------
-    A member of a type is placed with any of them; the rank modulo a prime is exact:
+    A type is realised with any of them; the rank modulo a prime is exact:
 
     >>> fields: list[Field] = [PrimeField(7), Reals()]
     >>> [field.is_zero(field.reduce(field.inverse(2) * 2 - 1)) for field in fields]
@@ -65,7 +65,7 @@ class Field(Protocol):
         """Return 1 / value."""
 
     def is_zero(self, value: Any) -> bool:
-        """Tell whether a number in normal form is zero."""
+        """Return whether a number in normal form is zero."""
 
 
 class PrimeField:
@@ -75,7 +75,7 @@ class PrimeField:
     ----------
     prime : int
     seed : int, optional
-        Of the random numbers; the same seed gives the same member.
+        Random seed; the same seed gives the same realisation.
 
     Examples
     --------
@@ -101,7 +101,7 @@ class PrimeField:
         return pow(value, -1, self.prime)
 
     def is_zero(self, value: int) -> bool:
-        """Tell whether a remainder is zero."""
+        """Return whether a remainder is zero."""
         return value == 0
 
 
@@ -111,7 +111,7 @@ class Reals:
     Parameters
     ----------
     seed : int, optional
-        Of the random numbers; the same seed gives the same member.
+        Random seed; the same seed gives the same realisation.
 
     Examples
     --------
@@ -135,7 +135,7 @@ class Reals:
         return 1.0 / value
 
     def is_zero(self, value: float) -> bool:
-        """Tell whether a number of the size of coordinates is rounded zero."""
+        """Return whether a number of the size of coordinates is rounded zero."""
         return abs(value) < DOUBLE.zero
 
 
@@ -217,9 +217,8 @@ class Realisation:
     --------
     Direction and moment of a line are perpendicular, modulo a prime too:
 
-    >>> from graphs.rank.general_member import PrimeField
-    >>> member = realise_points(Incidence((0, 1), ((frozenset((0, 1)), False),)), PrimeField(101))
-    >>> u, m = member.axes[0]
+    >>> placed = realise_points(Incidence((0, 1), ((frozenset((0, 1)), False),)), PrimeField(101))
+    >>> u, m = placed.axes[0]
     >>> sum(a * b for a, b in zip(u, m, strict=True)) % 101
     0
     """
@@ -265,13 +264,13 @@ def incidence_of(mechanism: SCGraph, *, forced: bool = True) -> Incidence:
 
 
 def realise(mechanism: SCGraph, field: Field, *, forced: bool = True) -> Realisation:
-    """Place a general member of the type of an SC or SCD graph.
+    """Place a random realisation of the type of an SC or SCD graph.
 
     Parameters
     ----------
     mechanism : SCGraph or SCDGraph
     field : Field
-        Where its random numbers come from: the same seed gives the same member.
+        The source of random numbers: the same seed gives the same realisation.
     forced : bool, optional
         As for `incidence_of`.
 
@@ -285,11 +284,10 @@ def realise(mechanism: SCGraph, field: Field, *, forced: bool = True) -> Realisa
     Watt's chain: two centres, and a joint whose axis passes through both.
 
     >>> from graphs.loops.loop import Loop
-    >>> from graphs.rank.general_member import PrimeField
     >>> watt = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)],
     ...                [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
-    >>> member = realise(watt, PrimeField(101))
-    >>> len(member.points), member.axes[3] == join(*member.points, PrimeField(101))
+    >>> placed = realise(watt, PrimeField(101))
+    >>> len(placed.points), placed.axes[3] == join(*placed.points, PrimeField(101))
     (2, True)
     """
     return realise_points(incidence_of(mechanism, forced=forced), field)
@@ -313,11 +311,11 @@ def realise_points(incidence: Incidence, field: Field) -> Realisation:
 
 
 def _on_axis(incidence: Incidence) -> dict[JointId, list[int]]:
-    found: dict[JointId, list[int]] = defaultdict(list)
+    points_on: dict[JointId, list[int]] = defaultdict(list)
     for index, (joints, _) in enumerate(incidence.points):
         for joint in joints:
-            found[joint].append(index)
-    return found
+            points_on[joint].append(index)
+    return points_on
 
 
 def _place(incidence: Incidence, order: Sequence[int], field: Field) -> tuple[Point, ...] | None:
@@ -337,7 +335,7 @@ def _place(incidence: Incidence, order: Sequence[int], field: Field) -> tuple[Po
 
 
 def _on_lines(lines: Sequence[tuple[Point, Point]], infinite: bool, field: Field) -> Point | None:
-    """Return a random point on all of some lines, each given by two points; None if there is none."""
+    """Return a random point on all of some lines, each through two points; None if there is none."""
     if not lines:
         x, y, z = (field.random() for _ in range(3))
         return (x, y, z, 0 if infinite else 1)
