@@ -115,7 +115,7 @@ def canonical_order(links: int, joints: Iterable[Sequence[int]]) -> list[int]:
 
 
 def automorphisms_of(links: int, joints: Iterable[Sequence[int]]) -> tuple[list[int], list[list[int]], int]:
-    """Return canonical numbers of the links of a simple graph, and its automorphisms.
+    """Return canonical numbers of the links of a simple graph, generators and number of its automorphisms.
 
     Parameters
     ----------
@@ -123,15 +123,6 @@ def automorphisms_of(links: int, joints: Iterable[Sequence[int]]) -> tuple[list[
         Links are 0 to ``links - 1``.
     joints : iterable of (int, int)
         Pairs of links; no pair twice.
-
-    Returns
-    -------
-    order : list of int
-        As `canonical_order` gives it.
-    generators : list of list of int
-        Permutations of the links that generate the group.
-    size : int
-        Number of automorphisms.
 
     Examples
     --------
@@ -182,10 +173,8 @@ def chain_id(graph: nx.Graph) -> str:
 
     Examples
     --------
-    >>> chain_id(nx.cycle_graph(4)) == chain_id(nx.relabel_nodes(nx.cycle_graph(4), {0: "a", 1: 7, 2: "c"}))
-    True
-    >>> chain_id(nx.cycle_graph(4))
-    'k1:Cr'
+    >>> chain_id(nx.cycle_graph(4)), chain_id(nx.relabel_nodes(nx.cycle_graph(4), {0: "a", 1: 7, 2: "c"}))
+    ('k1:Cr', 'k1:Cr')
     """
     number = _canonical_links(graph)
     named = nx.MultiGraph()
@@ -201,17 +190,12 @@ def chain_id(graph: nx.Graph) -> str:
 
 
 def chain_from_id(code: str) -> nx.Graph:
-    """Return the link-joint graph of an id; its links are 0 to N - 1.
+    """Return the link-joint graph of an id, a multigraph if links share several joints; its links are 0 to N - 1.
 
     Parameters
     ----------
     code : str
         ``k1:``, and a graph6 or sparse6.
-
-    Returns
-    -------
-    networkx.Graph
-        A multigraph, if links share several joints.
 
     Raises
     ------
@@ -245,12 +229,9 @@ def class_code(sc: SCGraph, marked: Collection[LinkId] = ()) -> tuple[Any, ...]:
     Examples
     --------
     >>> from graphs.loops.loop import Loop
-    >>> ring = [(0, 1), (1, 2), (2, 3), (3, 0)]
-    >>> one = SCGraph(4, ring, [Loop((0, 1, 2, 3))])
-    >>> class_code(one) == class_code(one.relabel({0: "a"}))
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> class_code(four_bar) == class_code(four_bar.relabel({0: "a"}))
     True
-    >>> class_code(one) == class_code(SCGraph(4, ring, [Loop((0, 1, 2, 3), "infinite")]))
-    False
     """
     graph, colours = _coloured(sc, marked)
     labels = labels_of(graph)
@@ -261,15 +242,8 @@ def class_code(sc: SCGraph, marked: Collection[LinkId] = ()) -> tuple[Any, ...]:
 def symmetries_of_links(sc: SCGraph) -> list[dict[LinkId, LinkId]]:
     """Return permutations of the links that generate the symmetries of a mechanism.
 
-    Parameters
-    ----------
-    sc : SCGraph or SCDGraph
-        Of an SCD graph the sides of the links do not count.
-
-    Returns
-    -------
-    list of dict of link id to link id
-        Each with the image of every link; empty if there is no symmetry but the identity.
+    The sides of the links of an SCD graph do not count. Each maps every link to its image; there are none if there
+    is no symmetry but the identity.
 
     Examples
     --------

@@ -61,24 +61,8 @@ def map_id(mechanism: SCGraph) -> str:
 def map_code(mechanism: SCGraph) -> tuple[list[int], str]:
     """Return the symbols of the id (0 an open edge, 1 the end of a link, 2 + k joint k), and labels of the faces.
 
-    The labels are empty where all centres are finite.
-
-    Parameters
-    ----------
-    mechanism : SCGraph or SCDGraph
-        As for `map_id`.
-
-    Returns
-    -------
-    symbols : list of int
-        The least of all readings.
-    labels : str
-        A letter for each bounded face; empty where all centres are finite.
-
-    Raises
-    ------
-    UnsolvableError
-        As `map_id`.
+    Of all readings the symbols are the least. Labels are a letter for each bounded face; empty where all centres
+    are finite. Parameters and errors are those of `map_id`.
 
     Examples
     --------
@@ -286,16 +270,13 @@ def _check_drawn(mechanism: SCGraph) -> None:
 def drawing_of(mechanism: SCGraph) -> tuple[Rotation, tuple[JointId, LinkId]]:
     """Return the drawing of a mechanism: its own, or the one whose bounded faces its loops are.
 
+    It is the rotation, link to sides counter-clockwise, and the outer face, which lies on the left of a joint seen
+    from a link.
+
     Parameters
     ----------
     mechanism : SCGraph or SCDGraph
-        Nothing cuts an SC graph in two, and it has a loop for every bounded face.
-
-    Returns
-    -------
-    rotation : mapping of link to sides, counter-clockwise
-    outer : (joint, link)
-        The outer face lies on the left of the joint, seen from the link.
+        An SC graph is 2-connected and has a loop for every bounded face.
 
     Raises
     ------
@@ -304,8 +285,7 @@ def drawing_of(mechanism: SCGraph) -> tuple[Rotation, tuple[JointId, LinkId]]:
 
     Examples
     --------
-    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> rotation, outer = drawing_of(four_bar)
+    >>> rotation, outer = drawing_of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]))
     >>> rotation[0], outer
     ((0, 3), (1, 1))
     """

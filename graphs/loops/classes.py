@@ -218,12 +218,7 @@ def centre_classes(loops: Sequence[Loop]) -> tuple[CentreClass, ...]:
     Parameters
     ----------
     loops : sequence of Loop
-        Loops without a centre are in no class.
-
-    Returns
-    -------
-    tuple of CentreClass
-        Ordered by their first loop.
+        Loops without a centre are in no class; classes are in the order of their first loop.
 
     Raises
     ------
@@ -259,16 +254,11 @@ def centre_classes(loops: Sequence[Loop]) -> tuple[CentreClass, ...]:
 
 
 def class_of_loop(classes: Sequence[CentreClass]) -> dict[int, int]:
-    """Return the index of the class of each loop that has one.
+    """Return the index of the class of each loop that has a centre, in the order of the classes.
 
     Parameters
     ----------
     classes : sequence of CentreClass
-
-    Returns
-    -------
-    dict of int to int
-        Index of a loop to that of its class, in the order of the classes; loops without a centre are left out.
 
     Examples
     --------

@@ -31,16 +31,7 @@ __all__ = [
 
 
 class Centre(Enum):
-    """Where the joint axes of a loop meet.
-
-    Attributes
-    ----------
-    FINITE
-        In one point: a spherical loop.
-    INFINITE
-        At infinity: parallel axes, a planar loop.
-    NONE
-        Nowhere: a spatial loop.
+    """Where the joint axes of a loop meet: in one point (spherical), at infinity (planar), or nowhere (spatial).
 
     Examples
     --------
@@ -200,25 +191,13 @@ def _walk(
 
 
 def check_independent(loops: Sequence[Loop]) -> None:
-    """Refuse loops that are not independent over GF(2).
+    """Refuse loops that are not independent over GF(2): an `InvariantError` names a loop that is a sum of others.
 
-    Parameters
-    ----------
-    loops : sequence of Loop
-
-    Raises
-    ------
-    InvariantError
-        Naming a loop that is a sum of others, if there is one.
-
-    Notes
-    -----
-    Loops that own a joint no other loop has are peeled off first, again and again; this settles the bounded
-    faces of an embedding in linear time. Only what is left is eliminated.
+    Loops that own a joint no other loop has are peeled off first, again and again; this settles the bounded faces
+    of an embedding in linear time. Only what is left is eliminated.
 
     Examples
     --------
-    >>> check_independent([Loop((0, 1, 2)), Loop((2, 3, 4))])
     >>> check_independent([Loop((0, 1, 2)), Loop((2, 3, 4)), Loop((0, 1, 3, 4))])
     Traceback (most recent call last):
     ...
@@ -262,18 +241,14 @@ def dependent_loop(cycles: Sequence[Sequence[JointId]]) -> int | None:
 
 
 def split_dependent(cycles: Sequence[Sequence[JointId]]) -> tuple[list[int], list[int]]:
-    """Split cycles into independent ones and ones that depend on these; return the indices of both.
+    """Split cycles into independent ones and ones that depend on these; return the indices of both, ascending.
 
-    Round the vertices of a closed surface the last cycle is the sum of the others.
+    Round the vertices of a closed surface the last cycle is the sum of the others. The cycles kept are as many as
+    the rank of all.
 
     Parameters
     ----------
     cycles : sequence of sequences of joint ids
-
-    Returns
-    -------
-    kept, dependent : list of int
-        Ascending. The cycles kept are as many as the rank of all.
 
     Examples
     --------
@@ -289,19 +264,14 @@ def split_dependent(cycles: Sequence[Sequence[JointId]]) -> tuple[list[int], lis
 
 
 def added_independent(
-    given: Sequence[Collection[JointId]], candidates: Sequence[Collection[JointId]]
+    cycles: Sequence[Collection[JointId]], candidates: Sequence[Collection[JointId]]
 ) -> list[int]:
-    """Return the indices of the candidates that are no GF(2) sum of given cycles and earlier candidates.
+    """Return the indices of the candidates, ascending, that are no GF(2) sum of the cycles and earlier candidates.
 
     Parameters
     ----------
-    given, candidates : sequence of collections of joint ids
-        Cycles; the given ones may depend on each other.
-
-    Returns
-    -------
-    list of int
-        Ascending.
+    cycles, candidates : sequence of collections of joint ids
+        The cycles may depend on each other.
 
     Examples
     --------
@@ -310,28 +280,23 @@ def added_independent(
     """
     basis: dict[int, int] = {}
     added = []
-    for index, row in enumerate(_bit_rows([*given, *candidates])):
+    for index, row in enumerate(_bit_rows([*cycles, *candidates])):
         left = _reduce(row, basis)
         if left:
             basis[left.bit_length()] = left
-            if index >= len(given):
-                added.append(index - len(given))
+            if index >= len(cycles):
+                added.append(index - len(cycles))
     return added
 
 
 def in_span_of(cycle: Collection[JointId], cycles: Sequence[Collection[JointId]]) -> tuple[int, ...] | None:
-    """Return the indices of cycles that sum to a given one over GF(2), or None if it is no such sum.
+    """Return the indices of cycles that sum to a cycle over GF(2), ascending, or None if it is no such sum.
 
     Parameters
     ----------
     cycle : collection of joint ids
     cycles : sequence of collections of joint ids
         May depend on each other: then the sum is one of several.
-
-    Returns
-    -------
-    tuple of int, or None
-        Ascending.
 
     Examples
     --------
@@ -363,18 +328,13 @@ def in_span_of(cycle: Collection[JointId], cycles: Sequence[Collection[JointId]]
 
 
 def cut_into_cycles(even: Collection[JointId], joints: Joints) -> list[tuple[JointId, ...]]:
-    """Cut joints that meet every link an even number of times into cycles.
+    """Cut joints that meet every link an even number of times into cycles, each in cyclic order.
 
     Parameters
     ----------
     even : collection of joint ids
         A GF(2) sum of cycles.
     joints : mapping of joint id to (link, link)
-
-    Returns
-    -------
-    list of tuples of joint ids
-        Cycles that visit each link once, in cyclic order.
 
     Examples
     --------
@@ -412,12 +372,6 @@ def signed_cycle(cycle: Sequence[JointId], joints: Joints) -> Iterator[tuple[Joi
     cycle : sequence of joint ids
         In cyclic order, as an SC graph stores its loops.
     joints : mapping of joint id to (link, link)
-
-    Yields
-    ------
-    joint : joint id
-    sign : int
-        1 or -1.
 
     Examples
     --------

@@ -253,16 +253,8 @@ def _next_joint(sides: Sequence[Side], index: int) -> tuple[JointId, int]:
 class FaceKind(Enum):
     """What lies in a face of a drawing.
 
-    Attributes
-    ----------
-    EXPLICIT
-        A centre that is a vertex of the links themselves.
-    IMPLICIT
-        A remote centre: the axes meet there, the links do not reach it.
-    SPATIAL
-        No centre.
-    OUTER
-        The rest of the sphere; without a centre.
+    A centre that is a vertex of the links themselves (EXPLICIT), a remote centre, where the axes meet but the
+    links do not reach (IMPLICIT), no centre (SPATIAL), or the rest of the sphere, without a centre (OUTER).
 
     Examples
     --------

@@ -83,17 +83,14 @@ def check_rules(drawing: Drawing, classes: Sequence[CentreClass]) -> None:
 def points_of_joints(drawing: Drawing, classes: Sequence[CentreClass]) -> dict[JointId, frozenset[int]]:
     """Return the points on the axis of each joint: its two ends and the centres it passes through.
 
+    Points below ``drawing.vertex_count`` are vertices, from there on the centres that are no vertices.
+
     Parameters
     ----------
     drawing : Drawing
         With its loops placed.
     classes : sequence of CentreClass
-        Of these loops.
-
-    Returns
-    -------
-    dict of joint id to frozenset of int
-        Below ``drawing.vertex_count`` the vertices, from there on the centres that are no vertices.
+        The classes of these loops.
 
     Raises
     ------
@@ -106,9 +103,8 @@ def points_of_joints(drawing: Drawing, classes: Sequence[CentreClass]) -> dict[J
 
     >>> from graphs.convert.panels import scd_from_panels
     >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
-    >>> points = points_of_joints(fan.drawing, fan.centre_classes())
-    >>> len(frozenset.intersection(*points.values())), [len(here) for here in points.values()]
-    (1, [2, 2, 2, 2])
+    >>> len(frozenset.intersection(*points_of_joints(fan.drawing, fan.centre_classes()).values()))
+    1
     """
     ends = {joint: drawing.ends_of_joint(joint) for joint in drawing.joints}
     return _with_centres(ends, classes, _centre_points(drawing, classes))
@@ -117,32 +113,16 @@ def points_of_joints(drawing: Drawing, classes: Sequence[CentreClass]) -> dict[J
 def points_of_links(drawing: Drawing, classes: Sequence[CentreClass]) -> dict[LinkId, frozenset[int]]:
     """Return the points of each link: its vertices and the centres on the axes of its joints.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        With its loops placed.
-    classes : sequence of CentreClass
-        Of these loops.
-
-    Returns
-    -------
-    dict of link id to frozenset of int
-        Numbers as of `points_of_joints`.
-
-    Raises
-    ------
-    InvariantError
-        If a class has two explicit centres.
+    Parameters, errors and numbers of points are those of `points_of_joints`.
 
     Examples
     --------
-    Four triangles round a vertex have it in common, and no point besides their own corners:
+    Four triangles round a vertex have no point besides their own corners:
 
     >>> from graphs.convert.panels import scd_from_panels
     >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
-    >>> points = points_of_links(fan.drawing, fan.centre_classes())
-    >>> len(frozenset.intersection(*points.values())), [len(here) for here in points.values()]
-    (1, [3, 3, 3, 3])
+    >>> [len(points) for points in points_of_links(fan.drawing, fan.centre_classes()).values()]
+    [3, 3, 3, 3]
     """
     points = {link: set(here) for link, here in drawing.vertices.items()}
     for one, point in zip(classes, _centre_points(drawing, classes), strict=True):

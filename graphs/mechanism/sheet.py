@@ -256,16 +256,12 @@ class Sheet:
 
 
 def sheet_from_model(model: PolyhedronModel) -> Sheet:
-    """Return the sheet whose faces are the links of a polyhedron model.
+    """Return the sheet whose faces are the links of a polyhedron model, with its coordinates.
 
     Parameters
     ----------
     model : PolyhedronModel
-
-    Returns
-    -------
-    Sheet
-        Rods between two links are unassigned creases; coordinates go with it.
+        Rods between two links become unassigned creases.
 
     Raises
     ------

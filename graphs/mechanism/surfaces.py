@@ -263,11 +263,8 @@ class SurfaceLinkage:
 
         Examples
         --------
-        >>> linkage = SurfaceLinkage.loop([2.1, 1.7, 0.8, 1.5])
-        >>> linkage.chain, linkage.angles[("2", "3")]
-        (<SCGraph: 4 links, 4 joints, 1 centre>, 1.7)
-        >>> SurfaceLinkage.loop([4, 3, 5, 1], "cylinder").lengths[("3", "4")]
-        5.0
+        >>> SurfaceLinkage.loop([2.1, 1.7, 0.8, 1.5]).angles[("2", "3")]
+        1.7
         """
         for number, size in enumerate(sizes, start=1):
             if kind == "cone" and not 0.0 < size < pi:

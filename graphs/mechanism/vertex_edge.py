@@ -94,16 +94,12 @@ class VertexEdgeGraph:
 
 
 def sc_from_vertex_edge(graph: VertexEdgeGraph) -> SCGraph:
-    """Return the SC graph: one link a sector of the sheet, one joint a crease, one finite centre a vertex.
+    """Return the SC graph: one link per sector of the sheet, one joint per crease, one finite centre per vertex.
 
     Parameters
     ----------
     graph : VertexEdgeGraph
-
-    Returns
-    -------
-    SCGraph
-        Joints have the names of the creases, loops those of the vertices.
+        Its creases name the joints, its vertices the loops.
 
     Raises
     ------
@@ -114,8 +110,7 @@ def sc_from_vertex_edge(graph: VertexEdgeGraph) -> SCGraph:
     --------
     Two vertices of degree four with a crease in common: Watt's chain, two centres.
 
-    >>> graph = VertexEdgeGraph({"A": ("a", "b", "c", "d"), "B": ("a", "e", "f", "g")})
-    >>> sc = sc_from_vertex_edge(graph)
+    >>> sc = sc_from_vertex_edge(VertexEdgeGraph({"A": ("a", "b", "c", "d"), "B": ("a", "e", "f", "g")}))
     >>> len(sc), len(sc.joints), len(sc.centre_classes())
     (6, 7, 2)
     """
@@ -151,20 +146,17 @@ def sc_from_vertex_edge(graph: VertexEdgeGraph) -> SCGraph:
 def vertex_edge_from_sc(sc: SCGraph) -> VertexEdgeGraph:
     """Return the vertex-edge graph of an SC graph: a vertex for each loop, the joints round it in order.
 
+    Vertices have the names of the loops, or their numbers; numbers only where two names are equal.
+
     Parameters
     ----------
     sc : SCGraph
 
-    Returns
-    -------
-    VertexEdgeGraph
-        Vertices have the names of the loops, or their numbers; numbers only where two names are equal.
-
     Raises
     ------
     UnsolvableError
-        If the mechanism is not a sheet of finite centres: a loop is spatial or planar, or a joint lies in no
-        loop or in more than two.
+        If the mechanism is not a sheet of finite centres: a loop is spatial or planar, or a joint lies in no loop
+        or in more than two.
 
     Examples
     --------

@@ -67,16 +67,11 @@ class Closure:
 
 
 def independent_cycles(sc: SCGraph) -> tuple[Loop, ...]:
-    """Return the loops of a mechanism, with cycles that complete them to a basis; these have no centre.
+    """Return the loops of a mechanism, then cycles that complete them to a basis; these have no centre.
 
     Parameters
     ----------
     sc : SCGraph or SCDGraph
-
-    Returns
-    -------
-    tuple of Loop
-        Those of the mechanism first.
 
     Examples
     --------
@@ -109,7 +104,7 @@ def independent_cycles(sc: SCGraph) -> tuple[Loop, ...]:
 
 
 def closure_of(sc: SCGraph, axes: Mapping[JointId, Line], centres: Mapping[int, Point], field: Field) -> Closure:
-    """Return the closure equations of a placed mechanism.
+    """Return the closure equations of a placed mechanism: 3 rows for a loop with a centre, 6 for one without.
 
     Parameters
     ----------
@@ -118,11 +113,6 @@ def closure_of(sc: SCGraph, axes: Mapping[JointId, Line], centres: Mapping[int, 
     centres : mapping of loop index to (x, y, z, w)
         The centre of each loop that has one.
     field : Field
-
-    Returns
-    -------
-    Closure
-        Rows of 3 equations for a loop with a centre, 6 for one without.
 
     Examples
     --------

@@ -241,9 +241,9 @@ def incidence_of(mechanism: SCGraph, *, forced: bool = True) -> Incidence:
     Examples
     --------
     >>> from graphs.loops.loop import Loop
-    >>> watt = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)],
-    ...                [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
-    >>> [len(joints) for joints, _ in incidence_of(watt).points]
+    >>> watt = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
+    >>> mechanism = SCGraph(6, watt, [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
+    >>> [len(joints) for joints, _ in incidence_of(mechanism).points]
     [4, 4]
     """
     classes = mechanism.centre_classes()
@@ -284,9 +284,8 @@ def realise(mechanism: SCGraph, field: Field, *, forced: bool = True) -> Realisa
     Watt's chain: two centres, and a joint whose axis passes through both.
 
     >>> from graphs.loops.loop import Loop
-    >>> watt = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)],
-    ...                [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
-    >>> placed = realise(watt, PrimeField(101))
+    >>> watt = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
+    >>> placed = realise(SCGraph(6, watt, [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))]), PrimeField(101))
     >>> len(placed.points), placed.axes[3] == join(*placed.points, PrimeField(101))
     (2, True)
     """
