@@ -45,21 +45,21 @@ _ROUNDING = 1e-12
 
 def unit(vectors: npt.ArrayLike) -> Floats:
     """Return vectors, float[..., d], of length one; zero vectors stay zero."""
-    given = np.asarray(vectors, dtype=float)
-    lengths = np.linalg.norm(given, axis=-1, keepdims=True)
-    return np.asarray(given / np.where(lengths > 0.0, lengths, 1.0))
+    array = np.asarray(vectors, dtype=float)
+    lengths = np.linalg.norm(array, axis=-1, keepdims=True)
+    return np.asarray(array / np.where(lengths > 0.0, lengths, 1.0))
 
 
 def across(vectors: npt.ArrayLike, axes: npt.ArrayLike) -> Floats:
     """Return the parts of vectors, float[..., d], across axes of any length; zero axes take nothing away."""
-    given, along = np.asarray(vectors, dtype=float), unit(axes)
-    return np.asarray(given - (given * along).sum(axis=-1, keepdims=True) * along)
+    array, along = np.asarray(vectors, dtype=float), unit(axes)
+    return np.asarray(array - (array * along).sum(axis=-1, keepdims=True) * along)
 
 
 def crossing(vectors: npt.ArrayLike) -> Floats:
     """Return the matrices, float[..., 3, 3], of cross products with vectors, float[..., 3]."""
-    made = np.asarray(vectors, dtype=float)
-    return np.asarray(np.cross(made[..., None, :], np.eye(3)).swapaxes(-1, -2))
+    array = np.asarray(vectors, dtype=float)
+    return np.asarray(np.cross(array[..., None, :], np.eye(3)).swapaxes(-1, -2))
 
 
 def frame_about(directions: npt.ArrayLike) -> Floats:
@@ -87,8 +87,8 @@ def angles_between(one: npt.ArrayLike, other: npt.ArrayLike) -> Floats:
 
 def sectors(directions: npt.ArrayLike) -> Floats:
     """Return the angles, 0 to pi, from each direction, float[..., n, 3], to the next in a ring: float[..., n]."""
-    given = np.asarray(directions, dtype=float)
-    return angles_between(given, np.roll(given, -1, axis=-2))
+    array = np.asarray(directions, dtype=float)
+    return angles_between(array, np.roll(array, -1, axis=-2))
 
 
 def rotations(axes: npt.ArrayLike, angles: npt.ArrayLike) -> Floats:
@@ -98,21 +98,9 @@ def rotations(axes: npt.ArrayLike, angles: npt.ArrayLike) -> Floats:
     c, s = np.cos(angles), np.sin(angles)
     v = 1.0 - c
     m = np.empty((*np.broadcast_shapes(along.shape[:-1], np.shape(angles)), 3, 3))
-    m[..., 0, 0], m[..., 0, 1], m[..., 0, 2] = (
-        c + x * x * v,
-        x * y * v - z * s,
-        x * z * v + y * s,
-    )
-    m[..., 1, 0], m[..., 1, 1], m[..., 1, 2] = (
-        x * y * v + z * s,
-        c + y * y * v,
-        y * z * v - x * s,
-    )
-    m[..., 2, 0], m[..., 2, 1], m[..., 2, 2] = (
-        x * z * v - y * s,
-        y * z * v + x * s,
-        c + z * z * v,
-    )
+    m[..., 0, 0], m[..., 0, 1], m[..., 0, 2] = c + x * x * v, x * y * v - z * s, x * z * v + y * s
+    m[..., 1, 0], m[..., 1, 1], m[..., 1, 2] = x * y * v + z * s, c + y * y * v, y * z * v - x * s
+    m[..., 2, 0], m[..., 2, 1], m[..., 2, 2] = x * z * v - y * s, y * z * v + x * s, c + z * z * v
     return m
 
 
@@ -131,13 +119,13 @@ def nearest_rotation(matrices: npt.ArrayLike, *, mirrored: bool = False) -> Floa
     one line, in one place), it is the one that turns least. Source: W. Kabsch, A solution for the best rotation to
     relate two sets of vectors, Acta Cryst. A32 (1976) 922-923.
     """
-    given = np.asarray(matrices, dtype=float)
+    array = np.asarray(matrices, dtype=float)
     handed = -1.0 if mirrored else 1.0
-    left, sizes, right = np.linalg.svd(given)
+    left, sizes, right = np.linalg.svd(array)
     nearest = left @ right
     wrong = np.linalg.det(nearest) * handed < 0.0
     nearest = nearest - 2.0 * np.where(wrong[..., None, None], left[..., :, -1:] @ right[..., -1:, :], 0.0)
-    if given.shape[-1] > 1:
+    if array.shape[-1] > 1:
         free = sizes[..., -2] <= _ROUNDING * sizes[..., 0]
         tied = wrong & (sizes[..., -2] - sizes[..., -1] <= MARGIN * sizes[..., 0])
         for place in map(tuple, np.argwhere(free | tied)):
@@ -195,11 +183,11 @@ def principal_axes(points: npt.ArrayLike) -> tuple[Floats, Floats]:
     float[..., d, d], whose rows are orthonormal, the largest component of each positive. Directions of equal size
     are those of the canonical basis of their space.
     """
-    given = np.asarray(points, dtype=float)
-    sizes, axes = _axes(given - given.mean(axis=-2, keepdims=True))
+    array = np.asarray(points, dtype=float)
+    sizes, axes = _axes(array - array.mean(axis=-2, keepdims=True))
     tied = _tied(sizes)
     for place in map(tuple, np.argwhere(tied.any(axis=-1))):
-        ends = [0, *(np.flatnonzero(~tied[place]) + 1).tolist(), given.shape[-1]]
+        ends = [0, *(np.flatnonzero(~tied[place]) + 1).tolist(), array.shape[-1]]
         for first, last in pairwise(ends):
             axes[place][first:last] = canonical_basis(axes[place][first:last].T).T
     return sizes, facing(axes)
@@ -252,9 +240,9 @@ def _longest(axes: Floats, tied: Flags) -> Floats:
 
 def _fitted(points: npt.ArrayLike) -> tuple[Floats, Floats, Floats, Flags]:
     """Return the mean of points, the points about it, their axes, and which axes are as long as the next."""
-    given = np.asarray(points, dtype=float)
-    middle = given.mean(axis=-2)
-    around = given - middle[..., None, :]
+    array = np.asarray(points, dtype=float)
+    middle = array.mean(axis=-2)
+    around = array - middle[..., None, :]
     sizes, axes = _axes(around)
     return middle, around, axes, _tied(sizes)
 
@@ -269,7 +257,7 @@ def _axes(around: Floats) -> tuple[Floats, Floats]:
 
 
 def _tied(sizes: Floats) -> Flags:
-    """Tell which sizes are equal to the next: to a millionth, or both by rounding: bool[..., d - 1]."""
+    """Return which sizes are equal to the next: to a millionth, or both by rounding: bool[..., d - 1]."""
     return np.asarray(sizes[..., :-1] - sizes[..., 1:] <= MARGIN * sizes[..., :-1] + _ROUNDING * sizes[..., :1])
 
 
@@ -323,17 +311,17 @@ def area_vector(corners: npt.ArrayLike) -> Floats:
 
     For a polygon that is not planar, the vector does not depend on how it is filled.
     """
-    given = np.asarray(corners, dtype=float)
-    if not given.shape[-2]:
-        return np.zeros((*given.shape[:-2], 3))
-    arms = given - given[..., :1, :]
+    array = np.asarray(corners, dtype=float)
+    if not array.shape[-2]:
+        return np.zeros((*array.shape[:-2], 3))
+    arms = array - array[..., :1, :]
     return np.asarray(np.cross(arms, np.roll(arms, -1, axis=-2)).sum(axis=-2) / 2.0)
 
 
 def signed_area(corners: npt.ArrayLike) -> Floats:
     """Return the area of polygons in the plane, float[..., n, 2], counter-clockwise positive."""
-    given = np.asarray(corners, dtype=float)
-    if not given.shape[-2]:
-        return np.zeros(given.shape[:-2])
-    x, y = np.moveaxis(given - given[..., :1, :], -1, 0)
+    array = np.asarray(corners, dtype=float)
+    if not array.shape[-2]:
+        return np.zeros(array.shape[:-2])
+    x, y = np.moveaxis(array - array[..., :1, :], -1, 0)
     return np.asarray((x * np.roll(y, -1, axis=-1) - y * np.roll(x, -1, axis=-1)).sum(axis=-1) / 2.0)

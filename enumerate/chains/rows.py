@@ -29,7 +29,7 @@ from enumerate.contracted.listing import (
 from enumerate.kernel.bliss_order import MOST_NODES, bliss_orders
 from enumerate.runner.columns import Column, ListColumn
 from enumerate.runner.job import Row
-from graphs.identity.chains import automorphisms_of, canonical_order
+from graphs.identity.chains import automorphisms_of, canonical_numbers
 from graphs.types import Bytes, Ints
 
 __all__ = [
@@ -139,7 +139,7 @@ def chain_ids(links: int, joints: Ints, automorphisms: Ints | None = None) -> tu
     else:
         labels, left = np.empty((len(joints), links), np.int64), np.arange(len(joints))
     for row in left.tolist():
-        labels[row] = canonical_order(links, joints[row].tolist())
+        labels[row] = canonical_numbers(links, joints[row].tolist())
     text = graph6_rows(joints, labels).tobytes().decode("ascii")
     width = len(text) // len(labels)
     return [f"k1:{text[i : i + width]}" for i in range(0, len(text), width)], labels

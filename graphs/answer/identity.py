@@ -26,9 +26,21 @@ __all__ = ["Identity", "identify"]
 class Identity(Printed):
     """The canonical ids of a mechanism: equal for mechanisms of one type, and for no others.
 
-    Attributes ---------- chain : str or None ``k1:...``, of the link-joint graph; a chain without centres. drawing
-    : str or None ``m1:...``, of the mechanism drawn on the sphere, with its centres and, where they are known, the
-    sides of its links; mirror images have one id. notes : tuple of str Why an id is missing.
+    Attributes
+    ----------
+    chain : str or None
+        ``k1:...``, of the link-joint graph; a chain without centres.
+    drawing : str or None
+        ``m1:...``, of the mechanism drawn on the sphere, with its centres and, where they are known, the sides of
+        its links; mirror images have one id.
+    notes : tuple of str
+        Why an id is missing.
+
+    Examples
+    --------
+    >>> from graphs.files.ids import mechanism_of_id
+    >>> identify(mechanism_of_id("m1:ab.ac.bd.cd")).chain
+    'k1:Cr'
     """
 
     chain: str | None

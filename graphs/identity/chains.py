@@ -26,7 +26,7 @@ __all__ = [
     "ColouredGraph",
     "Symmetries",
     "automorphisms_of",
-    "canonical_order",
+    "canonical_numbers",
     "chain_from_id",
     "chain_id",
     "class_code",
@@ -103,12 +103,12 @@ def _built(graph: ColouredGraph) -> bliss_bind.Graph:
 _PREFIX = "k1:"
 
 
-def canonical_order(links: int, joints: Iterable[Sequence[int]]) -> list[int]:
+def canonical_numbers(links: int, joints: Iterable[Sequence[int]]) -> list[int]:
     """Return the canonical number of each link, 0 to ``links - 1``, of a simple graph.
 
     Link i has number ``order[i]``; isomorphic graphs get the same pairs of numbers.
 
-    >>> sorted(canonical_order(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> sorted(canonical_numbers(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     [0, 1, 2, 3]
     """
     return labels_of(ColouredGraph(links, joints))
@@ -154,7 +154,7 @@ def _canonical_links(graph: nx.Graph) -> dict[Any, int]:
         if a == b:
             raise InvariantError("joint", f"a joint of link {list(graph)[a]!r} with itself", "two links")
     distinct = len({(min(a, b), max(a, b)) for a, b in joints})
-    find = canonical_order if distinct == len(joints) else _order_with_parallel_joints
+    find = canonical_numbers if distinct == len(joints) else _order_with_parallel_joints
     return dict(zip(graph, find(len(number), joints), strict=True))
 
 
@@ -242,8 +242,12 @@ def class_code(sc: SCGraph, marked: Collection[LinkId] = ()) -> tuple[Any, ...]:
 def symmetries_of_links(sc: SCGraph) -> list[dict[LinkId, LinkId]]:
     """Return permutations of the links that generate the symmetries of a mechanism.
 
-    The sides of the links of an SCD graph do not count. Each maps every link to its image; there are none if there
-    is no symmetry but the identity.
+    Each maps every link to its image; there are none if there is no symmetry but the identity.
+
+    Parameters
+    ----------
+    sc : SCGraph or SCDGraph
+        The sides of the links of an SCD graph do not count.
 
     Examples
     --------

@@ -62,7 +62,12 @@ def map_code(mechanism: SCGraph) -> tuple[list[int], str]:
     """Return the symbols of the id (0 an open edge, 1 the end of a link, 2 + k joint k), and labels of the faces.
 
     Of all readings the symbols are the least. Labels are a letter for each bounded face; empty where all centres
-    are finite. Parameters and errors are those of `map_id`.
+    are finite. Errors are those of `map_id`.
+
+    Parameters
+    ----------
+    mechanism : SCGraph or SCDGraph
+        As for `map_id`.
 
     Examples
     --------
@@ -233,11 +238,7 @@ def mechanism_from_map_id(code: str) -> SCGraph:
 
 
 def _loops(
-    code: str,
-    labels: str,
-    rotation: Rotation,
-    faces: Sequence[Any],
-    left_of: Mapping[tuple[JointId, LinkId], int],
+    code: str, labels: str, rotation: Rotation, faces: Sequence[Any], left_of: Mapping[tuple[JointId, LinkId], int]
 ) -> list[Loop]:
     """Return the loops of the bounded faces, in the order in which an id meets them."""
     met = list(

@@ -31,7 +31,12 @@ __all__ = [
 
 
 class Centre(Enum):
-    """Where the joint axes of a loop meet: in one point (spherical), at infinity (planar), or nowhere (spatial).
+    """Where the joint axes of a loop meet.
+
+    Attributes
+    ----------
+    FINITE, INFINITE, NONE
+        In one point (spherical loop), at infinity (parallel axes, planar loop), nowhere (spatial loop).
 
     Examples
     --------
@@ -193,8 +198,12 @@ def _walk(
 def check_independent(loops: Sequence[Loop]) -> None:
     """Refuse loops that are not independent over GF(2): an `InvariantError` names a loop that is a sum of others.
 
-    Loops that own a joint no other loop has are peeled off first, again and again; this settles the bounded faces
-    of an embedding in linear time. Only what is left is eliminated.
+    Loops that own a joint no other loop has are peeled off first, again and again; this settles the bounded faces of
+    an embedding in linear time. Only what is left is eliminated.
+
+    Parameters
+    ----------
+    loops : sequence of Loop
 
     Examples
     --------

@@ -222,10 +222,7 @@ def face_cycles(face: Face) -> list[tuple[JointId, ...]]:
 
 
 def _close(
-    path: list[tuple[LinkId, JointId]],
-    start: int,
-    position: dict[LinkId, int],
-    cycles: list[tuple[JointId, ...]],
+    path: list[tuple[LinkId, JointId]], start: int, position: dict[LinkId, int], cycles: list[tuple[JointId, ...]]
 ) -> None:
     """Cut the closed part of a walk off its end; keep it unless it goes to and fro over one joint."""
     part = path[start:]
@@ -253,8 +250,14 @@ def _next_joint(sides: Sequence[Side], index: int) -> tuple[JointId, int]:
 class FaceKind(Enum):
     """What lies in a face of a drawing.
 
-    A centre that is a vertex of the links themselves (EXPLICIT), a remote centre, where the axes meet but the
-    links do not reach (IMPLICIT), no centre (SPATIAL), or the rest of the sphere, without a centre (OUTER).
+    Attributes
+    ----------
+    EXPLICIT
+        A centre that is a vertex of the links themselves.
+    IMPLICIT
+        A remote centre: the axes meet there, the links do not reach it.
+    SPATIAL, OUTER
+        No centre; the rest of the sphere, without a centre.
 
     Examples
     --------

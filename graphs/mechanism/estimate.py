@@ -416,7 +416,7 @@ def _estimated(relations: Sequence[Relations], by_chance: float = _BY_CHANCE) ->
 
 
 def _of_one_vertex(relations: Sequence[Relations], off: Floats, rms: float) -> bool:
-    """Tell whether what is not exact is so for one vertex: that is off, and not the drawing imprecise."""
+    """Return whether what is not exact is so for one vertex: that is off, and not the drawing imprecise."""
     exact = sqrt(3.0) * off <= DOUBLE.closed
     wrong = (off <= _TOP * rms) & ~exact
     if exact.sum() < _SHARE * wrong.sum():
@@ -435,7 +435,7 @@ def _held(off: Floats, rms: float) -> Floats:
 
 
 def _is_meant(off: Floats, rms: float, density: float, by_chance: float) -> bool:
-    """Tell whether a cluster is no chance, no coarser than drawings are, and as uneven as errors are."""
+    """Return whether a cluster is no chance, no coarser than drawings are, and as uneven as errors are."""
     if sqrt(3.0) * rms > _COARSEST or _BULK * rms * density > by_chance * int((off <= _BULK * rms).sum()):
         return False
     held = _held(off, rms)

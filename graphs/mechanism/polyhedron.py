@@ -208,9 +208,7 @@ class PolyhedronModel(nx.Graph):
         if one.of == GROUND:
             if self.ground is None:
                 raise InvariantError(
-                    "point constraint",
-                    f"{who} of vertex {shown(one.vertex)} needs the ground link",
-                    "'ground'",
+                    "point constraint", f"{who} of vertex {shown(one.vertex)} needs the ground link", "'ground'"
                 )
             return one
         spanning = self._known(one.of, who)

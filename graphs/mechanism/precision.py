@@ -128,7 +128,7 @@ def _all_significant(numbers: Floats, digits: int) -> float:
 
 
 def _are_used(whole: Floats) -> bool:
-    """Tell whether last digits are those of rounded numbers: many, and of many kinds."""
+    """Return whether last digits are those of rounded numbers: many, and of many kinds."""
     last = np.rint(whole) % 10
     full = last[last > 0]
     return len(full) >= max(_KINDS, len(whole) // 10) and len(np.unique(full)) >= _KINDS

@@ -143,10 +143,7 @@ class SCGraph(nx.MultiGraph):
         self._check_loops()
         if ground is not None and ground not in self:
             raise InvariantError(
-                "ground is a link",
-                f"ground {shown(ground)} is no link",
-                "one of the links",
-                ("ground", ground),
+                "ground is a link", f"ground {shown(ground)} is no link", "one of the links", ("ground", ground)
             )
         self.ground = ground
         nx.freeze(self)
@@ -302,9 +299,7 @@ class SCGraph(nx.MultiGraph):
         return SCGraph(self.nodes, self._joints, loops, closing=closing, ground=self.ground)
 
     def relabel(
-        self,
-        links: Mapping[Any, LinkId] | None = None,
-        joints: Mapping[Any, JointId] | None = None,
+        self, links: Mapping[Any, LinkId] | None = None, joints: Mapping[Any, JointId] | None = None
     ) -> SCGraph:
         """Return the same mechanism under other names; what a mapping leaves out keeps its name."""
         of_link, of_joint = dict(links or {}), dict(joints or {})
@@ -327,7 +322,7 @@ class SCGraph(nx.MultiGraph):
         )
 
     def is_identical(self, other: object) -> bool:
-        """Tell whether two objects are the same graph, ids and all (this is not isomorphism).
+        """Return whether two objects are the same graph, ids and all (this is not isomorphism).
 
         The order of links and joints, and the start and direction of a loop, do not matter.
         """
@@ -461,7 +456,7 @@ def _directions(graph: nx.Graph) -> int:
 
 
 def _is_direction(graph: nx.Graph, edges: list[tuple[int, int]]) -> bool:
-    """Tell whether a graph is a row of parts, each joined to the next by some edges, vertex by vertex.
+    """Return whether a graph is a row of parts, each joined to the next by some edges, vertex by vertex.
 
     A part repeated all round is no row: it has no ends.
     """
@@ -488,7 +483,7 @@ def _is_direction(graph: nx.Graph, edges: list[tuple[int, int]]) -> bool:
 
 
 def _matches(left: nx.Graph, one: frozenset[int], other: frozenset[int], to: dict[int, int]) -> bool:
-    """Tell whether edges between two parts take all of one to the other, edges to edges."""
+    """Return whether edges between two parts take all of one to the other, edges to edges."""
     if set(to) != one | other:
         return False
     here = {frozenset((to[a], to[b])) for a, b in left.subgraph(one).edges}

@@ -113,7 +113,12 @@ def points_of_joints(drawing: Drawing, classes: Sequence[CentreClass]) -> dict[J
 def points_of_links(drawing: Drawing, classes: Sequence[CentreClass]) -> dict[LinkId, frozenset[int]]:
     """Return the points of each link: its vertices and the centres on the axes of its joints.
 
-    Parameters, errors and numbers of points are those of `points_of_joints`.
+    Errors and numbers of points are those of `points_of_joints`.
+
+    Parameters
+    ----------
+    drawing, classes
+        As for `points_of_joints`.
 
     Examples
     --------
@@ -225,9 +230,7 @@ def _check_own_vertices(drawing: Drawing) -> None:
 def _check_s1(points: Mapping[JointId, frozenset[int]]) -> None:
     for a, b in _sharing_two(points):
         raise InvariantError(
-            "S1",
-            f"joints {shown(a)} and {shown(b)} share two points, so they are one axis",
-            "one point at most",
+            "S1", f"joints {shown(a)} and {shown(b)} share two points, so they are one axis", "one point at most"
         )
 
 
@@ -241,9 +244,7 @@ def _check_s2(
         common = of_link[a] & of_link[b]
         if frozenset((a, b)) not in between:
             raise InvariantError(
-                "S2",
-                f"links {shown(a)} and {shown(b)} share {len(common)} points and no joint",
-                "one at most",
+                "S2", f"links {shown(a)} and {shown(b)} share {len(common)} points and no joint", "one at most"
             )
         if not any(common <= of_joint[joint] for joint in between[frozenset((a, b))]):
             raise InvariantError(
@@ -436,9 +437,7 @@ class SCDGraph(SCGraph):
         return self._drawn_alike(super().with_loops(loops, closing))
 
     def relabel(
-        self,
-        links: Mapping[Any, LinkId] | None = None,
-        joints: Mapping[Any, JointId] | None = None,
+        self, links: Mapping[Any, LinkId] | None = None, joints: Mapping[Any, JointId] | None = None
     ) -> SCDGraph:
         """Return the same mechanism under other names; what a mapping leaves out keeps its name."""
         bare = super().relabel(links, joints)

@@ -44,20 +44,32 @@ def checked_cone_angle(cone_angle: npt.ArrayLike) -> Floats:
     if wrong.size:
         angle = f"{np.degrees(wrong.flat[0]):.12g} degrees"
         raise InvariantError(
-            "cone angle",
-            f"the cone angle is {angle}",
-            "0 or more, and less than 90",
-            ("lambda", None),
+            "cone angle", f"the cone angle is {angle}", "0 or more, and less than 90", ("lambda", None)
         )
     return angles
 
 
 def joint_axes(places: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
-    """Return the directions of joint axes at azimuths, float[..., J], by lambda of each linkage, float[...].
+    """Return the directions of joint axes, float[..., J, 3] (Hyatt et al. 2020, Eq. 17).
 
-    Azimuths and angles are in radians; the axes are unit vectors (cos lambda sin t, -sin lambda, cos lambda cos
-    t), float[..., J, 3]. Raises `InvariantError` if a cone angle is out of range. Source: Hyatt et al. 2020, Eq.
-    17.
+    They are unit vectors (cos lambda sin t, -sin lambda, cos lambda cos t).
+
+    Parameters
+    ----------
+    places : float[..., J]
+        Azimuths, radians.
+    cone_angle : float[...]
+        lambda of each linkage.
+
+    Raises
+    ------
+    InvariantError
+        If a cone angle is out of range.
+
+    Examples
+    --------
+    >>> joint_axes([0.0], np.radians(20)).round(12)
+    array([[ 0.        , -0.34202014,  0.93969262]])
     """
     t = np.asarray(places, dtype=float)
     lam = checked_cone_angle(cone_angle)[..., np.newaxis]

@@ -87,7 +87,7 @@ class VertexEdgeGraph:
         return graph
 
     def is_identical(self, other: object) -> bool:
-        """Tell whether two graphs are the same, ids and all; where a cyclic order starts does not matter."""
+        """Return whether two graphs are the same, ids and all; where a cyclic order starts does not matter."""
         if not isinstance(other, VertexEdgeGraph) or set(self.vertices) != set(other.vertices):
             return False
         return all(_same_turn(order, other.vertices[vertex]) for vertex, order in self.vertices.items())
@@ -135,12 +135,7 @@ def sc_from_vertex_edge(graph: VertexEdgeGraph) -> SCGraph:
         joints[crease] = (link[sectors[sector(ends[0], i - 1)]], link[sectors[sector(ends[0], i)]])
     loops = [Loop(creases, Centre.FINITE, str(vertex)) for vertex, creases in graph.vertices.items()]
     kept, closing = split_dependent(list(graph.vertices.values()))
-    return SCGraph(
-        len(link),
-        joints,
-        [loops[i] for i in kept],
-        closing=[loops[i] for i in closing],
-    )
+    return SCGraph(len(link), joints, [loops[i] for i in kept], closing=[loops[i] for i in closing])
 
 
 def vertex_edge_from_sc(sc: SCGraph) -> VertexEdgeGraph:

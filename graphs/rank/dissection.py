@@ -20,7 +20,7 @@ import scipy.linalg
 import scipy.sparse
 import scipy.sparse.linalg
 
-from graphs.rank.singular_values import Spectrum, judged, rounding, verdict
+from graphs.rank.singular_values import ZERO_SPECTRUM, Spectrum, judged, rounding, verdict
 from graphs.types import Flags, Floats, Ints
 
 __all__ = ["number_below", "sparse_spectrum"]
@@ -41,7 +41,7 @@ def sparse_spectrum(matrix: scipy.sparse.csr_matrix, places: Floats, error: Floa
     :func:`~graphs.rank.singular_values.spectrum`.
     """
     if not matrix.nnz:
-        return Spectrum(0, float("inf"), 0.0, 0.0, 0, 0.0)
+        return ZERO_SPECTRUM
     state = _Elimination(matrix.tocsr(), places, error, nearly)
     state.eliminate(np.arange(matrix.shape[0]), top=True)
     values, floors, near = (np.concatenate(found) for found in zip(*state.found, strict=True))
@@ -162,7 +162,7 @@ class _Elimination:
         return block, columns, tuple(step for _, _, step in halves)
 
     def _own(self, rows: Ints, columns: Ints) -> Flags:
-        """Tell which columns no other row has."""
+        """Return which columns no other row has."""
         count = self.matrix.shape[1]
         here = np.bincount(self.matrix[rows].indices, minlength=count)
         matrix_columns = columns < count

@@ -23,12 +23,13 @@ from graphs.types import Floats, Ints
 
 __all__ = [
     "NEARLY",
+    "ZERO_SPECTRUM",
     "Certainty",
     "Inertia",
+    "NoiseVerdict",
     "Spectra",
     "Spectrum",
     "Split",
-    "Verdict",
     "inertia",
     "judged",
     "judged_at",
@@ -58,7 +59,7 @@ Certainty = Literal["numerical", "nearly mobile", "indeterminate"]
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class NoiseVerdict:
     """Which singular values of one matrix or many are zero but for noise, undecided, nearly zero: bool[..., k]."""
 
     noise: npt.NDArray[np.bool_]
@@ -75,8 +76,8 @@ class Spectrum:
     rank : int or None
         None where a singular value may be noise and may be not: indeterminate.
     gap : float
-        Smallest singular value counted over the most that those which are noise may come to; infinite where none
-        is. The noise itself is other from processor to processor.
+        Smallest singular value counted over the bound of those that are noise; infinite where none is. The bound
+        is the same on all processors, the noise itself is not.
     smallest, largest_zero : float
         The two, as parts of the largest singular value.
     nearly : int
@@ -97,13 +98,17 @@ class Spectrum:
 
     @property
     def certainty(self) -> Certainty:
-        """How the rank is known: by singular values, so but for small strains, or not."""
+        """The certainty of the rank: numerical, true but for small strains, or indeterminate."""
         if self.rank is None:
             return "indeterminate"
         return "nearly mobile" if self.nearly else "numerical"
 
 
-def verdict(values: Floats, floors: Floats, nearly: Floats | float = 0.0) -> Verdict:
+ZERO_SPECTRUM = Spectrum(0, float("inf"), 0.0, 0.0, 0, 0.0)
+"""The spectrum of a matrix without entries, or of zeros only."""
+
+
+def verdict(values: Floats, floors: Floats, nearly: Floats | float = 0.0) -> NoiseVerdict:
     """Judge singular values, as parts of the largest, by the effect of errors.
 
     Floors say what errors of the size of the data's precision do to each, in the mean; nearly likewise for an
@@ -111,7 +116,7 @@ def verdict(values: Floats, floors: Floats, nearly: Floats | float = 0.0) -> Ver
     """
     noise = values <= np.minimum(_NOISE * floors, _LARGE)
     undecided = ~noise & (values <= _CLEAR * floors)
-    return Verdict(noise, undecided, ~noise & ~undecided & (values <= _NOISE * nearly))
+    return NoiseVerdict(noise, undecided, ~noise & ~undecided & (values <= _NOISE * nearly))
 
 
 def spectrum(matrix: Floats, error: float | Floats = 0.0, nearly: float | Floats = 0.0) -> Spectrum:
@@ -133,7 +138,7 @@ def spectrum(matrix: Floats, error: float | Floats = 0.0, nearly: float | Floats
     [1, None, 2]
     """
     if not matrix.size or not matrix.any():
-        return Spectrum(0, float("inf"), 0.0, 0.0, 0, 0.0)
+        return ZERO_SPECTRUM
     _, values, right = np.linalg.svd(matrix, full_matrices=False)
     effects = [np.linalg.norm(right * of, axis=1) / values[0] for of in (error, nearly)]
     return judged(values / values[0], rounding(matrix.shape) + effects[0], effects[1])
@@ -150,7 +155,7 @@ class Spectra:
     values: Floats
     rows: Floats
     floors: Floats
-    verdict: Verdict
+    verdict: NoiseVerdict
 
     @property
     def parts(self) -> Floats:
@@ -177,7 +182,7 @@ def rounding(shape: tuple[int, int]) -> float:
 def judged_at(values: Floats, zero: float) -> Spectrum:
     """Return the rank of descending singular values in any unit; those up to `zero` times the largest are zero."""
     if not values.max(initial=0.0) > 0.0:
-        return Spectrum(0, float("inf"), 0.0, 0.0, 0, 0.0)
+        return ZERO_SPECTRUM
     return judged(values / values[0], np.full(len(values), zero / _NOISE), np.zeros(len(values)))
 
 
@@ -218,7 +223,7 @@ class Split:
     right : float[n, n]
         Right singular vectors, as rows; not canonical.
     zero : float
-        What the values were judged by: the part of the largest up to which they are zero.
+        The part of the largest singular value up to which others are zero.
 
     Examples
     --------
@@ -235,12 +240,12 @@ class Split:
 
     @property
     def kernel(self) -> Floats:
-        """The canonical basis of what the matrix takes to zero: orthonormal columns, float[n, n - rank]."""
+        """The canonical basis of the kernel: orthonormal columns, float[n, n - rank]."""
         return canonical_basis(self.right[self.rank :].T)
 
     @property
     def cokernel(self) -> Floats:
-        """The canonical basis of what is across all columns: orthonormal columns, float[m, m - rank]."""
+        """The canonical basis of the complement of the column space: orthonormal columns, float[m, m - rank]."""
         return canonical_basis(self.left[:, self.rank :])
 
     @property

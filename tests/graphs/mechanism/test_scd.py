@@ -10,7 +10,7 @@ from graphs.count.equations import loop_form, polyhedron_equation
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError
 from graphs.loops.loop import Loop
-from graphs.mechanism.drawing import FaceKind
+from graphs.mechanism.drawing import FaceKind, link_vertices, trace_faces
 from graphs.mechanism.scd import SCDGraph, points_of_joints, points_of_links
 
 FOUR = [(0, 1), (1, 2), (2, 3), (3, 0)]
@@ -232,3 +232,9 @@ def test_the_centre_of_a_face_belongs_to_its_outer_cycle():
     )
     assert scd.counts.implicit_centres == 1
     assert mobility_report(scd).mobility == 9 - 3 - 3 == mobility_report(scd).equations["polyhedron"].value
+
+
+def test_a_panel_by_itself_has_a_vertex_between_each_two_open_edges():
+    panel = {"panel": (None, None, None)}
+    faces, _ = trace_faces({}, panel)
+    assert link_vertices(faces, panel) == (3, {"panel": (2, 1, 0)})
