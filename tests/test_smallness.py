@@ -19,7 +19,7 @@ SOURCES = {
 DECOMPOSITIONS = {"svd", "svdvals", "null_space", "matrix_rank", "orth"}
 DECOMPOSING = ("graphs/rank/", "graphs/geometry.py")
 """Where matrices may be taken apart."""
-DECIDING = ("graphs/tolerances.py", "graphs/tolerances.py", "graphs/geometry.py", "graphs/rank/singular_values.py")
+DECIDING = ("graphs/tolerances.py", "graphs/geometry.py", "graphs/rank/singular_values.py")
 """Where constants may say what is zero."""
 UNITS = {"LEAST", "EPSILON", "EPS", "eps"}
 """Names that make a small constant of what they are multiplied with."""

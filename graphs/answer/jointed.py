@@ -43,8 +43,6 @@ __all__ = [
     "with_planar_loops",
 ]
 
-_ONE = "spherical", "planar", "spatial"
-
 
 def report_of_joints(linkage: JointedLinkage) -> MobilityReport:
     """Report the mobility of a linkage by count of its joints, each with its freedoms.
