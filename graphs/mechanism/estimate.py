@@ -252,6 +252,7 @@ def _sums(corners: _Corners) -> _Runs:
     total, rows = corners.angles.copy(), 0
     for run in range(1, _LONGEST_RUN + 1):
         degree = corners.degree[starts]
+        # All at the border (degree 0); of the two parts of a whole turn the smaller one, of two halves one.
         kept = (degree == 0) | (2 * run < degree) | ((2 * run == degree) & (starts < corners.following[ends]))
         picked = [column[kept] for column in columns]
         many = int(kept.sum())
@@ -456,6 +457,7 @@ def _tops(off: Floats, density: float) -> list[float]:
     within = below - np.searchsorted(off, tops / _WIDE, side="right")
     chance = tops * density
     within[0] = below[0]  # all that is exact
+    # Minus the logarithm of the chance of so many, by the bound of Chernoff for a Poisson distribution.
     unlikely = within * np.log(np.maximum(within, 1) / chance) - within + chance
     good = (
         (within >= _LEAST) & (chance <= _BY_CHANCE * within) & (unlikely >= _UNLIKELY) & (within >= _SHARE * below)

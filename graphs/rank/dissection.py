@@ -116,11 +116,13 @@ class _Elimination:
         block, columns, inner = self._assembled(rows)
         own = self._own(rows, columns)
         taken, rest = columns[own], columns[~own]
+        # QR first, where that makes the block lower: singular values and right singular vectors stay the same.
         triangle = block[block.any(axis=1)]
         if len(triangle) > len(columns):
             (whole,) = scipy.linalg.qr(triangle, mode="r", check_finite=False, overwrite_a=True)
             triangle = whole[: len(columns)]
         left, values, right = np.linalg.svd(triangle[:, own], full_matrices=True)
+        # Combinations of own columns with large values are pivots: their rows determine them by the other columns.
         large = int((values >= _PIVOT * self.largest).sum())
         self.pivots += large
         step = _Step(
@@ -134,6 +136,7 @@ class _Elimination:
         )
         smaller = np.zeros(len(taken) - large)
         smaller[: len(values) - large] = values[large:]
+        # The others are noise, and recorded, or too large for noise, and handed up under new column numbers.
         handed = self._judge(smaller, right[large:].T, step, top=top)
         step.handed = right[large:].T[:, handed]
         step.names = np.arange(self.named, self.named + int(handed.sum()))
