@@ -168,7 +168,7 @@ def _pose_line(answer: MobilityAnswer) -> str:
 
 
 def _equations_line(answer: MobilityAnswer, *, hint: bool) -> str:
-    """Return the line that names the equations of mobility which apply; a value is given where it is not M."""
+    """Return the line that names the equations of mobility which apply; with its value where that is not M."""
     names = []
     for name, equation in answer.equations.items():
         if equation.applies and equation.value is not None:

@@ -2,7 +2,7 @@
 
 Wiener 2016, Eqs. 1 to 4 and 8; Wampler, Larson, Erdman 2007, Eqs. 5 to 10. Beside them the loop form and the count
 of closed surfaces. All are formulas: they hold for a generic realisation of a type, and not for every type
-(docs/theory/mobility-by-count.md). :mod:`graphs.count.report` says which of them apply to a given mechanism.
+(docs/theory/mobility-by-count.md). :mod:`graphs.count.report` says which of them apply to a mechanism.
 """
 
 from __future__ import annotations

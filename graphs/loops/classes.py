@@ -271,7 +271,7 @@ def class_of_loop(classes: Sequence[CentreClass]) -> dict[int, int]:
 def _nothing_forced(loops: Sequence[Loop]) -> bool:
     """Whether no two loops share more than a joint, and none is planar or named: so it is on most sheets.
 
-    Not asked to the end where a joint has many loops, since pairs of them are looked at one by one.
+    The search ends early, with no, where a joint has many loops, since pairs of them are looked at one by one.
     """
     through: dict[JointId, list[int]] = {}
     pairs: set[tuple[int, int]] = set()

@@ -314,7 +314,7 @@ def in_span_of(cycle: Collection[JointId], cycles: Sequence[Collection[JointId]]
     """
     *rows, target = _bit_rows([*cycles, cycle])
     shift = max(row.bit_length() for row in (*rows, target))
-    # The low bits hold the cycle, the bits above them which of the given cycles have been added.
+    # The low bits hold the cycle, the bits above them which cycles have been added.
     basis: dict[int, int] = {}
 
     def reduced(row: int) -> int:

@@ -156,10 +156,10 @@ class _Corners:
         many = len(self.points)
         keys = self.apex * many + self._listed[1]
         order = np.argsort(keys, kind="stable")
-        wanted = vertex * many + after
-        place = np.minimum(np.searchsorted(keys[order], wanted), len(order) - 1)
-        found = order[place]
-        return np.where(keys[found] == wanted, found, -1)
+        sought = vertex * many + after
+        place = np.minimum(np.searchsorted(keys[order], sought), len(order) - 1)
+        corner = order[place]
+        return np.where(keys[corner] == sought, corner, -1)
 
     @cached_property
     def following(self) -> Numbers:

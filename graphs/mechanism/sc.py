@@ -229,7 +229,7 @@ class SCGraph(nx.MultiGraph):
     # ---- what networkx asks for ---------------------------------------------------------------------
 
     def copy(self, as_view: bool = False) -> nx.MultiGraph:
-        """Return a plain, mutable ``nx.MultiGraph`` with the same links and joints (or a view, if asked)."""
+        """Return a plain, mutable ``nx.MultiGraph`` with the same links and joints, or a view of it."""
         return super().copy(as_view=True) if as_view else nx.MultiGraph(self)
 
     def to_undirected_class(self) -> Any:
