@@ -25,11 +25,9 @@ import numpy as np
 from graphs.convert.panels import polyhedron_of, scd_from_panels
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.rank.closure import closure_of
-from graphs.rank.fields import PRIMES, PrimeField, Reals
-from graphs.rank.general_member import Realisation, realise
-from graphs.rank.generic import centres_of_loops, closure_modulo, exact_mobility, matrix_modulo
+from graphs.rank.exact import centres_of_loops, closure_modulo, closure_of, exact_mobility, matrix_modulo
 from graphs.rank.pose import dense
+from graphs.rank.realisation import PRIMES, PrimeField, Realisation, Reals, realise
 from graphs.rank.rods import exact_mobility_of_model
 
 RUNS = 25

@@ -34,7 +34,7 @@ import numpy as np
 from enumerate.chains.counting import count_by_burnside, count_by_orbits
 from enumerate.contracted.descent import descendants
 from enumerate.contracted.graphs import cubic_graphs
-from graphs.arrays import Bytes, Floats
+from graphs.types import Bytes, Floats
 
 RESULTS = Path(__file__).parent / "results"
 SEED = 20

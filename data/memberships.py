@@ -11,8 +11,8 @@ from dataclasses import replace
 import networkx as nx
 
 from graphs.errors import InvariantError
-from graphs.ids import JointId
 from graphs.mechanism.sc import SCGraph
+from graphs.types import JointId
 
 __all__ = ["memberships"]
 

@@ -13,9 +13,8 @@ from wiener_2016 import STEPHENSON, STEPHENSON_LOOPS
 from graphs.files.atomic import write_text
 from graphs.files.formats import write
 from graphs.files.text import json_text
-from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.surfaces import Cone, Cylinder
+from graphs.mechanism.surfaces import Cone, Cylinder, SurfaceLinkage
 from synth.conformed.linkages import loop_on_cylinders
 
 FIG_11 = {"OA": -40, "AB": -20, "BC": -45, "CD": -68, "DE": 28, "EF": 30}

@@ -1,4 +1,4 @@
-"""One rooted family of exceptions.
+"""One rooted family of exceptions, and the check of arguments.
 
 Every error that synthedra raises on purpose is a :class:`SynthedraError`; its message is one line that
 names the place, what is wrong and what was expected.
@@ -7,8 +7,9 @@ names the place, what is wrong and what was expected.
 from __future__ import annotations
 
 from pathlib import Path
+from types import UnionType
 
-from graphs.plain_text import plain, shown
+from graphs.printing import plain, shown
 
 __all__ = [
     "ArgumentError",
@@ -19,6 +20,7 @@ __all__ = [
     "StoreError",
     "SynthedraError",
     "UnsolvableError",
+    "check_argument",
     "numbered",
     "shown",
 ]
@@ -29,30 +31,12 @@ _LONGEST_PLACE = 120
 
 
 def numbered(number: int, word: str, more: str = "") -> str:
-    """Return a number and what it counts, in words for one or for several.
-
-    Parameters
-    ----------
-    number : int
-    word : str
-        What is counted, for one.
-    more : str, optional
-        For several; by default the word with an s.
-
-    Returns
-    -------
-    str
-
-    Examples
-    --------
-    >>> numbered(1, "link"), numbered(2, "link"), numbered(0, "vertex", "vertices")
-    ('1 link', '2 links', '0 vertices')
-    """
+    """Return a number and its noun, whose plural is ``more``, or the word with an s: "1 link", "2 vertices"."""
     return f"{number} {word if number == 1 else more or word + 's'}"
 
 
 class SynthedraError(Exception):
-    r"""Root of every error raised on purpose; its text is one printable line, whatever names it tells.
+    r"""Root of every error raised on purpose; its text is one printable line, whatever names are in it.
 
     Parameters
     ----------
@@ -101,18 +85,7 @@ class FileError(SynthedraError, ValueError):
 
 
 class OpenError(FileError, OSError):
-    """A file could not be opened, or the system refused to read or write it.
-
-    Parameters
-    ----------
-    file, place, found, expected
-        As of `FileError`.
-
-    Examples
-    --------
-    >>> isinstance(OpenError("a.json", "", "no such file", "a file"), OSError)
-    True
-    """
+    """A file could not be opened, or the system refused to read or write it."""
 
 
 class InvariantError(SynthedraError, ValueError):
@@ -166,42 +139,37 @@ class UnsolvableError(SynthedraError):
 
 
 class ArgumentError(SynthedraError, TypeError):
-    """A function was given something of another kind than it takes.
-
-    Parameters
-    ----------
-    message : str
-
-    Examples
-    --------
-    >>> issubclass(ArgumentError, TypeError)
-    True
-    """
+    """A function got an argument of another kind than it takes."""
 
 
 class NumericalError(SynthedraError):
-    """A numerical method cannot tell, or did not converge.
-
-    Parameters
-    ----------
-    message : str
-
-    Examples
-    --------
-    >>> issubclass(NumericalError, SynthedraError)
-    True
-    """
+    """A numerical method cannot decide, or did not converge."""
 
 
 class StoreError(SynthedraError):
-    """A store of results cannot be used as asked.
+    """A store of results cannot be used for this command."""
 
-    Parameters
-    ----------
-    message : str
 
-    Examples
-    --------
-    >>> print(StoreError("six.sqlite: is damaged at unit 3"))
-    six.sqlite: is damaged at unit 3
+def check_argument(verb: str, value: object, kinds: type | UnionType) -> None:
+    """Refuse an argument of a function of ``synth`` that is not of the kinds it takes, and say how to make one.
+
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> check_argument("fold", "a.fold", Sheet)
+    Traceback (most recent call last):
+    ...
+    graphs.errors.ArgumentError: fold: the text 'a.fold'; expected a Sheet; try synth.fold(synth.read('a.fold'))
     """
+    if isinstance(value, kinds):
+        return
+    expected = f"a {kinds.__name__}" if isinstance(kinds, type) else "a mechanism"
+    if isinstance(value, str | Path):
+        name = shown(str(value))
+        what = "text" if isinstance(value, str) else "path"
+        raise ArgumentError(
+            f"{verb}: the {what} {name}; expected {expected}; try synth.{verb}(synth.read({name}))"
+        )
+    if value is None or isinstance(value, int | float):
+        received = shown(value)
+    else:
+        received = f"an object of type {type(value).__name__}"
+    raise ArgumentError(f"{verb}: {received}; expected {expected}, as synth.read returns it")

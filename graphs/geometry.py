@@ -1,8 +1,8 @@
 """Geometry of points, directions and rotations: arrays in, arrays out, over any leading axes.
 
-Nothing here hangs on the last bit: where several planes, lines or rotations are equally good, the one returned
-depends on the points alone (`graphs.canonical`). Points may coincide, lie in one line, and be 1e40 or 1e-40 apart.
-Zero here means rounding; callers judge what is zero for the precision of a file (`graphs.tolerances`).
+Nothing here depends on the last bit: where several planes, lines or rotations are equally good, the one returned
+depends on the points alone. Points may coincide, lie in one line, and be 1e40 or 1e-40 apart. Zero here means
+rounding; callers judge what is zero for the precision of a file (`graphs.tolerances`).
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Flags, Floats
-from graphs.canonical import MARGIN, canonical_basis
+from graphs.tolerances import MARGIN, canonical_basis
+from graphs.types import Flags, Floats
 
 __all__ = [
     "Fit",
@@ -44,76 +44,29 @@ _ROUNDING = 1e-12
 
 
 def unit(vectors: npt.ArrayLike) -> Floats:
-    """Return vectors of length one; zero vectors stay zero.
-
-    Parameters
-    ----------
-    vectors : float[..., d]
-
-    Examples
-    --------
-    >>> unit([[0, 0, 2], [0, 0, 0]]).tolist()
-    [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0]]
-    """
-    given = np.asarray(vectors, dtype=float)
-    lengths = np.linalg.norm(given, axis=-1, keepdims=True)
-    return np.asarray(given / np.where(lengths > 0.0, lengths, 1.0))
+    """Return vectors, float[..., d], of length one; zero vectors stay zero."""
+    array = np.asarray(vectors, dtype=float)
+    lengths = np.linalg.norm(array, axis=-1, keepdims=True)
+    return np.asarray(array / np.where(lengths > 0.0, lengths, 1.0))
 
 
 def across(vectors: npt.ArrayLike, axes: npt.ArrayLike) -> Floats:
-    """Return the parts of vectors at right angles to axes of any length.
-
-    Parameters
-    ----------
-    vectors, axes : float[..., d]
-        An axis of length zero takes nothing away.
-
-    Examples
-    --------
-    >>> across([1.0, 1.0, 0.0], [0.0, 3.0, 0.0]).tolist()
-    [1.0, 0.0, 0.0]
-    """
-    given, along = np.asarray(vectors, dtype=float), unit(axes)
-    return np.asarray(given - (given * along).sum(axis=-1, keepdims=True) * along)
+    """Return the parts of vectors, float[..., d], across axes of any length; zero axes take nothing away."""
+    array, along = np.asarray(vectors, dtype=float), unit(axes)
+    return np.asarray(array - (array * along).sum(axis=-1, keepdims=True) * along)
 
 
 def crossing(vectors: npt.ArrayLike) -> Floats:
-    """Return the matrices of cross products with vectors.
-
-    Parameters
-    ----------
-    vectors : float[..., 3]
-
-    Returns
-    -------
-    float[..., 3, 3]
-
-    Examples
-    --------
-    >>> (crossing([0.0, 0.0, 1.0]) @ [1.0, 0.0, 0.0]).tolist()
-    [0.0, 1.0, 0.0]
-    """
-    made = np.asarray(vectors, dtype=float)
-    return np.asarray(np.cross(made[..., None, :], np.eye(3)).swapaxes(-1, -2))
+    """Return the matrices, float[..., 3, 3], of cross products with vectors, float[..., 3]."""
+    array = np.asarray(vectors, dtype=float)
+    return np.asarray(np.cross(array[..., None, :], np.eye(3)).swapaxes(-1, -2))
 
 
 def frame_about(directions: npt.ArrayLike) -> Floats:
-    """Return right-handed frames about directions, one axis across the coordinate axis that is flattest to it.
+    """Return right-handed frames about directions of any length, float[..., 3]: float[..., 3, 3].
 
-    Parameters
-    ----------
-    directions : float[..., 3]
-        Of any length but zero.
-
-    Returns
-    -------
-    float[..., 3, 3]
-        Rows are orthonormal: two directions across, then the direction.
-
-    Examples
-    --------
-    >>> (frame_about([0.0, 0.0, 2.0]) + 0.0).tolist()
-    [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+    Rows are orthonormal: one across the coordinate axis that is flattest to the direction, another, then the
+    direction.
     """
     axes = unit(directions)
     sizes = np.abs(axes)
@@ -125,12 +78,6 @@ def frame_about(directions: npt.ArrayLike) -> Floats:
 def angles_between(one: npt.ArrayLike, other: npt.ArrayLike) -> Floats:
     """Return the angles between vectors of any length, 0 to pi; small ones have all their digits.
 
-    Parameters
-    ----------
-    one, other : float[..., 3]
-
-    Examples
-    --------
     >>> float(angles_between([1.0, 0.0, 0.0], [1.0, 1e-9, 0.0]))
     1e-09
     """
@@ -139,81 +86,26 @@ def angles_between(one: npt.ArrayLike, other: npt.ArrayLike) -> Floats:
 
 
 def sectors(directions: npt.ArrayLike) -> Floats:
-    """Return the angles between directions that follow each other round, the last from the last to the first.
-
-    Parameters
-    ----------
-    directions : float[..., n, 3]
-
-    Returns
-    -------
-    float[..., n]
-        Radians, 0 to pi.
-
-    Examples
-    --------
-    >>> np.degrees(sectors(np.eye(3))).round(9).tolist()
-    [90.0, 90.0, 90.0]
-    """
-    given = np.asarray(directions, dtype=float)
-    return angles_between(given, np.roll(given, -1, axis=-2))
+    """Return the angles, 0 to pi, from each direction, float[..., n, 3], to the next in a ring: float[..., n]."""
+    array = np.asarray(directions, dtype=float)
+    return angles_between(array, np.roll(array, -1, axis=-2))
 
 
 def rotations(axes: npt.ArrayLike, angles: npt.ArrayLike) -> Floats:
-    """Return the matrices of rotations about unit vectors (Rodrigues).
-
-    Parameters
-    ----------
-    axes : float[..., 3]
-    angles : float[...]
-        Radians.
-
-    Returns
-    -------
-    float[..., 3, 3]
-
-    Examples
-    --------
-    >>> rotations([0.0, 0.0, 1.0], np.pi / 2).round(12).tolist()
-    [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
-    """
+    """Return the matrices, float[..., 3, 3], of rotations about unit vectors by angles in radians (Rodrigues)."""
     along = np.asarray(axes, dtype=float)
     x, y, z = np.moveaxis(along, -1, 0)
     c, s = np.cos(angles), np.sin(angles)
     v = 1.0 - c
     m = np.empty((*np.broadcast_shapes(along.shape[:-1], np.shape(angles)), 3, 3))
-    m[..., 0, 0], m[..., 0, 1], m[..., 0, 2] = (
-        c + x * x * v,
-        x * y * v - z * s,
-        x * z * v + y * s,
-    )
-    m[..., 1, 0], m[..., 1, 1], m[..., 1, 2] = (
-        x * y * v + z * s,
-        c + y * y * v,
-        y * z * v - x * s,
-    )
-    m[..., 2, 0], m[..., 2, 1], m[..., 2, 2] = (
-        x * z * v - y * s,
-        y * z * v + x * s,
-        c + z * z * v,
-    )
+    m[..., 0, 0], m[..., 0, 1], m[..., 0, 2] = c + x * x * v, x * y * v - z * s, x * z * v + y * s
+    m[..., 1, 0], m[..., 1, 1], m[..., 1, 2] = x * y * v + z * s, c + y * y * v, y * z * v - x * s
+    m[..., 2, 0], m[..., 2, 1], m[..., 2, 2] = x * z * v - y * s, y * z * v + x * s, c + z * z * v
     return m
 
 
 def rotated(vectors: npt.ArrayLike, axis: npt.ArrayLike, angle: npt.ArrayLike) -> Floats:
-    """Return vectors rotated about a unit vector, right-handed (Rodrigues), without the matrix.
-
-    Parameters
-    ----------
-    vectors, axis : float[..., 3]
-    angle : float[...]
-        Radians.
-
-    Examples
-    --------
-    >>> rotated([1.0, 0, 0], [0, 0, 1.0], np.pi / 2).round(12).tolist()
-    [0.0, 1.0, 0.0]
-    """
+    """Return vectors rotated about a unit vector by radians, right-handed (Rodrigues), without the matrix."""
     v, e = np.asarray(vectors, dtype=float), np.asarray(axis, dtype=float)
     angle = np.asarray(angle, dtype=float)[..., np.newaxis]
     along = (v * e).sum(axis=-1, keepdims=True) * e
@@ -221,35 +113,19 @@ def rotated(vectors: npt.ArrayLike, axis: npt.ArrayLike, angle: npt.ArrayLike) -
 
 
 def nearest_rotation(matrices: npt.ArrayLike, *, mirrored: bool = False) -> Floats:
-    """Return the rotations nearest to matrices, by the sum of squared entries (Kabsch).
+    """Return the rotations nearest to matrices, float[..., d, d], by the sum of squared entries.
 
-    Parameters
-    ----------
-    matrices : float[..., d, d]
-    mirrored : bool, optional
-        Return orthogonal matrices of determinant -1 instead.
-
-    Returns
-    -------
-    float[..., d, d]
-        Where several are equally near (points in one line, in one place), the one that turns least.
-
-    References
-    ----------
-    W. Kabsch, A solution for the best rotation to relate two sets of vectors, Acta Cryst. A32 (1976) 922-923.
-
-    Examples
-    --------
-    >>> nearest_rotation([[0.0, -2.0], [2.1, 0.0]]).round(12).tolist()
-    [[0.0, -1.0], [1.0, 0.0]]
+    ``mirrored`` returns orthogonal matrices of determinant -1 instead. Where several are equally near (points in
+    one line, in one place), it is the one that turns least. Source: W. Kabsch, A solution for the best rotation to
+    relate two sets of vectors, Acta Cryst. A32 (1976) 922-923.
     """
-    given = np.asarray(matrices, dtype=float)
+    array = np.asarray(matrices, dtype=float)
     handed = -1.0 if mirrored else 1.0
-    left, sizes, right = np.linalg.svd(given)
+    left, sizes, right = np.linalg.svd(array)
     nearest = left @ right
     wrong = np.linalg.det(nearest) * handed < 0.0
     nearest = nearest - 2.0 * np.where(wrong[..., None, None], left[..., :, -1:] @ right[..., -1:, :], 0.0)
-    if given.shape[-1] > 1:
+    if array.shape[-1] > 1:
         free = sizes[..., -2] <= _ROUNDING * sizes[..., 0]
         tied = wrong & (sizes[..., -2] - sizes[..., -1] <= MARGIN * sizes[..., 0])
         for place in map(tuple, np.argwhere(free | tied)):
@@ -275,25 +151,10 @@ def _least_turn(left: Floats, sizes: Floats, right: Floats, handed: float) -> Fl
 
 
 def rigid_motion(before: npt.ArrayLike, after: npt.ArrayLike, *, mirrored: bool = False) -> tuple[Floats, Floats]:
-    """Return the motion that takes points nearest to others, by the sum of squared distances.
+    """Return the motion that takes points, float[..., n, d], nearest to others, by the sum of squared distances.
 
-    Parameters
-    ----------
-    before, after : float[..., n, d]
-    mirrored : bool, optional
-        A motion that mirrors instead.
-
-    Returns
-    -------
-    rotation : float[..., d, d]
-    shift : float[..., d]
-        A point p goes to rotation @ p + shift.
-
-    Examples
-    --------
-    >>> rotation, shift = rigid_motion([[0.0, 0.0], [1.0, 0.0]], [[3.0, 1.0], [3.0, 2.0]])
-    >>> rotation.round(12).tolist(), shift.round(12).tolist()
-    ([[0.0, -1.0], [1.0, 0.0]], [3.0, 1.0])
+    A point p goes to rotation @ p + shift: float[..., d, d] and float[..., d]. ``mirrored`` finds a motion that
+    mirrors instead.
     """
     start, end = np.asarray(before, dtype=float), np.asarray(after, dtype=float)
     here, there = start.mean(axis=-2, keepdims=True), end.mean(axis=-2, keepdims=True)
@@ -305,19 +166,9 @@ def rigid_motion(before: npt.ArrayLike, after: npt.ArrayLike, *, mirrored: bool 
 class Fit:
     """A plane or a line fitted to points.
 
-    Attributes
-    ----------
-    middle : float[..., d]
-        The mean of the points.
-    direction : float[..., d]
-        Of a plane its unit normal, of a line its direction; the largest component is positive.
-    off : float[...]
-        The greatest distance of a point from it.
-
-    Examples
-    --------
-    >>> float(best_plane([[0, 0, 0], [1, 0, 0], [1, 1, 1], [0, 1, 1]]).off) < 1e-12
-    True
+    ``middle``, float[..., d], is the mean of the points; ``direction``, float[..., d], the unit normal of a plane
+    or the direction of a line, its largest component positive; ``off``, float[...], the greatest distance of a
+    point from it.
     """
 
     middle: Floats
@@ -326,31 +177,17 @@ class Fit:
 
 
 def principal_axes(points: npt.ArrayLike) -> tuple[Floats, Floats]:
-    """Return the directions in which points are long, less long and short, about their mean.
+    """Return the directions in which points, float[..., n, d], are long, less long and short, about their mean.
 
-    Parameters
-    ----------
-    points : float[..., n, d]
-
-    Returns
-    -------
-    sizes : float[..., d]
-        The roots of the sums of squared distances along each, descending.
-    axes : float[..., d, d]
-        Rows are orthonormal; the largest component of each is positive. Directions of equal size are those of
-        the canonical basis of their space.
-
-    Examples
-    --------
-    >>> sizes, axes = principal_axes([[0.0, 0.0], [0.0, 2.0], [1.0, 1.0], [-1.0, 1.0], [0.0, 5.0], [0.0, -3.0]])
-    >>> (axes + 0.0).round(12).tolist()
-    [[0.0, 1.0], [1.0, 0.0]]
+    These are sizes, float[..., d], the roots of the sums of squared distances along each, descending, and axes,
+    float[..., d, d], whose rows are orthonormal, the largest component of each positive. Directions of equal size
+    are those of the canonical basis of their space.
     """
-    given = np.asarray(points, dtype=float)
-    sizes, axes = _axes(given - given.mean(axis=-2, keepdims=True))
+    array = np.asarray(points, dtype=float)
+    sizes, axes = _axes(array - array.mean(axis=-2, keepdims=True))
     tied = _tied(sizes)
     for place in map(tuple, np.argwhere(tied.any(axis=-1))):
-        ends = [0, *(np.flatnonzero(~tied[place]) + 1).tolist(), given.shape[-1]]
+        ends = [0, *(np.flatnonzero(~tied[place]) + 1).tolist(), array.shape[-1]]
         for first, last in pairwise(ends):
             axes[place][first:last] = canonical_basis(axes[place][first:last].T).T
     return sizes, facing(axes)
@@ -359,17 +196,8 @@ def principal_axes(points: npt.ArrayLike) -> tuple[Floats, Floats]:
 def best_plane(points: npt.ArrayLike) -> Fit:
     """Return the plane (in two dimensions: the line) nearest to points, by the sum of squared distances.
 
-    Parameters
-    ----------
-    points : float[..., n, d]
-        If they lie in one line or one place, many planes are as near, and the normal is the last vector of the
-        canonical basis of all normals.
-
-    Examples
-    --------
-    >>> plane = best_plane([[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 1.0], [0.0, 1.0, 1.0]])
-    >>> plane.direction.round(12).tolist(), float(plane.off)
-    ([0.0, 0.0, 1.0], 0.0)
+    If the points, float[..., n, d], lie in one line or one place, many planes are as near, and the normal is the
+    last vector of the canonical basis of all normals.
     """
     middle, around, axes, tied = _fitted(points)
     normal = axes[..., -1, :].copy()
@@ -382,18 +210,9 @@ def best_plane(points: npt.ArrayLike) -> Fit:
 
 
 def best_line(points: npt.ArrayLike) -> Fit:
-    """Return the line nearest to points, by the sum of squared distances.
+    """Return the line nearest to points, float[..., n, d], by the sum of squared distances.
 
-    Parameters
-    ----------
-    points : float[..., n, d]
-        If they spread equally in several directions, the line is along the first vector of their canonical basis.
-
-    Examples
-    --------
-    >>> line = best_line([[0.0, 0.0, 1.0], [0.0, 3.0, 1.0], [0.0, 6.0, 1.0]])
-    >>> line.direction.round(12).tolist(), line.middle.tolist(), float(line.off)
-    ([0.0, 1.0, 0.0], [0.0, 3.0, 1.0], 0.0)
+    If they spread equally in several directions, it is along the first vector of their canonical basis.
     """
     middle, around, axes, tied = _fitted(points)
     direction = _longest(axes, tied)
@@ -402,22 +221,9 @@ def best_line(points: npt.ArrayLike) -> Fit:
 
 
 def common_direction(directions: npt.ArrayLike) -> Floats:
-    """Return the direction that vectors have in the mean, whichever way each runs: that of nearly parallel lines.
+    """Return the mean direction of nearly parallel lines, whichever way each runs: unit vectors, float[..., d].
 
-    Parameters
-    ----------
-    directions : float[..., k, d]
-        Long ones weigh more.
-
-    Returns
-    -------
-    float[..., d]
-        A unit vector; its largest component is positive.
-
-    Examples
-    --------
-    >>> common_direction([[0.0, 1.0, 0.0], [0.0, -2.0, 0.0]]).round(12).tolist()
-    [0.0, 1.0, 0.0]
+    Of directions, float[..., k, d], long ones weigh more; the largest component of the mean is positive.
     """
     sizes, axes = _axes(np.asarray(directions, dtype=float))
     return _longest(axes, _tied(sizes))
@@ -433,10 +239,10 @@ def _longest(axes: Floats, tied: Flags) -> Floats:
 
 
 def _fitted(points: npt.ArrayLike) -> tuple[Floats, Floats, Floats, Flags]:
-    """Return the mean of points, the points about it, their axes, and which axes are not told from the next."""
-    given = np.asarray(points, dtype=float)
-    middle = given.mean(axis=-2)
-    around = given - middle[..., None, :]
+    """Return the mean of points, the points about it, their axes, and which axes are as long as the next."""
+    array = np.asarray(points, dtype=float)
+    middle = array.mean(axis=-2)
+    around = array - middle[..., None, :]
     sizes, axes = _axes(around)
     return middle, around, axes, _tied(sizes)
 
@@ -451,19 +257,13 @@ def _axes(around: Floats) -> tuple[Floats, Floats]:
 
 
 def _tied(sizes: Floats) -> Flags:
-    """Tell which sizes are equal to the next: to a millionth, or both by rounding: bool[..., d - 1]."""
+    """Return which sizes are equal to the next: to a millionth, or both by rounding: bool[..., d - 1]."""
     return np.asarray(sizes[..., :-1] - sizes[..., 1:] <= MARGIN * sizes[..., :-1] + _ROUNDING * sizes[..., :1])
 
 
 def facing(directions: Floats) -> Floats:
     """Return directions or their negatives: those whose largest component is positive, the first of equal ones.
 
-    Parameters
-    ----------
-    directions : float[..., d]
-
-    Examples
-    --------
     >>> facing(np.array([0.0, -0.8, 0.6])).tolist()
     [0.0, 0.8, -0.6]
     """
@@ -477,22 +277,10 @@ def facing(directions: Floats) -> Floats:
 class Meeting:
     """Where lines meet.
 
-    Attributes
-    ----------
-    point : float[..., d]
-        The point nearest to all lines, by the sum of squared distances; for parallel lines, that abreast of the
-        mean of the points given.
-    off : float[..., k]
-        Its distance from each line.
-    spread : float[...]
-        How clearly the point is known: the least singular value of the equations over the largest; 0 for parallel
-        lines, sin(a / 2) / cos(a / 2) for two at an angle a in the plane.
-
-    Examples
-    --------
-    >>> meeting = lines_meet([[0.0, 0.0, 0.0], [0.0, 0.0, 2.0]], [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-    >>> meeting.point.round(12).tolist(), meeting.off.round(12).tolist()
-    ([0.0, 0.0, 1.0], [1.0, 1.0])
+    ``point``, float[..., d], is nearest to all lines, by the sum of squared distances; for parallel lines, that
+    abreast of the mean of the points on them. ``off``, float[..., k], is its distance from each line. ``spread``,
+    float[...], is how clearly the point is known: the least singular value of the equations over the largest; 0
+    for parallel lines, sin(a / 2) / cos(a / 2) for two at an angle a in the plane.
     """
 
     point: Floats
@@ -501,21 +289,7 @@ class Meeting:
 
 
 def lines_meet(points: npt.ArrayLike, directions: npt.ArrayLike) -> Meeting:
-    """Return the point nearest to several lines.
-
-    Parameters
-    ----------
-    points : float[..., k, d]
-        One on each line.
-    directions : float[..., k, d]
-        Of any length but zero.
-
-    Examples
-    --------
-    >>> meeting = lines_meet([[1.0, 0.0], [0.0, 3.0]], [[1.0, 0.0], [0.0, -2.0]])
-    >>> meeting.point.round(12).tolist(), float(meeting.off.max()) < 1e-12
-    ([0.0, 0.0], True)
-    """
+    """Return the point nearest to lines: a point on each and a direction of any length, float[..., k, d]."""
     on, along = np.asarray(points, dtype=float), unit(directions)
     middle = on.mean(axis=-2)
     around = on - middle[..., None, :]
@@ -533,39 +307,21 @@ def lines_meet(points: npt.ArrayLike, directions: npt.ArrayLike) -> Meeting:
 
 
 def area_vector(corners: npt.ArrayLike) -> Floats:
-    """Return the area of polygons as a vector across them, towards the side on which they run counter-clockwise.
+    """Return the area of polygons, float[..., n, 3], as a vector to the side where they run counter-clockwise.
 
-    Parameters
-    ----------
-    corners : float[..., n, 3]
-        In their order; of a polygon that is not planar, the vector does not depend on how it is filled.
-
-    Examples
-    --------
-    >>> area_vector([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]]).tolist()
-    [0.0, 0.0, 2.0]
+    For a polygon that is not planar, the vector does not depend on how it is filled.
     """
-    given = np.asarray(corners, dtype=float)
-    if not given.shape[-2]:
-        return np.zeros((*given.shape[:-2], 3))
-    arms = given - given[..., :1, :]
+    array = np.asarray(corners, dtype=float)
+    if not array.shape[-2]:
+        return np.zeros((*array.shape[:-2], 3))
+    arms = array - array[..., :1, :]
     return np.asarray(np.cross(arms, np.roll(arms, -1, axis=-2)).sum(axis=-2) / 2.0)
 
 
 def signed_area(corners: npt.ArrayLike) -> Floats:
-    """Return the area of polygons in the plane, counter-clockwise positive.
-
-    Parameters
-    ----------
-    corners : float[..., n, 2]
-
-    Examples
-    --------
-    >>> float(signed_area([[0, 0], [0, 1], [2, 1], [2, 0]]))
-    -2.0
-    """
-    given = np.asarray(corners, dtype=float)
-    if not given.shape[-2]:
-        return np.zeros(given.shape[:-2])
-    x, y = np.moveaxis(given - given[..., :1, :], -1, 0)
+    """Return the area of polygons in the plane, float[..., n, 2], counter-clockwise positive."""
+    array = np.asarray(corners, dtype=float)
+    if not array.shape[-2]:
+        return np.zeros(array.shape[:-2])
+    x, y = np.moveaxis(array - array[..., :1, :], -1, 0)
     return np.asarray((x * np.roll(y, -1, axis=-1) - y * np.roll(x, -1, axis=-1)).sum(axis=-1) / 2.0)

@@ -16,20 +16,7 @@ __all__ = ["names_in_stub", "offered"]
 
 
 def offered(package: str) -> tuple[Callable[[str], object], Callable[[], list[str]], list[str]]:
-    """Return ``__getattr__``, ``__dir__`` and ``__all__`` of a folder whose stub says what it offers.
-
-    Parameters
-    ----------
-    package : str
-        Name of the folder's package, which is being imported.
-
-    Examples
-    --------
-    >>> import graphs.loops
-    >>> look_up, _, names = offered("graphs.loops")
-    >>> "Centre" in names, look_up("Loop").__name__
-    (True, 'Loop')
-    """
+    """Return ``__getattr__``, ``__dir__`` and ``__all__`` of a package, by its stub, while it is imported."""
     modules = names_in_stub(Path(str(sys.modules[package].__file__)).with_suffix(".pyi"))
 
     def look_up(name: str) -> object:
@@ -46,19 +33,7 @@ def offered(package: str) -> tuple[Callable[[str], object], Callable[[], list[st
 
 
 def names_in_stub(stub: Path) -> dict[str, str]:
-    """Return the names that a stub imports as themselves, each with its module.
-
-    Parameters
-    ----------
-    stub : Path
-        An ``__init__.pyi``.
-
-    Examples
-    --------
-    >>> import graphs.loops
-    >>> names_in_stub(Path(graphs.loops.__file__).with_suffix(".pyi"))["Loop"]
-    'graphs.loops.loop'
-    """
+    """Return the names that a stub (``__init__.pyi``) imports as themselves, each with its module."""
     return {
         alias.asname: node.module
         for node in ast.parse(stub.read_text(encoding="utf-8")).body

@@ -1,6 +1,11 @@
-"""What is printed: lines and tables, the same on a terminal, in a file, as text and as HTML.
+"""Text that leaves: printable and not too long, as lines and tables, for a terminal, a file, a page.
 
-An answer gives its *blocks*, lines of text and `TableBlock`; the command line prints them with rich, ``str`` and
+Names come from files. They may span lines, carry escape sequences, carriage returns and marks that change the
+direction of writing, hold millions of letters, or dollar signs that a picture takes for formulas. Whatever is
+printed, drawn or put into an error or a title goes through this file; data that are written to be read again
+(native files, stores, JSON) keep names as they are.
+
+An answer has *blocks*, lines of text and `TableBlock`; the command line prints them with rich, ``str`` and
 ``_repr_html_`` of the answer make text and HTML of them.
 """
 
@@ -12,13 +17,80 @@ from html import escape
 from io import StringIO
 from typing import TYPE_CHECKING, Any, Literal
 
-from graphs.plain_text import plain, plain_lines
-
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-__all__ = ["Block", "Printed", "TableBlock", "html_of", "plain", "rich_table", "text_of"]
+__all__ = [
+    "LONGEST_CELL",
+    "Block",
+    "Printed",
+    "TableBlock",
+    "html_of",
+    "plain",
+    "plain_label",
+    "plain_lines",
+    "rich_table",
+    "shown",
+    "text_of",
+]
+
+LONGEST_CELL = 10_000
+"""Most letters of a cell of a table: ids of large mechanisms are long, and are there to be copied."""
+_WIDEST = 60
+_CUT = "..."
+
+
+def plain(value: object, widest: int = _WIDEST) -> str:
+    r"""Return text that is safe to print: one line of at most ``widest`` printable letters; None is a dash.
+
+    >>> plain("\x1b[31mred"), plain("a\u202eb", 6), plain(None)
+    ('\\x1b[31mred', 'a\\u...', '-')
+    """
+    text = "-" if value is None else str(value)
+    if len(text) <= widest and text.isprintable():
+        return text
+    text = _escaped(text[: widest + 1])  # escapes are not shorter than what they stand for
+    return text if len(text) <= widest else text[: widest - len(_CUT)] + _CUT
+
+
+def plain_lines(text: str) -> str:
+    r"""Return text of several lines: line feeds stay, other letters that do not print are written as escapes.
+
+    >>> plain_lines("one\r\ntwo\x07")
+    'one\\r\ntwo\\x07'
+    """
+    return text if text.isprintable() else "\n".join(map(_escaped, text.split("\n")))
+
+
+def plain_label(value: object, widest: int = _WIDEST) -> str:
+    r"""Return text for a picture, as `plain` makes it, with dollar signs that begin no formula.
+
+    >>> print(plain_label("$a$"))
+    \$a\$
+    """
+    return plain(value, widest).replace("$", r"\$")
+
+
+def shown(value: object) -> str:
+    r"""Return the ``repr`` of a value in one printable line of at most 60 letters, for messages.
+
+    >>> shown("two\nlines"), len(shown("x" * 10_000))
+    ("'two\\nlines'", 60)
+    """
+    if isinstance(value, str) and len(value) > 2 * _WIDEST:
+        value = value[:_WIDEST] + value[-_WIDEST:]  # the middle is left out in any case
+    text = ascii(value) if isinstance(value, str) and not value.isprintable() else repr(value)
+    text = text if text.isprintable() else _escaped(text)  # the repr of other objects may hold any letters
+    if len(text) > _WIDEST:
+        half = (_WIDEST - len(_CUT)) // 2
+        text = text[: _WIDEST - len(_CUT) - half] + _CUT + text[-half:]
+    return text
+
+
+def _escaped(text: str) -> str:
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+
 
 UNWRAPPED = 10_000
 """Columns of a page whose lines are not to be wrapped: a file, a pipe, a string."""
@@ -26,25 +98,7 @@ UNWRAPPED = 10_000
 
 @dataclass(frozen=True, slots=True)
 class TableBlock:
-    """A table of texts.
-
-    Attributes
-    ----------
-    columns : tuple of str
-    rows : tuple of tuple of str
-    numbers : collection of str
-        The columns that are set flush right.
-
-    Examples
-    --------
-    >>> print(text_of(["one freedom", TableBlock(("links", "chains"), [("6", "2"), ("8", "16")], ["chains"])]))
-    one freedom
-    <BLANKLINE>
-     links   chains
-     ──────────────
-     6            2
-     8           16
-    """
+    """A table of texts; columns named in ``numbers`` are set flush right."""
 
     columns: tuple[str, ...]
     rows: Sequence[Sequence[str]]
@@ -62,27 +116,9 @@ Block = str | TableBlock
 
 
 def rich_table(*columns: str, numbers: Iterable[str] = (), title: str | None = None) -> Table:
-    """Return an empty table; columns named in ``numbers`` are set flush right.
+    """Return an empty table with heads of columns; those named in ``numbers`` are set flush right.
 
-    Parameters
-    ----------
-    *columns : str
-        Heads of the columns.
-    numbers : iterable of str, optional
-        Heads of the columns that are set flush right.
-    title : str, optional
-        Set above the table; brackets are no markup.
-
-    Returns
-    -------
-    rich.table.Table
-        Without rows.
-
-    Examples
-    --------
-    >>> table = rich_table("n", "name", numbers=["n"])
-    >>> [column.justify for column in table.columns]
-    ['right', 'left']
+    Brackets in the title are no markup.
     """
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
@@ -113,19 +149,8 @@ def console_for(stream: Any, width: int | None) -> Console:
 
 
 def text_of(blocks: Iterable[Block]) -> str:
-    """Return blocks as text, a line of the table a line.
+    """Return blocks as text, without spaces at the ends of lines; lines are not wrapped.
 
-    Parameters
-    ----------
-    blocks : iterable of str or TableBlock
-
-    Returns
-    -------
-    str
-        Without spaces at the ends of lines; lines are not wrapped.
-
-    Examples
-    --------
     >>> print(text_of(["two rows", TableBlock(("n", "name"), [("1", "one"), ("2", "two")], ["n"])]))
     two rows
     <BLANKLINE>
@@ -142,19 +167,8 @@ def text_of(blocks: Iterable[Block]) -> str:
 
 
 def html_of(blocks: Iterable[Block]) -> str:
-    """Return blocks as HTML; names are escaped.
+    """Return blocks as HTML, a paragraph per line and a ``table`` per table; names are escaped.
 
-    Parameters
-    ----------
-    blocks : iterable of str or TableBlock
-
-    Returns
-    -------
-    str
-        A paragraph for a line, a ``table`` for a table.
-
-    Examples
-    --------
     >>> html_of(["a < b"])
     '<p>a &lt; b</p>'
     """
@@ -164,16 +178,7 @@ def html_of(blocks: Iterable[Block]) -> str:
 
 
 class Printed:
-    """An answer that is printed everywhere as the command line prints it.
-
-    Examples
-    --------
-    >>> class Freedoms(Printed):
-    ...     def blocks(self):
-    ...         return ["one freedom"]
-    >>> print(Freedoms())
-    one freedom
-    """
+    """An answer that is printed everywhere as the command line prints it; subclasses define `blocks`."""
 
     __slots__ = ()
 

@@ -1,26 +1,49 @@
-"""What is zero: one table of tolerances, made from the precision of coordinates and the size of a mechanism.
+"""What is zero and what is equal: tolerances, and choices that do not depend on the last bit.
 
-Every length, angle, rate and singular value that is compared with zero is compared with a field of this table.
-Lengths are in units of the extent, angles in radians, rates as parts of the largest. Numbers of double precision
-that come from no file are judged by `DOUBLE`. Theory: docs/theory/rounding.md.
+Every length, angle, rate and singular value that is compared with zero is compared with a field of `Tolerances`,
+which is made from the precision of the coordinates and the size of a mechanism. Lengths are in units of the
+extent, angles in radians, rates as parts of the largest. Numbers of double precision that come from no file are
+judged by `DOUBLE`.
+
+A singular value decomposition returns one of many bases of a null space, and the last bits of a processor decide
+which; of several equal numbers they decide which is the largest. Canonical choices depend on the space and on the
+numbers alone: two numbers that agree to a millionth are equal, and of equals the first comes first. Theory:
+docs/theory/rounding.md.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cmp_to_key
 from math import sqrt
 
-__all__ = ["DOUBLE", "EPSILON", "Tolerances"]
+import numpy as np
+
+from graphs.types import Floats
+
+__all__ = [
+    "DOUBLE",
+    "EPSILON",
+    "MARGIN",
+    "Tolerances",
+    "canonical_basis",
+    "canonical_order",
+    "leading",
+    "pivots",
+    "signed",
+    "trailing",
+]
 
 EPSILON = 2.0**-52
 """The rounding unit of double precision."""
 
 _BLURRED, _COARSEST = 30.0, 3e-3
 """Singular values and eigenvalues at rounded coordinates are zero up to this many times the precision, and never
-above the second value: within it nothing that moves is told from what does not."""
+above the second value: within it mobile and rigid mechanisms cannot be told apart."""
 _NEARLY, _VAGUE = 8.0, 0.1
 """Equations between rates are off by so many errors of a direction at most where they hold at the coordinates that
-were meant; above the second value hardly any pattern is told from another."""
+were meant; above the second value hardly any two patterns can be told apart."""
 _MEANT_FLAT = 1e-5
 """Whoever draws or solves for points of one plane puts them this close to it."""
 _MEANT = 1e-6
@@ -123,14 +146,99 @@ class Tolerances:
         """Return below which part of the largest a value may be zero at the coordinates that were meant.
 
         Creases are a length long, in units of the extent: their directions are wrong by the precision over it.
-
-        Examples
-        --------
-        >>> Tolerances.nearly(1e-6, 0.5), Tolerances.nearly(0.0, 0.5)
-        (1.6e-05, 1e-09)
         """
         return max(DOUBLE.zero, min(_VAGUE, _NEARLY * precision / length))
 
 
 DOUBLE = Tolerances.of(EPSILON)
 """For coordinates that are exact but for the rounding of double precision."""
+
+
+MARGIN = 1e-6
+"""Numbers that differ by less than this part of the largest are equal: far above rounding, far below what symmetry
+leaves different."""
+_DEPENDS = 1e-12
+"""Squared length, of rows of orthonormal columns, below which nothing is left of a row."""
+
+
+def leading(values: Floats) -> int:
+    """Return the place of the largest absolute value of float[n]; of those within a millionth of it, the first."""
+    sizes = np.abs(values)
+    return int(np.argmax(sizes >= (1.0 - MARGIN) * sizes.max()))
+
+
+def trailing(values: Floats, scale: float = 0.0) -> int:
+    """Return the place of the least value of float[n]; of those greater by no more than a millionth, the first.
+
+    The millionth is a part of ``scale``, by default of the largest absolute value.
+    """
+    return int(np.argmax(values <= values.min() + MARGIN * (scale or np.abs(values).max())))
+
+
+def signed(vector: Floats) -> Floats:
+    """Return a vector or its negative: the one whose first entry that is not zero is positive.
+
+    Entries below a millionth of the largest are zero.
+
+    >>> signed(np.array([1e-17, -0.5, 1.0])).tolist()
+    [-1e-17, 0.5, -1.0]
+    """
+    sizes = np.abs(vector)
+    there = sizes > MARGIN * sizes.max(initial=0.0)
+    return -vector if there.any() and vector[int(np.argmax(there))] < 0.0 else vector
+
+
+def canonical_basis(columns: Floats) -> Floats:
+    """Return a basis of the space of orthonormal columns, float[n, s]: it depends on the space alone.
+
+    Its vectors are the projections of some unit vectors onto the space, made orthogonal one after the other: of
+    the unit vectors (`pivots`) those are taken of which most lies in the space. The entry of each vector at its
+    pivot is positive.
+    """
+    return _reduced(columns)[0]
+
+
+def pivots(columns: Floats) -> list[int]:
+    """Return rows of orthonormal columns that determine all others, in the order of `canonical_basis`.
+
+    >>> pivots(np.array([[0.6, 0.0], [0.8, 0.0], [0.0, 1.0]]))
+    [2, 1]
+    """
+    return _reduced(columns)[1]
+
+
+def _reduced(columns: Floats) -> tuple[Floats, list[int]]:
+    """Return the canonical basis and its pivots: a QR decomposition of the rows whose pivots have a margin.
+
+    Each row is made orthogonal to the directions before it a second time, so that the basis is orthonormal to
+    rounding.
+    """
+    left = np.array(columns, dtype=float)
+    directions = np.zeros((columns.shape[1], columns.shape[1]))
+    rows: list[int] = []
+    for number in range(columns.shape[1]):
+        sizes = np.einsum("ij,ij->i", left, left)
+        if not sizes.max(initial=0.0) > _DEPENDS:
+            break
+        row = leading(sizes)
+        known = directions[:number]
+        direction = left[row] - (known @ left[row]) @ known
+        direction /= np.linalg.norm(direction)
+        left -= np.outer(left @ direction, direction)
+        directions[number] = direction
+        rows.append(row)
+    return np.asarray(columns @ directions[: len(rows)].T), rows
+
+
+def canonical_order(vectors: Sequence[Floats], margin: float = MARGIN) -> list[int]:
+    """Return the places of vectors in order: by the first entry in which two differ by more than a margin.
+
+    Vectors of one length that differ nowhere by more, in the unit of their entries, keep their order.
+    """
+
+    def compared(one: int, other: int) -> int:
+        apart = vectors[one] - vectors[other]
+        clear = np.abs(apart) > margin
+        return int(np.sign(apart[int(np.argmax(clear))])) if clear.any() else 0
+
+    return sorted(range(len(vectors)), key=cmp_to_key(compared))

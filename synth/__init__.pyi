@@ -13,11 +13,11 @@ from graphs.errors import (
 )
 from graphs.files.formats import read as read, write as write
 from graphs.loops.loop import Centre as Centre, Loop as Loop
-from graphs.mechanism.on_surface import SurfaceLinkage as SurfaceLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel as PolyhedronModel
 from graphs.mechanism.sc import SCGraph as SCGraph
 from graphs.mechanism.scd import SCDGraph as SCDGraph
 from graphs.mechanism.sheet import Sheet as Sheet
+from graphs.mechanism.surfaces import SurfaceLinkage as SurfaceLinkage
 from graphs.mechanism.vertex_edge import VertexEdgeGraph as VertexEdgeGraph
 from graphs.reduce.ride_alongs import reduce as reduce
 from synth.advice.advised import advise as advise

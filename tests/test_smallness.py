@@ -19,7 +19,7 @@ SOURCES = {
 DECOMPOSITIONS = {"svd", "svdvals", "null_space", "matrix_rank", "orth"}
 DECOMPOSING = ("graphs/rank/", "graphs/geometry.py")
 """Where matrices may be taken apart."""
-DECIDING = ("graphs/tolerances.py", "graphs/canonical.py", "graphs/geometry.py", "graphs/rank/singular_values.py")
+DECIDING = ("graphs/tolerances.py", "graphs/geometry.py", "graphs/rank/singular_values.py")
 """Where constants may say what is zero."""
 UNITS = {"LEAST", "EPSILON", "EPS", "eps"}
 """Names that make a small constant of what they are multiplied with."""
@@ -198,7 +198,7 @@ def test_small_constants_are_seen(source, names):
         ("np.linalg.svd(a)", True),
         ("take_apart = scipy.linalg.null_space", True),
         ("from numpy.linalg import matrix_rank", True),
-        ("from graphs.rank.spaces import null_space\nnull_space(a)", False),
+        ("from graphs.rank.singular_values import null_space\nnull_space(a)", False),
     ],
 )
 def test_decompositions_are_seen(source, seen):

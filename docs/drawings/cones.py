@@ -14,9 +14,9 @@ from drawings.altered import cropped, legible, thinned
 from drawings.examples import DATA
 from drawings.pieces import arrow, head, of_shapes
 from drawings.together import above, beside, said
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.mechanism.surfaces import Cone
+from graphs.types import Floats
 from synth.conformed.layers import links_in_layers
 from synth.conformed.linkages import OnSurface, linkage_on_surfaces, loop_of_steps, loop_on_cones
 from synth.conformed.rates import ConformedChain

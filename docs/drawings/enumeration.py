@@ -21,7 +21,6 @@ from enumerate.contracted.graphs import contracted_graphs
 from enumerate.contracted.listing import frame_of, joints_of_all, placements_of
 from enumerate.scd.graphs import scd_graphs_of
 from graphs.errors import numbered
-from graphs.ids import LinkId
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from synth.atlas.building import AtlasPlan, build_atlas

@@ -6,10 +6,10 @@ from dataclasses import replace
 from pathlib import Path
 
 import synth
-from graphs.arrays import Floats
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from graphs.types import Floats
 
 __all__ = ["DATA", "generated_sheet", "generated_solids", "graph_of_file", "sheet_of_file", "with_places"]
 

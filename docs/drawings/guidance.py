@@ -13,7 +13,7 @@ from drawings.altered import cropped, legible, thinned
 from drawings.examples import DATA
 from drawings.pieces import in_rows, of_shapes
 from drawings.together import beside, said
-from graphs.arrays import Floats
+from graphs.types import Floats
 from synth.drawing import Scene
 from synth.drawing.scene.shapes import FINE, NORMAL, Disc, Label, Line, Point, Polygon, Shape
 from synth.drawing.space.panels import View, view_from

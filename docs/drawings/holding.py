@@ -12,9 +12,9 @@ from drawings.altered import DASH, over
 from drawings.examples import generated_sheet, generated_solids
 from drawings.patterned import Patterned
 from drawings.together import above, beside, said
-from graphs.arrays import Floats
 from graphs.errors import numbered
 from graphs.mechanism.sheet import Sheet
+from graphs.types import Floats
 from synth.compliance.equilibrium import equilibrium, load_path
 from synth.compliance.limited import limits
 from synth.compliance.springs import ElasticLinkage, Springs

@@ -12,12 +12,12 @@ from drawings.examples import generated_sheet, sheet_of_file
 from drawings.patterned import Patterned
 from drawings.together import above, beside, said
 from graphs.identity.drawings import map_id, mechanism_from_map_id
-from graphs.ids import JointId
 from graphs.loops.loop import Centre
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.vertex_edge import vertex_edge_from_sc
+from graphs.types import JointId
 from synth.drawing import Scene
 from synth.drawing.mechanisms.labelling import centre_sign
 from synth.drawing.mechanisms.sc_graphs import class_numbers

@@ -12,17 +12,16 @@ from drawings.altered import DOTTED, over, plain_graph, without_letters
 from drawings.examples import generated_sheet, graph_of_file, sheet_of_file, with_places
 from drawings.patterned import Patterned
 from drawings.together import above, beside, said
-from graphs.arrays import Floats
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.count.report import mobility_report
 from graphs.creasing.edits import SheetEdit, crease_sheet, lock_crease, take_off_panels
 from graphs.errors import numbered
-from graphs.mechanism.evidence.estimate import estimate_of
-from graphs.mechanism.evidence.relations import nearly_exact
+from graphs.mechanism.estimate import estimate_of, nearly_exact
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
-from graphs.rank.overconstraint import diagnose
+from graphs.rank.exact import diagnose
 from graphs.rank.pose import PoseMobility, closure_at_pose, dense, pose_mobility
+from graphs.types import Floats
 from synth.drawing import Scene
 from synth.drawing.scene.frame import Plot, signed
 from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Polygon, Shape

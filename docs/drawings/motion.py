@@ -15,11 +15,11 @@ from drawings.examples import generated_sheet, generated_solids, sheet_of_file, 
 from drawings.patterned import Patterned
 from drawings.pieces import head, on_air
 from drawings.together import above, beside, said
-from graphs.arrays import Floats
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.errors import numbered
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from graphs.types import Floats
 from synth.drawing import Scene
 from synth.drawing.scene.frame import Plot, signed
 from synth.drawing.scene.shapes import (

@@ -9,10 +9,9 @@ import networkx as nx
 import numpy as np
 
 import synth
-from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
-from graphs.ids import JointId
 from graphs.mechanism.sheet import Edge, Sheet, with_all_edges
+from graphs.types import Floats, JointId
 from synth.drawing import Scene
 from synth.drawing.mechanisms.creases import places_on_page
 from synth.drawing.scene.shapes import Point

@@ -11,8 +11,8 @@ import numpy as np
 from drawings.altered import cropped, thinned
 from drawings.pieces import in_rows, of_shapes
 from drawings.together import beside, said
-from graphs.arrays import Flags, Floats
 from graphs.mechanism.sc import SCGraph
+from graphs.types import Flags, Floats
 from synth.conformed.layers import links_in_layers
 from synth.conformed.rates import ConformedChain
 from synth.drawing import Scene

@@ -1,4 +1,4 @@
-"""The answer to "how does it move?", put together: counts, exact rank, freedoms at the pose.
+"""Answers for any mechanism: mobility (counts, exact rank, degrees of freedom at a configuration), ids, models.
 
 `mobility` takes any mechanism and gives one object, which prints as the command line does.
 """

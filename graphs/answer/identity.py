@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import networkx as nx
 
 from graphs.convert.table import Mechanism, graph_of, to_scd
-from graphs.errors import InvariantError, UnsolvableError
-from graphs.given import check_given
+from graphs.errors import InvariantError, UnsolvableError, check_argument
 from graphs.identity.chains import chain_id
 from graphs.identity.drawings import map_id
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -35,7 +34,7 @@ class Identity(Printed):
         ``m1:...``, of the mechanism drawn on the sphere, with its centres and, where they are known, the sides of
         its links; mirror images have one id.
     notes : tuple of str
-        Why there is none.
+        Why an id is missing.
 
     Examples
     --------
@@ -54,9 +53,9 @@ class Identity(Printed):
 
     def blocks(self) -> list[Block]:
         """Return the lines that are printed."""
-        told = [f"chain    {self.chain}"] * (self.chain is not None)
-        told += [f"drawing  {self.drawing}"] * (self.drawing is not None)
-        return [*told, *(f"note: {note}" for note in self.notes)]
+        lines = [f"chain    {self.chain}"] * (self.chain is not None)
+        lines += [f"drawing  {self.drawing}"] * (self.drawing is not None)
+        return [*lines, *(f"note: {note}" for note in self.notes)]
 
 
 def identify(mechanism: Mechanism | nx.Graph) -> Identity:
@@ -66,10 +65,6 @@ def identify(mechanism: Mechanism | nx.Graph) -> Identity:
     ----------
     mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, SurfaceLinkage or networkx.Graph
 
-    Returns
-    -------
-    Identity
-
     Examples
     --------
     >>> identify(nx.cycle_graph(4)).chain
@@ -78,7 +73,7 @@ def identify(mechanism: Mechanism | nx.Graph) -> Identity:
     >>> identify(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])).drawing
     'm1:a-b.ac-.b-d.cd-'
     """
-    check_given("identify", mechanism, Mechanism | nx.Graph)
+    check_argument("identify", mechanism, Mechanism | nx.Graph)
     chain, no_chain = _id_or_reason(lambda: chain_id(graph_of(mechanism)))
     drawing, no_drawing = _id_or_reason(lambda: map_id(_drawn(mechanism)))
     notes = [f"no id of the chain: {no_chain}"] * (chain is None)
@@ -94,7 +89,7 @@ def _id_or_reason(find: Callable[[], str]) -> tuple[str | None, str]:
 
 
 def _drawn(mechanism: Mechanism | nx.Graph) -> SCGraph:
-    """Return the mechanism with all that its drawing tells."""
+    """Return the mechanism with its drawing."""
     if isinstance(mechanism, Sheet | PolyhedronModel):
         return to_scd(mechanism)
     graph = graph_of(mechanism)

@@ -1,39 +1,129 @@
-"""How a linkage with joints of all kinds moves at its pose, and which of its freedoms are passive.
+"""Linkages with joints of all kinds: mobility by count, at a configuration, and their passive degrees of freedom.
 
-A freedom is *passive* if it moves links of one leg, a row of binary links, and nothing else: the spinning of a leg
-between two spherical joints. Theory: docs/theory/joints.md.
+Wiener's Eq. 1 holds the freedoms of each joint; his Eqs. 2 and 3 are for joints of one freedom, Eq. 4 for
+revolutes. Wampler's count takes joints of all kinds as vertices, rods, and points on lines and planes
+(`graphs.joints.as_points`). Loops are planar if their revolutes are across a plane, their slides and planar joints
+along it. A freedom is *passive* if it moves links of one leg, a row of binary links, and nothing else: the
+spinning of a leg between two spherical joints. Theory: docs/theory/joints.md, docs/theory/mobility-by-count.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
 
-from graphs.answer.counted_joints import report_of_joints
-from graphs.answer.planar import with_planar_loops
-from graphs.answer.ranks import notes_of_pose
-from graphs.answer.report import MobilityAnswer
-from graphs.arrays import Floats
-from graphs.count.equations import traditional_cgk
+from graphs.answer.report import MobilityAnswer, notes_of_pose
+from graphs.count.equations import loop_form, modified_cgk, spherical_system, traditional_cgk
+from graphs.count.report import EquationResult, MobilityReport, mechanism_class, mobility_report
 from graphs.errors import numbered, shown
 from graphs.geometry import frame_about, unit
-from graphs.ids import JointId
+from graphs.joints.as_points import points_of, rods_between_balls
 from graphs.joints.as_revolutes import revolutes_of
 from graphs.joints.kinds import JointKind
 from graphs.joints.linkage import JointedLinkage, JointPlace, Leg, legs
 from graphs.joints.placing import placed
-from graphs.loops.cycle_space import signed_cycle
-from graphs.mechanism.precision import extent_of
+from graphs.loops.loop import Centre, Loop, signed_cycle
+from graphs.mechanism.precision import extent_of, precision_of_axes
 from graphs.mechanism.sc import SCGraph
-from graphs.rank.closure import independent_cycles
+from graphs.rank.exact import independent_cycles
 from graphs.rank.pose import pose_mobility_of_axes
 from graphs.rank.singular_values import spectrum
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, Tolerances
+from graphs.types import Floats, JointId
 
-__all__ = ["Passive", "freedoms_by_screws", "mobility_of_jointed", "passive_freedoms"]
+__all__ = [
+    "Passive",
+    "freedoms_by_screws",
+    "mobility_of_jointed",
+    "passive_freedoms",
+    "report_of_joints",
+    "with_planar_loops",
+]
+
+
+def report_of_joints(linkage: JointedLinkage) -> MobilityReport:
+    """Report the mobility of a linkage by count of its joints, each with its freedoms.
+
+    A slider-crank in space, and in a plane, where loops with a centre count three equations each:
+
+    >>> from graphs.loops.loop import Loop
+    >>> joints = [(0, 1), (1, 2), (2, 3), (3, 0)]
+    >>> for loops in ((), (Loop(range(4), "infinite"),)):
+    ...     crank = JointedLinkage(SCGraph(4, joints, loops), {3: JointKind.PRISMATIC})
+    ...     report_of_joints(crank).equations["traditional_cgk"].value
+    -2
+    1
+    """
+    chain = linkage.chain
+    kind = mechanism_class(chain)
+    freedoms = [one.freedoms for one in linkage.kinds.values()]
+    if all(one is JointKind.REVOLUTE for one in linkage.kinds.values()):
+        bare = mobility_report(chain)
+        return replace(bare, equations={**bare.equations, **_wampler(linkage)})
+    closed = chain.is_closed
+    looped = loop_form(sum(freedoms), len(chain.centred_loops), chain.spatial_loops)
+    equations = {
+        **_by_wiener(linkage, kind, freedoms),
+        "loop_form": EquationResult(
+            looped,
+            not closed,
+            "leaves out that the closing loop has a centre too"
+            if closed
+            else "joint freedoms, less 3 for each loop with a centre and 6 for each spatial loop",
+        ),
+        **_wampler(linkage),
+    }
+    bare = mobility_report(chain)
+    return MobilityReport(
+        mechanism_class=kind,
+        links=len(chain),
+        joints=len(chain.joints),
+        loops=chain.independent_loops,
+        centres=len(chain.centre_classes()),
+        mobility=looped,
+        equations=equations,
+        counts={**bare.counts, "freedoms": sum(freedoms)},
+        arrangement=bare.arrangement,
+    )
+
+
+def _by_wiener(linkage: JointedLinkage, kind: str, freedoms: list[int]) -> dict[str, EquationResult]:
+    """Evaluate Wiener's Eqs. 1 to 4; their conditions are those of his Table 6, and the kinds of the joints."""
+    chain = linkage.chain
+    links, joints = len(chain) - chain.components + 1, len(chain.joints)
+    bare = mobility_report(chain).equations
+    space = 6 if kind == "spatial" else 3
+    first = bare["traditional_cgk"]
+    if first.applies:
+        why = f"Eq. 1 with constraint space {space} for all loops, and the degrees of freedom of each joint"
+        first = EquationResult(traditional_cgk(links, freedoms, space), True, why)
+    elif first.value is not None:
+        first = replace(first, value=traditional_cgk(links, freedoms, space))
+    single = all(one == 1 for one in freedoms)
+    many = EquationResult(None, False, "for joints with one degree of freedom; these have more")
+    second = replace(bare["modified_cgk"], value=modified_cgk(links, joints, space)) if single else many
+    third = replace(bare["spherical_system"], value=spherical_system(links, joints)) if single else many
+    if bare["modified_cgk"].value is None and single:
+        second = bare["modified_cgk"]
+    fourth = EquationResult(None, False, "Eq. 4 is for revolute joints")
+    return {"traditional_cgk": first, "modified_cgk": second, "spherical_system": third, "polyhedron": fourth}
+
+
+def _wampler(linkage: JointedLinkage) -> dict[str, EquationResult]:
+    """Evaluate Wampler's count: Eq. 5, or 6 with points on lines and planes, or 7 with remote centres."""
+    model = points_of(linkage)
+    equations = mobility_report(model).equations
+    name = "wampler_eq7" if model.centres else "wampler_eq6" if model.on_line or model.on_plane else "wampler_eq5"
+    rods = len(list(rods_between_balls(linkage)))
+    spins = f"; {numbered(rods, 'rod')} between spherical joints, whose spin is not counted" if rods else ""
+    if linkage.chain.is_closed:
+        return {name: replace(equations[name], applies=False, why="a centre for each independent loop only")}
+    vertices = f"V {model.free_vertices}, E {model.counted_rods}, P {len(model.on_plane)}, L {len(model.on_line)}"
+    return {name: replace(equations[name], why=f"{vertices}, S+3 {len(model.centres)}{spins}")}
+
 
 _FEW = 3
 _ROD = 2
@@ -44,7 +134,7 @@ _ROD = 2
 class Passive:
     """Freedoms of one leg, by its joints, that move its own links only.
 
-    `spins`: it is one, a turn about the line through two spherical joints.
+    `spins`: there is one such freedom, a turn about the line through two spherical joints.
     """
 
     joints: tuple[JointId, ...]
@@ -53,17 +143,11 @@ class Passive:
 
 
 def mobility_of_jointed(linkage: JointedLinkage) -> MobilityAnswer:
-    """Return how a linkage with joints of all kinds moves: by count of its joints, and at its pose as revolutes.
+    """Return the mobility of a linkage with joints of all kinds: by count, and at its configuration as revolutes.
 
-    Loops that are planar as it lies count three equations each. ``counts["passive"]`` are the passive freedoms,
-    ``counts["revolutes"]`` the revolutes whose axes give the freedoms at the pose. Without places there is no
-    pose; a note gives the freedoms of a generic realisation.
-
-    >>> leg = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], ground=0)
-    >>> kinds = {1: JointKind.SPHERICAL, 2: JointKind.SPHERICAL, 3: JointKind.REVOLUTE}
-    >>> answer = mobility_of_jointed(placed(JointedLinkage(leg, kinds)))
-    >>> answer.mobility, answer.counts["passive"], answer.pose.dof
-    (2, 1, 2)
+    Loops that are planar at this configuration count three equations each. ``counts["passive"]`` are the passive
+    freedoms, ``counts["revolutes"]`` the revolutes whose axes give the degrees of freedom at the configuration.
+    Without places there is no configuration; a note gives the degrees of freedom of a random realisation.
     """
     whole = placed(linkage)
     solids = revolutes_of(whole)
@@ -94,7 +178,7 @@ def mobility_of_jointed(linkage: JointedLinkage) -> MobilityAnswer:
 
 
 def _if_planar(linkage: JointedLinkage) -> Iterator[str]:
-    """Say what a type counts in a plane, if its joints allow it and nothing says in which space its loops are."""
+    """Yield the count of a type in a plane, if its joints allow it and no loop has a centre."""
     chain = linkage.chain
     if linkage.places or chain.loops or not chain.independent_loops:
         return
@@ -105,9 +189,9 @@ def _if_planar(linkage: JointedLinkage) -> Iterator[str]:
 
 
 def passive_freedoms(linkage: JointedLinkage) -> tuple[Passive, ...]:
-    """Return the freedoms that move links of one leg only: those it has with both its ends held.
+    """Return the freedoms that move links of one leg only: those that a leg has with both its ends held.
 
-    The linkage has places. Of a leg with an open end, one that comes back to its first link, and a lone ring, each
+    The linkage has places. In a leg with an open end, one that comes back to its first link, and a lone ring, each
     row between successive spherical joints is examined; the ground is held, or the longest row of a ring without
     one.
     """
@@ -141,7 +225,7 @@ def _rows_between_ends(linkage: JointedLinkage, leg: Leg) -> list[tuple[JointId,
 
 
 def freedoms_by_screws(linkage: JointedLinkage) -> int | None:
-    """Return the freedoms at the pose by the screws of the joints, without revolutes; None if not known.
+    """Return the degrees of freedom by the screws of the joints, without revolutes; None if not known.
 
     The linkage has places, and all loops close with six equations.
     """
@@ -174,7 +258,7 @@ def _passive_notes(passive: tuple[Passive, ...]) -> Iterator[str]:
 
 
 def _spins(linkage: JointedLinkage, row: tuple[JointId, ...]) -> bool:
-    """Tell whether a row that moves between ends held is one that turns between two spherical joints."""
+    """Return whether a row that moves between held ends turns between two spherical joints."""
     return sum(linkage.kinds[joint] is JointKind.SPHERICAL for joint in row) == 2
 
 
@@ -199,3 +283,40 @@ def _screws_of(kind: JointKind, place: JointPlace, point: Floats) -> Floats:
     turning = np.hstack([turns, np.cross(point, turns)]) if len(turns) else np.zeros((0, 6))
     sliding = np.hstack([np.zeros_like(shifts), shifts]) if len(shifts) else np.zeros((0, 6))
     return np.asarray(np.vstack([turning, sliding]).T)
+
+
+def with_planar_loops(linkage: JointedLinkage) -> JointedLinkage:
+    """Return a linkage whose loops that are planar at its configuration have an infinite centre.
+
+    Loops that have a centre keep it. Without places nothing changes.
+    """
+    if not linkage.places:
+        return linkage
+    chain = linkage.chain
+    points = np.array([place.point for place in linkage.places.values()])
+    axes = np.array([axis for place in linkage.places.values() for axis in place.axes]).reshape(-1, 3)
+    parallel = Tolerances.of(precision_of_axes(points, axes).size).parallel
+    loops = [
+        Loop(loop.joints, Centre.INFINITE)
+        if not loop.has_centre and _is_planar(linkage, loop.joints, parallel)
+        else loop
+        for loop in independent_cycles(chain)
+    ]
+    if sum(loop.has_centre for loop in loops) == len(chain.centred_loops):
+        return linkage
+    whole = SCGraph(chain.nodes, chain.joints, loops, closing=chain.closing, ground=chain.ground)
+    return JointedLinkage(whole, linkage.kinds, linkage.places)
+
+
+def _is_planar(linkage: JointedLinkage, joints: Sequence[JointId], parallel: float) -> bool:
+    """Return whether the joints of a loop move its links in one plane, and turn some of them."""
+    if not all(linkage.kinds[joint].planar for joint in joints):
+        return False
+    turning = [joint for joint in joints if linkage.kinds[joint] is not JointKind.PRISMATIC]
+    if not turning:
+        return False
+    axes = {joint: unit(linkage.places[joint].axes[0]) for joint in joints}
+    normal = axes[turning[0]]
+    if any(np.linalg.norm(np.cross(axes[joint], normal)) > parallel for joint in turning):
+        return False
+    return all(abs(axes[joint] @ normal) <= parallel for joint in joints if joint not in turning)

@@ -1,4 +1,4 @@
-"""How does it move: one question to any mechanism.
+"""Mobility of any mechanism: one question, answered by count, by exact rank, and at a configuration.
 
 Theory: docs/theory/mobility-by-count.md, docs/theory/exact-mobility.md, docs/theory/pose.md.
 """
@@ -13,23 +13,120 @@ import networkx as nx
 import numpy as np
 
 from graphs.answer.jointed import mobility_of_jointed
-from graphs.answer.ranks import model_with_exact, model_with_pose, notes_of_pose, with_exact, with_pose
-from graphs.answer.report import MobilityAnswer
+from graphs.answer.report import MobilityAnswer, notes_of_pose
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.convert.table import Mechanism, graph_of
 from graphs.count.report import mobility_report
-from graphs.errors import InvariantError, numbered
+from graphs.errors import InvariantError, NumericalError, UnsolvableError, numbered, shown
 from graphs.joints.linkage import JointedLinkage
-from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import Precision, extent_of, precision_of
+from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from graphs.mechanism.surfaces import Cone, Cylinder
-from graphs.rank.pose import pose_mobility_of_axes
+from graphs.mechanism.surfaces import Cone, Cylinder, SurfaceLinkage
+from graphs.rank.exact import diagnose, exact_mobility
+from graphs.rank.pose import PoseMobility, pose_mobility, pose_mobility_of_axes, pose_mobility_of_model
+from graphs.rank.rods import exact_mobility_of_model
 from graphs.tolerances import DOUBLE
 
-__all__ = ["lying", "mobility", "precision_of_steps"]
+__all__ = [
+    "MOST_JOINTS",
+    "mobility",
+    "model_with_pose",
+    "precision_of_steps",
+    "sheet_in_frame",
+    "with_exact",
+    "with_pose",
+]
+
+MOST_JOINTS = 1200
+"""Larger mechanisms are ranked on request only: time grows with the cube of the joints."""
+
+_MOST_DIAGNOSED = 400
+_LISTED = 12
+"""Joints that are named, at most."""
+
+
+def with_exact(
+    answer: MobilityAnswer, mechanism: SCGraph | PolyhedronModel, *, demanded: bool = False
+) -> MobilityAnswer:
+    """Add the exact generic mobility, and where it differs from the count, why.
+
+    It is found whatever the size of the mechanism if it is demanded.
+    """
+    if isinstance(mechanism, PolyhedronModel):
+        size, unit, most = len(mechanism), "vertices", MOST_JOINTS // 3
+    else:
+        size, unit, most = len(mechanism.joints), "joints", MOST_JOINTS
+    if size > most and not demanded:
+        return answer.with_notes(
+            warnings=[f"exact rank skipped: {size} {unit}, more than {most}; --exact computes it"]
+        )
+    try:
+        if isinstance(mechanism, PolyhedronModel):
+            exact = exact_mobility_of_model(mechanism)
+        else:
+            exact = exact_mobility(mechanism)
+    except (UnsolvableError, NumericalError) as error:
+        return answer.with_notes(warnings=[f"no exact rank: {error}"])
+    answer = replace(answer, exact=exact)
+    if exact.mobility == answer.mobility:
+        return answer
+    return answer.with_notes(warnings=[_why_it_differs(answer, mechanism, exact.mobility)])
+
+
+def _why_it_differs(answer: MobilityAnswer, mechanism: SCGraph | PolyhedronModel, exact: int) -> str:
+    text = f"the exact generic mobility is {exact}, by count {answer.mobility}"
+    if isinstance(mechanism, PolyhedronModel) or len(mechanism.joints) > _MOST_DIAGNOSED:
+        return text
+    diagnosis = diagnose(mechanism)
+    if diagnosis.idle:
+        regions = sorted(diagnosis.regions, key=len)
+        region = sorted(regions[0], key=lambda joint: (len(str(joint)), str(joint)))
+        joints = ", ".join([*map(shown, region[:_LISTED]), *(["..."] if region[_LISTED:] else [])])
+        more = f" (and {numbered(len(regions) - 1, 'more place')})" if len(regions) > 1 else ""
+        text += f": {numbered(diagnosis.idle, 'redundant closure equation')}, among joints {joints}{more}"
+    if diagnosis.immobile:
+        text += f"; {numbered(len(diagnosis.immobile), 'joint')} generically immobile"
+    return text
+
+
+def with_pose(
+    answer: MobilityAnswer, sheet: Sheet, mechanism: SheetMechanism, *, demanded: bool = False
+) -> MobilityAnswer:
+    """Add the infinitesimal degrees of freedom of a crease pattern at its coordinates.
+
+    The overconstraint h is against the count of the answer (Eq. 8). Raises `UnsolvableError` if it is demanded and
+    the sheet has no coordinates, `InvariantError` if a hinge has no length.
+    """
+    if sheet.coordinates is None and not demanded:
+        return answer
+    pose = pose_mobility(sheet, mechanism)
+    return replace(answer, pose=pose).with_notes(warnings=[*notes_of_pose(pose), *_flat_notes(answer, pose)])
+
+
+def model_with_pose(answer: MobilityAnswer, model: PolyhedronModel) -> MobilityAnswer:
+    """Add the freedoms of a polyhedron model at its coordinates, if it has any."""
+    if not model.coordinates:
+        return answer
+    try:
+        pose = pose_mobility_of_model(model)
+    except UnsolvableError as error:
+        return answer.with_notes(warnings=[f"no degrees of freedom at this configuration: {error}"])
+    return replace(answer, pose=pose).with_notes(warnings=notes_of_pose(pose))
+
+
+def _flat_notes(answer: MobilityAnswer, pose: PoseMobility) -> list[str]:
+    """Caution where creases lie in one plane, if anything is gained by it."""
+    gained = pose.dof is None or (answer.mobility is not None and pose.dof > answer.mobility)
+    if not pose.flat_loops or not gained:
+        return []
+    if pose.flat:
+        return ["flat state: the sheet has fewer infinitesimal degrees of freedom once folded"]
+    flat = f"{numbered(pose.flat_loops, 'loop')} with all axes in one plane"
+    return [f"{flat}: fewer infinitesimal degrees of freedom once folded"]
+
 
 _ASSUMED = (
     "a link-joint graph without centres: each face of a drawing is assumed to have a finite one, which decides M"
@@ -52,29 +149,24 @@ def mobility(
     Parameters
     ----------
     mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, SurfaceLinkage, HingedSolids, ...
-        Of joints of other kinds than revolutes the answer is that of `graphs.answer.jointed`.
-        A plain graph is a link-joint graph: each face of a drawing of it is given a finite centre.
+        A plain graph is a link-joint graph: each face of a drawing of it gets a finite centre.
     exact : bool, optional
-        Find the exact generic rank; by default of what is not too large.
+        Find the exact generic rank; by default unless the mechanism is too large.
     hinge_flat : bool, optional
         Make hinges of the flat (F) edges of a crease pattern too.
     pose : int, optional
-        The frame of a FOLD file that is asked about, counts, ranks and freedoms as it lies; by default the
-        pattern as it was read, or if that has no coordinates, the first frame that has. False leaves the
-        freedoms out.
+        The frame of a FOLD file that counts, ranks and degrees of freedom are those of; by default the pattern as
+        it was read, or if that has no coordinates, the first frame that has. False leaves the degrees of freedom
+        at the configuration out.
     geometry : bool, optional
         Give loops round holes and cuts of a crease pattern the centre where their axes meet or are parallel.
     dual : SheetMechanism, optional
-        Of the crease pattern as it lies, made with the same options, where it is at hand.
-
-    Returns
-    -------
-    MobilityAnswer
+        The mechanism of the crease pattern, made with the same options, so that it is not made again.
 
     Raises
     ------
     UnsolvableError
-        If a pose is demanded of a sheet that has no coordinates there.
+        If a pose is demanded and the sheet has no coordinates there.
     FileError, InvariantError
         If there is no such frame, or the mechanism breaks an invariant.
 
@@ -86,15 +178,15 @@ def mobility(
     >>> mobility(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))).pose.dof
     1
     """
-    demanded, wanted = bool(exact), exact is not False
+    demanded = bool(exact)
     if isinstance(mechanism, Sheet):
-        drawn = lying(mechanism, None if pose is False else pose)
+        drawn = sheet_in_frame(mechanism, None if pose is False else pose)
         dual = dual or mechanism_of_sheet(drawn, hinge_flat=hinge_flat, geometry=geometry)
         return _of_sheet(drawn, dual, exact, pose, hinged=(hinge_flat, geometry))
     if isinstance(mechanism, PolyhedronModel):
         answer = MobilityAnswer.of(mobility_report(mechanism))
-        if wanted:
-            answer = model_with_exact(answer, mechanism, demanded=demanded)
+        if exact is not False:
+            answer = with_exact(answer, mechanism, demanded=demanded)
         return answer if pose is False else model_with_pose(answer, mechanism)
     if isinstance(mechanism, JointedLinkage):
         answer = mobility_of_jointed(mechanism)
@@ -110,7 +202,7 @@ def mobility(
         answer = answer.with_notes(
             warnings=["no degrees of freedom at a configuration: a graph has no coordinates"]
         )
-    if wanted:
+    if exact is not False:
         answer = with_exact(answer, sc, demanded=demanded)
     if pose is not False and isinstance(mechanism, SurfaceLinkage):
         return _conformed(answer, mechanism)
@@ -179,8 +271,8 @@ def _of_sheet(
     return with_pose(answer, drawn, dual, demanded=pose is not None)
 
 
-def lying(sheet: Sheet, pose: int | None) -> Sheet:
-    """Return the sheet that is asked about: a frame, or the first that has coordinates."""
+def sheet_in_frame(sheet: Sheet, pose: int | None) -> Sheet:
+    """Return the sheet of a frame, or without one the first that has coordinates."""
     if sheet.frames is None:
         if pose:
             raise InvariantError("frames", "has no frames", "a .fold file")

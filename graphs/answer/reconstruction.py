@@ -11,7 +11,7 @@ from typing import Any
 from graphs.convert.reconstruction import VertexStep, vertex_steps
 from graphs.convert.table import Mechanism, to_polyhedron, to_scd
 from graphs.count.equations import mobility_of_model
-from graphs.given import check_given
+from graphs.errors import check_argument
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.scd import FeatureCounts
 from graphs.printing import Block, Printed, TableBlock, plain
@@ -23,7 +23,7 @@ _TOLD = ("vertices", "implicit_centres", "external_edges", "internal_edges")
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Reconstruction(Printed):
-    """A polyhedron model, and how it came about.
+    """A polyhedron model, and the steps of its reconstruction.
 
     Attributes
     ----------
@@ -101,6 +101,6 @@ def reconstruct(mechanism: Mechanism) -> Reconstruction:
     >>> reconstruct(scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")]))
     <Reconstruction: <PolyhedronModel: 4 vertices, 6 rods>>
     """
-    check_given("reconstruct", mechanism, Mechanism)
+    check_argument("reconstruct", mechanism, Mechanism)
     scd = to_scd(mechanism)
     return Reconstruction(to_polyhedron(mechanism), tuple(vertex_steps(scd)), scd.counts)

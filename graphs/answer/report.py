@@ -8,13 +8,14 @@ from typing import Any
 from graphs.count.equations import overconstraint
 from graphs.count.report import MobilityReport
 from graphs.errors import numbered
-from graphs.mechanism.arrangement import ARRANGEMENTS
-from graphs.mechanism.reading import Reading
+from graphs.mechanism.sc import ARRANGEMENTS
+from graphs.mechanism.sheet import Reading
 from graphs.printing import Block, Printed, TableBlock, html_of, plain
-from graphs.rank.generic import ExactMobility
+from graphs.rank.exact import ExactMobility
 from graphs.rank.pose import PoseMobility
+from graphs.tolerances import DOUBLE
 
-__all__ = ["MobilityAnswer", "power_of_ten"]
+__all__ = ["MobilityAnswer", "notes_of_pose", "power_of_ten"]
 
 _TITLES = {
     "traditional_cgk": "C-G-K (Wiener Eq. 1)",
@@ -61,15 +62,15 @@ class MobilityAnswer(MobilityReport, Printed):
     Attributes
     ----------
     exact : ExactMobility or None
-        The generic mobility by rank, with its primes; None where it was not asked for or could not be found (a
-        warning says why).
+        The generic mobility by rank, with its primes; None if it was left out or could not be found (a warning
+        says why).
     pose : PoseMobility or None
-        The first-order freedoms where the coordinates are, with the gap of the singular values; None without
+        The infinitesimal degrees of freedom at the coordinates, with the gap of the singular values; None without
         coordinates.
     reading : Reading or None
-        What was done to a drawing when it was read, with places; None of what was not traced.
+        What was done to a drawing when it was read, with places; None if nothing was traced.
     overconstraint : int or None
-        h = freedoms at the pose - M (Wiener 2016, Eq. 8).
+        h = degrees of freedom at the configuration - M (Wiener 2016, Eq. 8).
 
     Notes
     -----
@@ -95,7 +96,7 @@ class MobilityAnswer(MobilityReport, Printed):
 
     @property
     def overconstraint(self) -> int | None:
-        """H = freedoms at the pose - M, where both are known."""
+        """H = degrees of freedom at the configuration - M, where both are known."""
         if self.pose is None or self.pose.dof is None or self.mobility is None:
             return None
         return overconstraint(self.pose.dof, self.mobility)
@@ -141,7 +142,7 @@ class MobilityAnswer(MobilityReport, Printed):
         if self.arrangement not in (None, "none", "single"):
             blocks.append(f"arrangement of centres: {self.arrangement} ({ARRANGEMENTS[self.arrangement]})")
         reading = self.reading or Reading()
-        blocks += [f"repaired: {reading.told(note)}" for note in self.repairs if note != reading.left_out]
+        blocks += [f"repaired: {reading.with_places(note)}" for note in self.repairs if note != reading.left_out]
         blocks += [f"note: {note}" for note in self.warnings]
         return blocks
 
@@ -167,7 +168,7 @@ def _pose_line(answer: MobilityAnswer) -> str:
 
 
 def _equations_line(answer: MobilityAnswer, *, hint: bool) -> str:
-    """Return the line that names the equations of mobility which apply; a value is given where it is not M."""
+    """Return the line that names the equations of mobility which apply; with its value where that is not M."""
     names = []
     for name, equation in answer.equations.items():
         if equation.applies and equation.value is not None:
@@ -194,6 +195,23 @@ def power_of_ten(number: float) -> str:
     """
     digit, power = f"{number:.0e}".split("e")
     return f"{digit}e{int(power)}"
+
+
+def notes_of_pose(pose: PoseMobility) -> list[str]:
+    """Return the notes on the certainty of degrees of freedom at a configuration."""
+    evidence = pose.spectrum
+    if pose.dof is None:
+        near = ", ".join(f"{value:.1e}" for value in evidence.undecided[:3])
+        why = f"singular values near the noise: {near}" if near else "two counts of small values differ"
+        return [f"indeterminate at this configuration: {why}; precision of the coordinates: {pose.precision}"]
+    notes = []
+    if min(evidence.largest_zero, pose.precision.size) > DOUBLE.closed:
+        zeros = f"singular values up to {evidence.largest_zero:.0e} are noise"
+        notes.append(f"coordinates precise to {pose.precision}: {zeros}")
+    if evidence.nearly:
+        more = numbered(evidence.nearly, "more degree of freedom", "more degrees of freedom")
+        notes.append(f"nearly mobile: {more} if small strains are allowed")
+    return notes
 
 
 def _is_only_flat(answer: MobilityAnswer) -> bool:

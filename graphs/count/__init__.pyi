@@ -5,6 +5,9 @@ from graphs.count.equations import (
     modified_cgk as modified_cgk,
     overconstraint as overconstraint,
     polyhedron_equation as polyhedron_equation,
+    relative_cgk as relative_cgk,
+    relative_polyhedron as relative_polyhedron,
+    relative_spherical_system as relative_spherical_system,
     spherical_system as spherical_system,
     traditional_cgk as traditional_cgk,
     wampler_ground_free as wampler_ground_free,
@@ -12,11 +15,6 @@ from graphs.count.equations import (
     wampler_remote as wampler_remote,
     wampler_rods as wampler_rods,
     wampler_scissors as wampler_scissors,
-)
-from graphs.count.relative import (
-    relative_cgk as relative_cgk,
-    relative_polyhedron as relative_polyhedron,
-    relative_spherical_system as relative_spherical_system,
 )
 from graphs.count.report import (
     EquationResult as EquationResult,

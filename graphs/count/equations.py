@@ -1,17 +1,15 @@
 """Mobility by count: the equations of the papers, one function each.
 
 Wiener 2016, Eqs. 1 to 4 and 8; Wampler, Larson, Erdman 2007, Eqs. 5 to 10. Beside them the loop form and the count
-of closed surfaces. All are formulas: they hold for a general member of a type, and not for every type
-(docs/theory/mobility-by-count.md). :mod:`graphs.count.report` says which of them apply to a given mechanism.
+of closed surfaces. All are formulas: they hold for a generic realisation of a type, and not for every type
+(docs/theory/mobility-by-count.md). :mod:`graphs.count.report` says which of them apply to a mechanism.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.polyhedron import PolyhedronModel
 
 __all__ = [
     "closed_surface",
@@ -20,6 +18,9 @@ __all__ = [
     "modified_cgk",
     "overconstraint",
     "polyhedron_equation",
+    "relative_cgk",
+    "relative_polyhedron",
+    "relative_spherical_system",
     "spherical_system",
     "traditional_cgk",
     "wampler_ground_free",
@@ -31,7 +32,7 @@ __all__ = [
 
 
 def traditional_cgk(links: int, freedoms: Iterable[int], constraint_space: int) -> int:
-    """Chebychev-Gruebler-Kutzbach: M = lambda (N - 1) - sum (lambda - f).
+    """Chebychev-Gruebler-Kutzbach: M = lambda (N - 1) - sum (lambda - f) (Wiener 2016 and Wampler 2007, Eq. 1).
 
     Parameters
     ----------
@@ -42,13 +43,9 @@ def traditional_cgk(links: int, freedoms: Iterable[int], constraint_space: int) 
     constraint_space : int
         lambda: 3 if all axes pass through one centre (spherical, planar), 6 in space.
 
-    Returns
-    -------
-    int
-
     Notes
     -----
-    Wiener 2016, Eq. 1; Wampler 2007, Eq. 1. The text below Wiener's Eq. 1 swaps the words spherical and
+    The text below Wiener's Eq. 1 swaps the words spherical and
     spatial; his Table 1 is right.
 
     Examples
@@ -62,7 +59,7 @@ def traditional_cgk(links: int, freedoms: Iterable[int], constraint_space: int) 
 
 
 def modified_cgk(links: int, joints: int, constraint_space: int) -> int:
-    """Modified C-G-K for revolute joints: M = lambda (N - J - 1) + J.
+    """Modified C-G-K for revolute joints: M = lambda (N - J - 1) + J (Wiener 2016, Eq. 2).
 
     The constraint space is that of every loop, 3 for a loop with a centre, whether or not the loops share
     it: so the equation holds for spherical systems, where Eq. 1 presumes one centre.
@@ -73,14 +70,6 @@ def modified_cgk(links: int, joints: int, constraint_space: int) -> int:
         N, the fixed link included, and J, all revolute.
     constraint_space : int
         lambda of every loop: 3 with a centre, 6 without.
-
-    Returns
-    -------
-    int
-
-    Notes
-    -----
-    Wiener 2016, Eq. 2.
 
     Examples
     --------
@@ -93,20 +82,12 @@ def modified_cgk(links: int, joints: int, constraint_space: int) -> int:
 
 
 def spherical_system(links: int, joints: int) -> int:
-    """Spherical systems: M = 3 (N - 1) - 2 J.
+    """Spherical systems: M = 3 (N - 1) - 2 J (Wiener 2016, Eq. 3; Wampler 2007, Eq. 2).
 
     Parameters
     ----------
     links, joints : int
         N, the fixed link included, and J. Every loop has a centre.
-
-    Returns
-    -------
-    int
-
-    Notes
-    -----
-    Wiener 2016, Eq. 3; Wampler 2007, Eq. 2.
 
     Examples
     --------
@@ -117,24 +98,16 @@ def spherical_system(links: int, joints: int) -> int:
 
 
 def polyhedron_equation(vertices: int, implicit_centres: int, edges: int) -> int:
-    """Polyhedron model: M = 3 (V + C) - E - 6, with E = E_ext + E_int.
+    """Polyhedron model: M = 3 (V + C) - E - 6, with E = E_ext + E_int (Wiener 2016, Eq. 4).
 
     Parameters
     ----------
     vertices : int
         V, vertices of the links; one that several links share counts once.
     implicit_centres : int
-        C, loops whose centre the links do not reach.
+        C, loops (not classes) whose centre the links do not reach.
     edges : int
         E_ext, the joints and open edges, and E_int, 2 n - 6 of each link of n sides.
-
-    Returns
-    -------
-    int
-
-    Notes
-    -----
-    Wiener 2016, Eq. 4. C counts loops, not classes.
 
     Examples
     --------
@@ -149,20 +122,14 @@ def polyhedron_equation(vertices: int, implicit_centres: int, edges: int) -> int
 def loop_form(freedoms: int, centred_loops: int, spatial_loops: int) -> int:
     """Loop form: M = sum f - 3 L_sph - 6 L_spat, over independent loops.
 
+    For a connected SCD graph it equals :func:`polyhedron_equation` identically.
+
     Parameters
     ----------
     freedoms : int
         Sum of the freedoms of all joints: J, if all are revolute.
     centred_loops, spatial_loops : int
         Independent loops with a centre and without.
-
-    Returns
-    -------
-    int
-
-    Notes
-    -----
-    For a connected SCD graph it equals :func:`polyhedron_equation` identically.
 
     Examples
     --------
@@ -186,10 +153,6 @@ def closed_surface(joints: int, faces: int, spatial_loops: int, centres: Iterabl
     centres : iterable of int
         Distinct centres of each closed surface. Six conditions too many are counted if three or more centres
         are not in line, 5 if there are two, 3 if there is one.
-
-    Returns
-    -------
-    int
 
     Notes
     -----
@@ -215,10 +178,6 @@ def wampler_rods(vertices: int, rods: int) -> int:
     vertices, rods : int
         V and E, those of the fixed link too.
 
-    Returns
-    -------
-    int
-
     Examples
     --------
     Wampler's Fig. 9, a spherical four-bar:
@@ -239,10 +198,6 @@ def wampler_points(vertices: int, rods: int, on_plane: int, on_line: int) -> int
     on_plane, on_line : int
         P and L: points that stay on a plane of a link, on a line of one.
 
-    Returns
-    -------
-    int
-
     Examples
     --------
     A cylindric joint is two points of one body on a line of another, 4 constraints:
@@ -262,10 +217,6 @@ def wampler_remote(vertices: int, rods: int, on_plane: int, on_line: int, remote
         As of `wampler_points`.
     remote : iterable of int
         k of each remote centre; Eq. 7 is the case that all are 3.
-
-    Returns
-    -------
-    int
 
     Examples
     --------
@@ -291,10 +242,6 @@ def wampler_scissors(
     scissors : int
         X: pairs of bars hinged where they cross; their rods are not counted.
 
-    Returns
-    -------
-    int
-
     Examples
     --------
     Four scissors in a spherical loop:
@@ -310,18 +257,12 @@ def wampler_ground_free(
 ) -> int:
     """Leave ground out: M = 3 V + sum k S_{+k} - E - P - 2 L - 5 X (Wampler 2007, Eq. 10).
 
-    V and E leave out the vertices of the ground link and the rods between them.
-
     Parameters
     ----------
     vertices, rods : int
         V and E without the vertices of the ground link and the rods between them.
     on_plane, on_line, remote, scissors
         As of `wampler_scissors`.
-
-    Returns
-    -------
-    int
 
     Examples
     --------
@@ -340,13 +281,8 @@ def mobility_of_model(model: PolyhedronModel) -> int:
     ----------
     model : PolyhedronModel
 
-    Returns
-    -------
-    int
-
     Examples
     --------
-    >>> from graphs.mechanism.polyhedron import PolyhedronModel
     >>> mobility_of_model(PolyhedronModel(3, [(0, 1), (1, 2), (2, 0)]))
     0
     """
@@ -367,19 +303,75 @@ def overconstraint(actual: int, generic: int) -> int:
     Parameters
     ----------
     actual : int
-        Freedoms of the mechanism as it is, at its pose.
+        Degrees of freedom of the mechanism at its configuration.
     generic : int
-        Mobility of a general member of its type.
-
-    Returns
-    -------
-    int
+        Mobility of a generic realisation of its type.
 
     Examples
     --------
-    A 3 x 3 Miura mesh moves with 1 freedom where the count says 0:
+    A 3 x 3 Miura mesh moves with 1 degree of freedom where the count says 0:
 
     >>> overconstraint(1, 0)
     1
     """
     return actual - generic
+
+
+def relative_cgk(links: int, joints: int, constraint_space: int) -> int:
+    """Modified C-G-K: dM = lambda (dN - dJ) + dJ (Wiener 2016, Eq. 5).
+
+    Parameters
+    ----------
+    links, joints : int
+        dN and dJ: links and joints added, negative if taken away.
+    constraint_space : int
+        lambda of the loops closed: 3 with a centre, 6 without.
+
+    Examples
+    --------
+    A spatial chain of three links and four joints between two links:
+
+    >>> relative_cgk(3, 4, 6)
+    -2
+    """
+    return constraint_space * (links - joints) + joints
+
+
+def relative_spherical_system(links: int, joints: int) -> int:
+    """Spherical systems: dM = 3 dN - 2 dJ (Wiener 2016, Eq. 6).
+
+    Parameters
+    ----------
+    links, joints : int
+        dN and dJ: links and joints added, negative if taken away. The loops closed have centres.
+
+    Examples
+    --------
+    A ride-along addendum (4.2.4), and locking a joint (6.3.2):
+
+    >>> relative_spherical_system(2, 3), relative_spherical_system(-1, -1)
+    (0, -1)
+    """
+    return 3 * links - 2 * joints
+
+
+def relative_polyhedron(vertices: int, implicit_centres: int, edges: int) -> int:
+    """Polyhedron model: dM = 3 (dV + dC) - dE (Wiener 2016, Eq. 7).
+
+    Parameters
+    ----------
+    vertices, implicit_centres, edges : int
+        dV, dC and dE: what is added of each, negative if taken away.
+
+    Notes
+    -----
+    The example in 4.2.5.2 prints dM = 3 dV - 2 dE; its result, -1, is that of Eq. 7.
+
+    Examples
+    --------
+    Wiener 4.2.5.2: four tetrahedra between two links of a six-bar.
+
+    >>> relative_polyhedron(6, 0, 11 + 8)
+    -1
+    """
+    return 3 * (vertices + implicit_centres) - edges

@@ -28,9 +28,8 @@ from graphs.count.equations import (
 )
 from graphs.errors import numbered, shown
 from graphs.loops.loop import Centre
-from graphs.mechanism.arrangement import Arrangement, arrangement_of
 from graphs.mechanism.polyhedron import PolyhedronModel
-from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sc import Arrangement, SCGraph, arrangement_of
 from graphs.mechanism.scd import SCDGraph
 
 __all__ = ["EquationResult", "MobilityReport", "mechanism_class", "mobility_report"]
@@ -40,7 +39,7 @@ _MANY = 3
 
 @dataclass(frozen=True, slots=True)
 class EquationResult:
-    """What one equation says.
+    """The value of one equation of mobility, and whether it applies.
 
     Attributes
     ----------
@@ -73,17 +72,17 @@ class MobilityReport:
         ``spherical``, ``planar``, ``spherical system``, ``hybrid``, ``spatial``, ``closed`` (closed
         surfaces and concentric loops), or ``polyhedron model`` where only vertices and rods are known.
     links, joints, loops : int or None
-        N, J, L (independent loops); None where the input does not tell them apart.
+        N, J, L (independent loops); None where the input does not distinguish them.
     centres : int
         Distinct centres: classes of loops, or remote centres of a polyhedron model.
     mobility : int or None
         Generic mobility by count; may be negative.
     equations : mapping of str to EquationResult
     counts : mapping of str to int
-        Further counts: V, C, E_ext, E_int, spatial loops, parts, ... as far as the input tells.
+        Further counts: V, C, E_ext, E_int, spatial loops, parts, ... those that the input has.
     repairs, warnings : tuple of str
     arrangement : str or None
-        How the centres are arranged (`graphs.mechanism.arrangement.ARRANGEMENTS`); None of a polyhedron model.
+        How the centres are arranged (`graphs.mechanism.sc.ARRANGEMENTS`); None for a polyhedron model.
 
     Examples
     --------
@@ -134,10 +133,6 @@ def mobility_report(mechanism: SCGraph | PolyhedronModel) -> MobilityReport:
     Parameters
     ----------
     mechanism : SCGraph, SCDGraph or PolyhedronModel
-
-    Returns
-    -------
-    MobilityReport
 
     Examples
     --------

@@ -2,8 +2,9 @@ from graphs.identity.chains import (
     automorphisms_of as automorphisms_of,
     chain_from_id as chain_from_id,
     chain_id as chain_id,
+    class_code as class_code,
+    symmetries_of_links as symmetries_of_links,
 )
-from graphs.identity.classes import class_code as class_code, symmetries_of_links as symmetries_of_links
 from graphs.identity.drawings import (
     drawing_of as drawing_of,
     map_code as map_code,

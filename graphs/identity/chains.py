@@ -1,39 +1,121 @@
-"""Canonical ids of link-joint graphs.
+"""Canonical ids of link-joint graphs, canonical codes and symmetries of mechanisms with centres, by bliss.
 
 Two mechanisms have the same id exactly if their links and joints correspond. The id is ``k1:`` and the graph6 of
 the canonical form that bliss finds; where links share several joints, its sparse6. A changed form would be
-``k2:``.
+``k2:``. bliss drops parallel edges, so `subdivided` makes every joint a node of its own; ids depend on the
+splitting heuristic.
+
+With centres a mechanism becomes a coloured graph of its links, its joints, and its classes of loops with one
+centre. Which loops were chosen within a class does not show. Theory: docs/theory/centre-classes.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Hashable, Iterable, Sequence
 from io import BytesIO
-from typing import Any
+from typing import Any, NamedTuple
 
+import bliss_bind
 import networkx as nx
 
 from graphs.errors import InvariantError, shown
-from graphs.identity.bliss import ColouredGraph, labels_of, subdivided, symmetries_of
+from graphs.mechanism.sc import SCGraph
+from graphs.types import JointId, LinkId
 
-__all__ = ["automorphisms_of", "canonical_order", "chain_from_id", "chain_id"]
+__all__ = [
+    "ColouredGraph",
+    "Symmetries",
+    "automorphisms_of",
+    "canonical_numbers",
+    "chain_from_id",
+    "chain_id",
+    "class_code",
+    "labels_of",
+    "subdivided",
+    "symmetries_of",
+    "symmetries_of_links",
+]
+
+_HEURISTIC = bliss_bind.Graph.SplittingHeuristic.shs_fm
+_LINK, _JOINT, _MARKED = 0, 1, 2
+
+
+class ColouredGraph(NamedTuple):
+    """A simple graph whose nodes 0, 1, ... may have colours; edges are pairs of nodes, no pair twice.
+
+    Labels and automorphisms keep the colours, one for each node; if there are none, all nodes are alike.
+    """
+
+    nodes: int
+    edges: Iterable[Sequence[int]]
+    colours: Sequence[int] = ()
+
+
+class Symmetries(NamedTuple):
+    """Canonical numbers of nodes, permutations of nodes that generate the automorphisms, how many these are."""
+
+    labels: list[int]
+    generators: list[list[int]]
+    size: float
+
+
+def subdivided(links: int, joints: Iterable[Sequence[int]], marked: int | None = None) -> ColouredGraph:
+    """Return the graph of links, then joints, each joint beside its two links: joints may be parallel.
+
+    Links are 0 to ``links - 1``; a marked one has a colour of its own.
+    """
+    pairs = list(joints)
+    colours = [_MARKED if link == marked else _LINK for link in range(links)] + [_JOINT] * len(pairs)
+    places = range(links, links + len(pairs))
+    edges = [(k, end) for k, ends in zip(places, pairs, strict=True) for end in ends]
+    return ColouredGraph(len(colours), edges, colours)
+
+
+def labels_of(graph: ColouredGraph) -> list[int]:
+    """Return the canonical number of each node."""
+    labels: list[int] = _built(graph).canonical_form()[0]
+    return labels
+
+
+def symmetries_of(graph: ColouredGraph) -> Symmetries:
+    """Return canonical numbers and automorphisms.
+
+    >>> symmetries_of(subdivided(4, [(0, 1), (1, 2), (2, 3), (3, 0)], marked=0)).size
+    2.0
+    """
+    generators: list[list[int]] = []
+    labels, statistics = _built(graph).canonical_form(lambda moved: generators.append(list(moved)))
+    return Symmetries(labels, generators, float(statistics.get_group_size_approx()))
+
+
+def _built(graph: ColouredGraph) -> bliss_bind.Graph:
+    """Return bliss's own graph; chains are made by the million, so nodes that are alike are made at once."""
+    built = bliss_bind.Graph(0 if graph.colours else graph.nodes)
+    for colour in graph.colours:
+        built.add_vertex(colour)
+    built.set_splitting_heuristic(_HEURISTIC)
+    add = built.add_edge
+    for a, b in graph.edges:
+        add(a, b)
+    return built
+
 
 _PREFIX = "k1:"
 
 
-def canonical_order(links: int, joints: Iterable[Sequence[int]]) -> list[int]:
+def canonical_numbers(links: int, joints: Iterable[Sequence[int]]) -> list[int]:
     """Return the canonical number of each link, 0 to ``links - 1``, of a simple graph.
 
     Link i has number ``order[i]``; isomorphic graphs get the same pairs of numbers.
 
-    >>> sorted(canonical_order(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> sorted(canonical_numbers(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     [0, 1, 2, 3]
     """
     return labels_of(ColouredGraph(links, joints))
 
 
 def automorphisms_of(links: int, joints: Iterable[Sequence[int]]) -> tuple[list[int], list[list[int]], int]:
-    """Return canonical numbers of the links of a simple graph, and its automorphisms.
+    """Return canonical numbers of the links of a simple graph, generators and number of its automorphisms.
 
     Parameters
     ----------
@@ -41,15 +123,6 @@ def automorphisms_of(links: int, joints: Iterable[Sequence[int]]) -> tuple[list[
         Links are 0 to ``links - 1``.
     joints : iterable of (int, int)
         Pairs of links; no pair twice.
-
-    Returns
-    -------
-    order : list of int
-        As `canonical_order` gives it.
-    generators : list of list of int
-        Permutations of the links that generate the group.
-    size : int
-        Number of automorphisms.
 
     Examples
     --------
@@ -81,7 +154,7 @@ def _canonical_links(graph: nx.Graph) -> dict[Any, int]:
         if a == b:
             raise InvariantError("joint", f"a joint of link {list(graph)[a]!r} with itself", "two links")
     distinct = len({(min(a, b), max(a, b)) for a, b in joints})
-    find = canonical_order if distinct == len(joints) else _order_with_parallel_joints
+    find = canonical_numbers if distinct == len(joints) else _order_with_parallel_joints
     return dict(zip(graph, find(len(number), joints), strict=True))
 
 
@@ -100,10 +173,8 @@ def chain_id(graph: nx.Graph) -> str:
 
     Examples
     --------
-    >>> chain_id(nx.cycle_graph(4)) == chain_id(nx.relabel_nodes(nx.cycle_graph(4), {0: "a", 1: 7, 2: "c"}))
-    True
-    >>> chain_id(nx.cycle_graph(4))
-    'k1:Cr'
+    >>> chain_id(nx.cycle_graph(4)), chain_id(nx.relabel_nodes(nx.cycle_graph(4), {0: "a", 1: 7, 2: "c"}))
+    ('k1:Cr', 'k1:Cr')
     """
     number = _canonical_links(graph)
     named = nx.MultiGraph()
@@ -119,17 +190,12 @@ def chain_id(graph: nx.Graph) -> str:
 
 
 def chain_from_id(code: str) -> nx.Graph:
-    """Return the link-joint graph of an id; its links are 0 to N - 1.
+    """Return the link-joint graph of an id, a multigraph if links share several joints; its links are 0 to N - 1.
 
     Parameters
     ----------
     code : str
         ``k1:``, and a graph6 or sparse6.
-
-    Returns
-    -------
-    networkx.Graph
-        A multigraph, if links share several joints.
 
     Raises
     ------
@@ -149,3 +215,70 @@ def chain_from_id(code: str) -> nx.Graph:
         return nx.from_sparse6_bytes(data) if text.startswith(":") else nx.from_graph6_bytes(data)
     except (nx.NetworkXError, ValueError, IndexError):
         raise InvariantError("id", f"the id {shown(code)}", "graph6 or sparse6 after k1:") from None
+
+
+def class_code(sc: SCGraph, marked: Collection[LinkId] = ()) -> tuple[Any, ...]:
+    """Return the same code for two mechanisms exactly if links, joints and centre classes correspond.
+
+    Parameters
+    ----------
+    sc : SCGraph
+    marked : collection of link ids
+        Links that must correspond to marked ones, such as those that an edit added.
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Loop
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> class_code(four_bar) == class_code(four_bar.relabel({0: "a"}))
+    True
+    """
+    graph, colours = _coloured(sc, marked)
+    labels = labels_of(graph)
+    form = sorted(tuple(sorted((labels[a], labels[b]))) for a, b in graph.edges)
+    return tuple(sorted(zip(labels, map(repr, colours), strict=True))), tuple(form), sc.spatial_loops
+
+
+def symmetries_of_links(sc: SCGraph) -> list[dict[LinkId, LinkId]]:
+    """Return permutations of the links that generate the symmetries of a mechanism.
+
+    Each maps every link to its image; there are none if there is no symmetry but the identity.
+
+    Parameters
+    ----------
+    sc : SCGraph or SCDGraph
+        The sides of the links of an SCD graph do not count.
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Loop
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> len(symmetries_of_links(four_bar)) > 0
+    True
+    """
+    graph, _ = _coloured(sc, ())
+    links = list(sc.nodes)
+    return [{link: links[moved[i]] for i, link in enumerate(links)} for moved in symmetries_of(graph).generators]
+
+
+def _coloured(sc: SCGraph, marked: Collection[LinkId]) -> tuple[ColouredGraph, list[tuple[Any, ...]]]:
+    """Return the coloured graph, links first in their order, and what the colours of its nodes stand for."""
+    colours: list[tuple[Any, ...]] = []
+    edges: list[tuple[int, int]] = []
+    number: dict[tuple[str, Hashable], int] = {}
+
+    def node(kind: str, name: LinkId | JointId | int, *colour: object) -> None:
+        number[kind, name] = len(colours)
+        colours.append((kind, *colour))
+
+    for link in sc.nodes:
+        node("link", link, link == sc.ground, link in marked)
+    for joint, ends in sc.joints.items():
+        node("joint", joint)
+        edges += [(number["joint", joint], number["link", end]) for end in ends]
+    for k, one in enumerate(sc.centre_classes()):
+        closing = sum(loop >= len(sc.loops) for loop in one.loops)
+        node("class", k, one.centre.value, len(one.loops), closing)
+        edges += [(number["class", k], number["joint", joint]) for joint in one.joints]
+    palette = {colour: i for i, colour in enumerate(sorted(set(colours), key=repr))}
+    return ColouredGraph(len(colours), edges, [palette[colour] for colour in colours]), colours

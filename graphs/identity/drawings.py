@@ -21,13 +21,12 @@ from typing import Any, NamedTuple
 import networkx as nx
 
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.ids import JointId, LinkId
 from graphs.loops.classes import centre_classes
-from graphs.loops.cycle_space import cut_into_cycles, signed_cycle
-from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.rotation import Rotation, Side, trace_faces
+from graphs.loops.loop import Centre, Loop, cut_into_cycles, signed_cycle
+from graphs.mechanism.drawing import Rotation, Side, trace_faces
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
+from graphs.types import JointId, LinkId
 
 __all__ = ["drawing_of", "map_code", "map_id", "map_text", "mechanism_from_map_id", "symbols_of"]
 
@@ -62,24 +61,13 @@ def map_id(mechanism: SCGraph) -> str:
 def map_code(mechanism: SCGraph) -> tuple[list[int], str]:
     """Return the symbols of the id (0 an open edge, 1 the end of a link, 2 + k joint k), and labels of the faces.
 
-    The labels are empty where all centres are finite.
+    Of all readings the symbols are the least. Labels are a letter for each bounded face; empty where all centres
+    are finite. Errors are those of `map_id`.
 
     Parameters
     ----------
     mechanism : SCGraph or SCDGraph
         As for `map_id`.
-
-    Returns
-    -------
-    symbols : list of int
-        The least of all readings.
-    labels : str
-        A letter for each bounded face; empty where all centres are finite.
-
-    Raises
-    ------
-    UnsolvableError
-        As `map_id`.
 
     Examples
     --------
@@ -159,11 +147,7 @@ def _reading(
 
 
 def map_text(symbols: Sequence[int], labels: str = "") -> str:
-    """Return the id of symbols and labels.
-
-    >>> map_text([2, 3, 1, 2, 3, 1])
-    'm1:ab.ab'
-    """
+    """Return the id of symbols and labels."""
     joints = max(symbols) - _JOINT + 1
     short = joints <= len(ascii_letters)
 
@@ -187,13 +171,7 @@ def _split(symbols: Sequence[int]) -> Iterator[list[int]]:
 
 
 def symbols_of(code: str) -> tuple[list[int], str]:
-    """Return the symbols and the labels of an id.
-
-    Raises `InvariantError` if it is not an id.
-
-    >>> symbols_of("m1:ab.ab")
-    ([2, 3, 1, 2, 3, 1], '')
-    """
+    """Return the symbols and the labels of an id; raises `InvariantError` if it is not an id."""
     text, _, labels = code.removeprefix(_PREFIX).partition(";")
     if not code.startswith(_PREFIX):
         raise InvariantError("id", f"the id {shown(code)}", f"one that begins with {_PREFIX}")
@@ -221,10 +199,6 @@ def mechanism_from_map_id(code: str) -> SCGraph:
     ----------
     code : str
         ``m1:...``, least or not.
-
-    Returns
-    -------
-    SCGraph or SCDGraph
 
     Raises
     ------
@@ -264,11 +238,7 @@ def mechanism_from_map_id(code: str) -> SCGraph:
 
 
 def _loops(
-    code: str,
-    labels: str,
-    rotation: Rotation,
-    faces: Sequence[Any],
-    left_of: Mapping[tuple[JointId, LinkId], int],
+    code: str, labels: str, rotation: Rotation, faces: Sequence[Any], left_of: Mapping[tuple[JointId, LinkId], int]
 ) -> list[Loop]:
     """Return the loops of the bounded faces, in the order in which an id meets them."""
     met = list(
@@ -301,16 +271,13 @@ def _check_drawn(mechanism: SCGraph) -> None:
 def drawing_of(mechanism: SCGraph) -> tuple[Rotation, tuple[JointId, LinkId]]:
     """Return the drawing of a mechanism: its own, or the one whose bounded faces its loops are.
 
+    It is the rotation, link to sides counter-clockwise, and the outer face, which lies on the left of a joint seen
+    from a link.
+
     Parameters
     ----------
     mechanism : SCGraph or SCDGraph
-        Nothing cuts an SC graph in two, and it has a loop for every bounded face.
-
-    Returns
-    -------
-    rotation : mapping of link to sides, counter-clockwise
-    outer : (joint, link)
-        The outer face lies on the left of the joint, seen from the link.
+        An SC graph is 2-connected and has a loop for every bounded face.
 
     Raises
     ------
@@ -319,8 +286,7 @@ def drawing_of(mechanism: SCGraph) -> tuple[Rotation, tuple[JointId, LinkId]]:
 
     Examples
     --------
-    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> rotation, outer = drawing_of(four_bar)
+    >>> rotation, outer = drawing_of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]))
     >>> rotation[0], outer
     ((0, 3), (1, 1))
     """
@@ -330,7 +296,7 @@ def drawing_of(mechanism: SCGraph) -> tuple[Rotation, tuple[JointId, LinkId]]:
             raise UnsolvableError("a single link has no joint to begin with")
         return mechanism.rotation, (corner.leaving, corner.link)
     if not mechanism.loops:
-        raise UnsolvableError("a tree without open edges has no drawing of its own: give an SCD graph")
+        raise UnsolvableError("a tree without open edges has no drawing of its own; expected an SCD graph")
     cycles = [loop.joints for loop in mechanism.loops]
     rest: set[JointId] = set()
     for cycle in cycles:

@@ -1,24 +1,32 @@
-"""Loops of a mechanism: what a loop is, and that it is a cycle.
+"""Loops of a mechanism, and cycles over GF(2): independence, sums, and signs of the joints that a cycle passes.
 
 A *loop* is a cycle of links and joints. Where all its joint axes pass through one point, that point is its
-*spherical centre*; it is at infinity for a planar loop (parallel axes) and absent for a spatial one
-(Wiener 2016, sections 3.3.1 to 3.3.3). Theory: docs/theory/sc-graphs.md.
+*spherical centre*; it is at infinity for a planar loop (parallel axes) and absent for a spatial one (Wiener 2016,
+sections 3.3.1 to 3.3.3). A cycle is a set of joints; the sum of two is the joints in just one of them. Rows of
+bits stand for cycles. Theory: docs/theory/sc-graphs.md.
 """
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from graphs.errors import InvariantError, shown
-from graphs.ids import JointId, Joints, LinkId
+from graphs.errors import InvariantError, numbered, shown
+from graphs.types import JointId, Joints, LinkId
 
 __all__ = [
     "Centre",
     "Loop",
+    "added_independent",
+    "check_independent",
+    "cut_into_cycles",
     "cyclic_order",
+    "dependent_loop",
+    "in_span_of",
+    "signed_cycle",
+    "split_dependent",
 ]
 
 
@@ -27,12 +35,8 @@ class Centre(Enum):
 
     Attributes
     ----------
-    FINITE
-        In one point: a spherical loop.
-    INFINITE
-        At infinity: parallel axes, a planar loop.
-    NONE
-        Nowhere: a spatial loop.
+    FINITE, INFINITE, NONE
+        In one point (spherical loop), at infinity (parallel axes, planar loop), nowhere (spatial loop).
 
     Examples
     --------
@@ -58,7 +62,7 @@ class Loop:
     name : str, optional
         A name for the loop.
     at : str, optional
-        Name of the centre. Loops that give the same ``at`` share one centre although nothing forces them to
+        Name of the centre. Loops that have the same ``at`` share one centre although nothing forces them to
         (a *specialised* mechanism: the spherical analogue of Watt's chain, say). Leave it out for the most
         general mechanism.
 
@@ -103,8 +107,8 @@ class Loop:
 def cyclic_order(loop: Loop, joints: Joints) -> tuple[JointId, ...]:
     """Return the joints of a loop in cyclic order; refuse what is not one cycle.
 
-    A set of joints that is a cycle has one cyclic order up to start and direction. The joint given first
-    stays first, and the direction is that of the given order where the given order is cyclic.
+    A set of joints that is a cycle has one cyclic order up to start and direction. The first joint stays first,
+    and the direction is kept where the joints are in cyclic order already.
 
     Parameters
     ----------
@@ -112,10 +116,6 @@ def cyclic_order(loop: Loop, joints: Joints) -> tuple[JointId, ...]:
         A loop; its joints may come in any order.
     joints : mapping of joint id to (link, link)
         The joints of the graph.
-
-    Returns
-    -------
-    tuple of joint ids
 
     Raises
     ------
@@ -141,11 +141,13 @@ def cyclic_order(loop: Loop, joints: Joints) -> tuple[JointId, ...]:
         for link in joints[joint]:
             at_link[link].append(joint)
     if len(seen) < 2:
-        raise InvariantError("loop is a cycle", f"{loop.label} has {len(seen)} joint(s)", "at least two")
+        raise InvariantError("loop is a cycle", f"{loop.label} has {numbered(len(seen), 'joint')}", "at least two")
     for link, here in at_link.items():
         if len(here) != 2:
             raise InvariantError(
-                "loop is a cycle", f"{loop.label} meets link {shown(link)} in {len(here)} joint(s)", "two"
+                "loop is a cycle",
+                f"{loop.label} meets link {shown(link)} in {numbered(len(here), 'joint')}",
+                "two",
             )
     order = _walk(loop.joints, at_link, joints)
     if len(order) != len(seen):
@@ -156,7 +158,7 @@ def cyclic_order(loop: Loop, joints: Joints) -> tuple[JointId, ...]:
 
 
 def _is_cyclic(around: Sequence[JointId], joints: Joints) -> bool:
-    """Whether joints are one cycle in the order given: the common case, told without a dictionary of links."""
+    """Return whether joints are one cycle in their order: the common case, found without a dictionary of links."""
     if len(around) < 3 or any(joint not in joints for joint in around):
         return False
     a, b = joints[around[-1]]
@@ -175,12 +177,12 @@ def _is_cyclic(around: Sequence[JointId], joints: Joints) -> bool:
 
 
 def _walk(
-    given: Sequence[JointId], at_link: Mapping[LinkId, list[JointId]], joints: Joints
+    around: Sequence[JointId], at_link: Mapping[LinkId, list[JointId]], joints: Joints
 ) -> tuple[JointId, ...]:
-    """Follow a 2-regular set of joints from the one given first."""
-    first = given[0]
+    """Follow a 2-regular set of joints from the first."""
+    first = around[0]
     start, link = joints[first]
-    if given[1] in at_link[start] and given[1] not in at_link[link]:
+    if around[1] in at_link[start] and around[1] not in at_link[link]:
         link = start
     order = [first]
     while True:
@@ -191,3 +193,249 @@ def _walk(
         order.append(following)
         a, b = joints[following]
         link = b if a == link else a
+
+
+def check_independent(loops: Sequence[Loop]) -> None:
+    """Refuse loops that are not independent over GF(2): an `InvariantError` names a loop that is a sum of others.
+
+    Loops that own a joint no other loop has are peeled off first, again and again; this settles the bounded faces of
+    an embedding in linear time. Only what is left is eliminated.
+
+    Parameters
+    ----------
+    loops : sequence of Loop
+
+    Examples
+    --------
+    >>> check_independent([Loop((0, 1, 2)), Loop((2, 3, 4)), Loop((0, 1, 3, 4))])
+    Traceback (most recent call last):
+    ...
+    graphs.errors.InvariantError: loop '0 1 3 4' is the sum of others; expected independent loops [independent loops]
+    """  # noqa: E501
+    culprit = dependent_loop([loop.joints for loop in loops])
+    if culprit is not None:
+        raise InvariantError(
+            "independent loops",
+            f"{loops[culprit].label} is the sum of others",
+            "independent loops",
+            ("loops", culprit),
+        )
+
+
+def dependent_loop(cycles: Sequence[Sequence[JointId]]) -> int | None:
+    """Return the index of a cycle that is a GF(2) sum of others, or None if they are independent.
+
+    Parameters
+    ----------
+    cycles : sequence of sequences of joint ids
+
+    Examples
+    --------
+    >>> dependent_loop([(0, 1, 2), (2, 3, 4), (0, 1, 3, 4)])
+    2
+    """
+    rest = _peel(cycles)
+    if not rest:
+        return None
+    cover = Counter(joint for index in rest for joint in cycles[index])
+    if set(cover.values()) == {2}:
+        return rest[-1]  # a closed surface: the sum of all that is left vanishes
+    basis: dict[int, int] = {}
+    for index, row in zip(rest, _bit_rows([cycles[i] for i in rest]), strict=True):
+        left = _reduce(row, basis)
+        if not left:
+            return index
+        basis[left.bit_length()] = left
+    return None
+
+
+def split_dependent(cycles: Sequence[Sequence[JointId]]) -> tuple[list[int], list[int]]:
+    """Split cycles into independent ones and ones that depend on these; return the indices of both, ascending.
+
+    Round the vertices of a closed surface the last cycle is the sum of the others. The cycles kept are as many as
+    the rank of all.
+
+    Parameters
+    ----------
+    cycles : sequence of sequences of joint ids
+
+    Examples
+    --------
+    Three cycles that close, and one by itself:
+
+    >>> split_dependent([("a", "b"), ("b", "c"), ("c", "a"), ("d", "e", "f")])
+    ([0, 1, 3], [2])
+    """
+    kept, dependent = list(range(len(cycles))), []
+    while (index := dependent_loop([cycles[i] for i in kept])) is not None:
+        dependent.append(kept.pop(index))
+    return kept, sorted(dependent)
+
+
+def added_independent(
+    cycles: Sequence[Collection[JointId]], candidates: Sequence[Collection[JointId]]
+) -> list[int]:
+    """Return the indices of the candidates, ascending, that are no GF(2) sum of the cycles and earlier candidates.
+
+    Parameters
+    ----------
+    cycles, candidates : sequence of collections of joint ids
+        The cycles may depend on each other.
+
+    Examples
+    --------
+    >>> added_independent([(0, 1, 2)], [(0, 1, 2), (2, 3, 4), (0, 1, 3, 4)])
+    [1]
+    """
+    basis: dict[int, int] = {}
+    added = []
+    for index, row in enumerate(_bit_rows([*cycles, *candidates])):
+        left = _reduce(row, basis)
+        if left:
+            basis[left.bit_length()] = left
+            if index >= len(cycles):
+                added.append(index - len(cycles))
+    return added
+
+
+def in_span_of(cycle: Collection[JointId], cycles: Sequence[Collection[JointId]]) -> tuple[int, ...] | None:
+    """Return the indices of cycles that sum to a cycle over GF(2), ascending, or None if it is no such sum.
+
+    Parameters
+    ----------
+    cycle : collection of joint ids
+    cycles : sequence of collections of joint ids
+        May depend on each other: then the sum is one of several.
+
+    Examples
+    --------
+    >>> in_span_of((0, 1, 3, 4), [(0, 1, 2), (2, 3, 4), (5, 6, 7)])
+    (0, 1)
+    """
+    *rows, target = _bit_rows([*cycles, cycle])
+    shift = max(row.bit_length() for row in (*rows, target))
+    # The low bits hold the cycle, the bits above them which cycles have been added.
+    basis: dict[int, int] = {}
+
+    def reduced(row: int) -> int:
+        while low := row & ((1 << shift) - 1):
+            pivot = basis.get(low.bit_length())
+            if pivot is None:
+                return row
+            row ^= pivot
+        return row
+
+    for index, row in enumerate(rows):
+        left = reduced(row | 1 << (shift + index))
+        if low := left & ((1 << shift) - 1):
+            basis[low.bit_length()] = left
+    left = reduced(target)
+    if left & ((1 << shift) - 1):
+        return None
+    used = left >> shift
+    return tuple(index for index in range(len(rows)) if used >> index & 1)
+
+
+def cut_into_cycles(even: Collection[JointId], joints: Joints) -> list[tuple[JointId, ...]]:
+    """Cut joints that meet every link an even number of times into cycles, each in cyclic order.
+
+    Parameters
+    ----------
+    even : collection of joint ids
+        A GF(2) sum of cycles.
+    joints : mapping of joint id to (link, link)
+
+    Examples
+    --------
+    >>> eight = {0: ("A", "B"), 1: ("B", "C"), 2: ("C", "A"), 3: ("A", "D"), 4: ("D", "E"), 5: ("E", "A")}
+    >>> cut_into_cycles(range(6), eight)
+    [(0, 1, 2), (3, 4, 5)]
+    """
+    at_link: dict[LinkId, list[JointId]] = defaultdict(list)
+    for joint in even:
+        for link in joints[joint]:
+            at_link[link].append(joint)
+    left, cycles = dict.fromkeys(even), []
+    while left:
+        link = joints[next(iter(left))][0]
+        order: list[tuple[LinkId, JointId]] = []
+        entered: dict[LinkId, int] = {}
+        while link not in entered:
+            entered[link] = len(order)
+            came = order[-1][1] if order else None
+            joint = next(j for j in at_link[link] if j in left and (came is None or j != came))
+            order.append((link, joint))
+            a, b = joints[joint]
+            link = b if a == link else a
+        cycles.append(tuple(joint for _, joint in order[entered[link] :]))
+        for joint in cycles[-1]:
+            del left[joint]
+    return cycles
+
+
+def signed_cycle(cycle: Sequence[JointId], joints: Joints) -> Iterator[tuple[JointId, int]]:
+    """Yield the joints of a cycle with 1 where it passes from a joint's first link to the second, else -1.
+
+    Parameters
+    ----------
+    cycle : sequence of joint ids
+        In cyclic order, as an SC graph stores its loops.
+    joints : mapping of joint id to (link, link)
+
+    Examples
+    --------
+    >>> list(signed_cycle((0, 1, 2), {0: ("a", "b"), 1: ("c", "b"), 2: ("c", "a")}))
+    [(0, 1), (1, -1), (2, 1)]
+    """
+    a, b = joints[cycle[0]]
+    link = a if b in joints[cycle[1]] else b
+    for joint in cycle:
+        first, second = joints[joint]
+        if link == first:
+            yield joint, 1
+            link = second
+        else:
+            yield joint, -1
+            link = first
+
+
+def _peel(cycles: Sequence[Sequence[JointId]]) -> list[int]:
+    """Return the indices of the cycles left when those with a joint of their own are taken off, repeatedly.
+
+    For each joint, how many cycles pass it and the exclusive or of their indices: where one is left, that is it.
+    """
+    number: dict[JointId, int] = {}
+    mixed: dict[JointId, int] = {}
+    for index, cycle in enumerate(cycles):
+        for joint in cycle:
+            number[joint] = number.get(joint, 0) + 1
+            mixed[joint] = mixed.get(joint, 0) ^ index
+    left = [True] * len(cycles)
+    work = [mixed[joint] for joint, count in number.items() if count == 1]
+    while work:
+        index = work.pop()
+        if not left[index]:
+            continue
+        left[index] = False
+        for joint in cycles[index]:
+            number[joint] -= 1
+            mixed[joint] ^= index
+            if number[joint] == 1:
+                work.append(mixed[joint])
+    return [index for index, there in enumerate(left) if there]
+
+
+def _bit_rows(cycles: Sequence[Collection[JointId]]) -> list[int]:
+    """Write cycles as integers, one bit a joint."""
+    place: dict[JointId, int] = {}
+    return [sum(1 << place.setdefault(joint, len(place)) for joint in cycle) for cycle in cycles]
+
+
+def _reduce(row: int, basis: Mapping[int, int]) -> int:
+    """Subtract basis rows (by leading bit) from a row until its leading bit is new, or nothing is left."""
+    while row:
+        pivot = basis.get(row.bit_length())
+        if pivot is None:
+            return row
+        row ^= pivot
+    return 0

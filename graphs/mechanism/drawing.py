@@ -1,31 +1,250 @@
-"""The drawing of a link-joint graph on the sphere: faces, vertices of the links, which loop is which face.
+"""Drawings of link-joint graphs on the sphere: faces, corners, vertices of the links, which loop is which face.
 
-Links are drawn by their rotations (`graphs.mechanism.rotation`); one face is the outer one. Source: Wiener 2016,
-section 3.4. Theory: docs/theory/scd-graphs.md.
+The *rotation* of a link is the cyclic order, counter-clockwise, of its sides: joints and *open edges* (None). The
+faces of the drawing, its corners and the vertices of the links follow (Wiener 2016, sections 3.4 and 3.4.3); one
+face is the outer one. Theory: docs/theory/scd-graphs.md.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
 from types import MappingProxyType
 
-from graphs.errors import InvariantError, shown
-from graphs.ids import JointId, Joints, LinkId
+from graphs.errors import InvariantError, numbered, shown
 from graphs.loops.loop import Loop
-from graphs.mechanism.rotation import (
-    Face,
-    Rotation,
-    Side,
-    check_rotation,
-    check_sides,
-    face_cycles,
-    link_vertices,
-    trace_faces,
-)
+from graphs.types import JointId, Joints, LinkId
 
-__all__ = ["Drawing", "FaceKind"]
+__all__ = [
+    "Corner",
+    "Drawing",
+    "Face",
+    "FaceKind",
+    "Rotation",
+    "Side",
+    "check_rotation",
+    "check_sides",
+    "face_cycles",
+    "link_vertices",
+    "trace_faces",
+]
+
+Side = JointId | None
+"""A side of a link: the id of the joint on it, or None for an open edge."""
+
+Rotation = Mapping[LinkId, tuple[Side, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class Corner:
+    """The part of a link between two successive joints of its rotation; it lies in one face.
+
+    Attributes
+    ----------
+    link : link id
+    arriving, leaving : joint id or None
+        The joints by which a walk round the face enters and leaves; None on a link without joints.
+    open_edges : int
+        Number of open edges between them.
+    first_side, last_side : int
+        Indices in the rotation of the entering and the leaving joint (of the first open edge, without joints).
+
+    Examples
+    --------
+    >>> faces, _ = trace_faces({"a": (0, 1), "b": (0, 1)}, {0: ("a", "b", None), 1: ("b", "a")})
+    >>> [(corner.link, corner.arriving, corner.leaving) for corner in faces[0].corners]
+    [(1, 'a', 'b'), (0, 'b', 'a')]
+    """
+
+    link: LinkId
+    arriving: JointId | None
+    leaving: JointId | None
+    open_edges: int
+    first_side: int
+    last_side: int
+
+
+@dataclass(frozen=True, slots=True)
+class Face:
+    """A face of the drawing, walked round with the face on the left (a bounded face counter-clockwise).
+
+    Attributes
+    ----------
+    index : int
+        Its place in the list of faces.
+    corners : tuple of Corner
+        In the order of the walk.
+    open_edges : int
+        Of all its corners.
+
+    Examples
+    --------
+    The two faces of a ring of three links with an open edge each:
+
+    >>> ring = {0: ("a", "b"), 1: ("b", "c"), 2: ("c", "a")}
+    >>> joints = {"a": (2, 0), "b": (0, 1), "c": (1, 2)}
+    >>> faces, _ = trace_faces(joints, {link: (*sides, None) for link, sides in ring.items()})
+    >>> [(len(face.joints), face.open_edges) for face in faces]
+    [(3, 3), (3, 0)]
+    """
+
+    index: int
+    corners: tuple[Corner, ...]
+    open_edges: int = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "open_edges", sum(corner.open_edges for corner in self.corners))
+
+    @property
+    def joints(self) -> tuple[JointId, ...]:
+        """The joints crossed, in order; a joint with this face on both its sides occurs twice."""
+        return tuple(corner.leaving for corner in self.corners if corner.leaving is not None)
+
+    @property
+    def open_corners(self) -> int:
+        """Number of corners with an open edge."""
+        return sum(corner.open_edges > 0 for corner in self.corners)
+
+
+def check_rotation(joints: Joints, rotation: Rotation) -> None:
+    """Raise `InvariantError` for a rotation that does not hold each joint once at each of its two links."""
+    expected: dict[LinkId, list[JointId]] = {link: [] for link in rotation}
+    for joint, ends in joints.items():
+        for link in ends:
+            if link not in expected:
+                raise InvariantError("rotation", f"link {shown(link)} has no rotation", "one for each link")
+            expected[link].append(joint)
+    for link, sides in rotation.items():
+        here = [side for side in sides if side is not None]
+        if len(set(here)) != len(here) or set(here) != set(expected[link]):
+            raise InvariantError(
+                "rotation",
+                f"the rotation of link {shown(link)} has the joints {shown(here)}",
+                f"each of {shown(expected[link])} once",
+            )
+
+
+def check_sides(rotation: Rotation) -> None:
+    """Refuse a link of fewer than three sides."""
+    for link, sides in rotation.items():
+        if len(sides) < 3:
+            raise InvariantError(
+                "link degree",
+                f"link {shown(link)} has {numbered(len(sides), 'side')}",
+                "three or more, open edges included",
+            )
+
+
+def trace_faces(joints: Joints, rotation: Rotation) -> tuple[tuple[Face, ...], dict[tuple[JointId, LinkId], int]]:
+    """Return the faces, and for each dart (joint, link it leaves) the index of the face on its left.
+
+    A rotation is the sides of each link, counter-clockwise.
+    """
+    place = {
+        (link, side): i for link, sides in rotation.items() for i, side in enumerate(sides) if side is not None
+    }
+    leaving = {
+        (link, side): _next_joint(sides, i)
+        for link, sides in rotation.items()
+        for i, side in enumerate(sides)
+        if side is not None
+    }
+    faces: list[Face] = []
+    left_of: dict[tuple[JointId, LinkId], int] = {}
+    for joint, ends in joints.items():
+        for start in ends:
+            if (joint, start) in left_of:
+                continue
+            corners, dart = [], (joint, start)
+            while dart not in left_of:
+                left_of[dart] = len(faces)
+                arriving, here = dart[0], _other(joints[dart[0]], dart[1])
+                departing, gap = leaving[here, arriving]
+                corners.append(
+                    Corner(here, arriving, departing, gap, place[here, arriving], place[here, departing])
+                )
+                dart = (departing, here)
+            faces.append(Face(len(faces), tuple(corners)))
+    for link, sides in rotation.items():
+        if all(side is None for side in sides):  # a link by itself has one face all round
+            faces.append(Face(len(faces), (Corner(link, None, None, len(sides), 0, 0),)))
+    return tuple(faces), left_of
+
+
+def link_vertices(faces: Sequence[Face], rotation: Rotation) -> tuple[int, dict[LinkId, tuple[int, ...]]]:
+    """Number the vertices: round each face, every run between successive open edges is one vertex.
+
+    Their number is that of open edges and of faces without open edges. Item ``i`` of a link lies between its side
+    ``i`` and side ``i + 1``.
+    """
+    at = {link: [-1] * len(sides) for link, sides in rotation.items()}
+    count = 0
+    for face in faces:
+        vertex, first = count, count
+        count += max(face.open_edges, 1)
+        for corner in face.corners:
+            # The face is on the left, so the corner is passed clockwise: from its last gap to its first.
+            gaps = at[corner.link]
+            for step in range(corner.open_edges + 1):
+                gaps[(corner.first_side - 1 - step) % len(gaps)] = vertex
+                if step < corner.open_edges:
+                    vertex = first + (vertex - first + 1) % face.open_edges
+    return count, {link: tuple(row) for link, row in at.items()}
+
+
+def face_cycles(face: Face) -> list[tuple[JointId, ...]]:
+    """Split the boundary of a face into its cycles, each a tuple of joints in walking order.
+
+    A face of a 2-connected graph has one. There are more where a sub-mechanism hangs inside the face (thesis
+    3.4.2) and none on the face of a tree; joints with the face on both their sides belong to no cycle.
+
+    >>> triangle = {"a": (0, 1), "b": (1, 2), "c": (2, 0)}
+    >>> faces, _ = trace_faces(triangle, {0: ("a", "c", None), 1: ("b", "a", None), 2: ("c", "b", None)})
+    >>> [face_cycles(face) for face in faces]
+    [[('a', 'b', 'c')], [('a', 'c', 'b')]]
+    """
+    cycles: list[tuple[JointId, ...]] = []
+    path: list[tuple[LinkId, JointId]] = []  # links entered and not yet closed off, and the joint crossed
+    position: dict[LinkId, int] = {}
+    for corner in face.corners:
+        if corner.leaving is None:
+            break
+        if corner.link in position:  # a closed part of the walk ends here
+            start = position[corner.link]
+            _close(path, start, position, cycles)
+        position[corner.link] = len(path)
+        path.append((corner.link, corner.leaving))
+    if path:
+        _close(path, 0, position, cycles)
+    return cycles
+
+
+def _close(
+    path: list[tuple[LinkId, JointId]], start: int, position: dict[LinkId, int], cycles: list[tuple[JointId, ...]]
+) -> None:
+    """Cut the closed part of a walk off its end; keep it unless it goes to and fro over one joint."""
+    part = path[start:]
+    del path[start:]
+    for link, _ in part:
+        position.pop(link, None)
+    around = tuple(joint for _, joint in part)
+    if len(set(around)) > 1:
+        first = around.index(min(around, key=str))
+        cycles.append(around[first:] + around[:first])
+
+
+def _other(ends: tuple[LinkId, LinkId], link: LinkId) -> LinkId:
+    return ends[1] if ends[0] == link else ends[0]
+
+
+def _next_joint(sides: Sequence[Side], index: int) -> tuple[JointId, int]:
+    """Return the next joint clockwise from a side, and the number of open edges passed."""
+    gap = 0
+    while sides[index - 1 - gap] is None:
+        gap += 1
+    return sides[index - 1 - gap], gap
 
 
 class FaceKind(Enum):
@@ -37,10 +256,8 @@ class FaceKind(Enum):
         A centre that is a vertex of the links themselves.
     IMPLICIT
         A remote centre: the axes meet there, the links do not reach it.
-    SPATIAL
-        No centre.
-    OUTER
-        The rest of the sphere; without a centre.
+    SPATIAL, OUTER
+        No centre; the rest of the sphere, without a centre.
 
     Examples
     --------
@@ -66,7 +283,7 @@ class Drawing:
         Counter-clockwise: joint ids, and None for an open edge.
     outer : (joint, "left" or "right"), optional
         The outer face: the one on that side of the joint, looking from its first link to its second. May be left
-        out where there is one face only (trees).
+        out where there is only one face (trees).
     loops : sequence of Loop, optional
         Independent loops; they belong to bounded faces.
     closing : sequence of Loop, optional
@@ -78,7 +295,6 @@ class Drawing:
     vertex_count : int
         V = open edges + faces without open edges.
     outer : (joint, side) or None
-        As given.
     outer_face : int
         Index of the outer face.
     loops : tuple of Loop
@@ -132,7 +348,7 @@ class Drawing:
         joint, side = outer
         if joint not in self.joints or side not in ("left", "right"):
             raise InvariantError(
-                "outer face", f"the outer face is given as {shown(outer)}", "a joint and 'left' or 'right'"
+                "outer face", f"the outer face is {shown(outer)}", "a joint and 'left' or 'right'"
             )
         return self.face_at(joint, side)
 
@@ -209,12 +425,12 @@ class Drawing:
         return self._vertices[link][side - 1], self._vertices[link][side]
 
     def loop_of_face(self, face: int) -> Loop | None:
-        """Return the loop that carries the centre of a face, if one was given for it."""
+        """Return the loop whose centre lies in a face, if any."""
         index = self.face_loops[face]
         return None if index is None else self.loops[index]
 
     def kind_of_face(self, face: int) -> FaceKind:
-        """Tell what lies in a face."""
+        """Return what lies in a face."""
         loop = self.loop_of_face(face)
         if loop is not None and loop.has_centre:
             return FaceKind.IMPLICIT if self.faces[face].open_edges else FaceKind.EXPLICIT

@@ -15,7 +15,7 @@ from typing import Any
 import networkx as nx
 
 from graphs.errors import InvariantError, numbered, shown
-from graphs.extent import check_extent
+from graphs.limits import check_extent
 
 __all__ = ["GROUND", "PointConstraint", "PolyhedronModel", "RemoteCentre"]
 
@@ -28,7 +28,7 @@ GROUND = "ground"
 
 @dataclass(frozen=True, slots=True)
 class RemoteCentre:
-    """A remote centre S_{+k}: closing the loop costs k fewer freedoms than its rods say (Wampler Eqs. 7, 8).
+    """A remote centre S_{+k}: closing the loop costs k fewer freedoms than its rods count (Wampler Eqs. 7, 8).
 
     Parameters
     ----------
@@ -40,12 +40,9 @@ class RemoteCentre:
 
     Examples
     --------
-    A centre that the links do not reach raises the count by k (Wampler 2007, Eq. 8):
-
     >>> from graphs.count.equations import mobility_of_model
-    >>> bars = [(0, 1), (2, 3)]
-    >>> [mobility_of_model(PolyhedronModel(4, bars, centres=some)) for some in ((), (RemoteCentre(3),))]
-    [4, 7]
+    >>> mobility_of_model(PolyhedronModel(4, [(0, 1), (2, 3)], centres=[RemoteCentre(3)]))
+    7
     """
 
     k: int
@@ -68,9 +65,8 @@ class PointConstraint:
     A point on a line gives up two freedoms:
 
     >>> from graphs.count.equations import mobility_of_model
-    >>> bars = [(0, 1), (2, 3)]
-    >>> [mobility_of_model(PolyhedronModel(4, bars, on_line=on)) for on in ((), (PointConstraint(0, (2, 3)),))]
-    [4, 2]
+    >>> mobility_of_model(PolyhedronModel(4, [(0, 1), (2, 3)], on_line=[PointConstraint(0, (2, 3))]))
+    2
     """
 
     vertex: VertexId
@@ -95,15 +91,15 @@ class PolyhedronModel(nx.Graph):
     scissors : iterable of 4-tuples of vertices, optional
         Wampler's X: the exposed vertices of each scissors element.
     ground : iterable of vertex ids, optional
-        The vertices of the ground link. If given, even if empty, ground is left out of the count (Eq. 10);
-        if None, all bodies are free and six freedoms are taken off (Eq. 9).
+        The vertices of the ground link, which is left out of the count, even if it has none (Eq. 10); if None,
+        all bodies are free and six freedoms are taken off (Eq. 9).
     links : mapping of link to its vertices in cyclic order, optional
         Which vertices make up which link, where that is known.
 
     Raises
     ------
     InvariantError
-        Naming what breaks which invariant.
+        With the invariant and what breaks it.
 
     Examples
     --------
@@ -182,9 +178,8 @@ class PolyhedronModel(nx.Graph):
     def _set_coordinates(self, coordinates: Mapping[Any, Sequence[float]]) -> None:
         if coordinates and set(coordinates) != set(self.nodes):
             odd = next(iter(set(coordinates) ^ set(self.nodes)))
-            raise InvariantError(
-                "coordinates", f"vertex {shown(odd)} is missing there or here", "coordinates for all vertices"
-            )
+            wrong = f"vertex {shown(odd)} has none" if odd in self else f"{shown(odd)} is no vertex"
+            raise InvariantError("coordinates", f"coordinates: {wrong}", "coordinates for all vertices")
         for vertex, place in coordinates.items():
             if len(place) != 3 or not all(isfinite(x) for x in place):
                 raise InvariantError(
@@ -213,9 +208,7 @@ class PolyhedronModel(nx.Graph):
         if one.of == GROUND:
             if self.ground is None:
                 raise InvariantError(
-                    "point constraint",
-                    f"{who} of vertex {shown(one.vertex)} needs the ground link",
-                    "'ground'",
+                    "point constraint", f"{who} of vertex {shown(one.vertex)} needs the ground link", "'ground'"
                 )
             return one
         spanning = self._known(one.of, who)
@@ -244,7 +237,7 @@ class PolyhedronModel(nx.Graph):
     # ---- what networkx asks for ---------------------------------------------------------------------
 
     def copy(self, as_view: bool = False) -> nx.Graph:
-        """Return a plain, mutable ``nx.Graph`` with the same vertices and rods (or a view, if asked)."""
+        """Return a plain, mutable ``nx.Graph`` with the same vertices and rods, or with ``as_view`` a view."""
         return super().copy(as_view=True) if as_view else nx.Graph(self)
 
     def to_undirected_class(self) -> Any:
@@ -303,7 +296,7 @@ class PolyhedronModel(nx.Graph):
         )
 
     def is_identical(self, other: object) -> bool:
-        """Tell whether two models are the same, ids and all (this is not isomorphism)."""
+        """Return whether two models are the same, ids and all (this is not isomorphism)."""
         return isinstance(other, PolyhedronModel) and self._identity() == other._identity()
 
     def _identity(self) -> tuple[Any, ...]:

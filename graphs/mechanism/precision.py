@@ -1,39 +1,169 @@
-"""How precise coordinates are: what a file of them can tell apart.
+"""How precise coordinates are, and whether a sheet lies in one plane to that precision.
 
-It is stated, or the digits say it, or points that ought to coincide, or to lie in one plane, and nearly do; and
-what the whole geometry shows is weighed against that. Theory: docs/theory/precision.md.
+The precision is stated, or the digits say it, or points that nearly coincide or nearly lie in one plane; the
+evidence of the whole geometry (`graphs.mechanism.estimate`) is weighed against that. A program rounds all
+coordinates alike: to so many decimals, to so many significant digits, or to single precision. Which it was is seen
+by the numbers themselves, whose shortest text is what was written, but for zeros at its end. Theory:
+docs/theory/precision.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from math import floor, log, log10
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.geometry import best_plane
-from graphs.mechanism.evidence.digits import digits_of, spacing_of
-from graphs.mechanism.evidence.estimate import Estimate, estimate_of
-from graphs.mechanism.reading import WrittenPrecision
-from graphs.mechanism.sheet import Frames, Sheet
-from graphs.tolerances import DOUBLE, EPSILON
+from graphs.errors import UnsolvableError
+from graphs.geometry import across, best_plane, unit
+from graphs.limits import LEAST, MOST
+from graphs.mechanism.estimate import Estimate, estimate_of
+from graphs.mechanism.sheet import Frames, Sheet, WrittenPrecision
+from graphs.tolerances import DOUBLE, EPSILON, Tolerances
+from graphs.types import Floats
 
 __all__ = [
     "BY_DIGITS",
     "ESTIMATED",
+    "Digits",
+    "Flattened",
     "Precision",
+    "digits_of",
     "extent_of",
+    "flat_places",
+    "flattened",
+    "in_space",
     "keeping",
+    "lies_flat",
     "off_panel_planes",
     "off_plane",
     "precision_as_written",
     "precision_of",
     "precision_of_axes",
     "precision_of_sheet",
+    "spacing_of",
     "stated",
     "written_by",
 ]
+
+_MOST_DECIMALS = 12
+_COARSEST = 3e-3
+"""A last decimal that is worth more of the extent than this is no rounding: few sizes were chosen on purpose."""
+_KINDS = 3
+"""Rounded numbers end in many digits; those of a grid of halves or quarters in few."""
+_LEAST_SIGNIFICANT, _MOST_SIGNIFICANT = 5, 12
+_HALF = 0.5
+"""So many of the numbers have all significant digits, at least: zeros at the end are left out."""
+_SINGLE = float(np.finfo(np.float32).eps)
+_LARGEST = float(np.finfo(np.float32).max)
+_UNLIKELY = log(1e6)
+"""Numbers are nearly those of single precision by chance as rarely as this."""
+
+
+@dataclass(frozen=True, slots=True)
+class Digits:
+    """What digits say: the error of a number, in its own unit, and how it was rounded."""
+
+    error: float
+    source: str
+
+
+def spacing_of(numbers: Floats) -> float:
+    """Return the spacing of double precision at the largest of some numbers."""
+    return EPSILON * float(np.abs(numbers).max(initial=0.0))
+
+
+def digits_of(written: Iterable[float] | Floats, extent: float) -> Digits | None:
+    """Return how coordinates that reach so far to either side were rounded; None if nothing says so."""
+    numbers = np.unique(np.abs(np.asarray(written, dtype=float).ravel()))
+    numbers = numbers[numbers > 4.0 * spacing_of(numbers)]
+    if not len(numbers) or extent <= 0.0 or not LEAST <= numbers[-1] <= MOST:
+        return None
+    single = _as_single(numbers, extent)
+    if single is not None:
+        return single
+    fixed, significant = _decimals(numbers), _significant(numbers)
+    share = 0.0 if fixed is None else _share(numbers * 10.0**fixed)
+    if significant is not None and _all_significant(numbers, significant) > share:
+        error = 0.5 * 10.0 ** (floor(log10(float(numbers[-1]))) - significant + 1)
+        if 2.0 * error <= _COARSEST * extent:
+            return Digits(error, f"{significant} significant digits")
+    if fixed and 10.0**-fixed <= _COARSEST * extent and _are_used(numbers * 10.0**fixed):
+        return Digits(0.5 * 10.0**-fixed, f"{fixed} decimals")
+    return None
+
+
+def _decimals(numbers: Floats) -> int | None:
+    """Return how many decimals write numbers in full, None if none that rounding in double precision leaves."""
+    slack = 4.0 * spacing_of(numbers)
+    for decimals in range(_MOST_DECIMALS + 1):
+        if 10.0**-decimals < 4.0 * slack:
+            return None
+        if float(np.abs(numbers - numbers.round(decimals)).max()) <= slack:
+            return decimals
+    return None
+
+
+def _significant(numbers: Floats) -> int | None:
+    """Return how many significant digits write numbers in full."""
+    powers = np.floor(np.log10(numbers))
+    for digits in range(_LEAST_SIGNIFICANT, _MOST_SIGNIFICANT + 1):
+        unit = 10.0 ** (powers - digits + 1)
+        if bool((np.abs(numbers / unit - np.rint(numbers / unit)) * unit <= 4.0 * EPSILON * numbers).all()):
+            return digits
+    return None
+
+
+def _share(whole: Floats) -> float:
+    """Return how many of some whole numbers do not end in zero, as part of all."""
+    return float((np.rint(whole) % 10 > 0).mean())
+
+
+def _all_significant(numbers: Floats, digits: int) -> float:
+    """Return how many numbers use all significant digits, as part of all; 0 if too few do, or all end alike."""
+    scaled = numbers / 10.0 ** (np.floor(np.log10(numbers)) - digits + 1)
+    share = _share(scaled)
+    return share if share >= _HALF and _are_used(scaled) else 0.0
+
+
+def _are_used(whole: Floats) -> bool:
+    """Return whether last digits are those of rounded numbers: many, and of many kinds."""
+    last = np.rint(whole) % 10
+    full = last[last > 0]
+    return len(full) >= max(_KINDS, len(whole) // 10) and len(np.unique(full)) >= _KINDS
+
+
+def _as_single(numbers: Floats, extent: float) -> Digits | None:
+    """Return that numbers are of single precision, written in full or to nine digits or so, if they are.
+
+    Text of a number of single precision is the nearest of its length, so that it is off by half of its own last
+    digit at most; any other number would be by chance.
+    """
+    error = _SINGLE / 2.0 * float(numbers[-1])
+    if numbers[-1] >= _LARGEST or 2.0 * error > _COARSEST * extent:
+        return None
+    single = numbers.astype(np.float32)
+    off, unit = np.abs(numbers - single.astype(float)), _last_digits(numbers)
+    if bool((off > 0.5 * unit + 4.0 * EPSILON * numbers).any()):
+        return None
+    mantissas = np.frexp(numbers)[0] * 2.0**12  # sums of few powers of two are exact in any precision
+    by_chance = np.minimum(1.0, unit / np.spacing(single).astype(float))
+    unlikely = -float(np.log(by_chance[mantissas != np.rint(mantissas)]).sum())
+    return Digits(error, "single precision") if unlikely > _UNLIKELY else None
+
+
+def _last_digits(numbers: Floats) -> Floats:
+    """Return what the last digit of each number is worth, as it is written."""
+    unit = EPSILON * numbers
+    powers = np.floor(np.log10(numbers))
+    slack = 4.0 * EPSILON * numbers
+    for digits in range(_MOST_SIGNIFICANT, 0, -1):
+        for last in (10.0 ** (powers - digits + 1), np.full(len(numbers), 10.0**-digits)):
+            fits = np.abs(numbers - np.rint(numbers / last) * last) <= slack
+            unit = np.where(fits, np.maximum(unit, last), unit)
+    return unit
+
 
 _ROUNDING = 8.0
 """Rounding units by which points that are one may differ."""
@@ -51,21 +181,9 @@ _KEPT = "_precision"
 class Precision:
     """The error that a coordinate may have.
 
-    Attributes
-    ----------
-    size : float
-        In units of the extent.
-    source : str
-        How it is known: ``stated``, ``2 decimals``, ``single precision``, ``estimated``, ...
-    evidence : str or None
-        What the geometry says of it; None where it was not asked.
-    margin : float or None
-        Of an estimate: how many times the largest deviation of what was meant the next larger one is.
-
-    Examples
-    --------
-    >>> print(Precision(3e-6, "2 decimals"))
-    3e-06 of the extent (2 decimals)
+    ``size`` is in units of the extent, ``source`` says how it is known: ``stated``, ``2 decimals``, ``single
+    precision``, ``estimated``, ... ``evidence`` is the evidence of the geometry, None where that was not examined.
+    ``margin`` of an estimate is how many times the largest deviation of what was meant the next larger one is.
     """
 
     size: float
@@ -74,8 +192,8 @@ class Precision:
     margin: float | None = None
 
     def __str__(self) -> str:
-        told = f": {self.evidence}" if self.source == ESTIMATED else ""
-        return f"{self.size:.0e} of the extent ({self.source}{told})"
+        evidence = f": {self.evidence}" if self.source == ESTIMATED else ""
+        return f"{self.size:.0e} of the extent ({self.source}{evidence})"
 
     def to_json(self) -> dict[str, float | str | None]:
         """Return the keys of the key ``configuration`` (docs/command-json.md)."""
@@ -102,11 +220,7 @@ def extent_of(points: Floats) -> float:
 
 
 def precision_of(coordinates: Sequence[Sequence[float]]) -> Precision:
-    """Return how precise coordinates are, in any unit of length, by the numbers alone.
-
-    >>> precision_of([(0.0, 0.0), (1.0, 0.0), (0.5, 0.25)]).source
-    'double precision'
-    """
+    """Return how precise coordinates are, in any unit of length, by the numbers alone."""
     points = np.asarray(coordinates, dtype=float)
     extent = extent_of(points)
     if extent == 0.0:
@@ -132,11 +246,7 @@ def written_by(ends: Floats) -> WrittenPrecision | None:
 def stated(sheet: Sheet, length: float | None) -> Sheet:
     """Return a sheet whose coordinates are stated to be wrong by no more than a length, in their unit.
 
-    Without a length it is the sheet as it is. Raises `InvariantError` if the length is no length.
-
-    >>> triangle = Sheet(3, (), "", ((0, 1, 2),), ((0.0, 0.0), (2.0, 0.0), (1.0, 1.5)))
-    >>> precision_of_sheet(stated(triangle, 0.01)).source
-    'stated'
+    Without a length it is the sheet itself. Raises `InvariantError` if the length is no length.
     """
     if length is None:
         return sheet
@@ -225,10 +335,7 @@ def _weighed(written: Precision, estimate: Estimate | None) -> Precision:
 def precision_as_written(sheet: Sheet) -> Precision:
     """Return how precise the coordinates of a sheet are as stated, else by numbers, welded ends and planar panels.
 
-    What the type of a sheet hangs on; nothing is estimated. Raises `ValueError` if the sheet has no coordinates.
-
-    >>> precision_as_written(Sheet(3, (), "", ((0, 1, 2),), ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0)))).source
-    'double precision'
+    The type of a sheet depends on it; nothing is estimated. Raises `ValueError` if the sheet has no coordinates.
     """
     if sheet.coordinates is None:
         raise ValueError("the sheet has no coordinates")
@@ -251,11 +358,7 @@ def precision_as_written(sheet: Sheet) -> Precision:
 
 
 def off_plane(points: Floats) -> float:
-    """Return how far points are off one plane at most, in units of their extent.
-
-    >>> off_plane(np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]))
-    0.0
-    """
+    """Return how far points are off one plane at most, in units of their extent."""
     extent = extent_of(points)
     if extent == 0.0 or len(points) < 4 or points.shape[1] < 3:
         return 0.0
@@ -277,3 +380,101 @@ def off_panel_planes(sheet: Sheet) -> float:
             by_size.setdefault(len(face), []).append(face)
     farthest = [float(best_plane(points[np.array(faces)]).off.max()) for faces in by_size.values()]
     return max(farthest, default=0.0) / extent if extent else 0.0
+
+
+_WHOLE = 1e15
+"""Numbers as large have no decimals to be rounded."""
+_PLANES = ("yz", "xz", "xy")
+
+
+@dataclass(frozen=True)
+class Flattened:
+    """A sheet in the plane, float[n, 2]: distances and the side that is seen are kept.
+
+    `turned` says what was done to bring the vertices there; it is empty where they lay in a plane z = constant.
+    """
+
+    places: Floats
+    turned: str
+
+
+def in_space(coordinates: Sequence[Sequence[float]]) -> Floats:
+    """Return points in space, float[n, 3]: z is 0 where the coordinates, in any unit of length, have none."""
+    points = np.zeros((len(coordinates), 3))
+    if len(coordinates):
+        points[:, : len(coordinates[0])] = coordinates
+    return points
+
+
+def lies_flat(sheet: Sheet) -> bool:
+    """Return whether a sheet lies in one plane, as far as its coordinates are precise."""
+    return flattened(sheet) is not None
+
+
+def flattened(sheet: Sheet) -> Flattened | None:
+    """Return a sheet as it is seen in its plane; None if it does not lie in one, or has no coordinates.
+
+    It is seen from the side on which most faces turn counter-clockwise. A sheet without faces, or in a plane z =
+    constant, is seen against the positive axis.
+    """
+    if sheet.coordinates is None:
+        return None
+    places = np.asarray(sheet.coordinates, dtype=float)
+    if places.size == 0 or places.shape[1] < 3 or len(set(places[:, 2].tolist())) == 1:
+        return Flattened(places.reshape(len(places), -1)[:, :2], "")
+    size = float(np.abs(places).max())
+    scaled = places / size  # products of coordinates stay finite
+    normal = _normal_of_sheet(sheet, places, scaled)
+    if normal is None:
+        return None
+    upright = abs(normal) == 1
+    if upright[2]:
+        return Flattened(places[:, :2], "flattened: points were a little off the xy plane")
+    if (facing := float(_area_vector(scaled, sheet.faces) @ normal)) != 0:
+        normal = normal * np.sign(facing)
+    along = unit(across(np.eye(3)[1 if abs(normal[0]) > 0.9 else 0], normal))
+    seen: Floats = places @ np.column_stack([along, np.cross(normal, along)])
+    came_from = f"the {_PLANES[int(upright.argmax())]} plane" if upright.any() else "a slanted plane"
+    return Flattened(seen + 0.0, f"turned from {came_from} into the xy plane")
+
+
+def flat_places(sheet: Sheet, what: str) -> list[tuple[float, float]]:
+    """Return the coordinates of a sheet as they are seen in its plane, for a format that is flat.
+
+    Raises `UnsolvableError` if the sheet has none, or does not lie in a plane.
+    """
+    if sheet.coordinates is None:
+        raise UnsolvableError(f"{what} needs coordinates, and the sheet has none")
+    flat = flattened(sheet)
+    if flat is None:
+        raise UnsolvableError(f"{what} is planar, and the sheet is not")
+    return [(x, y) for x, y in flat.places.tolist()]
+
+
+def _normal_of_sheet(sheet: Sheet, places: Floats, scaled: Floats) -> Floats | None:
+    """Return the normal of the plane that a sheet lies in, None if in none; precision matters off an axis only."""
+    still = np.flatnonzero(places.min(axis=0) == places.max(axis=0))
+    if len(still):
+        upright: Floats = np.eye(3)[still[-1]]
+        return upright
+    has_decimals = np.abs(places).max() <= _WHOLE
+    tolerance = Tolerances.of(precision_as_written(sheet).size).flat if has_decimals else DOUBLE.flat
+    return None if off_plane(scaled) > tolerance else _normal(scaled, tolerance)
+
+
+def _normal(places: Floats, tolerance: float) -> Floats:
+    """Return the unit normal whose largest component is positive; an axis where the plane stands on one."""
+    for axis in (2, 1, 0):
+        if np.ptp(places[:, axis]) <= tolerance * extent_of(places):
+            upright: Floats = np.eye(3)[axis]
+            return upright
+    return best_plane(places).direction
+
+
+def _area_vector(places: Floats, faces: Sequence[Sequence[int]]) -> Floats:
+    """Return the sum of the areas of faces, as vectors."""
+    starts = np.array([vertex for face in faces for vertex in face], dtype=np.int64)
+    ends = np.array([vertex for face in faces for vertex in (*face[1:], face[0])], dtype=np.int64)
+    middle = places.mean(axis=0)
+    total: Floats = np.cross(places[starts] - middle, places[ends] - middle).sum(axis=0)
+    return total

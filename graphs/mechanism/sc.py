@@ -1,26 +1,69 @@
-"""The SC graph: links, joints, and independent loops with their spherical centres.
+"""The SC graph: links, joints, and independent loops with their spherical centres, and how these are arranged.
 
-Source: Wiener 2016, section 3.3 (the SC connectivity graph). Theory: docs/theory/sc-graphs.md.
+Centres are the vertices of a graph, joints that pass two of them its edges: Bowen's classes of origami mechanisms
+are shapes of that graph. A mark of special geometry says that some realisations move which counts say are rigid.
+Sources: Wiener 2016, section 3.3 (the SC connectivity graph) and 6.1.4; Bowen and others 2013, and Wiener's Tables
+4 and 5, which show the classes by examples: the rules are those of docs/theory/vertex-edge-graphs.md. Theory:
+docs/theory/sc-graphs.md, docs/theory/realisation.md.
 """
 
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import combinations, pairwise
 from types import MappingProxyType
-from typing import Any, NoReturn
+from typing import Any, Literal, NoReturn
 
 import networkx as nx
 
 from graphs.errors import InvariantError, numbered, shown
-from graphs.ids import JointId, LinkId
 from graphs.loops.classes import CentreClass, centre_classes
-from graphs.loops.cycle_space import check_independent, dependent_loop
-from graphs.loops.loop import Centre, Loop, cyclic_order
-from graphs.mechanism.special import SpecialGeometry
+from graphs.loops.loop import Centre, Loop, check_independent, cyclic_order, dependent_loop
+from graphs.types import JointId, LinkId
 
-__all__ = ["SCGraph"]
+__all__ = ["ARRANGEMENTS", "Arrangement", "SCGraph", "SpecialGeometry", "arrangement_of", "centre_graph"]
+
+
+@dataclass(frozen=True, slots=True)
+class SpecialGeometry:
+    """Degrees of freedom of realisations whose dimensions obey conditions that the type does not state.
+
+    It is a remark on the type, which stays the same: ids, mobility and tests of equality do not depend on it.
+
+    Parameters
+    ----------
+    freedoms : int
+        Degrees of freedom of the finite motion of a realisation that obeys the conditions.
+    conditions : sequence of str
+        What is special, such as ``flat-foldable`` or ``two triples of parallel axes (Sarrus)``.
+
+    Raises
+    ------
+    InvariantError
+        If there are no freedoms, or no conditions.
+
+    Examples
+    --------
+    >>> str(SpecialGeometry(1, ["line symmetry"]))
+    '1 freedom by special geometry: line symmetry'
+    """
+
+    freedoms: int
+    conditions: tuple[str, ...]
+
+    def __init__(self, freedoms: int, conditions: Sequence[str]) -> None:
+        if freedoms < 1:
+            raise InvariantError("special", f"special geometry with {freedoms} freedoms", "1 or more")
+        texts = tuple(conditions)
+        if not texts or not all(isinstance(text, str) and text for text in texts):
+            raise InvariantError("special", f"the conditions are {shown(list(texts))}", "one text or more")
+        object.__setattr__(self, "freedoms", freedoms)
+        object.__setattr__(self, "conditions", texts)
+
+    def __str__(self) -> str:
+        return f"{numbered(self.freedoms, 'freedom')} by special geometry: {', '.join(self.conditions)}"
 
 
 class SCGraph(nx.MultiGraph):
@@ -35,22 +78,22 @@ class SCGraph(nx.MultiGraph):
     links : int or iterable of link ids, optional
         Names of the links, or how many there are (then they are 0, 1, 2, ...).
     joints : mapping of joint id to (link, link), or iterable of (link, link), optional
-        The joints; ids are 0, 1, 2, ... where none are given. Two links may share several joints.
+        The joints; ids of bare pairs are 0, 1, 2, ... Two links may share several joints.
     loops : iterable of Loop, optional
         Independent loops. A loop's joints may come in any order; they are stored in cyclic order. Independent
         cycles that are left out are spatial.
     closing : iterable of Loop, optional
         Loops that *depend* on the others and yet carry a centre: the last face of a closed surface, or the
-        outer one of concentric loops (thesis 3.3.6).
+        outer one of concentric loops (Wiener 3.3.6).
     ground : link id, optional
         The fixed link; without it the graph is a kinematic chain.
     special : SpecialGeometry, optional
-        A mark that members of special dimensions move. The type is the same with and without it.
+        A mark that realisations of special dimensions move. The type is the same with and without it.
 
     Attributes
     ----------
     centres_assumed : bool
-        Whether nobody gave the centres, and each face of an embedding was taken for a loop with one.
+        Whether the input had no centres, and each face of an embedding was taken for a loop with one.
 
     Raises
     ------
@@ -70,9 +113,6 @@ class SCGraph(nx.MultiGraph):
     ... )
     >>> len(watt.centre_classes()), watt.independent_loops
     (2, 2)
-    >>> import networkx as nx
-    >>> nx.is_biconnected(nx.Graph(watt))
-    True
     """
 
     loops: tuple[Loop, ...]
@@ -103,10 +143,7 @@ class SCGraph(nx.MultiGraph):
         self._check_loops()
         if ground is not None and ground not in self:
             raise InvariantError(
-                "ground is a link",
-                f"ground {shown(ground)} is no link",
-                "one of the links",
-                ("ground", ground),
+                "ground is a link", f"ground {shown(ground)} is no link", "one of the links", ("ground", ground)
             )
         self.ground = ground
         nx.freeze(self)
@@ -192,7 +229,7 @@ class SCGraph(nx.MultiGraph):
     # ---- what networkx asks for ---------------------------------------------------------------------
 
     def copy(self, as_view: bool = False) -> nx.MultiGraph:
-        """Return a plain, mutable ``nx.MultiGraph`` with the same links and joints (or a view, if asked)."""
+        """Return a plain, mutable ``nx.MultiGraph`` with the same links and joints, or a view of it."""
         return super().copy(as_view=True) if as_view else nx.MultiGraph(self)
 
     def to_undirected_class(self) -> Any:
@@ -207,7 +244,7 @@ class SCGraph(nx.MultiGraph):
 
     @property
     def joints(self) -> Mapping[JointId, tuple[LinkId, LinkId]]:
-        """Joint id to its two links, in the order given (read-only)."""
+        """Joint id to its two links, in their order (read-only)."""
         return MappingProxyType(self._joints)
 
     @cached_property
@@ -227,7 +264,7 @@ class SCGraph(nx.MultiGraph):
 
     @property
     def spatial_loops(self) -> int:
-        """Number of independent loops without a centre, given or left over."""
+        """Number of independent loops without a centre, listed in `loops` or not."""
         return self.independent_loops - len(self.centred_loops)
 
     @property
@@ -262,9 +299,7 @@ class SCGraph(nx.MultiGraph):
         return SCGraph(self.nodes, self._joints, loops, closing=closing, ground=self.ground)
 
     def relabel(
-        self,
-        links: Mapping[Any, LinkId] | None = None,
-        joints: Mapping[Any, JointId] | None = None,
+        self, links: Mapping[Any, LinkId] | None = None, joints: Mapping[Any, JointId] | None = None
     ) -> SCGraph:
         """Return the same mechanism under other names; what a mapping leaves out keeps its name."""
         of_link, of_joint = dict(links or {}), dict(joints or {})
@@ -287,7 +322,7 @@ class SCGraph(nx.MultiGraph):
         )
 
     def is_identical(self, other: object) -> bool:
-        """Tell whether two objects are the same graph, ids and all (this is not isomorphism).
+        """Return whether two objects are the same graph, ids and all (this is not isomorphism).
 
         The order of links and joints, and the start and direction of a loop, do not matter.
         """
@@ -329,3 +364,127 @@ def _renamed(loops: Sequence[Loop], of_joint: Mapping[JointId, JointId]) -> list
 
 def _loop_identity(loops: Sequence[Loop]) -> set[tuple[frozenset[Hashable], Centre, str | None, str | None]]:
     return {(frozenset(x.joints), x.centre, x.name, x.at) for x in loops}
+
+
+Arrangement = Literal[
+    "none", "single", "separate", "coupled", "linear", "tree", "loop", "periodic", "doubly periodic", "network"
+]
+
+ARRANGEMENTS: dict[Arrangement, str] = {
+    "none": "no loop has a centre",
+    "single": "one centre",
+    "separate": "centres that no joints connect",
+    "coupled": "two centres on one joint",
+    "linear": "three centres or more in a row",
+    "tree": "centres in rows that part, none closed",
+    "loop": "rows of centres that close once",
+    "periodic": "a part repeated three times or more, each joined to the next: in one direction",
+    "doubly periodic": "the same in two directions: a mesh of three by three centres or more",
+    "network": "centres in several closed rows that do not repeat so",
+}
+"""What each class is, in words."""
+
+_REPEATED = 3
+
+
+def arrangement_of(sc: SCGraph) -> Arrangement:
+    """Return the class of the arrangement of a mechanism's centres.
+
+    Watt's six-bar chain has two centres on one joint:
+
+    >>> watt = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
+    >>> arrangement_of(SCGraph(6, watt, [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))]))
+    'coupled'
+    """
+    graph = centre_graph(sc)
+    if len(graph) < 2:
+        return "single" if len(graph) else "none"
+    if not nx.is_connected(graph):
+        return "separate"
+    cycles = graph.number_of_edges() - len(graph) + 1
+    if not cycles:
+        if len(graph) == 2:
+            return "coupled"
+        return "linear" if max(degree for _, degree in graph.degree) == 2 else "tree"
+    if cycles == 1:
+        return "loop"
+    directions = _directions(graph)
+    return "doubly periodic" if directions > 1 else "periodic" if directions else "network"
+
+
+def centre_graph(sc: SCGraph) -> nx.Graph:
+    """Return the graph of centres: an edge between two that a joint passes."""
+    graph = nx.Graph()
+    passing: dict[object, list[int]] = {}
+    for number, one in enumerate(sc.centre_classes()):
+        graph.add_node(number)
+        for joint in one.joints:
+            passing.setdefault(joint, []).append(number)
+    for centres in passing.values():
+        graph.add_edges_from(pairwise(centres))
+    return graph
+
+
+def _directions(graph: nx.Graph) -> int:
+    """Return in how many directions a graph is a part repeated: a Cartesian product with a path, or with two.
+
+    Factors of a product are classes of edges: opposite ones in a square are in one class, and so are two at a
+    vertex that are in no square together (Feder 1992). A class is a direction of repetition if without its edges
+    the graph falls into three parts or more that are a row, each joined to the next vertex by vertex.
+    """
+    number: dict[tuple[int, int], int] = {}
+    for place, (a, b) in enumerate(graph.edges):
+        number[a, b] = number[b, a] = place
+    near = {vertex: set(graph[vertex]) for vertex in graph}
+    together: list[tuple[int, int]] = []
+    for vertex, neighbours in near.items():
+        for one, other in combinations(graph[vertex], 2):
+            first, second = number[vertex, one], number[vertex, other]
+            squares = near[one] & near[other] - {vertex}
+            if other in near[one] or not squares:
+                together.append((first, second))
+            else:
+                for across in squares - neighbours:
+                    together += [(first, number[other, across]), (second, number[one, across])]
+    classes = nx.utils.UnionFind(range(graph.number_of_edges()))
+    for first, second in set(together):
+        classes.union(first, second)
+    edges_of: dict[int, list[tuple[int, int]]] = {}
+    for a, b in graph.edges:
+        edges_of.setdefault(classes[number[a, b]], []).append((a, b))
+    return sum(_is_direction(graph, edges) for edges in edges_of.values())
+
+
+def _is_direction(graph: nx.Graph, edges: list[tuple[int, int]]) -> bool:
+    """Return whether a graph is a row of parts, each joined to the next by some edges, vertex by vertex.
+
+    A part repeated all round is no row: it has no ends.
+    """
+    left = graph.copy()
+    left.remove_edges_from(edges)
+    parts = [frozenset(part) for part in nx.connected_components(left)]
+    size = len(parts[0])
+    if any(len(part) != size for part in parts):
+        return False
+    part_of = {vertex: part for part in parts for vertex in part}
+    row = nx.Graph()
+    row.add_nodes_from(parts)
+    joined: dict[frozenset[frozenset[int]], dict[int, int]] = {}
+    for a, b in edges:
+        if part_of[a] == part_of[b]:
+            return False
+        row.add_edge(part_of[a], part_of[b])
+        joined.setdefault(frozenset((part_of[a], part_of[b])), {}).update({a: b, b: a})
+    ends = sum(degree == 1 for _, degree in row.degree)
+    is_row = len(parts) >= _REPEATED and ends == 2 and row.number_of_edges() == len(parts) - 1
+    if not is_row or not nx.is_connected(row):
+        return False
+    return all(_matches(left, one, other, joined[frozenset((one, other))]) for one, other in row.edges)
+
+
+def _matches(left: nx.Graph, one: frozenset[int], other: frozenset[int], to: dict[int, int]) -> bool:
+    """Return whether edges between two parts take all of one to the other, edges to edges."""
+    if set(to) != one | other:
+        return False
+    here = {frozenset((to[a], to[b])) for a, b in left.subgraph(one).edges}
+    return here == {frozenset(edge) for edge in left.subgraph(other).edges}

@@ -1,4 +1,4 @@
-"""A sheet: vertices, edges and faces of a crease pattern.
+"""A sheet: vertices, edges and faces of a crease pattern, with the repairs and the precision of its file.
 
 The mechanism it is: :mod:`graphs.convert.duality`. Theory: docs/theory/crease-patterns.md.
 """
@@ -10,12 +10,12 @@ from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, field, replace
 from itertools import chain
-from typing import Protocol, TypeVar
+from math import isfinite
+from typing import Any, Literal, Protocol, TypeAlias, TypeVar
 
 from graphs.errors import InvariantError, shown
-from graphs.extent import check_area, check_extent
+from graphs.limits import check_area, check_extent
 from graphs.mechanism.polyhedron import PolyhedronModel
-from graphs.mechanism.reading import Reading, WrittenPrecision
 
 __all__ = [
     "COLLINEAR",
@@ -23,11 +23,110 @@ __all__ = [
     "HINGES",
     "Edge",
     "Frames",
+    "Place",
+    "Reading",
+    "Repair",
+    "RepairKind",
     "Sheet",
+    "WrittenPrecision",
     "sheet_from_model",
     "sides_of_face",
     "with_all_edges",
 ]
+
+Place: TypeAlias = tuple[tuple[float, ...], ...]
+"""A point, both ends of a line, or the corners of a face, in the coordinates of the sheet."""
+
+RepairKind: TypeAlias = Literal[
+    "crossing split",
+    "line split at an end",
+    "ends welded",
+    "line drawn twice",
+    "line of no length",
+    "line pruned",
+    "vertex taken out",
+    "hole",
+]
+
+_FIRST = 3
+"""How many places a line names."""
+
+
+@dataclass(frozen=True, slots=True)
+class Repair:
+    """Repairs of one kind.
+
+    `what` names them with their number, as `Sheet.repairs` does. The places are those of all.
+    """
+
+    kind: RepairKind
+    what: str
+    places: tuple[Place, ...]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data; a place is a list of one point, two ends, or the corners of a face."""
+        places = [[list(point) for point in place] for place in self.places]
+        return {"kind": self.kind, "what": self.what, "places": places}
+
+    def __str__(self) -> str:
+        """Return the repairs with their first places.
+
+        >>> print(Repair("line pruned", "1 line that ends nowhere pruned", (((0.0, 0.25), (1.0, 0.5)),)))
+        1 line that ends nowhere pruned: from (0, 0.25) to (1, 0.5)
+        """
+        first = ", ".join(_place_text(place) for place in self.places[:_FIRST])
+        more = f" and {len(self.places) - _FIRST} more" if len(self.places) > _FIRST else ""
+        return f"{self.what}: {first}{more}" if first else self.what
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """What was done to a drawing when it was read.
+
+    `left_out` says which strokes were not understood; empty if all were.
+    """
+
+    repairs: tuple[Repair, ...] = ()
+    left_out: str = ""
+
+    @property
+    def warning(self) -> str:
+        """The warning that the pattern is not the whole drawing; empty if it is."""
+        return f"{self.left_out}; state what they are by --colour or --layer" if self.left_out else ""
+
+    def with_places(self, note: str) -> str:
+        """Return a repair with its first places where they are known."""
+        return next((str(repair) for repair in self.repairs if repair.what == note), note)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the key ``reading`` of an answer (docs/command-json.md)."""
+        return {"left_out": self.left_out or None, "repairs": [repair.to_json() for repair in self.repairs]}
+
+
+@dataclass(frozen=True, slots=True)
+class WrittenPrecision:
+    """The error that a coordinate may have, as it is written.
+
+    ``length`` is in the unit of the coordinates, ``source`` says how it is known: ``2 decimals``, ``stated``. If
+    it is ``stated`` by the user, it is not judged by the geometry. Raises `InvariantError` if the length is
+    negative, or not finite.
+    """
+
+    length: float
+    source: str
+    stated: bool = False
+
+    def __post_init__(self) -> None:
+        if not (isfinite(self.length) and self.length >= 0.0):
+            raise InvariantError("precision", f"the precision is {self.length:g}", "a length, zero or more")
+
+
+def _place_text(place: Place) -> str:
+    points = ["({})".format(", ".join(f"{x + 0.0:.6g}" for x in point)) for point in place]
+    if len(points) == 2:
+        return f"from {points[0]} to {points[1]}"
+    return f"at {points[0]}" if len(points) == 1 else f"round {points[0]}"
+
 
 COLLINEAR = 1e-6
 """Points are in one line or plane if they lie this close to it, in units of their extent.
@@ -45,7 +144,7 @@ Edge = tuple[int, int]
 
 
 class Frames(Protocol):
-    """The frames of the file that a sheet was read from: the same sheet in other poses."""
+    """The frames of the file that a sheet was read from: the same sheet in other configurations."""
 
     @property
     def others(self) -> int:
@@ -53,11 +152,11 @@ class Frames(Protocol):
 
     @property
     def unit(self) -> str | None:
-        """The name that the file gives its unit of length; None where it gives none."""
+        """The name of the unit of length in the file; None where it has none."""
 
     @property
     def left_out(self) -> tuple[str, ...]:
-        """What else the file says of the sheet, by the names that it has there: the sheet does not hold it."""
+        """Names of further data of the file that the sheet does not hold."""
 
     def frame(self, number: int) -> Sheet:
         """Return the sheet of one frame; 0 is the key frame."""
@@ -76,29 +175,30 @@ class Sheet:
         How many; they are 0, 1, 2, ...
     edges : tuple of (vertex, vertex)
     assignments : str
-        One letter an edge, as in FOLD: B border, M mountain, V valley, F flat, U unassigned, C cut, J join.
+        One letter per edge, as in FOLD: B border, M mountain, V valley, F flat, U unassigned, C cut, J join.
     faces : tuple of vertex cycles
     coordinates : tuple of (x, y) or (x, y, z), optional
         One for each vertex.
     title : str
     repairs : tuple of str
-        What was mended on reading.
+        What was repaired on reading.
     fold_angles : tuple of float or None, optional
         One for each edge, in degrees as in files; None where an edge has none.
     spread : float, optional
-        How far points were apart that were made one vertex, in the mean, in the length unit of the coordinates.
+        Mean distance of points that were made one vertex, in the length unit of the coordinates.
     precision : WrittenPrecision, optional
-        How precise the coordinates are as they are written or stated; two sheets are equal whatever theirs is.
+        How precise the coordinates are as they are written or stated.
     frames : Frames, optional
-        The frames of the file it was read from; two sheets are equal whatever theirs are.
+        The frames of the file it was read from.
     reading : Reading, optional
-        What was done to the drawing it was read from, with places; two sheets are equal whatever theirs are.
+        What was done to the drawing it was read from, with places. Equality of sheets does not depend on the last
+        four.
 
     Raises
     ------
     InvariantError
         For an edge or face that names an unknown vertex, an edge from a vertex to itself, coordinates out of the
-        range of `graphs.extent`, or faces whose vertices all lie in one line.
+        range of `graphs.limits`, or faces whose vertices all lie in one line.
 
     Examples
     --------
@@ -156,16 +256,12 @@ class Sheet:
 
 
 def sheet_from_model(model: PolyhedronModel) -> Sheet:
-    """Return the sheet whose faces are the links of a polyhedron model.
+    """Return the sheet whose faces are the links of a polyhedron model, with its coordinates.
 
     Parameters
     ----------
     model : PolyhedronModel
-
-    Returns
-    -------
-    Sheet
-        Rods between two links are unassigned creases; coordinates go with it.
+        Rods between two links become unassigned creases.
 
     Raises
     ------
@@ -216,11 +312,7 @@ def with_all_edges(sheet: Sheet) -> Sheet:
 
 
 def sides_of_face(face: Sequence[V]) -> list[tuple[V, V]]:
-    """Return the sides of a face, each from a vertex to the next.
-
-    >>> sides_of_face("abc")
-    [('a', 'b'), ('b', 'c'), ('c', 'a')]
-    """
+    """Return the sides of a face, each from a vertex to the next."""
     return list(zip(face, (*face[1:], face[0]), strict=True))
 
 

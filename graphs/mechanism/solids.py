@@ -1,4 +1,4 @@
-"""Solids hinged at edges: a linkage whose joint axes are given in space, at one pose.
+"""Solids hinged at edges: a linkage by the axes of its joints in space, at one configuration.
 
 How it moves is worked out in ``synth.moving``. Theory: docs/theory/moving.md.
 """
@@ -11,9 +11,9 @@ from math import hypot
 from types import MappingProxyType
 
 from graphs.errors import InvariantError, shown
-from graphs.extent import LEAST, MOST, check_extent, in_reach
-from graphs.ids import JointId
+from graphs.limits import LEAST, MOST, check_extent, in_reach
 from graphs.mechanism.sc import SCGraph
+from graphs.types import JointId
 
 __all__ = ["Axis", "HingedSolids"]
 
@@ -24,7 +24,7 @@ Axis = tuple[Vector, Vector]
 
 @dataclass(frozen=True, slots=True, repr=False)
 class HingedSolids:
-    """Links of any shape, and the axes of the hinges between them at one pose.
+    """Links of any shape, and the axes of the hinges between them at one configuration.
 
     Parameters
     ----------
@@ -60,8 +60,8 @@ class HingedSolids:
                 raise InvariantError("axis", f"joint {shown(joint)} has no axis", "one for each joint")
             point, direction = (_vector(joint, one) for one in self.axes[joint])
             if not LEAST <= hypot(*direction) <= MOST:
-                told = f"the axis of joint {shown(joint)} has the direction {shown(list(direction))}"
-                raise InvariantError("axis", told, "a vector that is not zero", ("axes", joint))
+                wrong = f"the axis of joint {shown(joint)} has the direction {shown(list(direction))}"
+                raise InvariantError("axis", wrong, "a vector that is not zero", ("axes", joint))
             checked[joint] = (point, direction)
         check_extent([point for point, _ in checked.values()])
         object.__setattr__(self, "axes", MappingProxyType(checked))
@@ -70,8 +70,8 @@ class HingedSolids:
         return f"<HingedSolids: {self.chain!r}>"
 
 
-def _vector(joint: JointId, given: Sequence[float]) -> Vector:
-    if len(given) != 3 or not in_reach(given):
-        told = f"the axis of joint {shown(joint)} has {shown(list(given))}"
-        raise InvariantError("axis", told, f"three numbers, none beyond {MOST:g}", ("axes", joint))
-    return (float(given[0]), float(given[1]), float(given[2]))
+def _vector(joint: JointId, numbers: Sequence[float]) -> Vector:
+    if len(numbers) != 3 or not in_reach(numbers):
+        wrong = f"the axis of joint {shown(joint)} has {shown(list(numbers))}"
+        raise InvariantError("axis", wrong, f"three numbers, none beyond {MOST:g}", ("axes", joint))
+    return (float(numbers[0]), float(numbers[1]), float(numbers[2]))

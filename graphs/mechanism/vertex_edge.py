@@ -16,10 +16,9 @@ from types import MappingProxyType
 import networkx as nx
 
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.ids import JointId, LinkId
-from graphs.loops.cycle_space import split_dependent
-from graphs.loops.loop import Centre, Loop
+from graphs.loops.loop import Centre, Loop, split_dependent
 from graphs.mechanism.sc import SCGraph
+from graphs.types import JointId, LinkId
 
 __all__ = ["VertexEdgeGraph", "sc_from_vertex_edge", "vertex_edge_from_sc"]
 
@@ -88,23 +87,19 @@ class VertexEdgeGraph:
         return graph
 
     def is_identical(self, other: object) -> bool:
-        """Tell whether two graphs are the same, ids and all; where a cyclic order starts does not matter."""
+        """Return whether two graphs are the same, ids and all; where a cyclic order starts does not matter."""
         if not isinstance(other, VertexEdgeGraph) or set(self.vertices) != set(other.vertices):
             return False
         return all(_same_turn(order, other.vertices[vertex]) for vertex, order in self.vertices.items())
 
 
 def sc_from_vertex_edge(graph: VertexEdgeGraph) -> SCGraph:
-    """Return the SC graph: one link a sector of the sheet, one joint a crease, one finite centre a vertex.
+    """Return the SC graph: one link per sector of the sheet, one joint per crease, one finite centre per vertex.
 
     Parameters
     ----------
     graph : VertexEdgeGraph
-
-    Returns
-    -------
-    SCGraph
-        Joints have the names of the creases, loops those of the vertices.
+        Its creases name the joints, its vertices the loops.
 
     Raises
     ------
@@ -115,8 +110,7 @@ def sc_from_vertex_edge(graph: VertexEdgeGraph) -> SCGraph:
     --------
     Two vertices of degree four with a crease in common: Watt's chain, two centres.
 
-    >>> graph = VertexEdgeGraph({"A": ("a", "b", "c", "d"), "B": ("a", "e", "f", "g")})
-    >>> sc = sc_from_vertex_edge(graph)
+    >>> sc = sc_from_vertex_edge(VertexEdgeGraph({"A": ("a", "b", "c", "d"), "B": ("a", "e", "f", "g")}))
     >>> len(sc), len(sc.joints), len(sc.centre_classes())
     (6, 7, 2)
     """
@@ -141,31 +135,23 @@ def sc_from_vertex_edge(graph: VertexEdgeGraph) -> SCGraph:
         joints[crease] = (link[sectors[sector(ends[0], i - 1)]], link[sectors[sector(ends[0], i)]])
     loops = [Loop(creases, Centre.FINITE, str(vertex)) for vertex, creases in graph.vertices.items()]
     kept, closing = split_dependent(list(graph.vertices.values()))
-    return SCGraph(
-        len(link),
-        joints,
-        [loops[i] for i in kept],
-        closing=[loops[i] for i in closing],
-    )
+    return SCGraph(len(link), joints, [loops[i] for i in kept], closing=[loops[i] for i in closing])
 
 
 def vertex_edge_from_sc(sc: SCGraph) -> VertexEdgeGraph:
     """Return the vertex-edge graph of an SC graph: a vertex for each loop, the joints round it in order.
 
+    Vertices have the names of the loops, or their numbers; numbers only where two names are equal.
+
     Parameters
     ----------
     sc : SCGraph
 
-    Returns
-    -------
-    VertexEdgeGraph
-        Vertices have the names of the loops, or their numbers; numbers only where two names are equal.
-
     Raises
     ------
     UnsolvableError
-        If the mechanism is not a sheet of finite centres: a loop is spatial or planar, or a joint lies in no
-        loop or in more than two.
+        If the mechanism is not a sheet of finite centres: a loop is spatial or planar, or a joint lies in no loop
+        or in more than two.
 
     Examples
     --------

@@ -1,8 +1,8 @@
-"""Mobility by rank: exact for a general member of a type, numerical at a pose.
+"""Mobility by rank: exact for a generic realisation of a type, numerical at a configuration.
 
-A general member is placed over a prime field (`general_member`), its loops close (`closure`) or its rods keep
-their lengths (`rods`), and the rank of these equations is found modulo primes (`generic`) or in real numbers
-(`pose`).
+A random realisation is placed over a prime field (`realisation`), its loops close (`exact`) or its rods keep their
+lengths (`rods`), and the rank of these equations is found modulo primes, or in real numbers (`pose`,
+`singular_values`, `dissection`).
 """
 
 from __future__ import annotations

@@ -1,19 +1,11 @@
-from graphs.rank.closure import (
+from graphs.rank.exact import (
     Closure as Closure,
-    closure_of as closure_of,
-    independent_cycles as independent_cycles,
-)
-from graphs.rank.fields import PRIMES as PRIMES, Field as Field, PrimeField as PrimeField, Reals as Reals
-from graphs.rank.general_member import (
-    Incidence as Incidence,
-    Realisation as Realisation,
-    incidence_of as incidence_of,
-    realise as realise,
-)
-from graphs.rank.generic import ExactMobility as ExactMobility, exact_mobility as exact_mobility
-from graphs.rank.overconstraint import (
     Diagnosis as Diagnosis,
+    ExactMobility as ExactMobility,
+    closure_of as closure_of,
     diagnose as diagnose,
+    exact_mobility as exact_mobility,
+    independent_cycles as independent_cycles,
     mobility_without as mobility_without,
 )
 from graphs.rank.pose import (
@@ -22,14 +14,25 @@ from graphs.rank.pose import (
     pose_mobility_of_axes as pose_mobility_of_axes,
     pose_mobility_of_model as pose_mobility_of_model,
 )
+from graphs.rank.realisation import (
+    PRIMES as PRIMES,
+    Field as Field,
+    Incidence as Incidence,
+    PrimeField as PrimeField,
+    Realisation as Realisation,
+    Reals as Reals,
+    incidence_of as incidence_of,
+    realise as realise,
+)
 from graphs.rank.rods import exact_mobility_of_model as exact_mobility_of_model
-from graphs.rank.singular_values import Spectrum as Spectrum, spectrum as spectrum
-from graphs.rank.spaces import (
+from graphs.rank.singular_values import (
     Inertia as Inertia,
+    Spectrum as Spectrum,
     Split as Split,
     inertia as inertia,
     null_space as null_space,
     rank_of as rank_of,
     row_space as row_space,
+    spectrum as spectrum,
     split as split,
 )

@@ -20,8 +20,8 @@ import scipy.linalg
 import scipy.sparse
 import scipy.sparse.linalg
 
-from graphs.arrays import Flags, Floats, Ints
-from graphs.rank.singular_values import Spectrum, judged, rounding, verdict
+from graphs.rank.singular_values import ZERO_SPECTRUM, Spectrum, judged, rounding, verdict
+from graphs.types import Flags, Floats, Ints
 
 __all__ = ["number_below", "sparse_spectrum"]
 
@@ -41,7 +41,7 @@ def sparse_spectrum(matrix: scipy.sparse.csr_matrix, places: Floats, error: Floa
     :func:`~graphs.rank.singular_values.spectrum`.
     """
     if not matrix.nnz:
-        return Spectrum(0, float("inf"), 0.0, 0.0, 0, 0.0)
+        return ZERO_SPECTRUM
     state = _Elimination(matrix.tocsr(), places, error, nearly)
     state.eliminate(np.arange(matrix.shape[0]), top=True)
     values, floors, near = (np.concatenate(found) for found in zip(*state.found, strict=True))
@@ -116,11 +116,13 @@ class _Elimination:
         block, columns, inner = self._assembled(rows)
         own = self._own(rows, columns)
         taken, rest = columns[own], columns[~own]
+        # QR first, where that makes the block lower: singular values and right singular vectors stay the same.
         triangle = block[block.any(axis=1)]
         if len(triangle) > len(columns):
             (whole,) = scipy.linalg.qr(triangle, mode="r", check_finite=False, overwrite_a=True)
             triangle = whole[: len(columns)]
         left, values, right = np.linalg.svd(triangle[:, own], full_matrices=True)
+        # Combinations of own columns with large values are pivots: their rows determine them by the other columns.
         large = int((values >= _PIVOT * self.largest).sum())
         self.pivots += large
         step = _Step(
@@ -134,6 +136,7 @@ class _Elimination:
         )
         smaller = np.zeros(len(taken) - large)
         smaller[: len(values) - large] = values[large:]
+        # The others are noise, and recorded, or too large for noise, and handed up under new column numbers.
         handed = self._judge(smaller, right[large:].T, step, top=top)
         step.handed = right[large:].T[:, handed]
         step.names = np.arange(self.named, self.named + int(handed.sum()))
@@ -162,7 +165,7 @@ class _Elimination:
         return block, columns, tuple(step for _, _, step in halves)
 
     def _own(self, rows: Ints, columns: Ints) -> Flags:
-        """Tell which columns no other row has."""
+        """Return which columns no other row has."""
         count = self.matrix.shape[1]
         here = np.bincount(self.matrix[rows].indices, minlength=count)
         matrix_columns = columns < count
@@ -171,7 +174,7 @@ class _Elimination:
         return np.asarray(own)
 
     def _judge(self, values: Floats, combinations: Floats, step: _Step, *, top: bool) -> Flags:
-        """Record the combinations that are noise, at the top all; tell which are handed up."""
+        """Record the combinations that are noise, at the top all; return which are handed up."""
         vectors = np.zeros((self.named, combinations.shape[1]))
         vectors[step.columns] = combinations
         for inner in step.inner:

@@ -16,16 +16,14 @@ from typing import Any
 import numpy as np
 import scipy.sparse
 
-from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.geometry import unit
-from graphs.ids import JointId
-from graphs.mechanism.plane import in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import (
     Precision,
     extent_of,
+    in_space,
     off_panel_planes,
     off_plane,
     precision_of,
@@ -34,22 +32,15 @@ from graphs.mechanism.precision import (
 )
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
-from graphs.rank.closure import Closure, closure_of
 from graphs.rank.dissection import sparse_spectrum
-from graphs.rank.fields import Reals
-from graphs.rank.general_member import Line, join
-from graphs.rank.rods import velocity_constraints
-from graphs.rank.singular_values import NEARLY, Spectrum, spectrum
-from graphs.rank.spaces import singular_values
+from graphs.rank.exact import Closure, closure_of
+from graphs.rank.realisation import Line, Reals, join
+from graphs.rank.rods import numbered_columns, velocity_constraints
+from graphs.rank.singular_values import NEARLY, Spectrum, singular_values, spectrum
 from graphs.tolerances import DOUBLE, Tolerances
+from graphs.types import Floats, JointId
 
-__all__ = [
-    "PoseMobility",
-    "closure_at_pose",
-    "pose_mobility",
-    "pose_mobility_of_axes",
-    "pose_mobility_of_model",
-]
+__all__ = ["PoseMobility", "closure_at_pose", "pose_mobility", "pose_mobility_of_axes", "pose_mobility_of_model"]
 
 _DENSE = 500
 """Up to this many joints all singular values are computed."""
@@ -61,26 +52,26 @@ _SPREAD = 1e-2
 
 @dataclass(frozen=True, slots=True)
 class PoseMobility:
-    """Freedoms at a pose.
+    """Infinitesimal degrees of freedom at a configuration.
 
     Attributes
     ----------
     dof : int or None
-        Infinitesimal freedoms; None where the singular values do not tell: indeterminate.
+        Infinitesimal degrees of freedom; None where the singular values do not decide: indeterminate.
     self_stresses : int or None
-        Equations minus rank: how many closure equations are idle here.
+        Equations minus rank: how many closure equations are redundant here.
     spectrum : Spectrum
         The evidence, with how certain it is.
     flat : bool
-        Whether all vertices lie in one plane, as far as their precision tells.
+        Whether all vertices lie in one plane, within their precision.
     precision : Precision
-        Of the coordinates: what singular values are judged by.
+        Of the coordinates; singular values are judged by it.
     flat_loops : int
-        Loops with a centre whose axes lie in one plane, which gives them a freedom more than when folded.
+        Loops with a centre whose axes lie in one plane, which gives them one freedom more than when folded.
 
     Examples
     --------
-    Flat, a vertex of four creases has a freedom more than when it is folded:
+    Flat, a vertex of four creases has one freedom more than when it is folded:
 
     >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
     >>> flat = pose_mobility(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
@@ -96,7 +87,7 @@ class PoseMobility:
     flat_loops: int = 0
 
     def to_json(self) -> dict[str, Any]:
-        """Return the keys that scripts rely on; a report adds h, the overconstraint against its count."""
+        """Return plain data (docs/command-json.md); a report adds h, the overconstraint against its count."""
         return {
             "dof": self.dof,
             "certainty": self.spectrum.certainty,
@@ -113,14 +104,14 @@ class PoseMobility:
 def pose_mobility(
     sheet: Sheet, mechanism: SheetMechanism | None = None, *, hinge_flat: bool = False
 ) -> PoseMobility:
-    """Return the infinitesimal freedoms of a crease pattern as it lies.
+    """Return the infinitesimal degrees of freedom of a crease pattern at its coordinates.
 
     Parameters
     ----------
     sheet : Sheet
         With coordinates, any unit of length.
     mechanism : SheetMechanism, optional
-        Of this sheet, where it is at hand.
+        The mechanism of this sheet, so that it is not made again.
     hinge_flat : bool, optional
         Make hinges of flat edges too.
 
@@ -159,7 +150,7 @@ def pose_mobility_of_axes(
     axes: Mapping[JointId, tuple[Sequence[float], Sequence[float]]],
     precision: Precision | None = None,
 ) -> PoseMobility:
-    """Return the infinitesimal freedoms of a linkage whose joint axes are given.
+    """Return the infinitesimal degrees of freedom of a linkage by its joint axes.
 
     Every loop closes with six equations here, so centres need not be exact.
 
@@ -202,7 +193,7 @@ def pose_mobility_of_axes(
 
 
 def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
-    """Return the infinitesimal freedoms of a polyhedron model at its coordinates.
+    """Return the infinitesimal degrees of freedom of a polyhedron model at its coordinates.
 
     Links of four vertices or more get a virtual apex, since their vertices may be coplanar.
 
@@ -210,10 +201,6 @@ def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
     ----------
     model : PolyhedronModel
         With coordinates.
-
-    Returns
-    -------
-    PoseMobility
 
     Raises
     ------
@@ -232,18 +219,15 @@ def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
     2
     """
     if not model.coordinates:
-        raise UnsolvableError("the freedoms at a pose need coordinates, and the model has none")
+        raise UnsolvableError("degrees of freedom at a configuration require coordinates, and the model has none")
     places = _centred(tuple(model.coordinates.values()))
     near: dict[Any, Any] = dict(zip(model.coordinates, map(tuple, places.tolist()), strict=True))
     for a, b in model.edges:
         if near[a] == near[b]:
             raise InvariantError("rod", f"the rod between vertices {a!r} and {b!r} has no length")
     rows, points = velocity_constraints(model, near, Reals())
-    column: dict[Any, int] = {}
-    for row in rows:
-        for key in row:
-            column.setdefault(key, len(column))
-    matrix = _matrix([{column[key]: value for key, value in row.items()} for row in rows], max(len(column), 1))
+    numbered, columns = numbered_columns(rows)
+    matrix = _matrix(numbered, max(columns, 1))
     middle = np.array([np.mean([near.get(vertex, (0.0, 0.0, 0.0)) for vertex, _ in row], axis=0) for row in rows])
     precision = precision_of(list(model.coordinates.values()))
     # Entries are differences of coordinates, so all have their error.
@@ -273,31 +257,31 @@ def _mobility(
     )
 
 
-def _lengths(points: Floats, found: SheetMechanism) -> Floats:
-    ends = np.array(list(found.hinges.values()), dtype=np.int64).reshape(-1, 2)
+def _lengths(points: Floats, mechanism: SheetMechanism) -> Floats:
+    ends = np.array(list(mechanism.hinges.values()), dtype=np.int64).reshape(-1, 2)
     return np.asarray(np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1))
 
 
-def _error_of_axes(points: Floats, found: SheetMechanism) -> Floats:
+def _error_of_axes(points: Floats, mechanism: SheetMechanism) -> Floats:
     """Return the error of the axis of each hinge, its moments if need be, for an error 1 of coordinates."""
-    error = np.sqrt(2) / _lengths(points, found)
-    spatial = found.sc.independent_loops > len(found.loop_vertices)
+    error = np.sqrt(2) / _lengths(points, mechanism)
+    spatial = mechanism.sc.independent_loops > len(mechanism.loop_vertices)
     return np.asarray(error * (1 + np.sqrt(3)) if spatial else error)
 
 
-def _nearly(points: Floats, found: SheetMechanism, off_panels: float) -> float:
-    """Return the error of coordinates that is to be told of: a small one, or one that panels show."""
-    if not found.hinges:
+def _nearly(points: Floats, mechanism: SheetMechanism, off_panels: float) -> float:
+    """Return the error of coordinates that counts as nearly mobile: a small one, or one that panels show."""
+    if not mechanism.hinges:
         return NEARLY
-    small = min(NEARLY, _SHORT * float(np.median(_lengths(points, found))))
+    small = min(NEARLY, _SHORT * float(np.median(_lengths(points, mechanism))))
     return max([small, *(2 * off for off in (off_panels, off_plane(points)) if off <= _SPREAD)])
 
 
-def _flat_loops(points: Floats, found: SheetMechanism, precision: Precision) -> int:
-    """Count the loops with a centre whose axes lie in one plane, as far as the precision tells."""
-    hinges: dict[JointId, tuple[int, int]] = dict(found.hinges.items())
+def _flat_loops(points: Floats, mechanism: SheetMechanism, precision: Precision) -> int:
+    """Count the loops with a centre whose axes lie in one plane, within the precision."""
+    hinges: dict[JointId, tuple[int, int]] = dict(mechanism.hinges.items())
     flat = 0
-    for loop in found.sc.centred_loops:
+    for loop in mechanism.sc.centred_loops:
         if len(loop.joints) < 3:
             continue
         ends = points[np.array([hinges[joint] for joint in loop.joints]).ravel()]
@@ -306,17 +290,17 @@ def _flat_loops(points: Floats, found: SheetMechanism, precision: Precision) -> 
     return flat
 
 
-def closure_at_pose(sheet: Sheet, found: SheetMechanism) -> Closure:
-    """Return the closure equations of a sheet's mechanism as it lies.
+def closure_at_pose(sheet: Sheet, mechanism: SheetMechanism) -> Closure:
+    """Return the closure equations of a sheet's mechanism at its coordinates.
 
     Raises `UnsolvableError` if the sheet has no coordinates, `InvariantError` if a hinge has no length.
     """
     if sheet.coordinates is None:
-        raise UnsolvableError("the freedoms at a pose need coordinates, and the sheet has none")
+        raise UnsolvableError("degrees of freedom at a configuration require coordinates, and the sheet has none")
     places = _centred(sheet.coordinates)
-    axes = _axes(places, found)
-    centres = {loop: (*places[vertex].tolist(), 1.0) for loop, vertex in enumerate(found.loop_vertices)}
-    return closure_of(found.sc, axes, centres, Reals())
+    axes = _axes(places, mechanism)
+    centres = {loop: (*places[vertex].tolist(), 1.0) for loop, vertex in enumerate(mechanism.loop_vertices)}
+    return closure_of(mechanism.sc, axes, centres, Reals())
 
 
 def _centred(coordinates: Sequence[Sequence[float]]) -> Floats:
@@ -327,9 +311,11 @@ def _centred(coordinates: Sequence[Sequence[float]]) -> Floats:
     return points / (extent_of(points) or 1.0)
 
 
-def _axes(places: Floats, found: SheetMechanism) -> Mapping[JointId, Line]:
+def _axes(places: Floats, mechanism: SheetMechanism) -> Mapping[JointId, Line]:
     axes: dict[JointId, Line] = {}
-    for (joint, (a, b)), length in zip(found.hinges.items(), _lengths(places, found).tolist(), strict=True):
+    for (joint, (a, b)), length in zip(
+        mechanism.hinges.items(), _lengths(places, mechanism).tolist(), strict=True
+    ):
         p = places[a]
         if length == 0.0:
             raise InvariantError(
@@ -351,8 +337,10 @@ def _matrix(rows: Sequence[Mapping[int, float]], columns: int) -> scipy.sparse.c
     return scipy.sparse.csr_matrix((np.array(values, dtype=float), (at, to)), shape=(len(rows), columns))
 
 
-def _places_of_rows(points: Floats, found: SheetMechanism, closure: Closure) -> Floats:
+def _places_of_rows(points: Floats, mechanism: SheetMechanism, closure: Closure) -> Floats:
     """Return the middle of the hinges of the loop of each row."""
-    middle: dict[JointId, Floats] = {joint: (points[a] + points[b]) / 2 for joint, (a, b) in found.hinges.items()}
+    middle: dict[JointId, Floats] = {
+        joint: (points[a] + points[b]) / 2 for joint, (a, b) in mechanism.hinges.items()
+    }
     by_loop = {loop: np.mean([middle[joint] for joint in loop], axis=0) for loop in dict.fromkeys(closure.loops)}
     return np.array([by_loop[loop] for loop in closure.loops]).reshape(-1, 3)

@@ -1,4 +1,4 @@
-"""The second road to the generic mobility: vertices, rods and Wampler's terms, ranked at a random member.
+"""Generic mobility a second way: vertices, rods and Wampler's terms, ranked at a random realisation.
 
 M = 3V - rank - 6, the rank that of the velocities' constraints: one for each rod, one for a point on a plane, two
 for a point on a line, five for a scissors element. Vertices are placed so that the rods of a remote centre meet in
@@ -16,16 +16,14 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
-from flint import nmod_mat
-
-from graphs.errors import NumericalError, UnsolvableError, shown
+from graphs.errors import UnsolvableError, shown
 from graphs.loops.classes import centre_classes
 from graphs.loops.loop import Loop
 from graphs.mechanism.polyhedron import GROUND, PolyhedronModel, VertexId
-from graphs.rank.fields import PRIMES, Field, PrimeField, null_vectors
-from graphs.rank.generic import ExactMobility
+from graphs.rank.exact import ExactMobility, agreed_rank, sparse_modulo
+from graphs.rank.realisation import PRIMES, Field, PrimeField, null_vectors
 
-__all__ = ["exact_mobility_of_model", "place_model", "velocity_constraints"]
+__all__ = ["exact_mobility_of_model", "numbered_columns", "place_model", "velocity_constraints"]
 
 Place = tuple[Any, Any, Any]
 Row = dict[tuple[Hashable, int], Any]
@@ -44,7 +42,7 @@ def exact_mobility_of_model(
         Without a ground link six freedoms of the whole are taken off.
     primes : sequence of int, optional
     seed : int, optional
-        Another seed is another random member.
+        Random seed; another seed gives another random realisation.
 
     Raises
     ------
@@ -68,36 +66,29 @@ def exact_mobility_of_model(
         field = PrimeField(prime, seed)
         rows, columns = velocity_constraints(model, place_model(model, field), field)
         freedoms = 3 * columns - (6 if model.ground is None else 0)
-        ranks.append(_rank(rows, prime))
-    if len(set(ranks)) > 1:
-        raise NumericalError(
-            f"the rank is {ranks} modulo {list(primes)}: an unlucky random member; try another seed"
-        )
-    return ExactMobility(freedoms - ranks[0], freedoms, ranks[0], tuple(primes), forced=True)
+        ranks.append(sparse_modulo(*numbered_columns(rows), prime).rank())
+    rank = agreed_rank(ranks, primes)
+    return ExactMobility(freedoms - rank, freedoms, rank, tuple(primes), forced=True)
 
 
-def _rank(rows: Sequence[Row], prime: int) -> int:
+def numbered_columns(rows: Sequence[Row]) -> tuple[list[dict[int, Any]], int]:
+    """Return the rows with (point, coordinate) numbered in their order, and how many columns there are."""
     column: dict[tuple[Hashable, int], int] = {}
-    for row in rows:
-        for key in row:
-            column.setdefault(key, len(column))
-    matrix = nmod_mat(max(len(rows), 1), max(len(column), 1), prime)
-    for i, row in enumerate(rows):
-        for key, value in row.items():
-            matrix[i, column[key]] = value % prime
-    return int(matrix.rank())
+    numbered = [{column.setdefault(key, len(column)): value for key, value in row.items()} for row in rows]
+    return numbered, len(column)
 
 
 def place_model(model: PolyhedronModel, field: Field) -> dict[VertexId, Place]:
-    """Place the vertices of a model at random, as its lines, planes and remote centres ask.
+    """Place the vertices of a model at random on its lines and planes, so that its remote centres exist.
 
     Raises `UnsolvableError` if that does not succeed in any of the orders tried, or the bars of a scissors element
     then do not cross.
     """
     spans = _spans(model)
     centres = [point for point in spans if point not in model]
-    why = "not realised: the vertices could not be placed as lines, planes and remote centres ask"
-    failure = UnsolvableError(why)
+    failure = UnsolvableError(
+        "not realised: the vertices could not be placed so that all lines, planes and remote centres exist"
+    )
     for strictly in (True, False):
         placing = _Placing(model, spans, field, strictly)
         order = list(model.nodes)
@@ -221,7 +212,7 @@ class _Placing:
         return {vertex: (p[0], p[1], p[2]) for vertex, p in placed.items() if vertex in self.model}
 
     def _fits(self, placed: Mapping[Hashable, list[Any]]) -> bool:
-        """Tell whether every vertex lies in the spans it should: some were placed before what they lie on."""
+        """Return whether every vertex lies in its spans: some were placed before the points that span them."""
         field = self.field
         for vertex, here in self.spans.items():
             for span in here:
@@ -300,19 +291,10 @@ def _straight(v: Hashable, of: tuple[Hashable, ...], where: Mapping[Hashable, Pl
     """The derivative of (v - a) x (b - a): three equations, two of them independent."""
     a, b = of
     u, w = _difference(where[b], where[a]), _difference(where[v], where[a])
-    rows = []
-    for i, j in ((1, 2), (2, 0), (0, 1)):
-        rows.append(
-            {
-                (v, i): u[j],
-                (v, j): -u[i],
-                (b, j): w[i],
-                (b, i): -w[j],
-                (a, i): -u[j] + w[j],
-                (a, j): u[i] - w[i],
-            }
-        )
-    return rows
+    return [
+        {(v, i): u[j], (v, j): -u[i], (b, j): w[i], (b, i): -w[j], (a, i): -u[j] + w[j], (a, j): u[i] - w[i]}
+        for i, j in ((1, 2), (2, 0), (0, 1))
+    ]
 
 
 def _held(v: Hashable, field: Field) -> Row:

@@ -1,9 +1,13 @@
-"""Numerical rank with its evidence: which singular values are zero, which only nearly, and what cannot be told.
+"""Numerical rank with its evidence: which singular values are zero, which only nearly, and what cannot be decided.
 
 A singular value s with right vector v is changed by errors of the coordinates by no more than a few times s0, the
-length of (error of column j) v_j: its *floor*. Values up to six floors are noise, never equations; values a
-little above may be either, and then the rank is indeterminate; a value that an error of a thousandth of the size
-would explain is counted, and told as nearly zero. Theory: docs/theory/pose.md.
+length of (error of column j) v_j: its *floor*. Values up to six floors are noise, never equations; values a little
+above may be either, and then the rank is indeterminate; a value that an error of a thousandth of the size would
+explain is counted, and reported as nearly zero.
+
+Rank, kernel and cokernel of matrices that are known to a relative zero have the same rule: a singular value up to
+``zero`` times the largest is zero. Where one lies a little above, the evidence says so and the value is counted.
+Bases are canonical (`graphs.tolerances.canonical_basis`). Theory: docs/theory/pose.md.
 """
 
 from __future__ import annotations
@@ -14,19 +18,29 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
+from graphs.tolerances import DOUBLE, canonical_basis
+from graphs.types import Floats, Ints
 
 __all__ = [
     "NEARLY",
+    "ZERO_SPECTRUM",
     "Certainty",
+    "Inertia",
+    "NoiseVerdict",
     "Spectra",
     "Spectrum",
-    "Verdict",
+    "Split",
+    "inertia",
     "judged",
     "judged_at",
+    "null_space",
+    "rank_of",
     "rounding",
+    "row_space",
+    "singular_values",
     "spectra",
     "spectrum",
+    "split",
     "verdict",
 ]
 
@@ -45,14 +59,8 @@ Certainty = Literal["numerical", "nearly mobile", "indeterminate"]
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
-    """What singular values are, for one matrix or many.
-
-    Attributes
-    ----------
-    noise, undecided, nearly : bool[..., k]
-        Zero but for noise; not to be told from noise; not zero, but nearly.
-    """
+class NoiseVerdict:
+    """Which singular values of one matrix or many are zero but for noise, undecided, nearly zero: bool[..., k]."""
 
     noise: npt.NDArray[np.bool_]
     undecided: npt.NDArray[np.bool_]
@@ -68,8 +76,8 @@ class Spectrum:
     rank : int or None
         None where a singular value may be noise and may be not: indeterminate.
     gap : float
-        Smallest singular value counted over the most that those which are noise may come to; infinite where none
-        is. The noise itself is other from processor to processor.
+        Smallest singular value counted over the bound of those that are noise; infinite where none is. The bound
+        is the same on all processors, the noise itself is not.
     smallest, largest_zero : float
         The two, as parts of the largest singular value.
     nearly : int
@@ -90,25 +98,25 @@ class Spectrum:
 
     @property
     def certainty(self) -> Certainty:
-        """How the rank is known: by singular values, so but for small strains, or not."""
+        """The certainty of the rank: numerical, true but for small strains, or indeterminate."""
         if self.rank is None:
             return "indeterminate"
         return "nearly mobile" if self.nearly else "numerical"
 
 
-def verdict(values: Floats, floors: Floats, nearly: Floats | float = 0.0) -> Verdict:
-    """Judge singular values, as parts of the largest, by what errors would do to them.
+ZERO_SPECTRUM = Spectrum(0, float("inf"), 0.0, 0.0, 0, 0.0)
+"""The spectrum of a matrix without entries, or of zeros only."""
+
+
+def verdict(values: Floats, floors: Floats, nearly: Floats | float = 0.0) -> NoiseVerdict:
+    """Judge singular values, as parts of the largest, by the effect of errors.
 
     Floors say what errors of the size of the data's precision do to each, in the mean; nearly likewise for an
     error of a thousandth of the size.
-
-    >>> judged = verdict(np.array([1.0, 1e-5, 1e-14]), np.full(3, 1e-15), np.full(3, 1e-3))
-    >>> judged.noise.tolist(), judged.undecided.tolist(), judged.nearly.tolist()
-    ([False, False, False], [False, False, True], [False, True, False])
     """
     noise = values <= np.minimum(_NOISE * floors, _LARGE)
     undecided = ~noise & (values <= _CLEAR * floors)
-    return Verdict(noise, undecided, ~noise & ~undecided & (values <= _NOISE * nearly))
+    return NoiseVerdict(noise, undecided, ~noise & ~undecided & (values <= _NOISE * nearly))
 
 
 def spectrum(matrix: Floats, error: float | Floats = 0.0, nearly: float | Floats = 0.0) -> Spectrum:
@@ -120,22 +128,17 @@ def spectrum(matrix: Floats, error: float | Floats = 0.0, nearly: float | Floats
     error : float or float[n], optional
         Of the entries of each column; rounding errors of double precision are added.
     nearly : like error, optional
-        The errors that are to be told of.
+        The errors that count as nearly mobile.
 
     Examples
     --------
-    >>> found = spectrum(np.array([[1.0, 0.0], [1.0, 1e-17]]))
-    >>> found.rank, found.gap > 1e6
-    (1, True)
-    >>> spectrum(np.array([[1.0, 0.0], [1.0, 1e-7]]), error=1e-6).rank
-    1
-    >>> spectrum(np.array([[1.0, 0.0], [0.0, 1e-5]]), error=1e-6).rank is None
-    True
-    >>> spectrum(np.eye(3)).gap
-    inf
+    >>> spectrum(np.array([[1.0, 0.0], [1.0, 1e-17]])).rank, spectrum(np.eye(3)).gap
+    (1, inf)
+    >>> [spectrum(np.diag([1.0, small]), error=1e-6).rank for small in (1e-7, 1e-5, 1e-3)]
+    [1, None, 2]
     """
     if not matrix.size or not matrix.any():
-        return Spectrum(0, float("inf"), 0.0, 0.0, 0, 0.0)
+        return ZERO_SPECTRUM
     _, values, right = np.linalg.svd(matrix, full_matrices=False)
     effects = [np.linalg.norm(right * of, axis=1) / values[0] for of in (error, nearly)]
     return judged(values / values[0], rounding(matrix.shape) + effects[0], effects[1])
@@ -152,7 +155,7 @@ class Spectra:
     values: Floats
     rows: Floats
     floors: Floats
-    verdict: Verdict
+    verdict: NoiseVerdict
 
     @property
     def parts(self) -> Floats:
@@ -164,9 +167,6 @@ def spectra(matrices: Floats, error: float, nearly: float) -> Spectra:
     """Return singular values of many matrices, each judged as `spectrum` judges those of one.
 
     No matrix, float[..., m, n], is zero; error and nearly are the length of the errors of the entries of a column.
-
-    >>> spectra(np.array([[[2.0, 0.0], [2.0, 1e-17]]]), 1e-12, 1e-3).verdict.noise.tolist()
-    [[False, True]]
     """
     _, values, rows = np.linalg.svd(matrices, full_matrices=True)
     largest = values[..., :1]
@@ -180,13 +180,9 @@ def rounding(shape: tuple[int, int]) -> float:
 
 
 def judged_at(values: Floats, zero: float) -> Spectrum:
-    """Return the rank of singular values, descending, in any unit; those up to `zero` times the largest are zero.
-
-    >>> judged_at(np.array([2.0, 1.0, 1e-10]), 1e-9).rank, judged_at(np.array([1.0, 2e-9]), 1e-9).rank
-    (2, None)
-    """
+    """Return the rank of descending singular values in any unit; those up to `zero` times the largest are zero."""
     if not values.max(initial=0.0) > 0.0:
-        return Spectrum(0, float("inf"), 0.0, 0.0, 0, 0.0)
+        return ZERO_SPECTRUM
     return judged(values / values[0], np.full(len(values), zero / _NOISE), np.zeros(len(values)))
 
 
@@ -210,3 +206,189 @@ def judged(values: Floats, floors: Floats, nearly: Floats, larger: int = 0) -> S
         _NOISE * float(floors.max(initial=0.0)),
         tuple(values[found.undecided].tolist()),
     )
+
+
+@dataclass(frozen=True, slots=True)
+class Split:
+    """A matrix taken apart: A = left[:, :k] @ diag(values) @ right[:k].
+
+    Attributes
+    ----------
+    rank : int
+        How many singular values are counted.
+    left : float[m, m]
+        Left singular vectors, as columns; not canonical.
+    values : float[k]
+        Singular values, descending; k is the lesser of m and n.
+    right : float[n, n]
+        Right singular vectors, as rows; not canonical.
+    zero : float
+        The part of the largest singular value up to which others are zero.
+
+    Examples
+    --------
+    >>> parts = split(np.diag([1.0, 2e-9]))
+    >>> parts.rank, parts.evidence.rank
+    (2, None)
+    """
+
+    rank: int
+    left: Floats
+    values: Floats
+    right: Floats
+    zero: float
+
+    @property
+    def kernel(self) -> Floats:
+        """The canonical basis of the kernel: orthonormal columns, float[n, n - rank]."""
+        return canonical_basis(self.right[self.rank :].T)
+
+    @property
+    def cokernel(self) -> Floats:
+        """The canonical basis of the complement of the column space: orthonormal columns, float[m, m - rank]."""
+        return canonical_basis(self.left[:, self.rank :])
+
+    @property
+    def evidence(self) -> Spectrum:
+        """The rank with its gap; the rank is None where a value cannot be told from zero."""
+        return judged_at(self.values, self.zero)
+
+
+def split(matrix: Floats, zero: float = DOUBLE.zero) -> Split:
+    """Return the rank of a matrix with its kernel and cokernel.
+
+    Parameters
+    ----------
+    matrix : float[m, n]
+    zero : float, optional
+        Singular values up to this part of the largest are zero (`graphs.tolerances.Tolerances.zero`).
+
+    Examples
+    --------
+    >>> parts = split(np.array([[1.0, 1.0, 0.0], [2.0, 2.0, 0.0]]))
+    >>> parts.rank, parts.kernel.shape, parts.cokernel.shape, parts.evidence.certainty
+    (1, (3, 2), (2, 1), 'numerical')
+    """
+    left, values, right = np.linalg.svd(matrix)
+    return Split(_counted(values, zero), left, values, right, zero)
+
+
+def null_space(matrix: Floats, zero: float = DOUBLE.zero, scale: float | None = None) -> Floats:
+    """Return the canonical basis of the kernel of a matrix: orthonormal columns, float[n, n - rank].
+
+    Parameters
+    ----------
+    matrix : float[m, n]
+    zero : float, optional
+        As for `split`.
+    scale : float, optional
+        What `zero` is a part of, where the matrix may be zero but for rounding; by default the largest value.
+
+    Examples
+    --------
+    >>> null_space(np.array([[1.0, 1.0, 0.0]])).round(3).tolist()
+    [[0.0, 0.707], [0.0, -0.707], [1.0, 0.0]]
+    """
+    _, values, right = np.linalg.svd(matrix, full_matrices=matrix.shape[0] < matrix.shape[1])
+    return canonical_basis(right[_counted(values, zero, scale) :].T)
+
+
+def row_space(matrix: Floats, zero: float = DOUBLE.zero, scale: float | None = None) -> Floats:
+    """Return the canonical basis of the rows of a matrix: orthonormal columns, float[n, rank].
+
+    Parameters
+    ----------
+    matrix : float[m, n]
+    zero, scale : float, optional
+        As for `null_space`.
+
+    Examples
+    --------
+    >>> row_space(np.array([[1.0, 0.0, 1.0], [2.0, 0.0, 2.0]])).round(3).tolist()
+    [[0.707], [0.0], [0.707]]
+    """
+    _, values, right = np.linalg.svd(matrix, full_matrices=False)
+    return canonical_basis(right[: _counted(values, zero, scale)].T)
+
+
+def rank_of(matrix: Floats, zero: float = DOUBLE.zero) -> int:
+    """Return the rank of a matrix.
+
+    Parameters
+    ----------
+    matrix : float[m, n]
+    zero : float, optional
+        As for `split`.
+
+    Examples
+    --------
+    >>> rank_of(np.array([[1.0, 2.0], [2.0, 4.0 + 1e-12]]))
+    1
+    """
+    return _counted(singular_values(matrix), zero)
+
+
+def singular_values(matrices: Floats) -> Floats:
+    """Return the singular values of matrices, descending: float[..., k]."""
+    return np.asarray(np.linalg.svd(matrices, compute_uv=False))
+
+
+def _counted(values: Floats, zero: float, scale: float | None = None) -> int:
+    """Return how many singular values are none; all that are greater than the floor, where some are undecided."""
+    return int((values > zero * (values.max(initial=0.0) if scale is None else scale)).sum())
+
+
+@dataclass(frozen=True, slots=True)
+class Inertia:
+    """Symmetric matrices by their eigenvalues.
+
+    Attributes
+    ----------
+    values : float[..., s]
+        Ascending.
+    vectors : float[..., s, s]
+        Columns; not canonical.
+    signs : int[..., s]
+        Of the values; 0 for those that are zero.
+
+    Examples
+    --------
+    >>> saddle = inertia(np.diag([1.0, -1.0]))
+    >>> saddle.signs.tolist(), int(saddle.positive)
+    ([-1, 1], 1)
+    """
+
+    values: Floats
+    vectors: Floats
+    signs: Ints
+
+    @property
+    def positive(self) -> Ints:
+        """How many eigenvalues are positive: int[...]."""
+        return np.asarray((self.signs > 0).sum(axis=-1))
+
+    @property
+    def negative(self) -> Ints:
+        """How many eigenvalues are negative: int[...]."""
+        return np.asarray((self.signs < 0).sum(axis=-1))
+
+
+def inertia(forms: Floats, zero: float = DOUBLE.zero) -> Inertia:
+    """Return the eigenvalues of symmetric matrices, and which are positive, zero and negative.
+
+    Parameters
+    ----------
+    forms : float[..., s, s]
+    zero : float, optional
+        Eigenvalues up to this part of the largest, of each matrix, are zero.
+
+    Examples
+    --------
+    >>> found = inertia(np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1e-14]]))
+    >>> found.signs.tolist(), int(found.positive), int(found.negative)
+    ([-1, 0, 1], 1, 1)
+    """
+    values, vectors = np.linalg.eigh(forms)
+    sizes = np.abs(values)
+    signs = np.where(sizes > zero * sizes.max(axis=-1, keepdims=True, initial=0.0), np.sign(values), 0.0)
+    return Inertia(values, vectors, signs.astype(np.int64))

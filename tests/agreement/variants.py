@@ -9,8 +9,8 @@ import numpy as np
 
 from graphs.errors import InvariantError
 from graphs.joints.linkage import JointedLinkage, JointPlace
-from graphs.mechanism.plane import in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from tests.agreement.specimens import Placed

@@ -22,8 +22,8 @@ from click.testing import CliRunner, Result
 
 import synth
 from graphs.errors import SynthedraError
-from graphs.ids import JointId
 from graphs.mechanism.sheet import Sheet
+from graphs.types import JointId
 from synth.cli.main import main
 from synth.compliance.limited import limits
 from synth.moving.made import sheet_of

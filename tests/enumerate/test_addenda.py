@@ -7,10 +7,10 @@ from enumerate.runner.totals import CountSink
 from graphs.edit.edits import add_ride_along
 from graphs.errors import InvariantError
 from graphs.files.formats import read
-from graphs.identity.classes import class_code
+from graphs.identity.chains import class_code
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.rank.generic import exact_mobility
+from graphs.rank.exact import exact_mobility
 from graphs.reduce.ride_alongs import reduce
 
 FILES = ["watt", "stephenson", "six-bar-loop-spherical", "eight-bar", "hybrid-ten-bar", "stephenson-planar"]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from graphs.canonical import canonical_basis, canonical_order, leading, pivots, signed, trailing
+from graphs.tolerances import canonical_basis, canonical_order, leading, pivots, signed, trailing
 
 
 def any_basis(space, chance):

@@ -6,7 +6,7 @@ import pytest
 
 import synth
 from graphs.errors import FileError, InvariantError
-from graphs.extent import LEAST, MOST
+from graphs.limits import LEAST, MOST
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids

@@ -13,8 +13,7 @@ from graphs.errors import FileError, InvariantError, StoreError, SynthedraError,
 from graphs.files.patterns.svg import svg_text
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
-from graphs.plain_text import plain, plain_label, plain_lines
-from graphs.printing import TableBlock, console_for, html_of, text_of
+from graphs.printing import TableBlock, console_for, html_of, plain, plain_label, plain_lines, text_of
 
 HOSTILE = "\x1b[2J\r\u202egnirts\x07\u2066\x9b31m\ud83d$x^$\n"
 LONG = "n" * 2_000_000

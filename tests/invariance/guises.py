@@ -13,8 +13,7 @@ from decimal import Decimal
 
 import numpy as np
 
-from graphs.mechanism.plane import in_space
-from graphs.mechanism.precision import precision_of_sheet
+from graphs.mechanism.precision import in_space, precision_of_sheet
 from graphs.mechanism.sheet import FLAT, Sheet, sides_of_face, with_all_edges
 
 __all__ = ["COMPARED_WITH", "GUISES", "NOT_COMPARED", "Guise", "guises_of"]

@@ -8,7 +8,7 @@ import pytest
 
 from graphs.answer.mechanisms import mobility as counted
 from graphs.files.formats import read
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.folding.configuration import configuration_of_sheet
 from synth.motion.branches import Search, branches_of

@@ -15,14 +15,15 @@ from graphs.count.equations import (
     modified_cgk,
     overconstraint,
     polyhedron_equation,
+    relative_polyhedron,
+    relative_spherical_system,
     spherical_system,
     traditional_cgk,
 )
-from graphs.count.relative import relative_polyhedron, relative_spherical_system
 from graphs.count.report import mobility_report
 from graphs.edit.edits import add_loop
 from graphs.files.formats import read
-from graphs.identity.classes import class_code
+from graphs.identity.chains import class_code
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph

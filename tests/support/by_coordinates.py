@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
+from graphs.types import Floats
 from synth.surfaces.loop_sums import sign_patterns
 
 __all__ = [

@@ -9,7 +9,7 @@ import numpy as np
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
-from graphs.rank.closure import independent_cycles
+from graphs.rank.exact import independent_cycles
 from synth.patterns.panels import Corners, Place, sheet_of_panels
 
 

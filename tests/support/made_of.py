@@ -20,7 +20,7 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.mechanism.solids import HingedSolids
-from graphs.rank.closure import independent_cycles
+from graphs.rank.exact import independent_cycles
 from synth.conformed.linkages import loop_on_cones
 from synth.folding.derivatives import SheetDerivatives, vertex_places
 from synth.folding.motion import fold

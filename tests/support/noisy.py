@@ -8,9 +8,8 @@ from scipy.spatial import Delaunay
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.mechanism.sheet import Sheet
-from graphs.rank.closure import closure_of
-from graphs.rank.fields import PRIMES, PrimeField
-from graphs.rank.general_member import join
+from graphs.rank.exact import closure_of
+from graphs.rank.realisation import PRIMES, PrimeField, join
 
 SIZE = 1000
 """Of the sheets, in steps of the lattice."""

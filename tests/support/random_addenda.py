@@ -5,9 +5,9 @@ from __future__ import annotations
 import random
 
 from graphs.errors import InvariantError
-from graphs.ids import LinkId
 from graphs.loops.loop import Loop, cyclic_order
 from graphs.mechanism.sc import SCGraph
+from graphs.types import LinkId
 
 _NAMES = {"finite": (None, None, "F", "G", "H"), "infinite": (None, None, "P", "Q", "R")}
 

@@ -6,7 +6,7 @@ from itertools import combinations_with_replacement, permutations, product
 
 from graphs.errors import InvariantError
 from graphs.loops.loop import Loop
-from graphs.mechanism.rotation import trace_faces
+from graphs.mechanism.drawing import trace_faces
 from graphs.mechanism.scd import SCDGraph
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.rank.closure import independent_cycles
+from graphs.rank.exact import independent_cycles
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_axes
 

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from graphs.errors import InvariantError
 from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.drawing import face_cycles, trace_faces
 from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel, RemoteCentre
-from graphs.mechanism.rotation import face_cycles, trace_faces
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 

@@ -5,7 +5,7 @@ from hypothesis import given, strategies as st
 
 from enumerate.chains.kinematic import chain_rows
 from enumerate.kernel.bliss_order import MOST_NODES, bliss_orders
-from graphs.identity.chains import automorphisms_of, canonical_order, chain_from_id
+from graphs.identity.chains import automorphisms_of, canonical_numbers, chain_from_id
 
 
 def form(joints, order):
@@ -17,7 +17,7 @@ def compared(n, joints, automorphisms):
     orders, left = bliss_orders(n, np.array(joints, np.int64), np.array(automorphisms, np.int64))
     for i in set(range(len(joints))) - set(left.tolist()):
         assert sorted(orders[i].tolist()) == list(range(n))
-        assert form(joints[i], orders[i]) == form(joints[i], canonical_order(n, joints[i])), joints[i]
+        assert form(joints[i], orders[i]) == form(joints[i], canonical_numbers(n, joints[i])), joints[i]
     return len(left)
 
 

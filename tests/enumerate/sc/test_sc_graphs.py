@@ -19,8 +19,7 @@ from graphs.identity.chains import automorphisms_of, chain_id
 from graphs.identity.drawings import map_id, mechanism_from_map_id
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.rank.generic import exact_mobility
-from graphs.rank.overconstraint import diagnose
+from graphs.rank.exact import diagnose, exact_mobility
 from graphs.reduce.ride_alongs import reduce
 
 COUNTS = {

@@ -27,7 +27,7 @@ from graphs.identity.drawings import map_id, mechanism_from_map_id
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.drawing import FaceKind
 from graphs.mechanism.sc import SCGraph
-from graphs.rank.generic import exact_mobility
+from graphs.rank.exact import exact_mobility
 from graphs.rank.rods import exact_mobility_of_model
 
 COUNTS = [

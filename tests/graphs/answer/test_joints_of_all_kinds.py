@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 from random_joints import random_jointed
 
-from graphs.answer.counted_joints import report_of_joints
-from graphs.answer.jointed import freedoms_by_screws
+from graphs.answer.jointed import freedoms_by_screws, report_of_joints, with_planar_loops
 from graphs.answer.mechanisms import mobility
-from graphs.answer.planar import with_planar_loops
 from graphs.errors import InvariantError
 from graphs.joints import JointedLinkage, JointKind, JointPlace, placed, points_of
 from graphs.joints.as_points import rods_between_balls

@@ -3,8 +3,15 @@
 from hypothesis import given, strategies as st
 from strategies import scd_graphs
 
-from graphs.count.equations import modified_cgk, overconstraint, polyhedron_equation, spherical_system
-from graphs.count.relative import relative_cgk, relative_polyhedron, relative_spherical_system
+from graphs.count.equations import (
+    modified_cgk,
+    overconstraint,
+    polyhedron_equation,
+    relative_cgk,
+    relative_polyhedron,
+    relative_spherical_system,
+    spherical_system,
+)
 from graphs.count.report import mobility_report
 
 counts = st.integers(0, 10**6)

@@ -53,7 +53,7 @@ DOCUMENTS = {
     "half a surrogate": (SC | {"ground": "\ud800"}, "ground: half of a surrogate pair; expected text"),
     "rotation of nothing": (SCD | {"rotation": {"sky": []}}, 'rotation["sky"]: \'sky\' is no link'),
     "rotation of odd type": (SCD | {"rotation": []}, "rotation: a list; expected an object"),
-    "rule": (SCD | {"outer": {"joint": 0, "side": "left"}}, "the outer face has no centre and 0 open edge(s)"),
+    "rule": (SCD | {"outer": {"joint": 0, "side": "left"}}, "the outer face has no centre and 0 open edges"),
     "outer": (SCD | {"outer": {"joint": 0}}, "outer: key 'side' is missing"),
     "dangling rod": (MODEL | {"rods": [[0, 3]]}, "rod (0, 3) names 3, which is no vertex"),
     "rod to itself": (MODEL | {"rods": [[0, 0]]}, "a rod joins vertex 0 to itself; expected two vertices"),

@@ -8,7 +8,7 @@ from graphs.convert.duality import mechanism_of_sheet
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.formats import read, write
 from graphs.files.patterns.fold import fold_text, sheet_from_fold
-from graphs.mechanism import plane
+from graphs.mechanism import precision
 from graphs.mechanism.sheet import Sheet
 
 SQUARE = {
@@ -98,7 +98,7 @@ def test_flat_formats_refuse_what_is_not_flat(suffix, tmp_path):
         ((0, 1, 2), (0, 2, 3)),
         ((0.0, 0.0, 0.0), (1.0, 0.0, 1.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)),
     )
-    with pytest.raises(UnsolvableError, match="is flat, and the sheet is not"):
+    with pytest.raises(UnsolvableError, match="is planar, and the sheet is not"):
         write(bent, tmp_path / f"a{suffix}")
     with pytest.raises(UnsolvableError, match="needs coordinates, and the sheet has none"):
         write(Sheet(3, (), "", ((0, 1, 2),)), tmp_path / f"a{suffix}")
@@ -120,9 +120,11 @@ def test_a_pattern_that_is_read_is_checked_once(tmp_path, monkeypatch):
     document = {"vertices_coords": [[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]], "faces_vertices": [[0, 1, 2, 3]]}
     (tmp_path / "a.fold").write_text(json.dumps(document), encoding="utf-8")
     checked, measured = [], []
-    check, as_written = Sheet.__post_init__, plane.precision_as_written
+    check, as_written = Sheet.__post_init__, precision.precision_as_written
     monkeypatch.setattr(Sheet, "__post_init__", lambda sheet: checked.append(sheet) or check(sheet))
-    monkeypatch.setattr(plane, "precision_as_written", lambda sheet: measured.append(sheet) or as_written(sheet))
+    monkeypatch.setattr(
+        precision, "precision_as_written", lambda sheet: measured.append(sheet) or as_written(sheet)
+    )
     sheet = read(tmp_path / "a.fold")
     assert (sheet.frames.others, len(checked)) == (0, 1)
     assert not measured  # a sheet that stands on an axis is flat, however precise it is

@@ -7,7 +7,7 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.identity.drawings import drawing_of, map_code, map_id, map_text, mechanism_from_map_id, symbols_of
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.rotation import trace_faces
+from graphs.mechanism.drawing import trace_faces
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 

@@ -6,8 +6,7 @@ from hypothesis import given
 from strategies import randoms
 
 from graphs.errors import InvariantError
-from graphs.loops.cycle_space import dependent_loop, split_dependent
-from graphs.loops.loop import Centre, Loop, cyclic_order
+from graphs.loops.loop import Centre, Loop, cyclic_order, dependent_loop, split_dependent
 
 SQUARE = {"a": (0, 1), "b": (1, 2), "c": (2, 3), "d": (3, 0), "e": (0, 2), "f": (4, 5)}
 

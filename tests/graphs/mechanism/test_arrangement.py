@@ -5,8 +5,7 @@ import pytest
 
 from graphs.convert.table import graph_of
 from graphs.loops.loop import Loop
-from graphs.mechanism.arrangement import ARRANGEMENTS, _directions, arrangement_of, centre_graph
-from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sc import ARRANGEMENTS, SCGraph, _directions, arrangement_of, centre_graph
 from synth.patterns import generate
 
 

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from graphs.mechanism.evidence.digits import digits_of
-from graphs.mechanism.precision import precision_of, written_by
+from graphs.mechanism.precision import digits_of, precision_of, written_by
 
 RNG = np.random.default_rng(11)
 NUMBERS = RNG.uniform(-100.0, 100.0, (60, 2))

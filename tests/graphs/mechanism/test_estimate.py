@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial import Delaunay
 
-from graphs.mechanism.evidence.estimate import estimate_of
+from graphs.mechanism.estimate import estimate_of
 from graphs.mechanism.precision import BY_DIGITS, extent_of, precision_as_written, precision_of_sheet, stated
 from graphs.mechanism.sheet import Sheet
 from synth.patterns import generate

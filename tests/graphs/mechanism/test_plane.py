@@ -7,7 +7,7 @@ import pytest
 
 from graphs.answer.mechanisms import mobility
 from graphs.files.formats import read, write
-from graphs.mechanism.plane import flattened
+from graphs.mechanism.precision import flattened, off_plane
 from graphs.mechanism.sheet import Sheet
 
 FAN = {
@@ -96,3 +96,9 @@ def test_rounded_coordinates_are_flat_here_as_they_are_to_the_pose(tmp_path):
         (tmp_path / "a.fold").write_text(json.dumps(FAN | {"vertices_coords": points}))
         sheet = read(tmp_path / "a.fold")
         assert (mobility(sheet).pose.flat, flattened(sheet) is not None) == (flat, flat)
+
+
+def test_three_points_lie_in_a_plane_and_a_fourth_may_not():
+    corners = np.vstack([np.zeros(3), np.eye(3)[:2]])
+    assert off_plane(corners) == 0.0
+    assert off_plane(np.vstack([corners, [1.0, 1.0, 0.5]])) > 0.1

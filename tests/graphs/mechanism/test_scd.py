@@ -10,9 +10,8 @@ from graphs.count.equations import loop_form, polyhedron_equation
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError
 from graphs.loops.loop import Loop
-from graphs.mechanism.drawing import FaceKind
-from graphs.mechanism.rules import points_of_joints, points_of_links
-from graphs.mechanism.scd import SCDGraph
+from graphs.mechanism.drawing import FaceKind, link_vertices, trace_faces
+from graphs.mechanism.scd import SCDGraph, points_of_joints, points_of_links
 
 FOUR = [(0, 1), (1, 2), (2, 3), (3, 0)]
 RING = [Loop((0, 1, 2, 3))]
@@ -77,7 +76,7 @@ BROKEN = {
                      outer=(0, "left")),
         "loop '0 1 2 3' is not the outer cycle of a bounded face",
     ),
-    "link degree": (lambda: four_bar(TRIANGLES | {0: (0, 3)}), "link 0 has 2 side(s); expected three or more"),
+    "link degree": (lambda: four_bar(TRIANGLES | {0: (0, 3)}), "link 0 has 2 sides; expected three or more"),
     "explicit centre": (
         lambda: four_bar(loops=[Loop((0, 1, 2, 3), "infinite")]),
         "has an infinite centre but no open edge, so that its links would reach it; expected open edges",
@@ -86,8 +85,8 @@ BROKEN = {
         lambda: four_bar(QUADS | {0: (0, 3, None)}),
         "has open edges, but none between joints 3 and 0; expected one in every corner",
     ),
-    "spatial face": (lambda: four_bar(loops=[]), "has no centre and 0 open edge(s) in 0 corner(s); expected three"),
-    "outer face": (lambda: four_bar(outer=(0, "left")), "the outer face has no centre and 0 open edge(s)"),
+    "spatial face": (lambda: four_bar(loops=[]), "has no centre and 0 open edges in 0 corners; expected three"),
+    "outer face": (lambda: four_bar(outer=(0, "left")), "the outer face has no centre and 0 open edges"),
     "one explicit centre": (
         lambda: watt([0, 1, 2, 3], {0: (6, None, 0, 3), 1: (0, None, 1), 2: (1, None, 2), 3: (3, 2, None, 4)}, "O"),
         "loop '0 1 2 3' and loop '3 4 5 6' have one centre, but two vertices for it",
@@ -233,3 +232,9 @@ def test_the_centre_of_a_face_belongs_to_its_outer_cycle():
     )
     assert scd.counts.implicit_centres == 1
     assert mobility_report(scd).mobility == 9 - 3 - 3 == mobility_report(scd).equations["polyhedron"].value
+
+
+def test_a_panel_by_itself_has_a_vertex_between_each_two_open_edges():
+    panel = {"panel": (None, None, None)}
+    faces, _ = trace_faces({}, panel)
+    assert link_vertices(faces, panel) == (3, {"panel": (2, 1, 0)})

@@ -6,10 +6,10 @@ import pytest
 
 import synth
 from graphs.errors import FileError, InvariantError
-from graphs.identity.classes import class_code
+from graphs.identity.chains import class_code
 from graphs.identity.drawings import map_id, mechanism_from_map_id
+from graphs.mechanism.sc import SpecialGeometry
 from graphs.mechanism.solids import HingedSolids
-from graphs.mechanism.special import SpecialGeometry
 
 MIURA = "m1:a--b.acd-.b-ef.cfgh.di--.e--j.gj-k.hl-i.k--l"
 MARK = SpecialGeometry(1, ["flat-foldable", "lines straight"])

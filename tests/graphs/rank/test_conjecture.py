@@ -4,10 +4,10 @@ import pytest
 from embeddings import face_code, spherical_embeddings
 from rigidity import chains_by_geng
 
-from graphs.identity.classes import class_code
+from graphs.identity.chains import class_code
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.rank.overconstraint import diagnose
+from graphs.rank.exact import diagnose
 
 
 def sc_graphs(links, dof):

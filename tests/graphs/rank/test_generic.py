@@ -15,15 +15,28 @@ from graphs.count.equations import loop_form
 from graphs.count.report import mobility_report
 from graphs.errors import SynthedraError, UnsolvableError
 from graphs.files.formats import read
-from graphs.loops.cycle_space import signed_cycle
-from graphs.loops.loop import Loop
+from graphs.loops.loop import Loop, signed_cycle
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
-from graphs.rank.closure import Closure, independent_cycles
-from graphs.rank.fields import PRIMES, PrimeField, Reals, null_vectors
-from graphs.rank.general_member import Incidence, incidence_of, realise, realise_points
-from graphs.rank.generic import closure_modulo, exact_mobility, matrix_modulo
-from graphs.rank.overconstraint import diagnose, mobility_without
+from graphs.rank.exact import (
+    Closure,
+    closure_modulo,
+    diagnose,
+    exact_mobility,
+    independent_cycles,
+    matrix_modulo,
+    mobility_without,
+)
+from graphs.rank.realisation import (
+    PRIMES,
+    Incidence,
+    PrimeField,
+    Reals,
+    incidence_of,
+    null_vectors,
+    realise,
+    realise_points,
+)
 
 
 def count(sc):

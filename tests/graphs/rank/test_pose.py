@@ -94,7 +94,7 @@ def test_a_sarrus_linkage_moves():
 
 
 def test_odd_sheets():
-    with pytest.raises(UnsolvableError, match="need coordinates"):
+    with pytest.raises(UnsolvableError, match="require coordinates"):
         pose_mobility(Sheet(3, (), "", ((0, 1, 2),)))
     assert pose_mobility(Sheet(3, (), "", ((0, 1, 2),), ((0, 0), (1, 0), (0, 1)))).dof == 0
     assert pose_mobility(Sheet(0, (), "", (), ())).dof == 0

@@ -13,9 +13,9 @@ from graphs.files.formats import read
 from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
-from graphs.rank.fields import PRIMES, PrimeField
-from graphs.rank.generic import exact_mobility
+from graphs.rank.exact import exact_mobility
 from graphs.rank.pose import pose_mobility_of_axes, pose_mobility_of_model
+from graphs.rank.realisation import PRIMES, PrimeField
 from graphs.rank.rods import exact_mobility_of_model, place_model
 
 
@@ -177,7 +177,7 @@ def test_bennetts_linkage_with_noise():
 
 
 def test_odd_poses():
-    with pytest.raises(UnsolvableError, match="need coordinates"):
+    with pytest.raises(UnsolvableError, match="require coordinates"):
         pose_mobility_of_model(PolyhedronModel(2, [(0, 1)]))
     with pytest.raises(InvariantError, match="has no length"):
         pose_mobility_of_model(PolyhedronModel(2, [(0, 1)], coordinates={0: (0, 0, 0), 1: (0, 0, 0)}))

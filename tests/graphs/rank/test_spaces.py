@@ -4,7 +4,16 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from graphs.rank.spaces import inertia, null_space, rank_of, row_space, singular_values, split
+from graphs.rank.singular_values import (
+    inertia,
+    judged_at,
+    null_space,
+    rank_of,
+    row_space,
+    singular_values,
+    spectra,
+    split,
+)
 from graphs.tolerances import DOUBLE
 
 RANDOM = np.random.default_rng(0)
@@ -73,3 +82,9 @@ def test_inertia_of_many_forms():
 def test_singular_values_of_a_stack():
     stack = RANDOM.normal(size=(3, 2, 4))
     assert singular_values(stack)[1] == pytest.approx(scipy.linalg.svdvals(stack[1]))
+
+
+def test_values_a_little_above_zero_are_undecided():
+    assert [judged_at(np.array(values), 1e-9).rank for values in ([2.0, 1.0, 1e-10], [1.0, 2e-9])] == [2, None]
+    matrices = np.array([[[2.0, 0.0], [2.0, 1e-17]]])
+    assert spectra(matrices, 1e-12, 1e-3).verdict.noise.tolist() == [[False, True]]

@@ -7,7 +7,7 @@ from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.rank.generic import exact_mobility
+from graphs.rank.exact import exact_mobility
 from graphs.reduce.assur import assur_groups, reduce_assur
 
 

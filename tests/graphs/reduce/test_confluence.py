@@ -8,8 +8,7 @@ import pytest
 from random_addenda import mixed_addenda, relabelled, renamed
 
 from graphs.count.report import mobility_report
-from graphs.identity.chains import chain_id
-from graphs.identity.classes import class_code
+from graphs.identity.chains import chain_id, class_code
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.reduce.ride_alongs import reduce

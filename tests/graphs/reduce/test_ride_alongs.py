@@ -13,7 +13,7 @@ from graphs.count.report import mobility_report
 from graphs.edit.edits import add_ride_along
 from graphs.errors import InvariantError
 from graphs.files.formats import read
-from graphs.identity.classes import class_code
+from graphs.identity.chains import class_code
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.reduce.ride_alongs import reduce

@@ -191,7 +191,7 @@ ROWS = [
     Row(
         "Section 4.2.4.3",
         "what a ride-along of links with 4 and 4 sides changes",
-        "graphs.count.relative.relative_polyhedron(4 + 4 - 5, 0, 3 * 4 + 3 * 4 - 15)",
+        "graphs.count.equations.relative_polyhedron(4 + 4 - 5, 0, 3 * 4 + 3 * 4 - 15)",
         printed=-6,
         words="3 (n + m - 5) - 3 n + 3 m - 15, which is -6, = 0",
         right=0,
@@ -218,7 +218,7 @@ ROWS = [
     Row(
         "Section 4.2.5.2",
         "dM of dV = 6, dE = 19",
-        "graphs.count.relative.relative_polyhedron(6, 0, 19)",
+        "graphs.count.equations.relative_polyhedron(6, 0, 19)",
         printed=-20,
         words="dM = 3 dV - 2 dE, which is -20, = -1",
         right=-1,

@@ -13,7 +13,7 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from graphs.rank.closure import independent_cycles
+from graphs.rank.exact import independent_cycles
 from graphs.rank.pose import pose_mobility
 from synth.advice.advised import advise
 from synth.advice.general_pose import general_pose

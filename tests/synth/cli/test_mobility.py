@@ -130,7 +130,7 @@ def test_frames_of_a_fold_file(tmp_path):
     bare = {key: value for key, value in square.items() if key != "vertices_coords"}
     file.write_text(json.dumps({**bare, "file_frames": [folded]}))
     assert json.loads(run("mobility", "--json", file).stdout)[0]["pose"]["dof"] == 1
-    assert "need coordinates" in run("mobility", "--pose", 0, file, code=2).stderr
+    assert "require coordinates" in run("mobility", "--pose", 0, file, code=2).stderr
 
 
 def test_a_pattern_without_frames_lies_one_way(data, tmp_path):

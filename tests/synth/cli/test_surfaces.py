@@ -13,7 +13,7 @@ from commands import run
 from conical import WATT
 
 from graphs.files.formats import write
-from graphs.mechanism.on_surface import SurfaceLinkage
+from graphs.mechanism.surfaces import SurfaceLinkage
 from synth.surfaces.cone import link_angles
 from synth.surfaces.several_loops import link_pairs
 

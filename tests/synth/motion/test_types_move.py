@@ -7,9 +7,8 @@ import pytest
 from strategies import random_sc
 
 from graphs.errors import UnsolvableError
-from graphs.rank.fields import Reals
-from graphs.rank.general_member import realise
-from graphs.rank.generic import exact_mobility
+from graphs.rank.exact import exact_mobility
+from graphs.rank.realisation import Reals, realise
 from synth.motion.branches import branches_of
 from synth.motion.linkage import linkage_of_axes
 

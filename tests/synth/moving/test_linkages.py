@@ -79,7 +79,7 @@ def test_what_has_no_axes_says_so(thing, told):
 
 
 def test_a_linkage_on_two_cones_is_on_neither():
-    from graphs.mechanism.on_surface import SurfaceLinkage
+    from graphs.mechanism.surfaces import SurfaceLinkage
 
     ring = SCGraph(4, {name: (i, (i + 1) % 4) for i, name in enumerate("OABC")}, [Loop("OABC")])
     links = np.radians([120, 95, 45, 85])

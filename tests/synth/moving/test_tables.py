@@ -8,7 +8,7 @@ from commands import run
 
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from synth.folding.motion import fold
 from synth.moving.made import configuration_of
 from synth.moving.motion import table_text

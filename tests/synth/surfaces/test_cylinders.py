@@ -10,8 +10,7 @@ from conical import WATT
 from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.formats import read, read_linkage, write
 from graphs.loops.loop import Centre
-from graphs.mechanism.on_surface import SurfaceLinkage
-from graphs.mechanism.surfaces import Cylinder
+from graphs.mechanism.surfaces import Cylinder, SurfaceLinkage
 from synth.surfaces.common import common_surfaces
 from synth.surfaces.cylinder import chords, joint_coordinates, map_to_cylinders
 from synth.surfaces.linkages import by_sizes, map_linkage, sizes_on

@@ -15,8 +15,8 @@ from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.formats import read_linkage, write
 from graphs.geometry import angles_between
 from graphs.loops.loop import Loop
-from graphs.mechanism.on_surface import SurfaceLinkage, places_of_steps
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.surfaces import SurfaceLinkage, places_of_steps
 from synth.conformed.pose import joint_axes
 from synth.surfaces.common import common_surfaces
 from synth.surfaces.cone import link_angles, map_to_cones

@@ -9,7 +9,7 @@ from commands import run
 from measured import lines_of_svg
 
 from graphs.files.formats import read
-from graphs.mechanism.plane import lies_flat
+from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.sheet import Sheet
 from synth.drawing.scene.shapes import Polygon
 from synth.folding.motion import fold

@@ -11,8 +11,7 @@ from commands import run
 from conical import FOUR_BAR, STEPHENSON, WATT
 
 from graphs.errors import UnsolvableError
-from graphs.mechanism.on_surface import SurfaceLinkage
-from graphs.mechanism.surfaces import Cone, Cylinder
+from graphs.mechanism.surfaces import Cone, Cylinder, SurfaceLinkage
 from synth.candidates.job import CandidateJob
 from synth.conformed.linkages import OnSurface, loop_of_steps
 from synth.templates.on_surface import Dimensions, layered, surface_of, template_on_surface

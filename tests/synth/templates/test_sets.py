@@ -10,7 +10,7 @@ from realised_sets import codes_of, explicit_codes_of
 
 from graphs.errors import SynthedraError
 from graphs.identity.drawings import mechanism_from_map_id
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import with_all_edges
 from synth.folding.motion import fold
 from synth.patterns.generated import generate

@@ -7,7 +7,6 @@ from xml.etree import ElementTree
 import pytest
 from commands import run
 
-from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph

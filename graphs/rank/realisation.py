@@ -1,4 +1,4 @@
-"""A general member of a type: centres and joint axes placed at random, as general as the type allows.
+"""A random realisation of a type: centres and joint axes placed at random, as general as the type allows.
 
 A joint axis passes through the centres of the classes of its loops: the join of two of them, of one and a random
 point, or of two random points. Three centres on one axis are in line, so later ones are placed on the lines that
@@ -6,25 +6,171 @@ earlier ones fix. Points are homogeneous (x, y, z, w), w = 0 for a centre at inf
 p x u). An SCD graph has more points on its axes than centres, its vertices, and is placed with these: its *forced
 geometry*.
 
-Theory: docs/theory/exact-mobility.md.
+Coordinates are of a prime field, where ranks are exact, or real. Over a field of about 2^61 numbers a random
+realisation has the generic rank but for a probability of about (number of joints) / 2^58 (Schwartz 1980): a
+smaller rank is possible, a larger one is not. Theory: docs/theory/exact-mobility.md.
 """
 
 from __future__ import annotations
 
+import random
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 from graphs.errors import UnsolvableError
-from graphs.ids import JointId
 from graphs.loops.loop import Centre
-from graphs.mechanism.rules import points_of_joints
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.scd import SCDGraph
-from graphs.rank.fields import Field, null_vectors
+from graphs.mechanism.scd import SCDGraph, points_of_joints
+from graphs.tolerances import DOUBLE
+from graphs.types import JointId
 
-__all__ = ["Incidence", "Realisation", "incidence_of", "realise", "realise_points"]
+__all__ = [
+    "PRIMES",
+    "Field",
+    "Incidence",
+    "PrimeField",
+    "Realisation",
+    "Reals",
+    "incidence_of",
+    "null_vectors",
+    "realise",
+    "realise_points",
+]
+
+PRIMES = (2**61 - 1, 2**61 - 31)
+"""The two largest primes below 2^61."""
+
+
+class Field(Protocol):
+    """Numbers that are added, multiplied, drawn at random, inverted, and compared with zero.
+
+    Examples
+    --------
+    A type is realised with any of them; the rank modulo a prime is exact:
+
+    >>> fields: list[Field] = [PrimeField(7), Reals()]
+    >>> [field.is_zero(field.reduce(field.inverse(2) * 2 - 1)) for field in fields]
+    [True, True]
+    """
+
+    def random(self) -> Any:
+        """Return a random number."""
+
+    def reduce(self, value: Any) -> Any:
+        """Return the number in its normal form."""
+
+    def inverse(self, value: Any) -> Any:
+        """Return 1 / value."""
+
+    def is_zero(self, value: Any) -> bool:
+        """Return whether a number in normal form is zero."""
+
+
+class PrimeField:
+    """The integers modulo a prime.
+
+    Parameters
+    ----------
+    prime : int
+    seed : int, optional
+        Random seed; the same seed gives the same realisation.
+
+    Examples
+    --------
+    >>> field = PrimeField(7)
+    >>> field.reduce(3 * field.inverse(3))
+    1
+    """
+
+    def __init__(self, prime: int, seed: int = 0) -> None:
+        self.prime = prime
+        self._random = random.Random(f"{prime} {seed}")
+
+    def random(self) -> int:
+        """Return a random number other than 0."""
+        return self._random.randrange(1, self.prime)
+
+    def reduce(self, value: int) -> int:
+        """Return the remainder."""
+        return value % self.prime
+
+    def inverse(self, value: int) -> int:
+        """Return the number whose product with this one is 1."""
+        return pow(value, -1, self.prime)
+
+    def is_zero(self, value: int) -> bool:
+        """Return whether a remainder is zero."""
+        return value == 0
+
+
+class Reals:
+    """Floating-point numbers; random ones are normally distributed.
+
+    Parameters
+    ----------
+    seed : int, optional
+        Random seed; the same seed gives the same realisation.
+
+    Examples
+    --------
+    >>> Reals().is_zero(1e-12)
+    True
+    """
+
+    def __init__(self, seed: int = 0) -> None:
+        self._random = random.Random(seed)
+
+    def random(self) -> float:
+        """Return a random number."""
+        return self._random.gauss(0.0, 1.0)
+
+    def reduce(self, value: float) -> float:
+        """Return the number itself."""
+        return value
+
+    def inverse(self, value: float) -> float:
+        """Return the reciprocal."""
+        return 1.0 / value
+
+    def is_zero(self, value: float) -> bool:
+        """Return whether a number of the size of coordinates is rounded zero."""
+        return abs(value) < DOUBLE.zero
+
+
+def null_vectors(rows: Sequence[Sequence[Any]], field: Field) -> list[list[Any]]:
+    """Return a basis of the vectors that all rows of a small matrix annihilate.
+
+    >>> null_vectors([[1, 2], [2, 4]], PrimeField(7))
+    [[5, 1]]
+    """
+    work = [list(row) for row in rows]
+    columns = len(work[0])
+    pivots: list[int] = []
+    for column in range(columns):
+        row = len(pivots)
+        best = max(range(row, len(work)), key=lambda i: abs(work[i][column]), default=None)
+        if best is None or field.is_zero(work[best][column]):
+            continue
+        work[row], work[best] = work[best], work[row]
+        scale = field.inverse(work[row][column])
+        work[row] = [field.reduce(value * scale) for value in work[row]]
+        for i in range(len(work)):
+            if i != row and not field.is_zero(work[i][column]):
+                factor = work[i][column]
+                work[i] = [field.reduce(a - factor * b) for a, b in zip(work[i], work[row], strict=True)]
+        pivots.append(column)
+    basis = []
+    for free in range(columns):
+        if free not in pivots:
+            vector: list[Any] = [0] * columns
+            vector[free] = 1
+            for row, column in enumerate(pivots):
+                vector[column] = field.reduce(-work[row][free])
+            basis.append(vector)
+    return basis
+
 
 Point = tuple[Any, Any, Any, Any]
 Line = tuple[tuple[Any, Any, Any], tuple[Any, Any, Any]]
@@ -71,9 +217,8 @@ class Realisation:
     --------
     Direction and moment of a line are perpendicular, modulo a prime too:
 
-    >>> from graphs.rank.fields import PrimeField
-    >>> member = realise_points(Incidence((0, 1), ((frozenset((0, 1)), False),)), PrimeField(101))
-    >>> u, m = member.axes[0]
+    >>> placed = realise_points(Incidence((0, 1), ((frozenset((0, 1)), False),)), PrimeField(101))
+    >>> u, m = placed.axes[0]
     >>> sum(a * b for a, b in zip(u, m, strict=True)) % 101
     0
     """
@@ -96,9 +241,9 @@ def incidence_of(mechanism: SCGraph, *, forced: bool = True) -> Incidence:
     Examples
     --------
     >>> from graphs.loops.loop import Loop
-    >>> watt = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)],
-    ...                [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
-    >>> [len(joints) for joints, _ in incidence_of(watt).points]
+    >>> watt = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
+    >>> mechanism = SCGraph(6, watt, [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
+    >>> [len(joints) for joints, _ in incidence_of(mechanism).points]
     [4, 4]
     """
     classes = mechanism.centre_classes()
@@ -119,19 +264,15 @@ def incidence_of(mechanism: SCGraph, *, forced: bool = True) -> Incidence:
 
 
 def realise(mechanism: SCGraph, field: Field, *, forced: bool = True) -> Realisation:
-    """Place a general member of the type of an SC or SCD graph.
+    """Place a random realisation of the type of an SC or SCD graph.
 
     Parameters
     ----------
     mechanism : SCGraph or SCDGraph
     field : Field
-        Where its random numbers come from: the same seed gives the same member.
+        The source of random numbers: the same seed gives the same realisation.
     forced : bool, optional
         As for `incidence_of`.
-
-    Returns
-    -------
-    Realisation
 
     Raises
     ------
@@ -143,11 +284,9 @@ def realise(mechanism: SCGraph, field: Field, *, forced: bool = True) -> Realisa
     Watt's chain: two centres, and a joint whose axis passes through both.
 
     >>> from graphs.loops.loop import Loop
-    >>> from graphs.rank.fields import PrimeField
-    >>> watt = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)],
-    ...                [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
-    >>> member = realise(watt, PrimeField(101))
-    >>> len(member.points), member.axes[3] == join(*member.points, PrimeField(101))
+    >>> watt = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
+    >>> placed = realise(SCGraph(6, watt, [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))]), PrimeField(101))
+    >>> len(placed.points), placed.axes[3] == join(*placed.points, PrimeField(101))
     (2, True)
     """
     return realise_points(incidence_of(mechanism, forced=forced), field)
@@ -171,11 +310,11 @@ def realise_points(incidence: Incidence, field: Field) -> Realisation:
 
 
 def _on_axis(incidence: Incidence) -> dict[JointId, list[int]]:
-    found: dict[JointId, list[int]] = defaultdict(list)
+    points_on: dict[JointId, list[int]] = defaultdict(list)
     for index, (joints, _) in enumerate(incidence.points):
         for joint in joints:
-            found[joint].append(index)
-    return found
+            points_on[joint].append(index)
+    return points_on
 
 
 def _place(incidence: Incidence, order: Sequence[int], field: Field) -> tuple[Point, ...] | None:
@@ -195,7 +334,7 @@ def _place(incidence: Incidence, order: Sequence[int], field: Field) -> tuple[Po
 
 
 def _on_lines(lines: Sequence[tuple[Point, Point]], infinite: bool, field: Field) -> Point | None:
-    """Return a random point on all of some lines, each given by two points; None if there is none."""
+    """Return a random point on all of some lines, each through two points; None if there is none."""
     if not lines:
         x, y, z = (field.random() for _ in range(3))
         return (x, y, z, 0 if infinite else 1)
@@ -235,7 +374,6 @@ def _axes(incidence: Incidence, points: Sequence[Point], field: Field) -> dict[J
 def join(p: Sequence[Any], q: Sequence[Any], field: Field) -> Line:
     """Return the Pluecker line of two homogeneous points: direction u, and moment of a point on it.
 
-    >>> from graphs.rank.fields import Reals
     >>> join((0, 0, 0, 1), (1, 0, 0, 1), Reals())
     ((1, 0, 0), (0, 0, 0))
     """

@@ -1,0 +1,149 @@
+"""What a file may ask for: how far coordinates reach, and how much work it calls for.
+
+Coordinates beyond 1e50 would overflow in the sixth powers that ranks, areas and normals are made of, so they are
+refused when an object is built. A file of a few bytes can call for hours of work: a number of links, shapes that
+use shapes, lines that all cross. Such work is refused with the name of its limit; ``SYNTHEDRA_MOST`` in the
+environment raises (or lowers) limits, as in ``crossings=1000000``, with commas between several. The table is in
+docs/files.md.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Sequence
+from itertools import chain
+from math import hypot
+
+from graphs.errors import FileError, InvariantError
+from graphs.printing import shown
+
+__all__ = [
+    "LEAST",
+    "LIMITS",
+    "MOST",
+    "VARIABLE",
+    "check_area",
+    "check_extent",
+    "check_work",
+    "how_to_raise",
+    "in_reach",
+    "most",
+]
+
+MOST = 1e50
+"""No coordinate is larger."""
+LEAST = 1e-50
+"""No extent is smaller: the larger of the differences of coordinates along the axes."""
+_RANGE = f"an extent of {LEAST:g} to {MOST:g}"
+_THIN = 1e-12
+"""Points in one line lie this close to it, in units of their extent: rounding puts them farther off by nothing."""
+
+
+def in_reach(numbers: Iterable[float]) -> bool:
+    """Return whether numbers are finite and within the range of coordinates."""
+    return all(abs(number) <= MOST for number in numbers)
+
+
+def check_extent(points: Sequence[Sequence[float]]) -> float:
+    """Refuse coordinates that reach too far or lie too close together, and return their extent.
+
+    Points have two or three coordinates; a single place has no extent. Raises `InvariantError` with the range.
+
+    >>> check_extent([(0.0, 0.0), (3.0, 1.0)])
+    3.0
+    >>> check_extent([(0.0, 0.0), (1e160, 1.0)])
+    Traceback (most recent call last):
+    ...
+    graphs.errors.InvariantError: a coordinate is 1e+160; expected an extent of 1e-50 to 1e+50 [extent]
+    """
+    if not in_reach(chain.from_iterable(points)):
+        farthest = next(x for x in chain.from_iterable(points) if not in_reach((x,)))
+        raise InvariantError("extent", f"a coordinate is {farthest:g}", _RANGE)
+    extent = max((max(axis) - min(axis) for axis in zip(*points, strict=True)), default=0.0)
+    if 0.0 < extent < LEAST:
+        raise InvariantError("extent", f"the extent is {extent:g}", _RANGE)
+    return extent
+
+
+def check_area(points: Sequence[Sequence[float]]) -> None:
+    """Refuse points that all lie in one line, with `InvariantError`; `check_extent` has accepted them.
+
+    >>> check_area([(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)])
+    Traceback (most recent call last):
+    ...
+    graphs.errors.InvariantError: the pattern has no area: all its vertices lie in one line [area]
+    """
+    if not points:
+        return
+    first = points[0]
+    offsets = [tuple(x - y for x, y in zip(point, first, strict=True)) for point in points]
+    along = max(offsets, key=lambda offset: hypot(*offset))
+    length = hypot(*along)
+    if length == 0.0:
+        raise InvariantError("area", "the pattern has no area: all its vertices lie in one place")
+    unit = [x / length for x in along]
+    for offset in offsets:
+        reach = sum(x * y for x, y in zip(offset, unit, strict=True))
+        if hypot(*(x - reach * y for x, y in zip(offset, unit, strict=True))) > _THIN * length:
+            return
+    raise InvariantError("area", "the pattern has no area: all its vertices lie in one line")
+
+
+VARIABLE = "SYNTHEDRA_MOST"
+LIMITS = {
+    "megabytes": 100,
+    "nodes": 250_000,
+    "basis": 250,
+    "crossings": 10_000,
+    "meetings": 1_000_000,
+    "shapes": 30_000,
+    "levels": 250,
+    "letters": 10_000,
+}
+"""Name to the most that is allowed:
+
+- ``megabytes``: of a file;
+- ``nodes``: links or vertices that a bare number calls for;
+- ``basis``: joints of a part that is not planar, of a bare graph, which needs a shortest cycle basis;
+- ``crossings``: points where lines of a pattern cross;
+- ``meetings``: pairs of lines that meet, and of ends that are near each other;
+- ``shapes``: elements of an SVG file that ``use`` draws beyond those that are written there;
+- ``levels``: groups in groups of an SVG file, what ``use`` draws among them;
+- ``letters``: of a transform or a style sheet of an SVG file.
+"""
+
+
+def most(name: str) -> int:
+    """Return a limit by its key in `LIMITS`; raises `FileError` if ``SYNTHEDRA_MOST`` cannot be understood."""
+    found = dict(LIMITS)
+    for part in filter(None, os.environ.get(VARIABLE, "").split(",")):
+        match = re.fullmatch(r" *(\w+) *= *(\d{1,15}) *", part, re.ASCII)
+        if match is None or match[1] not in LIMITS:
+            raise FileError(VARIABLE, "", shown(part), f"NAME=NUMBER, the name one of {' '.join(LIMITS)}")
+        found[match[1]] = int(match[2])
+    return found[name]
+
+
+def how_to_raise(name: str, needed: int | None = None) -> str:
+    """Return a limit and how to raise it, for an error message: to what is needed, and at least twice the limit.
+
+    >>> how_to_raise("shapes", 200_000)
+    'at most 30000 (SYNTHEDRA_MOST=shapes=200000 allows more)'
+    """
+    limit = most(name)
+    return f"at most {limit} ({VARIABLE}={name}={max(needed or 0, 2 * limit)} allows more)"
+
+
+def check_work(name: str, needed: int, what: str) -> None:
+    """Refuse more work than a limit allows, with `InvariantError`, which a reader of files makes a `FileError`.
+
+    ``name`` is a key of `LIMITS`, ``what`` the plural noun of what is counted.
+
+    >>> check_work("basis", 4950, "joints")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.InvariantError: 4950 joints; expected at most 250 (SYNTHEDRA_MOST=basis=4950 allows more) [limit]
+    """
+    if needed > most(name):
+        raise InvariantError("limit", f"{needed} {what}", how_to_raise(name, needed))

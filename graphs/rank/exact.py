@@ -1,0 +1,409 @@
+"""Exact generic mobility: loop closure of a random realisation, its rank modulo two primes, and overconstraint.
+
+Round every independent loop the twists of the joints add up to zero. A loop whose axes all pass through one point
+says that with three equations (no other point of space has to close), any other loop with six. M = J - rank. The
+rank is the arbiter where counts are conjectures (Wampler, Larson, Erdman 2007, on Eqs. 1 and 2). It is computed
+exactly, over a field of about 2^61 numbers: never too large, and too small with a probability of about (number of
+joints) / 2^58 per prime.
+
+Each smallest dependent set of closure equations is an overconstrained sub-mechanism, named by the joints of its
+loops. The kernel shows immobile joints and links that move as one. Theory: docs/theory/exact-mobility.md.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import networkx as nx
+from flint import nmod_mat
+
+from graphs.errors import NumericalError
+from graphs.loops.classes import class_of_loop
+from graphs.loops.loop import Centre, Loop, added_independent, signed_cycle
+from graphs.mechanism.sc import SCGraph
+from graphs.rank.realisation import PRIMES, Field, Line, Point, PrimeField, Realisation, realise
+from graphs.types import JointId, LinkId
+
+__all__ = [
+    "Closure",
+    "Diagnosis",
+    "ExactMobility",
+    "agreed_rank",
+    "closure_modulo",
+    "closure_of",
+    "diagnose",
+    "exact_mobility",
+    "independent_cycles",
+    "matrix_modulo",
+    "mobility_without",
+    "sparse_modulo",
+]
+
+_FINITE = [(0, 0), (0, 1), (0, 2)]
+_SPATIAL = [*_FINITE, (1, 0), (1, 1), (1, 2)]
+
+
+@dataclass(frozen=True, slots=True)
+class Closure:
+    """The closure equations, row by row.
+
+    Attributes
+    ----------
+    joints : tuple of joint ids
+        The unknowns: columns.
+    rows : tuple of dict
+        Column to coefficient; zeros are left out.
+    loops : tuple of tuple of joint ids
+        The loop of each row.
+    """
+
+    joints: tuple[JointId, ...]
+    rows: tuple[dict[int, Any], ...]
+    loops: tuple[tuple[JointId, ...], ...]
+
+
+def independent_cycles(sc: SCGraph) -> tuple[Loop, ...]:
+    """Return the loops of a mechanism, then cycles that complete them to a basis; these have no centre.
+
+    Parameters
+    ----------
+    sc : SCGraph or SCDGraph
+
+    Examples
+    --------
+    >>> [loop.centre.value for loop in independent_cycles(SCGraph(3, [(0, 1), (1, 2), (2, 0)]))]
+    ['none']
+    """
+    missing = sc.independent_loops - len(sc.loops)
+    if not missing:
+        return sc.loops
+    forest = nx.Graph()
+    forest.add_nodes_from(sc.nodes)
+    tree: dict[frozenset[Any], JointId] = {}
+    left = []
+    parts = nx.utils.UnionFind(sc.nodes)
+    for joint, (a, b) in sc.joints.items():
+        if parts[a] == parts[b]:
+            left.append(joint)
+        else:
+            parts.union(a, b)
+            forest.add_edge(a, b)
+            tree[frozenset((a, b))] = joint
+    candidates = []
+    for joint in left:
+        a, b = sc.joints[joint]
+        path = nx.bidirectional_shortest_path(forest, b, a)
+        steps = pairwise(path)
+        candidates.append((joint, *(tree[frozenset(step)] for step in steps)))
+    chosen = added_independent([loop.joints for loop in sc.loops], candidates)
+    return (*sc.loops, *(Loop(candidates[i], Centre.NONE) for i in chosen))
+
+
+def closure_of(sc: SCGraph, axes: Mapping[JointId, Line], centres: Mapping[int, Point], field: Field) -> Closure:
+    """Return the closure equations of a placed mechanism: 3 rows for a loop with a centre, 6 for one without.
+
+    Parameters
+    ----------
+    sc : SCGraph
+    axes : mapping of joint id to (u, m)
+    centres : mapping of loop index to (x, y, z, w)
+        The centre of each loop that has one.
+    field : Field
+
+    Examples
+    --------
+    A random spherical four-bar, modulo a prime: three equations of four rates.
+
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> field = PrimeField(101)
+    >>> placed = realise(four_bar, field)
+    >>> closure = closure_of(four_bar, placed.axes, {0: placed.points[0]}, field)
+    >>> len(closure.rows), closure.joints
+    (3, (0, 1, 2, 3))
+    """
+    joints = sc.joints
+    column = {joint: i for i, joint in enumerate(joints)}
+    rows: list[dict[int, Any]] = []
+    loops: list[tuple[JointId, ...]] = []
+    for index, loop in enumerate(independent_cycles(sc)):
+        signed = [(column[joint], sign, axes[joint]) for joint, sign in signed_cycle(loop.joints, joints)]
+        for part, k in _equations(centres.get(index), field):
+            row = {}
+            for j, sign, axis in signed:
+                value = axis[part][k]
+                if value:
+                    row[j] = value if sign == 1 else field.reduce(-value)
+            rows.append(row)
+            loops.append(loop.joints)
+    return Closure(tuple(sc.joints), tuple(rows), tuple(loops))
+
+
+def _equations(centre: Point | None, field: Field) -> list[tuple[int, int]]:
+    """Return which coordinates of the twists must close: (0, k) of the directions, (1, k) of the moments.
+
+    About a finite centre the moments are determined by the directions. For parallel axes one coordinate of the
+    direction determines all three, and the moments are perpendicular to it.
+    """
+    if centre is None:
+        return _SPATIAL
+    if not field.is_zero(centre[3]):
+        return _FINITE
+    largest = max(range(3), key=lambda k: abs(centre[k]))
+    return [(0, largest), *((1, k) for k in range(3) if k != largest)]
+
+
+@dataclass(frozen=True, slots=True)
+class ExactMobility:
+    """The generic mobility of a type, with its evidence.
+
+    Attributes
+    ----------
+    mobility : int
+        M = unknowns - rank.
+    unknowns : int
+        Joint rates J; of a polyhedron model 3V - 6 velocities.
+    rank : int
+    primes : tuple of int
+        The primes modulo which the rank was found, each time at another random realisation.
+    forced : bool
+        Whether the vertices of an SCD graph were placed too.
+
+    Examples
+    --------
+    >>> exact = exact_mobility(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]))
+    >>> exact.mobility, exact.unknowns, exact.rank
+    (1, 4, 3)
+    """
+
+    mobility: int
+    unknowns: int
+    rank: int
+    primes: tuple[int, ...]
+    forced: bool
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the exact mobility as plain data (docs/command-json.md)."""
+        return {"mobility": self.mobility, "primes": list(self.primes), "rank": self.rank}
+
+
+def exact_mobility(
+    mechanism: SCGraph, primes: Sequence[int] = PRIMES, *, forced: bool = True, seed: int = 0
+) -> ExactMobility:
+    """Return the generic mobility of an SC or SCD graph.
+
+    Parameters
+    ----------
+    mechanism : SCGraph or SCDGraph
+        Each part that is not joined to the others has a fixed link of its own.
+    primes : sequence of int, optional
+    forced : bool, optional
+        Place the vertices of an SCD graph too, not only its centres.
+    seed : int, optional
+        Random seed; another seed gives another random realisation.
+
+    Raises
+    ------
+    UnsolvableError
+        If the type could not be placed (`graphs.rank.realisation.realise`).
+    NumericalError
+        If the primes give different ranks, which all but never happens; another seed settles it.
+
+    Examples
+    --------
+    >>> stephenson = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (2, 4), (4, 5), (5, 0)],
+    ...                      [Loop((0, 1, 2, 3)), Loop((2, 3, 6, 5, 4))])
+    >>> exact_mobility(stephenson).mobility
+    1
+    """
+    ranks = [closure_modulo(mechanism, prime, forced=forced, seed=seed)[1].rank() for prime in primes]
+    joints = len(mechanism.joints)
+    rank = agreed_rank(ranks, primes)
+    return ExactMobility(joints - rank, joints, rank, tuple(primes), forced)
+
+
+def agreed_rank(ranks: Sequence[int], primes: Sequence[int]) -> int:
+    """Return the rank modulo all primes; raises `NumericalError` if they differ."""
+    if len(set(ranks)) > 1:
+        raise NumericalError(
+            f"the rank is {ranks} modulo {list(primes)}: an unlucky random realisation; try another seed"
+        )
+    return ranks[0]
+
+
+def closure_modulo(mechanism: SCGraph, prime: int, *, forced: bool = True, seed: int = 0) -> tuple[Closure, Any]:
+    """Return the closure equations of a random realisation modulo a prime, and their matrix (`flint.nmod_mat`)."""
+    field = PrimeField(prime, seed)
+    placed = realise(mechanism, field, forced=forced)
+    closure = closure_of(mechanism, placed.axes, centres_of_loops(mechanism, placed), field)
+    return closure, matrix_modulo(closure, prime)
+
+
+def centres_of_loops(mechanism: SCGraph, placed: Realisation) -> dict[int, Any]:
+    """Return the centre of each of the independent loops that has one."""
+    classes = class_of_loop(mechanism.centre_classes())
+    return {loop: placed.points[index] for loop, index in classes.items() if loop < len(mechanism.loops)}
+
+
+def matrix_modulo(closure: Closure, prime: int) -> Any:
+    """Return the matrix of closure equations (`flint.nmod_mat`)."""
+    return sparse_modulo(closure.rows, len(closure.joints), prime)
+
+
+def sparse_modulo(rows: Sequence[Mapping[int, int]], columns: int, prime: int) -> Any:
+    """Return a matrix by its nonzeros modulo a prime: to set them in an empty one is the fast way."""
+    matrix = nmod_mat(max(len(rows), 1), max(columns, 1), prime)
+    for i, row in enumerate(rows):
+        for j, value in row.items():
+            matrix[i, j] = value
+    return matrix
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnosis:
+    """Redundant closure equations of a random realisation, immobile joints, links that move as one.
+
+    Attributes
+    ----------
+    mobility : int
+        Exact generic mobility.
+    idle : int
+        Redundant closure equations: they follow from others.
+    circuits : tuple of tuple of loops
+        Smallest dependent sets of equations, one for each redundant equation: the loops they come from, each a
+        tuple of joint ids.
+    immobile : tuple of joint ids
+        Joints that no motion turns.
+    clusters : tuple of tuple of link ids
+        Links that move as one, two or more together.
+
+    Examples
+    --------
+    Three links round a centre do not move:
+
+    >>> diagnosis = diagnose(SCGraph(3, [(0, 1), (1, 2), (2, 0)], [Loop((0, 1, 2))]))
+    >>> diagnosis.mobility, diagnosis.idle, diagnosis.immobile
+    (0, 0, (0, 1, 2))
+    """
+
+    mobility: int
+    idle: int
+    circuits: tuple[tuple[tuple[JointId, ...], ...], ...]
+    immobile: tuple[JointId, ...]
+    clusters: tuple[tuple[LinkId, ...], ...]
+
+    @property
+    def regions(self) -> tuple[frozenset[JointId], ...]:
+        """Joints of the overconstrained sub-mechanisms; circuits that share a loop are one."""
+        parts: nx.utils.UnionFind[int] = nx.utils.UnionFind(range(len(self.circuits)))
+        owner: dict[tuple[JointId, ...], int] = {}
+        for index, circuit in enumerate(self.circuits):
+            for loop in circuit:
+                parts.union(owner.setdefault(loop, index), index)
+        joints: dict[int, set[JointId]] = defaultdict(set)
+        for index, circuit in enumerate(self.circuits):
+            joints[parts[index]].update(joint for loop in circuit for joint in loop)
+        return tuple(frozenset(region) for region in joints.values())
+
+
+def diagnose(mechanism: SCGraph, prime: int = PRIMES[0], *, forced: bool = True, seed: int = 0) -> Diagnosis:
+    """Find where a mechanism is overconstrained, its immobile joints and its rigid clusters of links.
+
+    Parameters
+    ----------
+    mechanism : SCGraph or SCDGraph
+    prime : int, optional
+    forced : bool, optional
+        As for `graphs.rank.exact.exact_mobility`.
+    seed : int, optional
+
+    Raises
+    ------
+    UnsolvableError
+        If the type could not be placed.
+
+    Examples
+    --------
+    A square twist of nine panels: as many equations as joints, none redundant, so it is rigid.
+
+    >>> from graphs.files.formats import read
+    >>> from graphs.convert.table import to_sc
+    >>> diagnosis = diagnose(to_sc(read("data/wiener/square-twist.fold")))
+    >>> diagnosis.mobility, diagnosis.idle, len(diagnosis.immobile), len(diagnosis.clusters)
+    (0, 0, 12, 1)
+    """
+    field = PrimeField(prime, seed)
+    placed = realise(mechanism, field, forced=forced)
+    closure = closure_of(mechanism, placed.axes, centres_of_loops(mechanism, placed), field)
+    matrix = matrix_modulo(closure, prime)
+    kernel, freedoms = matrix.nullspace()
+    motions = [[int(kernel[j, k]) for k in range(freedoms)] for j in range(len(closure.joints))]
+    stresses: Any = None
+    idle = 0
+    if closure.rows:
+        stresses, idle = matrix.transpose().nullspace()
+    circuits = tuple(
+        tuple(dict.fromkeys(closure.loops[i] for i in range(len(closure.rows)) if int(stresses[i, k])))
+        for k in range(idle)
+    )
+    return Diagnosis(
+        mobility=freedoms if closure.joints else 0,
+        idle=idle,
+        circuits=circuits,
+        immobile=tuple(joint for joint, rates in zip(closure.joints, motions, strict=True) if not any(rates)),
+        clusters=_clusters(mechanism, placed.axes, dict(zip(closure.joints, motions, strict=True)), prime),
+    )
+
+
+def _clusters(
+    mechanism: SCGraph, axes: Any, motions: dict[JointId, list[int]], prime: int
+) -> tuple[tuple[LinkId, ...], ...]:
+    """Return the links that have one twist in every motion, part by part of the mechanism."""
+    together: dict[Any, list[LinkId]] = defaultdict(list)
+    twist: dict[LinkId, list[tuple[int, ...]]] = {}
+    still: list[tuple[int, ...]] = [(0,) * 6 for _ in next(iter(motions.values()), [])]
+    for part, links in enumerate(nx.connected_components(mechanism)):
+        root = next(link for link in mechanism if link in links)
+        twist[root] = still
+        together[part, tuple(still)].append(root)
+        for a, b in nx.bfs_edges(mechanism, root):
+            joint = next(iter(mechanism[a][b]))
+            u, m = axes[joint]
+            sign = 1 if mechanism.joints[joint] == (a, b) else -1
+            twist[b] = [
+                tuple((t + sign * rate * c) % prime for t, c in zip(before, (*u, *m), strict=True))
+                for before, rate in zip(twist[a], motions[joint], strict=True)
+            ]
+            together[part, tuple(twist[b])].append(b)
+    place = {link: i for i, link in enumerate(mechanism)}
+    return tuple(tuple(sorted(links, key=place.__getitem__)) for links in together.values() if len(links) > 1)
+
+
+def mobility_without(mechanism: SCGraph, joint: JointId, *, forced: bool = True, seed: int = 0) -> int:
+    """Return the generic mobility once a joint is cut, all other axes left where they are.
+
+    A joint is *critical* if that changes the mobility, *redundant* if not. Links that fall apart count as in
+    `graphs.rank.exact.exact_mobility`: a fixed link for each part.
+
+    Parameters
+    ----------
+    mechanism : SCGraph or SCDGraph
+    joint : joint id
+    forced, seed
+        As for `graphs.rank.exact.exact_mobility`.
+
+    Examples
+    --------
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> mobility_without(four_bar, 0)
+    3
+    """
+    field = PrimeField(PRIMES[0], seed)
+    placed = realise(mechanism, field, forced=forced)
+    left = {other: ends for other, ends in mechanism.joints.items() if other != joint}
+    cut = SCGraph(mechanism.nodes, left)
+    axes = {other: placed.axes[other] for other in left}
+    return len(left) - int(matrix_modulo(closure_of(cut, axes, {}, field), PRIMES[0]).rank())
