@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass
 
 import networkx as nx
 import numpy as np
 
 from enumerate.contracted.graphs import MOST_LOOPS, decode
-from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE, Limits, keep_limits, key_of
+from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, Limits, Query
 from graphs.arrays import Bytes
 from graphs.errors import InvariantError
 
@@ -17,7 +16,7 @@ __all__ = ["ChainQuery", "is_planar"]
 
 
 @dataclass(frozen=True, slots=True)
-class ChainQuery:
+class ChainQuery(Query):
     """The kinematic chains with N links and M degrees of freedom, no sub-chain rigid.
 
     Attributes
@@ -69,7 +68,7 @@ class ChainQuery:
             raise InvariantError(
                 "loops", f"{self.links} links with M = {self.dof} have {self.loops} loops", f"{MOST_LOOPS} at most"
             )
-        keep_limits(self, "longest_string", "symmetry")
+        self._keep_limits("longest_string", "symmetry")
         if self.assortment is not None and any(count < 0 for count in self.assortment):
             raise InvariantError("assortment", f"the assortment {self.assortment}", "numbers of links")
 
@@ -93,11 +92,6 @@ class ChainQuery:
         """The longest string that can occur: M + 1 binary links; more would hold more freedoms than there are."""
         high = self.longest_string.most
         return self.dof + 1 if high is None else min(high, self.dof + 1)
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """The query in JSON values."""
-        return {field.name: key_of(getattr(self, field.name)) for field in fields(self)}
 
     def admits_assortment(self, degrees: dict[int, int]) -> bool:
         """Tell whether a chain with these numbers of links (degree to number) has the assortment asked for."""

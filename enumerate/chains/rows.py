@@ -2,6 +2,16 @@
 
 What is the same for all chains of a contracted graph is worked out once for the graph; the rest is compiled. bliss
 itself is asked for the canonical numbers of the few chains that `enumerate.kernel.bliss_order` leaves.
+
+
+# -----
+
+Choices of a ground link and of input joints, up to the symmetries of a chain.
+
+M joints are inputs of a chain of M freedoms if nothing moves once they are locked. In a chain a joint leaves one
+of three freedoms, so it is two bars between its links, and a locked one three; a generic chain of N links is
+rigid, and no bar is idle, exactly if any k links hold at most 3 (k - 1) of the bars (Tay 1984). The pebble game
+decides that.
 """
 
 from __future__ import annotations
@@ -9,37 +19,34 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import repeat
+from itertools import combinations, repeat
 
 import networkx as nx
 import numpy as np
 
-from enumerate.chains.inputs import input_choices
 from enumerate.chains.query import ChainQuery, is_planar
-from enumerate.contracted.graphs import decode
-from enumerate.contracted.listing import (
+from enumerate.contracted.binary_links import (
     frame_of,
     graph6_rows,
     joints_of_all,
+    link_symmetries,
     orbits_of,
     orbits_of_all,
     placements_of,
-    symmetries_of,
 )
+from enumerate.contracted.graphs import decode
 from enumerate.kernel.bliss_order import MOST_NODES, bliss_orders
-from enumerate.runner.columns import Column, ListColumn
-from enumerate.runner.job import Row
+from enumerate.runner.job import Column, ListColumn, Row
 from graphs.arrays import Bytes, Ints
 from graphs.identity.chains import automorphisms_of, canonical_order
 
 __all__ = [
-    "COLUMNS",
-    "GROUND_COLUMNS",
-    "INPUT_COLUMNS",
     "GraphChains",
+    "are_inputs",
     "assortment_of",
     "chain_ids",
     "columns_of",
+    "input_choices",
     "rows_of_graph",
     "rows_of_joints",
 ]
@@ -117,7 +124,7 @@ def rows_of_graph(query: ChainQuery, chains: GraphChains, bare: bool) -> list[Ro
         return rows
     found: list[Row] = []
     for i, row in enumerate(rows):
-        generators = symmetries_of(ends, first, moved, automorphisms, query.links, chains.x[i])
+        generators = link_symmetries(ends, first, moved, automorphisms, query.links, chains.x[i])
         order = labels[i].tolist()
         renamed = np.empty_like(generators)
         renamed[:, order] = labels[i][generators]
@@ -207,3 +214,92 @@ def _longest_string(graph: nx.Graph) -> int:
     """Return the number of links of the longest row of binary links."""
     binary = graph.subgraph(link for link, degree in graph.degree() if degree == 2)
     return max(map(len, nx.connected_components(binary)), default=0)
+
+
+Joint = tuple[int, int]
+
+
+def are_inputs(links: int, joints: Sequence[Joint], locked: Sequence[int]) -> bool:
+    """Return whether locking some joints of a chain, by their indices, takes one freedom each.
+
+    The chain has no rigid sub-chains.
+    """
+    bars = [
+        end for index, end in zip(range(len(joints)), joints, strict=True) for _ in range(2 + (index in locked))
+    ]
+    return _is_sparse(links, bars)
+
+
+def _is_sparse(nodes: int, bars: Sequence[Joint]) -> bool:
+    """Tell whether any k nodes hold at most 3 (k - 1) bars: the (3, 3) pebble game.
+
+    Every node has three pebbles; a bar takes one of an end's. It may lie if four pebbles can be brought to its
+    ends, moving pebbles against the bars that took them.
+    """
+    pebbles = [3] * nodes
+    out: list[list[int]] = [[] for _ in range(nodes)]
+    for a, b in bars:
+        while pebbles[a] + pebbles[b] < 4:
+            if not (_fetch(a, b, pebbles, out) or _fetch(b, a, pebbles, out)):
+                return False
+        taker, other = (a, b) if pebbles[a] else (b, a)
+        pebbles[taker] -= 1
+        out[taker].append(other)
+    return True
+
+
+def _fetch(node: int, keep: int, pebbles: list[int], out: list[list[int]]) -> bool:
+    """Bring one more pebble to a node, not from the node ``keep``; tell whether there was one."""
+    came_from = {node: node, keep: keep}
+    stack = [node]
+    while stack:
+        here = stack.pop()
+        for there in out[here]:
+            if there in came_from:
+                continue
+            came_from[there] = here
+            if pebbles[there]:
+                pebbles[there] -= 1
+                pebbles[node] += 1
+                while there != node:
+                    before = came_from[there]
+                    out[before].remove(there)
+                    out[there].append(before)
+                    there = before  # noqa: PLW2901 - walk back along the path
+                return True
+            stack.append(there)
+    return False
+
+
+def input_choices(
+    links: int, joints: Sequence[Joint], generators: Sequence[Sequence[int]], dof: int
+) -> Iterator[tuple[int, list[Joint]]]:
+    """Yield choices of a ground link and `dof` input joints of a chain, one of each orbit, the least one.
+
+    The generators are permutations of the links that generate the automorphisms.
+
+    >>> ring = [(0, 1), (1, 2), (2, 3), (3, 0)]
+    >>> list(input_choices(4, ring, [[1, 2, 3, 0], [0, 3, 2, 1]], 1))
+    [(0, [(0, 1)]), (0, [(1, 2)])]
+    """
+    ordered = sorted((min(joint), max(joint)) for joint in joints)
+    number = {joint: i for i, joint in zip(range(len(ordered)), ordered, strict=True)}
+    moves = [
+        (move, [number[min(move[a], move[b]), max(move[a], move[b])] for a, b in ordered]) for move in generators
+    ]
+    chosen = [c for c in combinations(range(len(ordered)), dof) if dof == 1 or are_inputs(links, ordered, c)]
+    seen: set[tuple[int, tuple[int, ...]]] = set()
+    for ground in range(links):
+        for inputs in chosen:
+            if (ground, inputs) in seen:
+                continue
+            yield ground, [ordered[i] for i in inputs]
+            seen.add((ground, inputs))
+            stack = [(ground, inputs)]
+            while stack:
+                link, taken = stack.pop()
+                for move, joint_move in moves:
+                    image = move[link], tuple(sorted(joint_move[i] for i in taken))
+                    if image not in seen:
+                        seen.add(image)
+                        stack.append(image)

@@ -4,24 +4,42 @@ Projected angles always fit, so a chain lies on a cone with its joints in any cy
 a turn, a mirror image or a symmetry of the chain (one that leaves the ground link where it is, if one is given)
 counts once. What the candidates do is worked out in `synth.candidates.job`. Source: Hyatt et al. 2020, section 7.
 Theory: docs/theory/conical-candidates.md.
+
+
+# -----
+
+Symmetries of chains as permutations of their joints.
+
+Theory: docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from enumerate.conical.rounds import Rounds, count_by_burnside, count_by_orbits, placements, prefixes
-from enumerate.conical.symmetries import joint_symmetries
+import networkx as nx
+import numpy as np
+
+from enumerate.conical.rounds import Rounds, count_rounds_by_burnside, count_rounds_by_orbits, placements, prefixes
 from enumerate.runner.job import Counting, Row, Unit
 from enumerate.runner.running import total_of, tuples_of
 from graphs.arrays import Ints
-from graphs.errors import InvariantError, UnsolvableError
+from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.identity.bliss import subdivided, symmetries_of
 from graphs.ids import JointId, LinkId
 
-__all__ = ["ConicalCountJob", "ConicalQuery", "Portion", "conical_orders", "count_conical_orders"]
+__all__ = [
+    "ConicalCountJob",
+    "ConicalQuery",
+    "Portion",
+    "conical_orders",
+    "count_conical_orders",
+    "joint_symmetries",
+    "links_apart",
+]
 
 _PLACEMENTS = 2_000_000
 """Placements of a unit that counts, at most; symmetric ones apart."""
@@ -225,5 +243,80 @@ class ConicalCountJob(Counting):
         """Return the number of candidates of a unit."""
         rounds, symmetries = self.query.rounds, self.query.symmetries(payload.ground)
         if self.method == "burnside":
-            return [(count_by_burnside(rounds, symmetries),)]
-        return [(count_by_orbits(rounds, symmetries, payload.prefix),)]
+            return [(count_rounds_by_burnside(rounds, symmetries),)]
+        return [(count_rounds_by_orbits(rounds, symmetries, payload.prefix),)]
+
+
+_MOST = 100_000
+"""Symmetries beyond this number are not listed."""
+
+
+def joint_symmetries(joints: Mapping[JointId, tuple[LinkId, LinkId]], ground: LinkId | None = None) -> Ints:
+    """Return all symmetries of a chain, as permutations of its joints.
+
+    Parameters
+    ----------
+    joints : mapping of joint id to (link, link)
+        Parallel joints may change places.
+    ground : link id, optional
+        A link that stays where it is.
+
+    Returns
+    -------
+    int64[g, J]
+        Row s takes joint i to joint ``s[i]``; the identity first, then in lexicographic order.
+
+    Raises
+    ------
+    InvariantError
+        If the ground carries no joint.
+    UnsolvableError
+        If there are more than 100 000.
+
+    Examples
+    --------
+    >>> four_bar = dict(enumerate([(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> len(joint_symmetries(four_bar)), joint_symmetries(four_bar, ground=0).tolist()
+    (8, [[0, 1, 2, 3], [3, 2, 1, 0]])
+    """
+    generators, links, size = _generators(joints, ground)
+    if ground is not None and ground not in links:
+        raise InvariantError("ground", f"the ground link {shown(ground)}", "a link with a joint")
+    if size > _MOST:
+        raise UnsolvableError(f"the chain has {size:.3g} symmetries; expected {_MOST} at most")
+    count = len(joints)
+    moves = {tuple(one[len(links) + i] - len(links) for i in range(count)) for one in generators}
+    found = {tuple(range(count))}
+    new = found
+    while new:
+        new = {tuple(move[i] for i in one) for one in new for move in moves} - found
+        found = found | new
+    return np.array(sorted(found), np.int64).reshape(-1, count)
+
+
+def links_apart(joints: Mapping[JointId, tuple[LinkId, LinkId]]) -> list[LinkId]:
+    """Return one link of each set of links that symmetries exchange: the different ground links of a chain."""
+    generators, links, _ = _generators(joints, None)
+    orbits = nx.utils.UnionFind(range(len(links)))
+    for one in generators:
+        for i in range(len(links)):
+            orbits.union(i, one[i])
+    first: dict[int, LinkId] = {}
+    for i, link in enumerate(links):
+        first.setdefault(orbits[i], link)
+    return list(first.values())
+
+
+def _generators(
+    joints: Mapping[JointId, tuple[LinkId, LinkId]], ground: LinkId | None
+) -> tuple[list[list[int]], list[LinkId], float]:
+    """Return generators on links, then joints; the links in their order; how many symmetries there are.
+
+    Joints are nodes of their own: so symmetries that exchange parallel joints are found too.
+    """
+    links = list(dict.fromkeys(link for ends in joints.values() for link in ends))
+    number = dict(zip(links, range(len(links)), strict=True))
+    pairs = [(number[a], number[b]) for a, b in joints.values()]
+    marked = None if ground is None else number.get(ground)
+    symmetries = symmetries_of(subdivided(len(links), pairs, marked))
+    return symmetries.generators, links, symmetries.size

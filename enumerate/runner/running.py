@@ -15,14 +15,12 @@ from concurrent.futures import Future
 from contextlib import closing, contextmanager
 from typing import Any
 
-from enumerate.runner.cluster import Cluster
-from enumerate.runner.columns import row_as_dict
-from enumerate.runner.job import Job, Progress, Row, Sink, Unit
-from enumerate.runner.stopping import Interrupted, interruptible
-from enumerate.runner.workers import LocalWorkers, Workers, timed
+from enumerate.runner.job import Job, Progress, Row, Sink, Unit, row_as_dict
+from enumerate.runner.stopping import interruptible
+from enumerate.runner.workers import Cluster, LocalWorkers, Workers, timed
 from graphs.errors import StoreError
 
-__all__ = ["Interrupted", "rows_of", "run", "total_of", "tuples_of"]
+__all__ = ["rows_of", "run", "total_of", "tuples_of"]
 
 _AHEAD = 4
 """Units in the air for each worker."""
@@ -74,8 +72,7 @@ def run(
 
     Examples
     --------
-    >>> from enumerate.chains.jobs import ChainJob
-    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.chains import ChainJob, ChainQuery
     >>> from enumerate.runner.sinks import RowSink
     >>> done = run(ChainJob(ChainQuery(6, 1), bare=True), RowSink(lambda columns, rows: print(columns, rows)))
     ('code',) [('k1:E`hW',), ('k1:E@zO',)]
@@ -178,8 +175,7 @@ def rows_of(job: Job, *, workers: int = 1) -> Iterator[dict[str, Any]]:
 
     Examples
     --------
-    >>> from enumerate.chains.jobs import ChainJob
-    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.chains import ChainJob, ChainQuery
     >>> list(rows_of(ChainJob(ChainQuery(6, 1), bare=True)))
     [{'code': 'k1:E`hW'}, {'code': 'k1:E@zO'}]
     """
@@ -210,8 +206,7 @@ def total_of(job: Job, *, workers: int = 1) -> int:
     --------
     Chains of eight links and one freedom, as Burnside's lemma counts them:
 
-    >>> from enumerate.chains.jobs import count_job
-    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.chains import ChainQuery, count_job
     >>> total_of(count_job(ChainQuery(8, 1), "burnside"))
     16
     """

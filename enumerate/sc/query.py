@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass
 
 from enumerate.chains.query import ChainQuery
 from enumerate.contracted.maps import MOST_MAP_LOOPS
-from enumerate.kernel.centre_labels import MOST_JOINTS
-from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE, Limits, keep_limits, key_of
+from enumerate.kernel.centres import MOST_JOINTS
+from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, Limits, Query
 from graphs.errors import InvariantError
 
 __all__ = ["SCQuery"]
 
 
 @dataclass(frozen=True, slots=True)
-class SCQuery:
+class SCQuery(Query):
     """The SC graphs of N links and M degrees of freedom: drawn chains with an outer face and centres.
 
     Attributes
@@ -60,7 +59,7 @@ class SCQuery:
             raise InvariantError("spatial loops", f"{self.spatial} spatial loops", "0 or more")
         if self.dof < 1:
             raise InvariantError("dof", f"{self.dof} degrees of freedom", "1 or more")
-        keep_limits(self, "centres", "symmetry", "longest_string")
+        self._keep_limits("centres", "symmetry", "longest_string")
         if self.chains.loops > MOST_MAP_LOOPS:
             raise InvariantError(
                 "loops",
@@ -94,11 +93,6 @@ class SCQuery:
     def plain(self) -> bool:
         """Whether all loops have finite centres, so that there is one labelling."""
         return self.spatial == 0 and not self.infinite
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """The query in JSON values."""
-        return {field.name: key_of(getattr(self, field.name)) for field in fields(self)}
 
     @property
     def unfiltered(self) -> bool:

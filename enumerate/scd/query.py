@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
-from enumerate.runner.limits import ANY_NUMBER, Limits, keep_limits, key_of
+from enumerate.runner.job import ANY_NUMBER, Limits, Query
 from enumerate.sc.query import SCQuery
 from graphs.errors import InvariantError
 
@@ -15,7 +15,7 @@ _MOST_DEGREE = 60
 
 
 @dataclass(frozen=True, slots=True)
-class PlacementQuery:
+class PlacementQuery(Query):
     """Which placements of open edges are asked for, on any mechanism.
 
     Attributes
@@ -49,17 +49,12 @@ class PlacementQuery:
     def __post_init__(self) -> None:
         if not 3 <= self.max_degree <= _MOST_DEGREE:
             raise InvariantError("max degree", f"{self.max_degree} sides", f"3 to {_MOST_DEGREE}")
-        keep_limits(self, "vertices")
+        self._keep_limits("vertices")
 
     @property
     def counted(self) -> bool:
         """Whether nothing is asked that Burnside's lemma does not count."""
         return not self.symmetric and self.vertices == ANY_NUMBER
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """The query in JSON values."""
-        return {field.name: key_of(getattr(self, field.name)) for field in fields(self)}
 
 
 @dataclass(frozen=True, slots=True)

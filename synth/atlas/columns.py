@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from enumerate.runner.columns import Column, ListColumn
+from enumerate.runner.job import Column, ListColumn
 from graphs.mechanism.arrangement import ARRANGEMENTS
 
 __all__ = ["COLUMNS", "KINDS", "SCHEMA", "AtlasColumn", "stored_columns"]

@@ -17,8 +17,7 @@ from typing import Any
 import numpy as np
 
 from enumerate.conical.query import ConicalQuery, Portion
-from enumerate.runner.columns import Column
-from enumerate.runner.job import Counting, Row, Unit
+from enumerate.runner.job import Column, Counting, Row, Unit
 from enumerate.runner.running import rows_of
 from graphs.arrays import Floats, Ints
 from graphs.errors import InvariantError, UnsolvableError

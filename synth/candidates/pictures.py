@@ -7,8 +7,7 @@ from math import radians
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.columns import row_as_dict
-from enumerate.runner.job import Row, Sink
+from enumerate.runner.job import Row, Sink, row_as_dict
 from graphs.errors import UnsolvableError
 from graphs.files.atomic import FolderBeside
 from graphs.files.unfinished import remove_left

@@ -13,8 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.runner.columns import Column, ListColumn, RangeColumn
-from enumerate.runner.job import Row
+from enumerate.runner.job import Column, ListColumn, RangeColumn, Row
 from graphs.arrays import Floats, Ints
 from graphs.mechanism.surfaces import Cone, Surface
 from synth.candidates.values import four_bar_classes, half_turns, loop_circuits

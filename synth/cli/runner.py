@@ -14,8 +14,7 @@ from graphs.plain_text import LONGEST_CELL
 from synth.cli.output import FORCE, console, plain, print_json, table, tell_written
 
 if TYPE_CHECKING:
-    from enumerate.runner.columns import Column
-    from enumerate.runner.job import Job, Progress, Row, Sink
+    from enumerate.runner.job import Column, Job, Progress, Row, Sink
 
 __all__ = [
     "LimitsType",
@@ -42,7 +41,7 @@ class LimitsType(click.ParamType):  # type: ignore[type-arg,unused-ignore]
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return limits."""
-        from enumerate.runner.limits import Limits
+        from enumerate.runner.job import Limits
 
         if isinstance(value, Limits):
             return value
@@ -133,8 +132,8 @@ def runner_options(function: F) -> F:
 
 def run_count(job: Job, options: RunOptions) -> None:
     """Run a job that counts, and print the number; what is counted is kept where the options say."""
+    from enumerate.runner.sinks import CountSink
     from enumerate.runner.store import SqliteSink
-    from enumerate.runner.totals import CountSink
 
     meter = _Meter.of(options, counting=True)
     store = None
@@ -196,7 +195,8 @@ def run_whole(job: Job, sink: Sink, options: RunOptions) -> None:
 
 
 def _run(job: Job, sink: Sink, options: RunOptions, meter: _Meter, *, stored: bool = False) -> Progress:
-    from enumerate.runner.running import Interrupted, run
+    from enumerate.runner.running import run
+    from enumerate.runner.stopping import Interrupted
 
     try:
         if options.output is not None or meter.counting:  # else rows may be printed on the same line

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.conical.layers import fewest_layers, layers_of_links
+from enumerate.conical.rounds import fewest_layers, layers_of_links
 from graphs.arrays import Floats, Ints
 from graphs.errors import UnsolvableError
 from synth.conformed.rates import ConformedChain

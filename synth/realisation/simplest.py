@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import networkx as nx
 
-from enumerate.scd.graphs import mechanism_of, scd_graphs_of
+from enumerate.scd.jobs import mechanism_of, scd_graphs_of
 from graphs.convert.table import Mechanism, to_scd
 from graphs.errors import UnsolvableError, numbered
 from graphs.mechanism.sc import SCGraph

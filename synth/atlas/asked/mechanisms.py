@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from enumerate.strings.graphs import chain_scd
+from enumerate.strings.panel_strings import chain_scd
 from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.native.documents import dumps
 from graphs.files.patterns.fold import sheet_from_fold

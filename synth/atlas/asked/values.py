@@ -7,7 +7,7 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.columns import ListColumn, unstored
+from enumerate.runner.job import ListColumn, unstored
 from graphs.errors import StoreError, shown
 from graphs.plain_text import plain
 from synth.atlas.columns import COLUMNS, KINDS

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.columns import Column, ListColumn
-from enumerate.runner.job import Row, Unit
+from enumerate.runner.job import Column, ListColumn, Row, Unit
 from enumerate.runner.running import run
 from enumerate.runner.sinks import sink_for
 from graphs.errors import FileError, InvariantError

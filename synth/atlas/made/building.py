@@ -19,7 +19,7 @@ from typing import Any
 from enumerate.runner.job import Job, Progress
 from enumerate.runner.running import run
 from enumerate.runner.store import SqliteSink
-from enumerate.runner.store_units import named, quoted
+from enumerate.runner.store_units import naming, quoted
 from synth.atlas.columns import COLUMNS, SCHEMA
 from synth.atlas.made.job import AtlasJob
 from synth.atlas.made.plan import AtlasPlan
@@ -96,7 +96,7 @@ def build_atlas(
 
 def _make_askable(path: Path, command: str) -> None:
     """Give a complete store of types its views and indexes; those that are there stay."""
-    with named(path), closing(sqlite3.connect(path)) as connection, connection:
+    with naming(path), closing(sqlite3.connect(path)) as connection, connection:
         connection.execute("BEGIN IMMEDIATE")
         connection.execute(f"CREATE VIEW IF NOT EXISTS types AS SELECT {quoted(COLUMNS)} FROM type")
         connection.execute(f"CREATE VIEW IF NOT EXISTS relations AS {_relations()}")

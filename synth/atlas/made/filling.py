@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from enumerate.contracted.listing import orbits_of
-from enumerate.strings.graphs import chain_scd
+from enumerate.contracted.binary_links import orbits_of
+from enumerate.strings.panel_strings import chain_scd
 from graphs.edit.analogues import generalised_form, planar_analogue, spherical_analogue
 from graphs.errors import SynthedraError
 from graphs.files.ids import mechanism_of_id

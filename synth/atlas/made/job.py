@@ -10,8 +10,7 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any
 
-from enumerate.runner.columns import Column
-from enumerate.runner.job import Job, Row, Unit
+from enumerate.runner.job import Column, Job, Row, Unit
 from synth.atlas.columns import COLUMNS, SCHEMA, stored_columns
 from synth.atlas.made.filling import filled
 from synth.atlas.made.plan import AtlasPlan

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.columns import Column
-from enumerate.runner.job import Job, Progress, Row, Unit
+from enumerate.runner.job import Column, Job, Progress, Row, Unit
 from enumerate.runner.running import run
 from enumerate.runner.sinks import FolderSink
 from graphs.errors import FileError, UnsolvableError

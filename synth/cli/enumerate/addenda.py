@@ -37,7 +37,7 @@ def addenda(file: str, delta_dof: int, only_count: bool, **rest: Any) -> None:
       synth enumerate addenda --of data/wiener/watt.json --delta-dof 1 -o addenda
     """
     options = RunOptions.taken_from(rest, counting=only_count)
-    from enumerate.addenda import AddendumCountJob, AddendumJob
+    from enumerate.addenda import AddendumJob, addendum_count_job
     from graphs.convert.table import graph_of
     from graphs.files.formats import read
 
@@ -45,6 +45,6 @@ def addenda(file: str, delta_dof: int, only_count: bool, **rest: Any) -> None:
     with about(file):
         job = AddendumJob(graph_of(thing), delta_dof)
     if only_count:
-        run_count(AddendumCountJob(job), options)
+        run_count(addendum_count_job(job), options)
     else:
         run_rows(job, options)

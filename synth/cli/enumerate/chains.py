@@ -10,7 +10,7 @@ from synth.cli.output import plain
 from synth.cli.runner import LimitsType, RunOptions, run_count, run_rows, runner_options
 
 if TYPE_CHECKING:
-    from enumerate.runner.limits import Limits
+    from enumerate.runner.job import Limits
 
 __all__ = ["assortment", "chains", "say_if_odd"]
 
@@ -85,7 +85,7 @@ def chains(
         raise click.UsageError("--method says how --count counts; add --count")
     from enumerate.chains.jobs import ChainJob, count_job
     from enumerate.chains.query import ChainQuery
-    from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE
+    from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE
 
     query = ChainQuery(
         links, dof, **rest, longest_string=longest_string or ANY_NUMBER, symmetry=symmetry or ONE_OR_MORE

@@ -219,7 +219,7 @@ def _chain(name: str) -> SCGraph:
 
 def _grounds(chain: SCGraph, ground: str | None) -> tuple[LinkId | None, ...]:
     """Return the fixed links that an option asks for; without it the chain's own."""
-    from enumerate.conical.symmetries import links_apart
+    from enumerate.conical.query import links_apart
     from graphs.edit.named import link_named
 
     if ground is None:

@@ -10,7 +10,7 @@ from synth.cli.enumerate.chains import assortment, say_if_odd
 from synth.cli.runner import LimitsType, RunOptions, run_count, run_rows, runner_options
 
 if TYPE_CHECKING:
-    from enumerate.runner.limits import Limits
+    from enumerate.runner.job import Limits
 
 __all__ = ["sc"]
 
@@ -91,9 +91,8 @@ def sc(
     options = RunOptions.taken_from(rest, counting=only_count)
     if not only_count and (method is not None or embeddings):
         raise click.UsageError("--method and --embeddings say how --count counts; add --count")
-    from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE
-    from enumerate.sc.forms import FormJob
-    from enumerate.sc.jobs import SCJob, sc_count_job
+    from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE
+    from enumerate.sc.jobs import FormJob, SCJob, sc_count_job
     from enumerate.sc.query import SCQuery
 
     query = SCQuery(

@@ -11,7 +11,7 @@ from synth.cli.output import about
 from synth.cli.runner import LimitsType, RunOptions, run_count, run_rows, runner_options
 
 if TYPE_CHECKING:
-    from enumerate.runner.limits import Limits
+    from enumerate.runner.job import Limits
     from enumerate.scd.jobs import Mechanisms
 
 __all__ = ["scd"]
@@ -82,7 +82,7 @@ def scd(
     options = RunOptions.taken_from(rest, counting=only_count)
     if method is not None and not only_count:
         raise click.UsageError("--method says how --count counts; add --count")
-    from enumerate.runner.limits import ANY_NUMBER
+    from enumerate.runner.job import ANY_NUMBER
     from enumerate.scd.jobs import SCDJob, scd_count_job
 
     filters = {**rest, "vertices": vertices or ANY_NUMBER}
@@ -94,7 +94,7 @@ def scd(
     elif links is None or dof is None:
         raise click.UsageError("give --links and --dof, or --of FILE")
     else:
-        from enumerate.scd.graphs import all_mechanisms
+        from enumerate.scd.jobs import all_mechanisms
 
         mechanisms = all_mechanisms(links, dof, max_degree, spatial=spatial, infinite=infinite, **filters)
         if not mechanisms.query.tree:
@@ -106,7 +106,7 @@ def scd(
 
 
 def _of_file(file: str, max_degree: int, filters: dict[str, Any]) -> Mechanisms:
-    from enumerate.scd.graphs import mechanism_of
+    from enumerate.scd.jobs import mechanism_of
     from graphs.convert.table import graph_of
     from graphs.files.formats import read
 

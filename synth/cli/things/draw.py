@@ -16,7 +16,7 @@ from synth.cli.reading import LAYER, LOOK, keep_looks, read
 from synth.cli.runner import LimitsType
 
 if TYPE_CHECKING:
-    from enumerate.runner.limits import Limits
+    from enumerate.runner.job import Limits
     from synth.drawing.catalogue.entries import CatalogueEntry
     from synth.drawing.mechanisms.pictures import Drawable
 

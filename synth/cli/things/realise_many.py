@@ -25,7 +25,7 @@ def realise_many(source: str, running: RunOptions, options: dict[str, Any], *, a
     The output of `running` is a folder, or a store (.sqlite), which holds the files in its rows; the options are
     those of `synth.realisation.realise`.
     """
-    from enumerate.runner.columns import row_as_dict
+    from enumerate.runner.job import row_as_dict
     from enumerate.runner.store import read_rows
     from graphs.errors import numbered
     from synth.realisation.many.job import COLUMNS, RealisationJob, summary_of

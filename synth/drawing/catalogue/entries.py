@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from enumerate.chains.names import name_of
-from enumerate.runner.limits import Limits
+from enumerate.runner.job import Limits
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import FileError, InvariantError, SynthedraError, shown
 from graphs.files.formats import read_all

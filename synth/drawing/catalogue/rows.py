@@ -8,7 +8,7 @@ from math import pi, radians
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.columns import row_as_dict
+from enumerate.runner.job import row_as_dict
 from enumerate.runner.store import read_meta, read_rows
 from graphs.errors import FileError, UnsolvableError, shown
 from graphs.mechanism.sc import SCGraph

@@ -10,8 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from enumerate.strings.graphs import chain_scd
-from enumerate.strings.panel_strings import ChainString
+from enumerate.strings.panel_strings import ChainString, chain_scd
 from graphs.arrays import Floats
 from graphs.geometry import rotated, unit
 from graphs.mechanism.scd import SCDGraph
@@ -35,7 +34,7 @@ bodies of RR-RR-RR have five freedoms, not six."""
 def drawn_string(chain: ChainString, mode: str | None = None) -> tuple[SCDGraph, tuple[str, ...]]:
     """Return the SCD graph of a string, its two bodies quadrilaterals, and what it is.
 
-    The mode is one as `enumerate.strings.graphs.chain_scd` takes it; all on one side without it. Raises
+    The mode is one as `enumerate.strings.panel_strings.chain_scd` takes it; all on one side without it. Raises
     `InvariantError` if the string has no such mode.
     """
     scd = chain_scd(chain, mode, ends=(4, 4))

@@ -9,8 +9,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.columns import row_as_dict
-from enumerate.runner.job import Job, Row
+from enumerate.runner.job import Job, Row, row_as_dict
 from enumerate.runner.store import SqliteSink, read_rows
 from graphs.errors import FileError
 from graphs.files.atomic import check_new_folder, write_text

@@ -11,8 +11,7 @@ from functools import cached_property
 from hashlib import sha256
 from typing import Any, Literal
 
-from enumerate.runner.columns import Column
-from enumerate.runner.job import Row, Unit
+from enumerate.runner.job import Column, Row, Unit
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import SynthedraError, UnsolvableError
 from graphs.files.native.documents import dumps

@@ -32,8 +32,8 @@ def test_a_reader_does_not_hinder_the_end(tmp_path):
             assert next(readers[0]) == (0, 0)
 
     run(Squares(), SqliteSink(store, tell=told.append), report=read)
-    wal = f"{store}: is complete; another process has it open: squares.sqlite-wal belongs to it; "
-    assert told == [wal + "--resume makes it one file"]
+    wal = f"{store}: complete, but another process has it open: squares.sqlite-wal belongs to it; "
+    assert told == [wal + "try --resume to make it one file"]
     assert read_meta(store)["complete"] is True
     assert list(read_rows(store)) == ROWS
     assert len(list(readers[0])) == 49  # what was there when it began
@@ -149,7 +149,7 @@ def test_two_runs_of_chains_and_a_reader_in_processes_of_their_own(tmp_path, lat
         if one.returncode:
             assert lines == [f"{store}: another run is writing to it"]
         else:
-            assert all("is complete; another process has it open" in line for line in lines)
+            assert all("complete, but another process has it open" in line for line in lines)
             assert len(lines) <= 1
     assert run(job, SqliteSink(store, resume=True)).rows == 0
     assert contents(store) == contents(tmp_path / "whole.sqlite")

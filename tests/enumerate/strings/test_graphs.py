@@ -1,8 +1,7 @@
 import pytest
 from hypothesis import given, strategies as st
 
-from enumerate.strings.graphs import chain_sc, chain_scd, string_of_chain
-from enumerate.strings.panel_strings import ChainString, strings
+from enumerate.strings.panel_strings import ChainString, chain_sc, chain_scd, string_of_chain, strings
 from graphs.convert.panels import scd_from_panels
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from enumerate.runner.columns import ListColumn, stored
+from enumerate.runner.job import ListColumn, stored
 from graphs.errors import SynthedraError
 from synth.atlas.asked.expression import ExpressionError, condition_of
 from synth.atlas.columns import stored_columns

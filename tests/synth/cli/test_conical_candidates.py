@@ -9,7 +9,7 @@ import shlex
 import pytest
 from commands import run
 
-from enumerate.runner.columns import row_as_dict
+from enumerate.runner.job import row_as_dict
 from enumerate.runner.store import read_rows
 from graphs.files.formats import read_linkage
 
@@ -111,7 +111,7 @@ def test_formulas():
         (["--chain", "watt", "--count", "--sort", "order"], "leave out --sort"),
         (["--chain", "watt", "--count", "--open", 2, "--method", "orbits"], "leave out filters"),
         (["--chain", "watt", "-o", "x.sqlite", "--resume", "--sort", "order"], "--resume does not go with"),
-        (["--chain", "watt", "-o", "x.g6"], "graph6 has no place for angles"),
+        (["--chain", "watt", "-o", "x.g6"], "graph6 cannot hold angles"),
     ],
 )
 def test_candidates_that_cannot_be_listed(words, message, tmp_path, monkeypatch):
