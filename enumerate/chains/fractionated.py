@@ -1,19 +1,14 @@
-"""Fractionated chains: blocks that share single links, and bridge joints.
+"""Fractionated chains: blocks that share single links, and bridge joints; listed, and counted by cycle indices.
 
 A connected chain without rigid sub-chains is a tree of blocks: chains that nothing cuts, with N_i links and
 M_i >= 1 freedoms each, and single joints between two links (N_i = 2, M_i = 1), which no leaf of the tree is. Links
 - 1 and freedoms add up over the blocks. Chains made of different blocks differ, so the blocks are chosen first;
 then they are put together in all ways, block after block, forms that correspond kept once. Only the forms of one
-choice of blocks are held at a time. Theory: docs/theory/chains.md.
+choice of blocks are held at a time.
 
-
-# -----
-
-The number of connected chains, fractionated ones too, from the cycle indices of the blocks.
-
-A chain rooted at a link is that link with a set of blocks hung on it, each other link of a block again a rooted
-chain (Robinson 1970). With Z the sum of y^M Z(B) over all blocks B, Z' its derivative by p_1 and p_k read as
-R(x^k, y^k),
+For the number, a chain is rooted at a link: that link with a set of blocks hung on it, each other link of a block
+again a rooted chain (Robinson 1970). With Z the sum of y^M Z(B) over all blocks B, Z' its derivative by p_1 and
+p_k read as R(x^k, y^k),
 
     R = x exp( sum over k of Z'[R](x^k, y^k) / k ),
 
@@ -117,7 +112,7 @@ def glued(blocks: Sequence[Block]) -> list[Joints]:
         for missing, partial in forms.items():
             for kind in range(len(kinds)):
                 if missing[kind]:
-                    rest = tuple(count - (k == kind) for k, count in zip(range(len(kinds)), missing, strict=True))
+                    rest = tuple(count - (k == kind) for k, count in enumerate(missing))
                     found = grown.setdefault(rest, {})
                     ends = sum(count for block, count in zip(kinds, rest, strict=True) if block != _BRIDGE_BLOCK)
                     for joints, links in partial.items():
@@ -188,10 +183,6 @@ def count_connected(links: int, dof: int) -> int:
     ----------
     links, dof : int
         N, and M from 1 on.
-
-    Returns
-    -------
-    int
 
     Examples
     --------
@@ -282,7 +273,7 @@ def _class_cycles(
 ) -> Iterator[tuple[list[list[int]], bool]]:
     """Yield the cycles of classes of parallel joints, and whether a class comes back with its ends exchanged."""
     members: dict[int, list[int]] = defaultdict(list)
-    for e, start in zip(range(len(first)), first.tolist(), strict=True):
+    for e, start in enumerate(first.tolist()):
         members[start].append(e)
     left = set(members)
     while left:

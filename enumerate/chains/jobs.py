@@ -80,14 +80,14 @@ Payload = _Graphs | _Glued | None
 
 
 def _graphs(query: ChainQuery) -> Iterator[tuple[int, Bytes]]:
-    """Yield the contracted graphs whose chains can be among those asked for, most links first."""
+    """Yield the contracted graphs whose chains a query may admit, most links first."""
     if not query.possible or query.loops < 2:
         return
     yield from _admitted(query, contracted_graphs(query.loops))
 
 
 def _admitted(query: ChainQuery, levels: Iterable[tuple[int, Bytes]]) -> Iterator[tuple[int, Bytes]]:
-    """Yield of contracted graphs with so many links those whose chains can be among those asked for."""
+    """Yield those contracted graphs, by numbers of links, whose chains a query may admit."""
     for n, codes in levels:
         if n > query.links:
             continue
@@ -100,7 +100,7 @@ def _admitted(query: ChainQuery, levels: Iterable[tuple[int, Bytes]]) -> Iterato
 
 @dataclass(frozen=True)
 class ChainJob:
-    """All chains that a query asks for, as rows.
+    """All chains of a query, as rows.
 
     Attributes
     ----------
@@ -180,7 +180,7 @@ class ChainJob:
             yield GraphChains.of(self.query, code, payload.n, payload.only, payload.prefix)
 
     def number(self, payload: Payload) -> int:
-        """Return the number of rows of a unit; labels are not worked out where nothing asks for them."""
+        """Return the number of rows of a unit; without labels where they are not needed."""
         query = self.query
         if not isinstance(payload, _Graphs) or query.inputs:
             return len(self.work(payload))
@@ -223,7 +223,7 @@ def _blocks(links: int, dof: int) -> Iterator[Block]:
 
 @dataclass(frozen=True)
 class CountJob(Counting):
-    """The number of chains that a query asks for; each row is a number to be added.
+    """The number of chains of a query; each row is a number to be added.
 
     Attributes
     ----------
@@ -306,14 +306,14 @@ class _ConnectedCountJob(Counting):
 def count_job(
     query: ChainQuery, method: str, kept: Mapping[str, Any] | None = None
 ) -> CountJob | RowCount | _ConnectedCountJob:
-    """Return the job that counts what a query asks for.
+    """Return the job that counts the chains of a query.
 
     Parameters
     ----------
     query : ChainQuery
     method : {"orbits", "burnside"}
     kept : mapping, optional
-        The key of a job that is to be gone on with: the units are as large as it says, where there is a choice.
+        The key of a job to be resumed: the units are as large as it says, where there is a choice.
 
     Returns
     -------
@@ -323,12 +323,10 @@ def count_job(
     Raises
     ------
     UnsolvableError
-        If Burnside's lemma is asked for what it does not count here.
+        If Burnside's lemma cannot count by all that the query limits.
 
     Examples
     --------
-    Both ways to count:
-
     >>> from enumerate.runner.running import total_of
     >>> [total_of(count_job(ChainQuery(8, 1), method)) for method in ("orbits", "burnside")]
     [16, 16]
@@ -340,8 +338,8 @@ def count_job(
         filtered = query.assortment is not None or query.planar is not None or query.longest_string != ANY_NUMBER
         if not plain or (query.fractionated and (filtered or query.inversions)):
             raise UnsolvableError(
-                "Burnside's lemma counts chains and inversions, by assortment, planarity and longest string, "
-                "or all fractionated chains; not input joints, symmetries, or parts of the fractionated ones"
+                "Burnside's lemma cannot count by input joints or symmetries, nor a part of fractionated chains; "
+                "try --method orbits"
             )
         if query.loops == 1 and not query.fractionated:
             return by_rows
@@ -426,7 +424,7 @@ def count_chains(links: int, dof: int, method: str = "orbits", *, workers: int =
     InvariantError
         If a number is out of its range.
     UnsolvableError
-        If Burnside's lemma is asked for what it does not count here.
+        If Burnside's lemma cannot count by all that the query limits.
 
     Examples
     --------

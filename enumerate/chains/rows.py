@@ -1,17 +1,12 @@
-"""Rows of chains: ids and attributes of the chains of contracted graphs.
+"""Rows of chains: ids and attributes of the chains of contracted graphs, their ground links and input joints.
 
 What is the same for all chains of a contracted graph is worked out once for the graph; the rest is compiled. bliss
-itself is asked for the canonical numbers of the few chains that `enumerate.kernel.bliss_order` leaves.
-
-
-# -----
-
-Choices of a ground link and of input joints, up to the symmetries of a chain.
+itself numbers the few chains that `enumerate.kernel.bliss_order` leaves.
 
 M joints are inputs of a chain of M freedoms if nothing moves once they are locked. In a chain a joint leaves one
 of three freedoms, so it is two bars between its links, and a locked one three; a generic chain of N links is
-rigid, and no bar is idle, exactly if any k links hold at most 3 (k - 1) of the bars (Tay 1984). The pebble game
-decides that.
+rigid, and no bar is redundant, exactly if any k links hold at most 3 (k - 1) of the bars (Tay 1984). The pebble
+game decides that. Of choices that symmetries of the chain exchange, one is listed.
 """
 
 from __future__ import annotations
@@ -78,7 +73,7 @@ def columns_of(query: ChainQuery, bare: bool) -> dict[str, Column]:
 
 @dataclass(frozen=True, slots=True)
 class GraphChains:
-    """The chains of one contracted graph that a query asks for.
+    """The chains of one contracted graph that a query admits.
 
     Rows of x, uint8[r, m], are the binary links on each joint, `order` counts the automorphisms of each chain.
     """
@@ -153,7 +148,7 @@ def chain_ids(links: int, joints: Ints, automorphisms: Ints | None = None) -> tu
 
 
 def _choices(query: ChainQuery, joints: list[tuple[int, int]], generators: Ints) -> Iterator[Row]:
-    """Yield the ground links of a chain, with input joints where asked for, one of each orbit.
+    """Yield the ground links of a chain, with input joints if the query has them, one of each orbit.
 
     The generators, int64[g, links], are permutations of links that generate the automorphisms.
     """
@@ -165,7 +160,7 @@ def _choices(query: ChainQuery, joints: list[tuple[int, int]], generators: Ints)
 
 
 def rows_of_joints(query: ChainQuery, joints: Sequence[tuple[int, int]], bare: bool) -> list[Row]:
-    """Return the rows of a chain given by its joints; none if the query does not ask for such a chain.
+    """Return the rows of a chain, by its joints; none if the query does not admit it.
 
     The general way, for rings and for chains that are not 2-connected; links are 0 to N - 1.
     """
@@ -224,9 +219,7 @@ def are_inputs(links: int, joints: Sequence[Joint], locked: Sequence[int]) -> bo
 
     The chain has no rigid sub-chains.
     """
-    bars = [
-        end for index, end in zip(range(len(joints)), joints, strict=True) for _ in range(2 + (index in locked))
-    ]
+    bars = [ends for index, ends in enumerate(joints) for _ in range(2 + (index in locked))]
     return _is_sparse(links, bars)
 
 
@@ -283,7 +276,7 @@ def input_choices(
     [(0, [(0, 1)]), (0, [(1, 2)])]
     """
     ordered = sorted((min(joint), max(joint)) for joint in joints)
-    number = {joint: i for i, joint in zip(range(len(ordered)), ordered, strict=True)}
+    number = {joint: i for i, joint in enumerate(ordered)}
     moves = [
         (move, [number[min(move[a], move[b]), max(move[a], move[b])] for a, b in ordered]) for move in generators
     ]
@@ -297,9 +290,9 @@ def input_choices(
             seen.add((ground, inputs))
             stack = [(ground, inputs)]
             while stack:
-                link, taken = stack.pop()
+                link, chosen_joints = stack.pop()
                 for move, joint_move in moves:
-                    image = move[link], tuple(sorted(joint_move[i] for i in taken))
+                    image = move[link], tuple(sorted(joint_move[i] for i in chosen_joints))
                     if image not in seen:
                         seen.add(image)
                         stack.append(image)

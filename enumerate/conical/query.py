@@ -1,16 +1,9 @@
 """Conical candidates: every way the joint axes of a chain can lie round one cone, up to what changes nothing.
 
 Projected angles always fit, so a chain lies on a cone with its joints in any cyclic order; what is the same up to
-a turn, a mirror image or a symmetry of the chain (one that leaves the ground link where it is, if one is given)
-counts once. What the candidates do is worked out in `synth.candidates.job`. Source: Hyatt et al. 2020, section 7.
-Theory: docs/theory/conical-candidates.md.
-
-
-# -----
-
-Symmetries of chains as permutations of their joints.
-
-Theory: docs/theory/conical-candidates.md.
+a turn, a mirror image or a symmetry of the chain (one that keeps the ground link, if there is one) counts once.
+What the candidates do is worked out in `synth.candidates.job`. Source: Hyatt et al. 2020, section 7. Theory:
+docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
@@ -24,7 +17,7 @@ import networkx as nx
 import numpy as np
 
 from enumerate.conical.rounds import Rounds, count_rounds_by_burnside, count_rounds_by_orbits, placements, prefixes
-from enumerate.runner.job import Counting, Row, Unit
+from enumerate.runner.job import Column, Counting, Row, Unit
 from enumerate.runner.running import total_of, tuples_of
 from graphs.arrays import Ints
 from graphs.errors import InvariantError, UnsolvableError, shown
@@ -135,7 +128,7 @@ class ConicalQuery:
         if rounds.completions(1) > _LISTED:
             raise UnsolvableError(
                 f"{rounds.joints} joints have {rounds.completions(1):.2g} placements, symmetric ones apart; "
-                f"more than {_LISTED:.0g} can only be counted, by Burnside's lemma"
+                f"more than {_LISTED:.0g} can only be counted; try --count"
             )
         most = max(most, rounds.completions(1) // _PORTIONS)
         for ground in self.grounds:
@@ -190,16 +183,15 @@ def count_conical_orders(query: ConicalQuery, method: str = "burnside", *, worke
     return total_of(ConicalCountJob(query, method), workers=workers)
 
 
+_ORDER_COLUMNS: dict[str, Column] = {"ground": object, "slots": tuple}
+
+
 @dataclass(frozen=True)
 class _OrderJob:
     """The candidates as rows for this process: a ground link may be of any kind, so no file takes them."""
 
     query: ConicalQuery
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """Names and types of the values of a row."""
-        return {"ground": object, "slots": tuple}
+    columns = _ORDER_COLUMNS
 
     @property
     def key(self) -> dict[str, Any]:
@@ -283,24 +275,24 @@ def joint_symmetries(joints: Mapping[JointId, tuple[LinkId, LinkId]], ground: Li
     if ground is not None and ground not in links:
         raise InvariantError("ground", f"the ground link {shown(ground)}", "a link with a joint")
     if size > _MOST:
-        raise UnsolvableError(f"the chain has {size:.3g} symmetries; expected {_MOST} at most")
+        raise UnsolvableError(f"the chain has {size:.3g} symmetries; expected at most {_MOST}")
     count = len(joints)
-    moves = {tuple(one[len(links) + i] - len(links) for i in range(count)) for one in generators}
-    found = {tuple(range(count))}
-    new = found
-    while new:
-        new = {tuple(move[i] for i in one) for one in new for move in moves} - found
-        found = found | new
-    return np.array(sorted(found), np.int64).reshape(-1, count)
+    moves = {tuple(move[len(links) + i] - len(links) for i in range(count)) for move in generators}
+    group = {tuple(range(count))}
+    new = group
+    while new:  # products of the generators, longer by one each time, until there are no others
+        new = {tuple(move[i] for i in symmetry) for symmetry in new for move in moves} - group
+        group = group | new
+    return np.array(sorted(group), np.int64).reshape(-1, count)
 
 
 def links_apart(joints: Mapping[JointId, tuple[LinkId, LinkId]]) -> list[LinkId]:
     """Return one link of each set of links that symmetries exchange: the different ground links of a chain."""
     generators, links, _ = _generators(joints, None)
     orbits = nx.utils.UnionFind(range(len(links)))
-    for one in generators:
+    for move in generators:
         for i in range(len(links)):
-            orbits.union(i, one[i])
+            orbits.union(i, move[i])
     first: dict[int, LinkId] = {}
     for i, link in enumerate(links):
         first.setdefault(orbits[i], link)

@@ -193,10 +193,6 @@ def total_of(job: Job, *, workers: int = 1) -> int:
     workers : int
         Local processes; 1 works in this one.
 
-    Returns
-    -------
-    int
-
     Raises
     ------
     StoreError

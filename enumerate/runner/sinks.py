@@ -28,21 +28,7 @@ from graphs.mechanism.sc import SCGraph
 __all__ = ["CountSink", "FolderSink", "JsonLinesSink", "ParquetSink", "RowSink", "SortedSink", "sink_for"]
 
 
-class _MemorySink:
-    """A sink with nothing to open, close or remove."""
-
-    def start(self, job: Job) -> Collection[int]:
-        """Nothing is there already."""
-        return ()
-
-    def finish(self) -> None:
-        """Nothing is left to do."""
-
-    def abort(self) -> None:
-        """Nothing is left to do."""
-
-
-class RowSink(_MemorySink):
+class RowSink:
     """A sink that calls a function with the columns and the rows of each unit.
 
     Parameters
@@ -65,13 +51,19 @@ class RowSink(_MemorySink):
         self._columns: tuple[str, ...] = ()
 
     def start(self, job: Job) -> Collection[int]:
-        """Note the columns."""
+        """Note the columns; nothing is there already."""
         self._columns = tuple(job.columns)
-        return super().start(job)
+        return ()
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Call the function."""
         self._function(self._columns, rows)
+
+    def finish(self) -> None:
+        """Do nothing: nothing is open."""
+
+    def abort(self) -> None:
+        """Do nothing: nothing is open."""
 
 
 class _Sorted:
@@ -150,17 +142,20 @@ class _FileSink:
     def __init__(self, path: Path, *, force: bool = False) -> None:
         self._path, self._force = path, force
         self._columns: tuple[str, ...] = ()
-        self._file: Beside | None = None
+        self._file: Beside | FolderBeside | None = None
 
     def start(self, job: Job) -> Collection[int]:
         """Open the file."""
         self._columns = tuple(job.columns)
         remove_left(self._path)
-        self._file = Beside(self._path, force=self._force)
+        self._file = self._opened()
         return ()
 
+    def _opened(self) -> Beside | FolderBeside:
+        return Beside(self._path, force=self._force)
+
     def _write(self, lines: Iterable[str]) -> None:
-        assert self._file is not None
+        assert isinstance(self._file, Beside)
         self._file.write("".join(lines).encode("utf-8"))
 
     def finish(self) -> None:
@@ -237,7 +232,7 @@ class ParquetSink(_FileSink):
                 f"{self._path}: Parquet requires pyarrow; try pip install 'synthedra[parquet]'"
             ) from None
         super().start(job)
-        assert self._file is not None
+        assert isinstance(self._file, Beside)
         self._schema = arrow.schema([(column, _arrow_type(kind)) for column, kind in job.columns.items()])
         kinds = enumerate(job.columns.values())
         self._mixed = {i for i, kind in kinds if isinstance(kind, ListColumn) and kind.kind is None}
@@ -301,48 +296,34 @@ def mechanism_text(row: Mapping[str, Any]) -> str:
     return dumps(SCGraph(sc.nodes, sc.joints, sc.loops, ground=row.get("ground")))
 
 
-class FolderSink:
+class FolderSink(_FileSink):
     """A folder with a native file for each row, named by its number.
 
     Its text is that of `mechanism_text`, or of the job's own function of this name.
     """
 
     def __init__(self, path: Path) -> None:
-        self._path = path
-        self._folder: FolderBeside | None = None
+        super().__init__(path)
         self._number = 0
 
     def start(self, job: Job) -> Collection[int]:
-        """Make a folder beside the place of this one.
-
-        Raises `FileError` if there is something at its place, or it cannot be made.
-        """
-        remove_left(self._path)
-        self._folder = FolderBeside(self._path)
-        self._columns = tuple(job.columns)
+        """Make a folder beside its place; raises `FileError` if there is something at its place."""
         self._text = getattr(job, "mechanism_text", mechanism_text)
-        return ()
+        return super().start(job)
+
+    def _opened(self) -> FolderBeside:
+        return FolderBeside(self._path)
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Write a file a row."""
-        assert self._folder is not None
+        assert isinstance(self._file, FolderBeside)
         for row in rows:
             self._number += 1
             text = self._text(row_as_dict(self._columns, row))
             try:
-                (self._folder.path / f"{self._number:07d}.json").write_text(text, encoding="utf-8")
+                (self._file.path / f"{self._number:07d}.json").write_text(text, encoding="utf-8")
             except OSError as error:
                 raise FileError(self._path, "", f"cannot be written: {error.strerror}") from None
-
-    def finish(self) -> None:
-        """Move the folder to its place."""
-        assert self._folder is not None
-        self._folder.commit()
-
-    def abort(self) -> None:
-        """Remove what was written."""
-        if self._folder is not None:
-            self._folder.discard()
 
 
 SINKS: dict[str, type[CsvSink | Graph6Sink | JsonLinesSink | ParquetSink]] = {
@@ -379,10 +360,6 @@ def sink_for(
         Takes a line on the state of a store that the user should know (`SqliteSink`).
     looking : callable, optional
         Takes the part of a store to be resumed that has been looked through.
-
-    Returns
-    -------
-    Sink
 
     Raises
     ------
@@ -458,7 +435,7 @@ class CountSink:
         return () if self._store is None else self._store.start(job)
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
-        """Add, or store."""
+        """Add the numbers, or store them."""
         if self._store is None:
             self._add(rows)
         else:

@@ -217,10 +217,6 @@ def read_meta(path: str | Path) -> dict[str, Any]:
     path : str or Path
         A ``.sqlite`` store; it may still be growing.
 
-    Returns
-    -------
-    dict of str to object
-
     Raises
     ------
     StoreError

@@ -287,7 +287,7 @@ def examine_store(path: Path, units: int, looking: Callable[[float], None]) -> F
         meta = meta_in(connection, path)
         table = UnitTable(connection, meta["columns"])
         whole = tuple(_whole(table, units, looking))
-        check = _despite_damage(lambda: connection.execute("PRAGMA quick_check(1)").fetchall(), [])
+        check: list[Row] = _despite_damage(lambda: connection.execute("PRAGMA quick_check(1)").fetchall(), [])
         sound = check == [("ok",)] and _holds_only(connection, table, whole)
     return Findings(meta, whole, sound and (len(whole) == units or not meta["complete"]))
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from itertools import repeat
 from string import ascii_letters
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -118,7 +118,7 @@ class DrawnChains:
 
 
 def drawn_of(query: SCQuery, part: MapPart) -> DrawnChains:
-    """Return the SC graphs of a part that a query asks for."""
+    """Return the SC graphs of a part that a query admits."""
     strings = PlacementRange(query.links, query.chains.most, part.only)
     centres = Centres(query.dof, query.spatial, query.infinite)
     x, labels, order = list_drawn(part.code, part.n, part.outer, strings, part.prefix, centres)
@@ -165,7 +165,7 @@ def _reduced(joints: Ints, kept: int) -> str:
 
 
 def maps_for(query: SCQuery) -> Iterator[tuple[int, Bytes]]:
-    """Yield the contracted maps whose chains can be among those asked for, most links first."""
+    """Yield the contracted maps whose chains a query may admit, most links first."""
     if not query.possible or query.loops < 2:
         return
     for n, codes in contracted_maps(query.loops):
@@ -210,7 +210,7 @@ def _number_in(query: SCQuery, part: MapPart, only: int, prefix: Ints) -> int:
 
 @dataclass(frozen=True)
 class SCJob:
-    """All SC graphs that a query asks for, as rows.
+    """All SC graphs of a query, as rows.
 
     Attributes
     ----------
@@ -221,7 +221,7 @@ class SCJob:
 
     query: SCQuery
     unit_rows: int = UNIT_ROWS
-    columns: ClassVar[dict[str, Column]] = SC_COLUMNS
+    columns = SC_COLUMNS
 
     @property
     def key(self) -> dict[str, Any]:
@@ -237,13 +237,13 @@ class SCJob:
         return _rows_of_maps(self.query, payload)
 
     def number(self, payload: Maps) -> int:
-        """Return the number of SC graphs of a unit; nothing about them is worked out that is not asked for."""
+        """Return the number of SC graphs of a unit, without their attributes."""
         return sum(len(drawn_of(self.query, part).x) for part in payload)
 
 
 @dataclass(frozen=True)
 class SCCountJob(Counting):
-    """The number of SC graphs of which nothing is asked but what their chains show; rows are numbers to be added.
+    """The number of SC graphs, chosen only by what their chains show; rows are numbers to be added.
 
     Attributes
     ----------
@@ -277,28 +277,8 @@ class SCCountJob(Counting):
         return [(number(query.chains.most) - (number(low - 1) if low > 0 else 0),)]
 
 
-@dataclass(frozen=True)
-class _ListedCountJob(Counting):
-    """The number of SC graphs that have to be made to be counted."""
-
-    query: SCQuery
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
-        return {"count": "sc", **self.query.key}
-
-    def units(self) -> Sequence[Unit]:
-        """Return those of the listing."""
-        return list(map_units(self.query))
-
-    def work(self, payload: Maps) -> list[Row]:
-        """Return the number of SC graphs of a unit; nothing about them is worked out that is not asked for."""
-        return [(sum(len(drawn_of(self.query, part).x) for part in payload),)]
-
-
 def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True) -> SCCountJob | RowCount:
-    """Return the job that counts what a query asks for.
+    """Return the job that counts the SC graphs of a query.
 
     Parameters
     ----------
@@ -315,12 +295,10 @@ def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True
     Raises
     ------
     UnsolvableError
-        If it can only be counted by listing, and Burnside's lemma or embeddings without outer face are asked for.
+        If Burnside's lemma, or embeddings without an outer face, cannot be counted by all that the query limits.
 
     Examples
     --------
-    Both ways to count:
-
     >>> from enumerate.runner.running import total_of
     >>> [total_of(sc_count_job(SCQuery(6, 1), method)) for method in ("orbits", "burnside")]
     [4, 4]
@@ -329,11 +307,11 @@ def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True
         return SCCountJob(query, method, outside)
     if method == "burnside" and query.loops > 1:
         raise UnsolvableError(
-            "Burnside's lemma counts SC graphs with finite centres, by assortment and longest string; "
-            "not by centres, symmetries, spatial loops or centres at infinity"
+            "Burnside's lemma cannot count by centres or symmetries, nor spatial loops or centres at infinity; "
+            "try --method orbits"
         )
     if not outside and query.loops > 1:
-        raise UnsolvableError("embeddings without outer face have no centres yet to choose them by")
+        raise UnsolvableError("embeddings without an outer face have no centres by which to choose them")
     return RowCount(SCJob(query), {"count": "sc", **query.key})
 
 
@@ -361,7 +339,7 @@ class FormJob:
     """
 
     query: SCQuery
-    columns: ClassVar[dict[str, Column]] = _COLUMNS
+    columns = _COLUMNS
 
     @property
     def key(self) -> dict[str, Any]:
@@ -498,7 +476,7 @@ def count_sc_graphs(
     InvariantError
         If a number is out of its range.
     UnsolvableError
-        If the method does not count what is asked for.
+        If the method cannot count by all that the options limit.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Which SC graphs are asked for."""
+"""Which SC graphs are to be enumerated."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from enumerate.chains.query import ChainQuery
 from enumerate.contracted.maps import MOST_MAP_LOOPS
 from enumerate.kernel.centres import MOST_JOINTS
 from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, Limits, Query
-from graphs.errors import InvariantError
+from graphs.errors import InvariantError, numbered
 
 __all__ = ["SCQuery"]
 
@@ -56,18 +56,18 @@ class SCQuery(Query):
 
     def __post_init__(self) -> None:
         if self.spatial < 0:
-            raise InvariantError("spatial loops", f"{self.spatial} spatial loops", "0 or more")
+            raise InvariantError("spatial loops", numbered(self.spatial, "spatial loop"), "0 or more")
         if self.dof < 1:
-            raise InvariantError("dof", f"{self.dof} degrees of freedom", "1 or more")
+            raise InvariantError("dof", numbered(self.dof, "degree of freedom", "degrees of freedom"), "1 or more")
         self._keep_limits("centres", "symmetry", "longest_string")
         if self.chains.loops > MOST_MAP_LOOPS:
             raise InvariantError(
                 "loops",
-                f"{self.links} links with M = {self.dof} have {self.loops} loops",
+                f"{self.links} links with M = {self.dof} have {numbered(self.loops, 'loop')}",
                 f"{MOST_MAP_LOOPS} at most",
             )
         if self.chains.joints > MOST_JOINTS:
-            raise InvariantError("joints", f"{self.chains.joints} joints", f"{MOST_JOINTS} at most")
+            raise InvariantError("joints", numbered(self.chains.joints, "joint"), f"{MOST_JOINTS} at most")
 
     @property
     def chains(self) -> ChainQuery:
@@ -96,5 +96,5 @@ class SCQuery(Query):
 
     @property
     def unfiltered(self) -> bool:
-        """Whether nothing is asked of an SC graph that its chain's placement does not show."""
+        """Whether SC graphs are chosen only by what the placement of binary links shows."""
         return self.plain and self.centres == ANY_NUMBER and self.symmetry == ONE_OR_MORE

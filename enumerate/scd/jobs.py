@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from enumerate.scd.patterns import numbers_of_placements, outline
 from enumerate.scd.query import PlacementQuery, SCDQuery
 from graphs.arrays import Bytes, Ints
 from graphs.count.report import mobility_report
-from graphs.errors import InvariantError, UnsolvableError
+from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.identity.drawings import map_code, map_id, mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
@@ -239,7 +239,7 @@ class SCDJob:
 
     mechanisms: Mechanisms
     unit_rows: int = _PLACEMENTS
-    columns: ClassVar[dict[str, Column]] = SCD_COLUMNS
+    columns = SCD_COLUMNS
 
     @property
     def key(self) -> dict[str, Any]:
@@ -288,8 +288,8 @@ def _ranges(mechanisms: Mechanisms, unit_rows: int) -> Iterator[tuple[_Placement
             counts = numbers_of_placements(drawn.codes, drawn.labels.astype(np.int64), most).tolist()
             if min(counts, default=0) < 0:
                 raise UnsolvableError(
-                    f"one mechanism has more than 10^18 placements of open edges for links of up to {most} sides: "
-                    "choose fewer"
+                    f"one mechanism has more than 10^18 placements of open edges for links of up to {most} sides; "
+                    "try a smaller --max-degree"
                 )
             yield from _ranges_on(drawn, counts, unit_rows)
 
@@ -365,19 +365,13 @@ def scd_count_job(mechanisms: Mechanisms, method: str | None = None) -> SCDCount
     method : {"burnside", "orbits"}, optional
         ``orbits`` makes the placements, ``burnside`` none.
 
-    Returns
-    -------
-    SCDCountJob
-
     Raises
     ------
     UnsolvableError
-        If Burnside's lemma is asked for what it does not count here.
+        If Burnside's lemma cannot count by all that the query limits.
 
     Examples
     --------
-    Both ways to count:
-
     >>> from enumerate.runner.running import total_of
     >>> four = AllMechanisms(SCDQuery(4, 1, PlacementQuery(4)))
     >>> [total_of(scd_count_job(four, method)) for method in ("orbits", "burnside")]
@@ -385,7 +379,7 @@ def scd_count_job(mechanisms: Mechanisms, method: str | None = None) -> SCDCount
     """
     counted = mechanisms.placements.counted
     if method == "burnside" and not counted:
-        raise UnsolvableError("Burnside's lemma counts neither by vertices nor the symmetric ones alone")
+        raise UnsolvableError("Burnside's lemma cannot count by vertices or symmetry; try --method orbits")
     return SCDCountJob(mechanisms, method or ("burnside" if counted else "orbits"))
 
 
@@ -479,10 +473,6 @@ def scd_rows(
     links, dof, max_degree, workers, **options
         As for `scd_graphs`.
 
-    Yields
-    ------
-    dict of str to object
-
     Examples
     --------
     >>> [(row["sides"], row["open_edges"], row["symmetry"]) for row in scd_rows(4, 1, 3)]
@@ -510,7 +500,7 @@ def count_scd_graphs(
     InvariantError
         If a number is out of its range.
     UnsolvableError
-        If the method does not count what is asked for, or a number is past counting.
+        If the method cannot count by all that the options limit, or one mechanism has more than 10^18.
 
     Examples
     --------
@@ -529,10 +519,6 @@ def all_mechanisms(
     ----------
     links, dof, max_degree, spatial, infinite, **options
         As for `scd_graphs`.
-
-    Returns
-    -------
-    AllMechanisms
 
     Raises
     ------
@@ -561,7 +547,9 @@ def mechanism_of(mechanism: SCGraph, max_degree: int, **options: Any) -> OneMech
     query = PlacementQuery(max_degree, **options)
     if len(mechanism.joints) + len(mechanism.loops) > MOST_JOINTS:
         raise InvariantError(
-            "joints", f"{len(mechanism.joints)} joints and {len(mechanism.loops)} loops", f"{MOST_JOINTS} in all"
+            "joints",
+            f"{numbered(len(mechanism.joints), 'joint')} and {numbered(len(mechanism.loops), 'loop')}",
+            f"{MOST_JOINTS} in all",
         )
     symbols, letters = map_code(mechanism)
     code = np.array([symbol for symbol in symbols if symbol != _OPEN], np.uint8)

@@ -1,16 +1,9 @@
-"""R/- strings: open chains of panels between two bodies, and the joints they stand for.
+"""R/- strings: open chains of panels between two bodies, the joints they stand for, and their graphs.
 
 ``R`` is a crease; creases written together meet in one point (a *cluster*); ``-`` is a rectangular panel, whose
 two creases are parallel. ``RR-R-RRR`` is a universal joint, a prismatic joint, a spherical joint: UPS. A chain and
 its reverse are one. Source: Wiener 2016, sections 5.1 to 5.3, Tables 7 and 8, Appendix B. Theory:
 docs/theory/strings.md.
-
-
-# -----
-
-R/- strings as graphs: the panels between two bodies, and back from a chain of panels to its string.
-
-Source: Wiener 2016, sections 5.1.2 and 5.2. Theory: docs/theory/strings.md.
 """
 
 from __future__ import annotations
@@ -22,7 +15,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise, product
 
-from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.ids import JointId, LinkId
 from graphs.mechanism.rotation import Side
 from graphs.mechanism.sc import SCGraph
@@ -125,11 +118,9 @@ class ChainString:
         It is less than the number of creases where a cluster has more than three, where two spherical joints
         leave a rotation about the line through their centres, or where more than three creases are parallel.
 
-        Notes
-        -----
         The axes are placed at random over the prime field of 2^61 - 1 elements: a crease beside a rectangular
-        panel is parallel to the crease on the panel's other side. The rank found is never too high; it is too
-        low with a probability below 6 / 2^61.
+        panel is parallel to the crease on the panel's other side. The rank is never too high; it is too low with a
+        probability below 6 / 2^61.
 
         Examples
         --------
@@ -190,9 +181,7 @@ class ChainString:
         A cluster of two or more creases is a vertex at one end of the creases beside it. Along the chain the next
         one lies on the same side or diagonally opposite. Palindromes are taken up to reversal.
 
-        Notes
-        -----
-        Table 7. k such clusters have 2^(k - 1) modes, palindromes (2^(k - 1) + 2^ceil((k - 1) / 2)) / 2.
+        k such clusters have 2^(k - 1) modes, palindromes (2^(k - 1) + 2^ceil((k - 1) / 2)) / 2 (Table 7).
 
         Examples
         --------
@@ -201,8 +190,7 @@ class ChainString:
         >>> ChainString.parse("R-R-R").modes()
         ['']
         """
-        gaps = max(sum(k >= 2 for k in self.clusters) - 1, 0)
-        every = ("".join(choice) for choice in product("SD", repeat=gaps))
+        every = ("".join(choice) for choice in product("SD", repeat=self._gaps))
         if self.is_palindrome:
             every = (min(mode, mode[::-1]) for mode in every)
         return list(dict.fromkeys(every))
@@ -215,9 +203,13 @@ class ChainString:
         >>> ChainString.parse("RR-RR-RR").count_modes()
         3
         """
-        gaps = max(sum(k >= 2 for k in self.clusters) - 1, 0)
-        palindromic = (1 << gaps) + (1 << (gaps + 1) // 2)
-        return palindromic // 2 if self.is_palindrome else 1 << gaps
+        palindromic = (1 << self._gaps) + (1 << (self._gaps + 1) // 2)
+        return palindromic // 2 if self.is_palindrome else 1 << self._gaps
+
+    @property
+    def _gaps(self) -> int:
+        """Number of gaps between clusters of two creases or more."""
+        return max(sum(k >= 2 for k in self.clusters) - 1, 0)
 
 
 def joint_chain(text: str) -> ChainString:
@@ -296,10 +288,6 @@ def count_strings(
         Number of R, 1 or more.
     max_panels, max_cluster : int or None, optional
         At most so many panels, and creases in a cluster; None for no limit. The defaults are those of Table 8.
-
-    Returns
-    -------
-    int
 
     Raises
     ------
@@ -441,10 +429,10 @@ def chain_scd(chain: ChainString, mode: str | None = None, ends: tuple[int, int]
     >>> scd.counts.vertices, scd.counts.edges
     (11, 21)
     """
-    gaps = max(sum(k >= 2 for k in chain.clusters) - 1, 0)
-    letters = "S" * gaps if mode is None else mode
-    if len(letters) != gaps or set(letters) - {"S", "D"}:
-        raise InvariantError("mode", f"the mode {shown(letters)} of {chain.text}", f"{gaps} letters S or D")
+    letters = "S" * chain._gaps if mode is None else mode
+    if len(letters) != chain._gaps or set(letters) - {"S", "D"}:
+        expected = f"{numbered(chain._gaps, 'letter')} S or D"
+        raise InvariantError("mode", f"the mode {shown(letters)} of {chain.text}", expected)
     turns = iter(letters)
     rotation: dict[LinkId, list[Side]] = {0: [0, *[None] * (ends[0] - 1)]}
     above, seen, crease = False, False, 0
@@ -505,7 +493,7 @@ def string_of_chain(scd: SCDGraph) -> tuple[ChainString, str]:
         elif corners[-1] != vertex:
             raise UnsolvableError(f"joint {shown(before)} meets the joints on its two sides in different points")
         clusters[-1] += 1
-    mode = "".join("S" if one == two else "D" for one, two in pairwise(sides))
+    mode = "".join("S" if before == after else "D" for before, after in pairwise(sides))
     return ChainString(tuple(clusters)), mode
 
 
@@ -513,7 +501,7 @@ def _walk(scd: SCDGraph) -> tuple[list[LinkId], list[JointId]]:
     """Return the links of an open chain from end to end, and the joints between them."""
     ends = [link for link in scd.nodes if scd.degree(link) == 1]
     if scd.independent_loops or len(ends) != 2 or any(scd.degree(link) > 2 for link in scd.nodes):
-        raise UnsolvableError("the graph is no open chain between two bodies")
+        raise UnsolvableError("the graph is not an open chain between two bodies")
     path: list[LinkId] = [ends[0]]
     creases: list[JointId] = []
     while path[-1] != ends[1]:
