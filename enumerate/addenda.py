@@ -37,7 +37,7 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.rank.generic import exact_mobility
 
-__all__ = ["AddendumJob", "addenda", "addendum_count_job"]
+__all__ = ["Addendum", "AddendumJob", "addenda", "addendum_count_job"]
 
 _COLUMNS: dict[str, Column] = {
     "kind": str,
@@ -237,5 +237,19 @@ def _row(addendum: Addendum) -> Row:
 
 
 def addendum_count_job(job: AddendumJob) -> RowCount:
-    """Return the job that counts the addenda of another."""
+    """Return the job that counts the addenda of a mechanism.
+
+    Parameters
+    ----------
+    job : AddendumJob
+        The job that lists them.
+
+    Examples
+    --------
+    >>> from enumerate.runner.running import total_of
+    >>> from graphs.loops.loop import Loop
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> total_of(addendum_count_job(AddendumJob(four_bar, 0)))
+    5
+    """
     return RowCount(job, {"count": "addenda", **job.key})
