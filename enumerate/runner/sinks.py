@@ -142,20 +142,17 @@ class _FileSink:
     def __init__(self, path: Path, *, force: bool = False) -> None:
         self._path, self._force = path, force
         self._columns: tuple[str, ...] = ()
-        self._file: Beside | FolderBeside | None = None
+        self._file: Beside | None = None
 
     def start(self, job: Job) -> Collection[int]:
         """Open the file."""
         self._columns = tuple(job.columns)
         remove_left(self._path)
-        self._file = self._opened()
+        self._file = Beside(self._path, force=self._force)
         return ()
 
-    def _opened(self) -> Beside | FolderBeside:
-        return Beside(self._path, force=self._force)
-
     def _write(self, lines: Iterable[str]) -> None:
-        assert isinstance(self._file, Beside)
+        assert self._file is not None
         self._file.write("".join(lines).encode("utf-8"))
 
     def finish(self) -> None:
@@ -232,7 +229,7 @@ class ParquetSink(_FileSink):
                 f"{self._path}: Parquet requires pyarrow; try pip install 'synthedra[parquet]'"
             ) from None
         super().start(job)
-        assert isinstance(self._file, Beside)
+        assert self._file is not None
         self._schema = arrow.schema([(column, _arrow_type(kind)) for column, kind in job.columns.items()])
         kinds = enumerate(job.columns.values())
         self._mixed = {i for i, kind in kinds if isinstance(kind, ListColumn) and kind.kind is None}
@@ -296,34 +293,45 @@ def mechanism_text(row: Mapping[str, Any]) -> str:
     return dumps(SCGraph(sc.nodes, sc.joints, sc.loops, ground=row.get("ground")))
 
 
-class FolderSink(_FileSink):
+class FolderSink:
     """A folder with a native file for each row, named by its number.
 
     Its text is that of `mechanism_text`, or of the job's own function of this name.
     """
 
     def __init__(self, path: Path) -> None:
-        super().__init__(path)
+        self._path = path
+        self._folder: FolderBeside | None = None
         self._number = 0
 
     def start(self, job: Job) -> Collection[int]:
         """Make a folder beside its place; raises `FileError` if there is something at its place."""
+        remove_left(self._path)
+        self._folder = FolderBeside(self._path)
+        self._columns = tuple(job.columns)
         self._text = getattr(job, "mechanism_text", mechanism_text)
-        return super().start(job)
-
-    def _opened(self) -> FolderBeside:
-        return FolderBeside(self._path)
+        return ()
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Write a file a row."""
-        assert isinstance(self._file, FolderBeside)
+        assert self._folder is not None
         for row in rows:
             self._number += 1
             text = self._text(row_as_dict(self._columns, row))
             try:
-                (self._file.path / f"{self._number:07d}.json").write_text(text, encoding="utf-8")
+                (self._folder.path / f"{self._number:07d}.json").write_text(text, encoding="utf-8")
             except OSError as error:
                 raise FileError(self._path, "", f"cannot be written: {error.strerror}") from None
+
+    def finish(self) -> None:
+        """Move the folder to its place."""
+        assert self._folder is not None
+        self._folder.commit()
+
+    def abort(self) -> None:
+        """Remove what was written."""
+        if self._folder is not None:
+            self._folder.discard()
 
 
 SINKS: dict[str, type[CsvSink | Graph6Sink | JsonLinesSink | ParquetSink]] = {
