@@ -74,7 +74,7 @@ def shapes(links: int, dof: int) -> Iterator[tuple[tuple[int, int], ...]]:
 def block_choices(
     shape: Sequence[tuple[int, int]], blocks: Callable[[int, int], Iterator[Block]]
 ) -> Iterator[tuple[Block, ...]]:
-    """Yield all multisets of blocks of given sizes; those of the largest size are read one by one.
+    """Yield all multisets of blocks of some sizes; those of the largest size are read one by one.
 
     The sizes (links, dof) are those of one of `shapes`; `blocks` yields all chains of such a size that nothing
     cuts.
@@ -113,12 +113,12 @@ def glued(blocks: Sequence[Block]) -> list[Joints]:
             for kind in range(len(kinds)):
                 if missing[kind]:
                     rest = tuple(count - (k == kind) for k, count in enumerate(missing))
-                    found = grown.setdefault(rest, {})
+                    forms_of_rest = grown.setdefault(rest, {})
                     ends = sum(count for block, count in zip(kinds, rest, strict=True) if block != _BRIDGE_BLOCK)
                     for joints, links in partial.items():
                         for form in _attached((links, joints), kinds[kind]):
                             if _loose_ends(links + kinds[kind][0] - 1, form) <= ends:
-                                found[form] = links + kinds[kind][0] - 1
+                                forms_of_rest[form] = links + kinds[kind][0] - 1
         forms = grown
     [result] = forms.values()
     return sorted(result)
@@ -126,7 +126,7 @@ def glued(blocks: Sequence[Block]) -> list[Joints]:
 
 def _attached(form: Block, block: Block) -> set[Joints]:
     """Return all chains in which a link of a form is also a link of a block, in canonical form."""
-    found = set()
+    chains = set()
     links = form[0] + block[0] - 1
     for here in _representatives(form):
         for there in _representatives(block):
@@ -137,8 +137,8 @@ def _attached(form: Block, block: Block) -> set[Joints]:
             joints = [*form[1], *((name[a], name[b]) for a, b in block[1])]
             order, _, _ = automorphisms_of(links, joints)
             canonical = sorted((min(order[a], order[b]), max(order[a], order[b])) for a, b in joints)
-            found.add(tuple(canonical))
-    return found
+            chains.add(tuple(canonical))
+    return chains
 
 
 def _representatives(block: Block) -> list[int]:
@@ -255,11 +255,11 @@ def _index_of_graph(code: Bytes, n: int, links: int) -> Iterator[tuple[Monomial,
             joints, turned = [], []  # of each cycle of strings: its joints, and whether it comes back turned round
             for (cycle, flips), parts in zip(classes, types, strict=True):
                 share /= _centraliser(parts)
-                taken = 0
+                start = 0
                 for part in parts:
-                    joints.append([e for step in cycle for e in step[taken : taken + part]])
+                    joints.append([e for step in cycle for e in step[start : start + part]])
                     turned.append(flips and part % 2 == 1)
-                    taken += part
+                    start += part
             for x in _placements(ends, sets, needs, joints, links - n):
                 lengths = base.copy()
                 for value, string, turns in zip(x, joints, turned, strict=True):
@@ -326,14 +326,14 @@ def _centraliser(parts: Sequence[int]) -> int:
 
 def _derivative(index: dict[Monomial, Fraction]) -> dict[Monomial, Fraction]:
     """Return the derivative by p_1."""
-    found = {}
+    derivative = {}
     for monomial, value in index.items():
         lengths = Counter(dict(monomial))
         if lengths[1]:
             factor = lengths[1]
             lengths[1] -= 1
-            found[_monomial(lengths)] = value * factor
-    return found
+            derivative[_monomial(lengths)] = value * factor
+    return derivative
 
 
 def _substituted(

@@ -114,7 +114,7 @@ class ChainQuery(Query):
 
 
 def is_planar(adjacency: Bytes) -> bool:
-    """Return whether a multigraph, given by its matrix, is planar.
+    """Return whether the multigraph of a matrix is planar.
 
     >>> is_planar(1 - np.eye(5, dtype=np.uint8))
     False

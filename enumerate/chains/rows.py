@@ -117,15 +117,15 @@ def rows_of_graph(query: ChainQuery, chains: GraphChains, bare: bool) -> list[Ro
     rows: list[Row] = list(zip(codes, *common, *own, repeat(planar), repeat(False), strict=False))
     if not (query.inversions or query.inputs):
         return rows
-    found: list[Row] = []
+    choices: list[Row] = []
     for i, row in enumerate(rows):
         generators = link_symmetries(ends, first, moved, automorphisms, query.links, chains.x[i])
         order = labels[i].tolist()
         renamed = np.empty_like(generators)
         renamed[:, order] = labels[i][generators]
         pairs = [(order[a], order[b]) for a, b in joints[i].tolist()]
-        found += [(*row, *choice) for choice in _choices(query, pairs, renamed)]
-    return found
+        choices += [(*row, *choice) for choice in _choices(query, pairs, renamed)]
+    return choices
 
 
 def chain_ids(links: int, joints: Ints, automorphisms: Ints | None = None) -> tuple[list[str], Ints]:
@@ -242,7 +242,7 @@ def _is_sparse(nodes: int, bars: Sequence[Joint]) -> bool:
 
 
 def _fetch(node: int, keep: int, pebbles: list[int], out: list[list[int]]) -> bool:
-    """Bring one more pebble to a node, not from the node ``keep``; tell whether there was one."""
+    """Bring one more pebble to a node, not from the node ``keep``; return whether there was one."""
     came_from = {node: node, keep: keep}
     stack = [node]
     while stack:

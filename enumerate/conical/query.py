@@ -46,7 +46,7 @@ Chain = tuple[tuple[JointId, tuple[LinkId, LinkId]], ...]
 
 @dataclass(frozen=True, slots=True)
 class Portion:
-    """The candidates of one ground link whose first joints lie in given places.
+    """The candidates of one ground link whose first joints lie on the slots of a prefix.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class Portion:
 
 @dataclass(frozen=True)
 class ConicalQuery:
-    """Which candidates are asked for.
+    """Which candidates are to be enumerated.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class ConicalQuery:
     Raises
     ------
     InvariantError
-        If there are fewer slots than joints, or fewer than three joints, or slots and opposites are asked for.
+        If there are fewer slots than joints, or fewer than three joints, or both slots and opposites.
 
     Examples
     --------

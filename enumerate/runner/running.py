@@ -1,8 +1,8 @@
 """Running a job: units of work, worker processes, and rows that arrive in order.
 
-Units are worked on in any order and handed to the
-sink in theirs, so that two runs give equal files and a store holds exactly the units 0 to k - 1 whatever killed
-the run. Only a fixed number of units is in the air at any time: memory does not grow with the number of rows.
+Units are worked on in any order and handed to the sink in theirs, so that two runs give equal files and a store
+holds exactly the units 0 to k - 1 whatever killed the run. Only a fixed number of units is in the air at any time:
+memory does not grow with the number of rows.
 """
 
 from __future__ import annotations
@@ -30,7 +30,6 @@ _SMALL = 5_000
 
 _PATIENCE = 3
 """How often workers may die on one unit before the run gives up."""
-
 
 _LOOK = 0.1
 """Seconds between two looks whether a unit that is waited for can still come, and is still wanted."""
@@ -66,7 +65,7 @@ def run(
     Raises
     ------
     Interrupted
-        If the user pressed Ctrl-C, or the process was asked to end. What was handed to a store stays there.
+        If the user pressed Ctrl-C, or the process got a signal to end. What was handed to a store stays there.
     StoreError
         If the sink cannot take the rows, workers die again and again, or the cluster is not reached, or lost.
 
@@ -138,7 +137,7 @@ class _UnitsOnce:
         return getattr(self._job, name)
 
     def units(self) -> Sequence[Unit]:
-        """Return the units of the job, found when they are first asked for."""
+        """Return the units of the job, worked out when they are first needed."""
         if self._units is None:
             self._units = self._job.units()
         return self._units
@@ -237,14 +236,14 @@ def _in_order(
 ) -> Generator[tuple[int, list[Row], float]]:
     """Yield what others work out, in order; begin again with the first unit that is missing where workers die."""
     numbers = list(units)
-    given = done = deaths = 0
+    submitted = done = deaths = 0
     waiting: deque[Future[tuple[list[Row], float]]] = deque()
     while done < len(numbers):
         check()
         try:
-            while given < len(numbers) and len(waiting) < _AHEAD * workers.number:
-                waiting.append(workers.submit(job, units[numbers[given]].payload))
-                given += 1
+            while submitted < len(numbers) and len(waiting) < _AHEAD * workers.number:
+                waiting.append(workers.submit(job, units[numbers[submitted]].payload))
+                submitted += 1
             rows, seconds = _waited_for(waiting[0], workers, check)
         except workers.deaths:
             check()  # whoever stops a run may stop its workers too
@@ -254,7 +253,7 @@ def _in_order(
                     f"worker processes died {deaths} times at unit {numbers[done]}; is there enough memory?"
                 ) from None
             workers.restart()
-            given = done
+            submitted = done
             waiting.clear()
             continue
         waiting.popleft()

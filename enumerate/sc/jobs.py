@@ -510,15 +510,15 @@ def map_ids(codes: Bytes, lengths: Ints, labels: int) -> list[str]:
     ends = (lengths - labels).tolist()
     if codes.max() < JOINT + len(ascii_letters):
         text = _LETTERS[codes].tobytes().decode("ascii")
-        found = ["m1:" + text[i * width : i * width + end - 1] for i, end in enumerate(ends)]
+        texts = ["m1:" + text[i * width : i * width + end - 1] for i, end in enumerate(ends)]
     else:
-        found = [map_text(row[:end]) for row, end in zip(codes.tolist(), ends, strict=True)]
+        texts = [map_text(row[:end]) for row, end in zip(codes.tolist(), ends, strict=True)]
     if not labels:
-        return found
+        return texts
     suffixes = [
         "".join(LABEL_LETTERS[label] for label in row[end + 1 : end + labels])
         for row, end in zip(codes.tolist(), ends, strict=True)
     ]
     return [
-        f"{text};{suffix}" if set(suffix) - {"f"} else text for text, suffix in zip(found, suffixes, strict=True)
+        f"{text};{suffix}" if set(suffix) - {"f"} else text for text, suffix in zip(texts, suffixes, strict=True)
     ]

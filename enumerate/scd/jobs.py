@@ -152,7 +152,7 @@ class AllMechanisms:
 
     @property
     def placements(self) -> PlacementQuery:
-        """What is asked of the placements."""
+        """Which placements are enumerated."""
         return self.query.placements
 
     @property
