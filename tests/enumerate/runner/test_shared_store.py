@@ -93,14 +93,14 @@ def test_a_reader_in_another_process(tmp_path):
 
 def test_a_store_that_stays_locked_is_told_in_one_line(tmp_path, monkeypatch):
     store = tmp_path / "squares.sqlite"
-    monkeypatch.setattr("enumerate.runner.store._PATIENCE", 0.1)
+    monkeypatch.setattr("enumerate.runner.store.PATIENCE", 0.1)
     sink = SqliteSink(store)
     sink.start(Squares())
     sink.take(0, ROWS[:10], 0.0)
     with closing(sqlite3.connect(store, isolation_level=None)) as other:
         other.execute("BEGIN IMMEDIATE")
         with pytest.raises(
-            StoreError, match="database is locked: another process holds it; what was stored stays"
+            StoreError, match="database is locked: another process holds it; try --resume"
         ):
             sink.take(1, ROWS[10:20], 0.0)
         other.execute("ROLLBACK")
@@ -121,7 +121,7 @@ def test_two_runs_and_a_reader_on_one_store(tmp_path):
             other.take(0, ROWS[:10], 0.0)
         other.abort()
         one.take(1, ROWS[10:20], 0.0)
-        with pytest.warns(UserWarning, match="is complete"):
+        with pytest.warns(UserWarning, match="complete, but another process"):
             one.finish()
     assert list(read_rows(store)) == ROWS[:20]
 

@@ -46,7 +46,7 @@ def test_modes_are_different_drawings():
 
 @pytest.mark.parametrize("mode", ["", "SS", "X", "s"])
 def test_odd_modes_are_refused(mode):
-    with pytest.raises(InvariantError, match="expected 1 letters S or D"):
+    with pytest.raises(InvariantError, match="expected 1 letter S or D"):
         chain_scd(ChainString.parse("RR-RR"), mode)
 
 
