@@ -99,9 +99,7 @@ def test_a_store_that_stays_locked_is_told_in_one_line(tmp_path, monkeypatch):
     sink.take(0, ROWS[:10], 0.0)
     with closing(sqlite3.connect(store, isolation_level=None)) as other:
         other.execute("BEGIN IMMEDIATE")
-        with pytest.raises(
-            StoreError, match="database is locked: another process holds it; try --resume"
-        ):
+        with pytest.raises(StoreError, match="database is locked: another process holds it; try --resume"):
             sink.take(1, ROWS[10:20], 0.0)
         other.execute("ROLLBACK")
     sink.take(1, ROWS[10:20], 0.0)
