@@ -17,7 +17,7 @@ import tempfile
 from pathlib import Path
 from time import perf_counter
 
-from enumerate.chains.kinematic import chains
+from enumerate.chains.jobs import chains
 from enumerate.conical.query import ConicalQuery, count_conical_orders
 from enumerate.runner.store import read_rows
 

@@ -3,8 +3,8 @@
     python benchmarks/contracted_weights.py LOOPS
 
 writes benchmarks/results/contracted_weights-LOOPS.json: for each number of links how many graphs are listed
-(`enumerate.contracted.descent`, as counts of chains list them), the sum of their weights, and what it is in closed
-form (`enumerate.chains.contracted_weights`), which looks at no graph. Both methods that count chains take it that
+(`enumerate.contracted.graphs`, as counts of chains list them), the sum of their weights, and what it is in closed
+form (`enumerate.contracted.graphs`), which looks at no graph. Both methods that count chains take it that
 these graphs are all there are, each once, and that their symmetries are known; chains of 20 links have nine loops.
 Ends with status 1 where the sums differ.
 """
@@ -19,8 +19,7 @@ from fractions import Fraction
 from pathlib import Path
 from time import process_time
 
-from enumerate.chains.contracted_weights import total_weights, weight_of
-from enumerate.contracted.descent import streamed_graphs
+from enumerate.contracted.graphs import streamed_graphs, total_weights, weight_of
 
 RESULTS = Path(__file__).parent / "results"
 

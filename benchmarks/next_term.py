@@ -3,7 +3,7 @@
     python benchmarks/next_term.py LINKS [CUBIC GRAPHS [GRAPHS OF A SIZE]]
 
 writes benchmarks/results/next_term-LINKS.json. Each contracted graph comes from one cubic graph
-(`enumerate.contracted.descent`). Of the cubic graphs, in the order in which they are made, one is drawn of each of
+(`enumerate.contracted.graphs`). Of the cubic graphs, in the order in which they are made, one is drawn of each of
 some hundred equal stretches, each equally likely, by a seed that is fixed, and all that comes of them is made:
 their number of graphs of a size, times the length of a stretch, is an estimate without bias of how many there are.
 Of the graphs of each size that were made some are drawn again and counted on by both methods: mean processor

@@ -18,13 +18,10 @@ from pathlib import Path
 from statistics import median
 from time import perf_counter
 
-from enumerate.sc.graphs import count_sc_graphs
-from enumerate.sc.jobs import UNIT_ROWS, SCJob, drawn_of
+from enumerate.sc.jobs import UNIT_ROWS, SCJob, count_sc_graphs, drawn_of
 from enumerate.sc.listing import describe
 from enumerate.sc.query import SCQuery
-from enumerate.scd.graphs import all_mechanisms
-from enumerate.scd.jobs import AllMechanisms, SCDJob
-from enumerate.scd.rows import placements_on
+from enumerate.scd.jobs import AllMechanisms, SCDJob, all_mechanisms, placements_on
 
 RESULTS = Path(__file__).parent / "results" / "types_of_mechanisms.json"
 RUNS = 3

@@ -6,8 +6,7 @@ import networkx as nx
 import patterns
 from entries import entries_of
 
-from enumerate.strings.graphs import chain_scd
-from enumerate.strings.panel_strings import joint_chain, strings
+from enumerate.strings.panel_strings import chain_scd, joint_chain, strings
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.panels import scd_from_panels
 from graphs.edit.analogues import planar_analogue

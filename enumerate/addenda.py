@@ -23,8 +23,7 @@ from typing import Any
 
 import networkx as nx
 
-from enumerate.runner.columns import Column, ListColumn
-from enumerate.runner.job import Counting, Row, Unit
+from enumerate.runner.job import Column, ListColumn, Row, RowCount, Unit, batches
 from enumerate.runner.running import rows_of
 from graphs.edit.sc import Edit, add_loop
 from graphs.errors import InvariantError
@@ -38,7 +37,7 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.rank.generic import exact_mobility
 
-__all__ = ["Addendum", "AddendumCountJob", "AddendumJob", "addenda"]
+__all__ = ["Addendum", "AddendumJob", "addenda", "addendum_count_job"]
 
 _COLUMNS: dict[str, Column] = {
     "kind": str,
@@ -108,10 +107,10 @@ def addenda(mechanism: SCGraph, delta_dof: int, *, workers: int = 1) -> Iterator
 
     >>> from graphs.loops.loop import Loop
     >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> [(one.kind, len(one.through)) for one in addenda(four_bar, 0)]
+    >>> [(addendum.kind, len(addendum.through)) for addendum in addenda(four_bar, 0)]
     [('ride-along', 1), ('dyad', 3), ('spatial loop', 1), ('dyad', 2), ('spatial loop', 2)]
     """
-    for row in rows_of(_AddendaJob(AddendumJob(mechanism, delta_dof)), workers=workers):
+    for row in rows_of(AddendumJob(mechanism, delta_dof, as_rows=False), workers=workers):
         yield row["addendum"]
 
 
@@ -123,10 +122,13 @@ class AddendumJob:
     ----------
     mechanism : SCGraph
     delta_dof : int
+    as_rows : bool
+        Without it, a row holds the `Addendum` itself, for this process: no file takes it.
     """
 
     mechanism: SCGraph
     delta_dof: int
+    as_rows: bool = True
 
     def __post_init__(self) -> None:
         if self.delta_dof < -2:
@@ -139,7 +141,7 @@ class AddendumJob:
     @property
     def columns(self) -> dict[str, Column]:
         """Names and types of the values of a row."""
-        return _COLUMNS
+        return _COLUMNS if self.as_rows else {"addendum": Addendum}
 
     @property
     def key(self) -> dict[str, Any]:
@@ -153,36 +155,30 @@ class AddendumJob:
             for a, b in combinations(self.mechanism.nodes, 2):
                 orbits.union(frozenset((a, b)), frozenset((moved[a], moved[b])))
         seen: set[Any] = set()
-        found = []
+        pairs = []
         for a, b in combinations(self.mechanism.nodes, 2):
             root = orbits[frozenset((a, b))]
             if root not in seen:
                 seen.add(root)
-                found.append((a, b))
-        return found
+                pairs.append((a, b))
+        return pairs
 
     def units(self) -> list[Unit]:
         """Units of some pairs of links each."""
-        pairs = self.pairs()
-        return [
-            Unit(tuple(pairs[i : i + _PAIRS]), len(pairs[i : i + _PAIRS])) for i in range(0, len(pairs), _PAIRS)
-        ]
+        return [Unit(tuple(pairs), len(pairs)) for pairs in batches(self.pairs(), _PAIRS)]
 
     def work(self, payload: Sequence[tuple[LinkId, LinkId]]) -> list[Row]:
         """Return the rows of a unit."""
-        return [_row(addendum) for addendum in self.on_pairs(payload)]
-
-    def on_pairs(self, pairs: Sequence[tuple[LinkId, LinkId]]) -> Iterator[Addendum]:
-        """Yield the addenda between the links of some pairs."""
         before = exact_mobility(self.mechanism).mobility
-        for a, b in pairs:
-            yield from self.on_pair(a, b, before)
+        found = (addendum for a, b in payload for addendum in self._between(a, b, before))
+        return [_row(addendum) if self.as_rows else (addendum,) for addendum in found]
 
-    def on_pair(self, a: LinkId, b: LinkId, before: int) -> Iterator[Addendum]:
-        """Yield the addenda between two links; no two are exchanged by a symmetry.
+    def number(self, payload: Sequence[tuple[LinkId, LinkId]]) -> int:
+        """Return the number of rows of a unit."""
+        return len(self.work(payload))
 
-        `before` is the mobility of the mechanism.
-        """
+    def _between(self, a: LinkId, b: LinkId, before: int) -> Iterator[Addendum]:
+        """Yield the addenda between two links of a mechanism of so much mobility; no symmetry exchanges two."""
         seen: set[Any] = set()
         for kind, through, links, centre in self._loops(a, b):
             edit = add_loop(self.mechanism, a, b, links, centre=centre, through=through)
@@ -202,23 +198,21 @@ class AddendumJob:
         if links > 0 or not between:  # two links are joined once
             for joint in between:
                 yield "ride-along" if links == 2 else "spherical loop", [joint], links, Centre.FINITE
-            for one in self.mechanism.centre_classes():
-                path = self._path(a, b, one)
+            for centre_class in self.mechanism.centre_classes():
+                path = self._path(a, b, centre_class)
                 if path:
-                    yield "dyad" if links == 2 else "spherical loop", path, links, one.centre
+                    yield "dyad" if links == 2 else "spherical loop", path, links, centre_class.centre
         links = self.delta_dof + 5
         yield "spatial loop", self._path(a, b, None) or between[:1], links, Centre.NONE
 
-    def _path(self, a: LinkId, b: LinkId, one: CentreClass | None) -> list[JointId]:
-        """Return a shortest path of two joints or more, within a class if one is given; empty if there is none."""
-        joints = (
-            self.mechanism.joints if one is None else {joint: self.mechanism.joints[joint] for joint in one.joints}
-        )
+    def _path(self, a: LinkId, b: LinkId, centre_class: CentreClass | None) -> list[JointId]:
+        """Return a shortest path of two joints or more, within a class if one is named; empty if there is none."""
         inside = nx.Graph()
-        for joint, (u, v) in joints.items():
+        for joint in self.mechanism.joints if centre_class is None else centre_class.joints:
+            u, v = self.mechanism.joints[joint]
             if {u, v} != {a, b}:
                 inside.add_edge(u, v, joint=joint)
-        if one is None and self.mechanism.has_edge(a, b):
+        if centre_class is None and self.mechanism.has_edge(a, b):
             return []
         if not (a in inside and b in inside and nx.has_path(inside, a, b)):
             return []
@@ -226,67 +220,36 @@ class AddendumJob:
         return [inside[u][v]["joint"] for u, v in nx.utils.pairwise(path)]
 
 
-def _row(one: Addendum) -> Row:
-    after = one.edit.graph
+def _row(addendum: Addendum) -> Row:
+    after = addendum.edit.graph
     return (
-        one.kind,
-        *map(str, one.ends),
-        tuple(map(str, one.through)),
-        len(after) - len(one.edit.before),
+        addendum.kind,
+        *map(str, addendum.ends),
+        tuple(map(str, addendum.through)),
+        len(after) - len(addendum.edit.before),
         len(after),
         len(after.joints),
         len(after.centre_classes()),
-        one.mobility,
+        addendum.mobility,
         chain_id(nx.MultiGraph(after)),
         dumps(after),
     )
 
 
-@dataclass(frozen=True)
-class _AddendaJob:
-    """The addenda themselves, for this process: no file takes them."""
+def addendum_count_job(job: AddendumJob) -> RowCount:
+    """Return the job that counts the addenda of a mechanism.
 
-    rows: AddendumJob
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """One addendum."""
-        return {"addendum": Addendum}
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
-        return self.rows.key
-
-    def units(self) -> list[Unit]:
-        """Return those of the job."""
-        return self.rows.units()
-
-    def work(self, payload: Sequence[tuple[LinkId, LinkId]]) -> list[Row]:
-        """Return the addenda of a unit."""
-        return [(addendum,) for addendum in self.rows.on_pairs(payload)]
-
-
-@dataclass(frozen=True)
-class AddendumCountJob(Counting):
-    """The number of addenda; rows are numbers to be added.
-
-    Attributes
+    Parameters
     ----------
-    rows : AddendumJob
+    job : AddendumJob
+        The job that lists them.
+
+    Examples
+    --------
+    >>> from enumerate.runner.running import total_of
+    >>> from graphs.loops.loop import Loop
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> total_of(addendum_count_job(AddendumJob(four_bar, 0)))
+    5
     """
-
-    rows: AddendumJob
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
-        return {"count": "addenda", **self.rows.key}
-
-    def units(self) -> list[Unit]:
-        """Return those of the job."""
-        return self.rows.units()
-
-    def work(self, payload: Sequence[tuple[LinkId, LinkId]]) -> list[Row]:
-        """Return the number of rows of a unit."""
-        return [(len(self.rows.work(payload)),)]
+    return RowCount(job, {"count": "addenda", **job.key})

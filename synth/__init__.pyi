@@ -1,6 +1,6 @@
-from enumerate.chains.kinematic import chains as chains, count_chains as count_chains
-from enumerate.sc.graphs import count_sc_graphs as count_sc_graphs, sc_graphs as sc_graphs
-from enumerate.scd.graphs import count_scd_graphs as count_scd_graphs, scd_graphs as scd_graphs
+from enumerate.chains.jobs import chains as chains, count_chains as count_chains
+from enumerate.sc.jobs import count_sc_graphs as count_sc_graphs, sc_graphs as sc_graphs
+from enumerate.scd.jobs import count_scd_graphs as count_scd_graphs, scd_graphs as scd_graphs
 from enumerate.strings.panel_strings import strings as strings
 from graphs.answer.identity import identify as identify
 from graphs.answer.reconstruction import reconstruct as reconstruct

@@ -16,10 +16,9 @@ from drawings.together import above, beside, said
 from enumerate.chains.names import chain_named, name_of
 from enumerate.chains.rows import chain_ids
 from enumerate.conical.query import ConicalQuery, conical_orders, count_conical_orders
-from enumerate.contracted.binary_links import EVERY, no_prefix
+from enumerate.contracted.binary_links import EVERY, frame_of, joints_of_all, no_prefix, placements_of
 from enumerate.contracted.graphs import contracted_graphs
-from enumerate.contracted.listing import frame_of, joints_of_all, placements_of
-from enumerate.scd.graphs import scd_graphs_of
+from enumerate.scd.jobs import scd_graphs_of
 from graphs.errors import numbered
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph

@@ -13,21 +13,19 @@ import numpy as np
 
 from enumerate.contracted.binary_links import (
     EVERY,
+    PlacementRange,
     Units,
-    Wanted,
     conditions,
+    frame_of,
     no_prefix,
     place,
     rigid_sets,
 )
-from enumerate.contracted.chosen_links import count_with_a_link
-from enumerate.contracted.classes import order_of_classes
 from enumerate.contracted.graphs import decode
 from enumerate.contracted.left_in_place import Cycles, count_left_in_place, cycles_of
-from enumerate.contracted.listing import frame_of
-from enumerate.contracted.orbits import count_orbits
-from enumerate.kernel.burnside import number_of_orbits
-from enumerate.kernel.compiled import compiled
+from enumerate.contracted.orbits import count_orbits, count_with_a_link
+from enumerate.contracted.states import order_of_classes
+from enumerate.kernel.compiled import compiled, number_of_orbits
 from graphs.arrays import Bytes, Ints
 
 __all__ = [
@@ -82,12 +80,12 @@ def count_of_graph(code: Bytes, n: int, links: int, most: int, only: int, prefix
     """
     ends, first, moved, _ = frame_of(code, n)
     sets, needs = rigid_sets(decode(code, n), n)
-    return count_in(ends, first, moved, sets, needs, n, Wanted(links, most, only), prefix)
+    return count_in(ends, first, moved, sets, needs, n, PlacementRange(links, most, only), prefix)
 
 
 @compiled
 def count_in(
-    ends: Bytes, first: Ints, moved: Bytes, sets: Ints, needs: Ints, n: int, wanted: Wanted, prefix: Ints
+    ends: Bytes, first: Ints, moved: Bytes, sets: Ints, needs: Ints, n: int, wanted: PlacementRange, prefix: Ints
 ) -> int:
     """Return the number of placements on joints with given symmetries.
 

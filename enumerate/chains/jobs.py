@@ -1,13 +1,23 @@
-"""The jobs of chain enumeration: how listing and counting are split into units."""
+"""Kinematic chains: all link-joint graphs of N links and M degrees of freedom without rigid sub-chains.
+
+A chain with L >= 2 loops is a contracted graph (`enumerate.contracted.graphs`) with binary links placed on its
+joints (`enumerate.contracted.binary_links`), so work grows with the number of chains and not with that of graphs;
+a chain of one loop is a ring. Numbers are found in two ways (`enumerate.chains.counting`). Listing and counting
+are split into units. Theory: docs/theory/chains.md.
+
+Source: Yan and Hwang, *The specialization of mechanisms*, Mech. Mach. Theory 26 (1991), for the words. OEIS
+A233288 has the numbers for M = 1.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property, partial
 from itertools import islice
 from typing import Any
 
+import networkx as nx
 import numpy as np
 
 from enumerate.chains.counting import (
@@ -16,22 +26,18 @@ from enumerate.chains.counting import (
     count_inversions_by_orbits,
     count_of_graph,
 )
-from enumerate.chains.cycle_index import count_connected
-from enumerate.chains.fractionated import Block, block_choices, glued, shapes
+from enumerate.chains.fractionated import Block, block_choices, count_connected, glued, shapes
 from enumerate.chains.query import ChainQuery
 from enumerate.chains.rows import GraphChains, columns_of, rows_of_graph, rows_of_joints
 from enumerate.contracted.binary_links import EVERY
-from enumerate.contracted.descent import descendants
-from enumerate.contracted.graphs import contracted_graphs, cubic_graphs
-from enumerate.runner.columns import Column
-from enumerate.runner.job import Counting, Row, Unit
-from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE
-from enumerate.runner.running import rows_of
+from enumerate.contracted.graphs import contracted_graphs, cubic_graphs, descendants
+from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, Column, Counting, Row, RowCount, Unit, batches
+from enumerate.runner.running import rows_of, total_of
 from graphs.arrays import Bytes, Ints
 from graphs.errors import UnsolvableError
 from graphs.identity.chains import chain_from_id
 
-__all__ = ["ChainJob", "CountJob", "count_job"]
+__all__ = ["ChainJob", "CountJob", "beginnings", "chain_rows", "chains", "count_chains", "count_job"]
 
 _ROWS = 20_000
 """Rows of a unit, about; a contracted graph with more is split."""
@@ -54,33 +60,12 @@ _CHOICES = 64
 
 @dataclass(frozen=True, slots=True)
 class _Graphs:
-    """Chains of some contracted graphs."""
+    """Chains of some contracted graphs, or of one of them those that begin in one way (`beginnings`)."""
 
     n: int
     codes: Bytes
-
-
-@dataclass(frozen=True, slots=True)
-class _Descendants:
-    """Chains of some cubic graphs, and of the contracted graphs that come from them."""
-
-    n: int
-    codes: Bytes
-
-
-@dataclass(frozen=True, slots=True)
-class _Part:
-    """Chains of one contracted graph that begin in one way."""
-
-    n: int
-    code: Bytes
-    only: int
-    prefix: Ints
-
-
-@dataclass(frozen=True, slots=True)
-class _Ring:
-    """The chain of one loop."""
+    only: int = EVERY
+    prefix: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,18 +75,19 @@ class _Glued:
     choices: tuple[tuple[Block, ...], ...]
 
 
-Payload = _Graphs | _Part | _Ring | _Glued
+Payload = _Graphs | _Glued | None
+"""None: the chain of one loop, a ring."""
 
 
 def _graphs(query: ChainQuery) -> Iterator[tuple[int, Bytes]]:
-    """Yield the contracted graphs whose chains can be among those asked for, most links first."""
+    """Yield the contracted graphs whose chains a query may admit, most links first."""
     if not query.possible or query.loops < 2:
         return
-    yield from _asked_for(query, contracted_graphs(query.loops))
+    yield from _admitted(query, contracted_graphs(query.loops))
 
 
-def _asked_for(query: ChainQuery, levels: Iterable[tuple[int, Bytes]]) -> Iterator[tuple[int, Bytes]]:
-    """Yield of contracted graphs with so many links those whose chains can be among those asked for."""
+def _admitted(query: ChainQuery, levels: Iterable[tuple[int, Bytes]]) -> Iterator[tuple[int, Bytes]]:
+    """Yield those contracted graphs, by numbers of links, whose chains a query may admit."""
     for n, codes in levels:
         if n > query.links:
             continue
@@ -114,7 +100,7 @@ def _asked_for(query: ChainQuery, levels: Iterable[tuple[int, Bytes]]) -> Iterat
 
 @dataclass(frozen=True)
 class ChainJob:
-    """All chains that a query asks for, as rows.
+    """All chains of a query, as rows.
 
     Attributes
     ----------
@@ -138,16 +124,16 @@ class ChainJob:
 
     def units(self) -> list[Unit]:
         """Units of some thousands of rows each: chains that nothing cuts, then fractionated ones."""
-        found: list[Unit] = []
+        units: list[Unit] = []
         if not self.query.possible:
-            return found
+            return units
         if self.query.loops == 1:
-            found.append(Unit(_Ring()))
+            units.append(Unit(None))
         for n, codes in _graphs(self.query):
-            found += self._units_of_level(n, codes)
+            units += self._units_of_level(n, codes)
         if self.query.fractionated:
-            found += self._fractionated_units()
-        return found
+            units += self._fractionated_units()
+        return units
 
     def _units_of_level(self, n: int, codes: Bytes) -> Iterator[Unit]:
         """Split the contracted graphs of n links by the numbers of their chains."""
@@ -168,19 +154,9 @@ class ChainJob:
 
     def _parts(self, n: int, code: Bytes) -> Iterator[Unit]:
         """Split the placements on one contracted graph by where their first units lie."""
-        query = self.query
-
-        def split(only: int, prefix: tuple[int, ...]) -> Iterator[Unit]:
-            array = np.array(prefix, np.int64)
-            count = count_of_graph(code, n, query.links, query.most, only, array)
-            if count > _ROWS:
-                for slot in range(prefix[-1] if prefix else 0, len(code)):
-                    yield from split(only, (*prefix, slot))
-            elif count:
-                yield Unit(_Part(n, code, only, array), count)
-
-        for only in range(query.links - n + 1):
-            yield from split(only, ())
+        number = partial(count_of_graph, code, n, self.query.links, self.query.most)
+        for only, prefix, count in beginnings(number, self.query.links - n, len(code), _ROWS):
+            yield Unit(_Graphs(n, code[None], only, prefix), count)
 
     def _fractionated_units(self) -> Iterator[Unit]:
         for shape in shapes(self.query.links, self.query.dof):
@@ -191,24 +167,52 @@ class ChainJob:
     def work(self, payload: Payload) -> list[Row]:
         """Return the rows of a unit."""
         query = self.query
-        if isinstance(payload, _Part):
-            part = GraphChains.of(query, payload.code, payload.n, payload.only, payload.prefix)
-            return rows_of_graph(query, part, self.bare)
         if isinstance(payload, _Graphs):
-            rows = []
-            for code in payload.codes:
-                chains = GraphChains.of(query, code, payload.n, EVERY, np.zeros(0, np.int64))
-                rows += rows_of_graph(query, chains, self.bare)
-            return rows
-        if isinstance(payload, _Ring):
+            return [row for part in self._chains(payload) for row in rows_of_graph(query, part, self.bare)]
+        if payload is None:
             ring = [(i, (i + 1) % query.links) for i in range(query.links)]
             return rows_of_joints(query, ring, self.bare)
-        return [
-            row
-            for blocks in payload.choices
-            for joints in glued(blocks)
-            for row in rows_of_joints(query, joints, self.bare)
-        ]
+        chains = (joints for blocks in payload.choices for joints in glued(blocks))
+        return [row for joints in chains for row in rows_of_joints(query, joints, self.bare)]
+
+    def _chains(self, payload: _Graphs) -> Iterator[GraphChains]:
+        for code in payload.codes:
+            yield GraphChains.of(self.query, code, payload.n, payload.only, payload.prefix)
+
+    def number(self, payload: Payload) -> int:
+        """Return the number of rows of a unit; without labels where they are not needed."""
+        query = self.query
+        if not isinstance(payload, _Graphs) or query.inputs:
+            return len(self.work(payload))
+        if query.inversions:
+            links = np.arange(query.links)  # a link is the least of its orbit, or not
+            return sum(int((part.inversions(query.links) == links).sum()) for part in self._chains(payload))
+        return sum(len(part.x) for part in self._chains(payload))
+
+
+def beginnings(
+    number: Callable[[int, Ints], int], units: int, slots: int, most: int
+) -> Iterator[tuple[int, Ints, int]]:
+    """Yield ways in which placements of binary links (`units`) on slots begin, of `most` placements each at most.
+
+    A way is a number of bound units, or `EVERY`, and the slots of the first units, which never fall; with it comes
+    the number of its placements, which `number` counts.
+    """
+
+    def split(only: int, prefix: tuple[int, ...]) -> Iterator[tuple[int, Ints, int]]:
+        way = np.array(prefix, np.int64)
+        count = number(only, way)
+        if count <= most or len(prefix) >= units:
+            if count:
+                yield only, way, count
+        elif only == EVERY:
+            for bound in range(units + 1):
+                yield from split(bound, ())
+        else:
+            for slot in range(prefix[-1] if prefix else 0, slots):
+                yield from split(only, (*prefix, slot))
+
+    return split(EVERY, ())
 
 
 def _blocks(links: int, dof: int) -> Iterator[Block]:
@@ -219,7 +223,7 @@ def _blocks(links: int, dof: int) -> Iterator[Block]:
 
 @dataclass(frozen=True)
 class CountJob(Counting):
-    """The number of chains that a query asks for; each row is a number to be added.
+    """The number of chains of a query; each row is a number to be added.
 
     Attributes
     ----------
@@ -248,11 +252,7 @@ class CountJob(Counting):
         """Units of some hundreds of contracted graphs each, or of those that come from some cubic graphs."""
         if self.streamed:
             return self._streamed_units()
-        return [
-            Unit(_Graphs(n, codes[i : i + _GRAPHS]), len(codes[i : i + _GRAPHS]))
-            for n, codes in _graphs(self.query)
-            for i in range(0, len(codes), _GRAPHS)
-        ]
+        return [Unit((n, some), len(some)) for n, codes in _graphs(self.query) for some in batches(codes, _GRAPHS)]
 
     def _streamed_units(self) -> list[Unit]:
         """Deal the cubic graphs out: of those that are neighbours about equally many others come."""
@@ -262,14 +262,13 @@ class CountJob(Counting):
         codes = cubic_graphs(query.loops)
         units = -(-len(codes) // _ANCESTORS)
         dealt = (codes[i::units] for i in range(units))
-        return [Unit(_Descendants(2 * (query.loops - 1), each), _DESCENDANTS * len(each)) for each in dealt]
+        return [Unit((2 * (query.loops - 1), each), _DESCENDANTS * len(each)) for each in dealt]
 
-    def work(self, payload: _Graphs | _Descendants) -> list[Row]:
+    def work(self, payload: tuple[int, Bytes]) -> list[Row]:
         """Return the numbers of chains of a unit, by the size of contracted graphs."""
-        if isinstance(payload, _Graphs):
-            return [(self._number(payload.codes, payload.n), payload.n)]
-        levels = _asked_for(self.query, descendants(payload.codes, payload.n))
-        return [(self._number(codes, n), n) for n, codes in levels]
+        n, codes = payload
+        levels = _admitted(self.query, descendants(codes, n)) if self.streamed else [(n, codes)]
+        return [(self._number(some, links), links) for links, some in levels]
 
     def _number(self, codes: Bytes, n: int) -> int:
         low = self.query.longest_string.least
@@ -282,40 +281,6 @@ class CountJob(Counting):
             return count_by_burnside(codes, n, self.query.links, most, self.query.inversions)
         count = count_inversions_by_orbits if self.query.inversions else count_by_orbits
         return count(codes, n, self.query.links, most)
-
-
-@dataclass(frozen=True)
-class _RowCountJob(Counting):
-    """The number of rows of a job, where they have to be made to be counted."""
-
-    rows: ChainJob
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
-        return {"count": "chains", **self.rows.query.key}
-
-    def units(self) -> Sequence[Unit]:
-        """Return those of the job."""
-        return self.rows.units()
-
-    def work(self, payload: Payload) -> list[Row]:
-        """Return the number of rows of a unit; labels are not worked out where nothing asks for them."""
-        query = self.rows.query
-        if not isinstance(payload, _Graphs | _Part) or query.inputs:
-            return [(len(self.rows.work(payload)),)]
-        codes = payload.codes if isinstance(payload, _Graphs) else payload.code[None]
-        only, prefix = (
-            (EVERY, np.zeros(0, np.int64)) if isinstance(payload, _Graphs) else (payload.only, payload.prefix)
-        )
-        total = 0
-        for code in codes:
-            chains = GraphChains.of(query, code, payload.n, only, prefix)
-            if query.inversions:
-                total += int((chains.inversions(query.links) == np.arange(query.links)).sum())
-            else:
-                total += len(chains.x)
-        return [(total,)]
 
 
 @dataclass(frozen=True)
@@ -340,15 +305,15 @@ class _ConnectedCountJob(Counting):
 
 def count_job(
     query: ChainQuery, method: str, kept: Mapping[str, Any] | None = None
-) -> CountJob | _RowCountJob | _ConnectedCountJob:
-    """Return the job that counts what a query asks for.
+) -> CountJob | RowCount | _ConnectedCountJob:
+    """Return the job that counts the chains of a query.
 
     Parameters
     ----------
     query : ChainQuery
     method : {"orbits", "burnside"}
     kept : mapping, optional
-        The key of a job that is to be gone on with: the units are as large as it says, where there is a choice.
+        The key of a job to be resumed: the units are as large as it says, where there is a choice.
 
     Returns
     -------
@@ -358,28 +323,114 @@ def count_job(
     Raises
     ------
     UnsolvableError
-        If Burnside's lemma is asked for what it does not count here.
+        If Burnside's lemma cannot count by all that the query limits.
 
     Examples
     --------
-    Both ways to count:
-
     >>> from enumerate.runner.running import total_of
     >>> [total_of(count_job(ChainQuery(8, 1), method)) for method in ("orbits", "burnside")]
     [16, 16]
     """
+    by_rows = RowCount(ChainJob(query), {"count": "chains", **query.key})
     plain = query.symmetry == ONE_OR_MORE and not query.inputs
     streamed = query.loops >= _STREAMED and "graphs_of_a_unit" not in (kept or {})
     if method == "burnside":
         filtered = query.assortment is not None or query.planar is not None or query.longest_string != ANY_NUMBER
         if not plain or (query.fractionated and (filtered or query.inversions)):
             raise UnsolvableError(
-                "Burnside's lemma counts chains and inversions, by assortment, planarity and longest string, "
-                "or all fractionated chains; not input joints, symmetries, or parts of the fractionated ones"
+                "Burnside's lemma cannot count by input joints or symmetries, nor a part of fractionated chains; "
+                "try --method orbits"
             )
         if query.loops == 1 and not query.fractionated:
-            return _RowCountJob(ChainJob(query))
+            return by_rows
         return _ConnectedCountJob(query) if query.fractionated else CountJob(query, method, streamed)
     if plain and not query.fractionated and query.loops > 1:
         return CountJob(query, method, streamed)
-    return _RowCountJob(ChainJob(query))
+    return by_rows
+
+
+def chains(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterator[nx.Graph]:
+    """Yield all kinematic chains of N links and M degrees of freedom, in a fixed order.
+
+    Parameters
+    ----------
+    links, dof : int
+        N >= 4 and M >= 1. N - 1 and M must be both even or both odd, else there is none.
+    workers : int
+        Processes.
+    **options
+        Other fields of `ChainQuery`: ``fractionated``, ``assortment``, ``planar``, ``longest_string``,
+        ``symmetry``.
+
+    Yields
+    ------
+    networkx.Graph
+        Links are 0 to N - 1, numbered canonically. Graph attributes hold the row of `chain_rows`.
+
+    Raises
+    ------
+    InvariantError
+        If a number is out of its range.
+
+    Examples
+    --------
+    >>> [graph.graph["assortment"] for graph in chains(6, 1)]
+    [[4, 2], [4, 2]]
+    >>> next(chains(6, 1)).graph["code"]
+    'k1:E`hW'
+    """
+    for row in chain_rows(links, dof, workers=workers, **options):
+        graph = chain_from_id(row["code"])
+        graph.graph.update(row)
+        yield graph
+
+
+def chain_rows(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterator[dict[str, Any]]:
+    """Yield a dictionary for each kinematic chain, or inversion, or choice of inputs.
+
+    Keys are ``code`` (the id), ``links``, ``joints``, ``dof``, ``loops``, ``assortment`` (numbers of binary,
+    ternary, ... links), ``longest_string``, ``symmetry`` (number of automorphisms), ``inversions`` (how many there
+    are), ``planar``, ``fractionated``; with ``inversions`` or ``inputs``, ``ground`` (a link); with ``inputs``,
+    ``inputs`` (joints, each as its two links).
+
+    Parameters
+    ----------
+    links, dof, workers, **options
+        As for `chains`, and ``inversions`` and ``inputs``.
+
+    Examples
+    --------
+    >>> len(list(chain_rows(8, 1, inversions=True)))
+    71
+    """
+    yield from rows_of(ChainJob(ChainQuery(links, dof, **options)), workers=workers)
+
+
+def count_chains(links: int, dof: int, method: str = "orbits", *, workers: int = 1, **options: Any) -> int:
+    """Return the number of kinematic chains of N links and M degrees of freedom.
+
+    Parameters
+    ----------
+    links, dof, **options
+        As for `chain_rows`.
+    method : {"orbits", "burnside"}
+        Two ways that share the contracted graphs and the conditions of rigidity only: ``orbits`` compares each
+        placement with its images, ``burnside`` compares none.
+    workers : int
+        Processes.
+
+    Raises
+    ------
+    InvariantError
+        If a number is out of its range.
+    UnsolvableError
+        If Burnside's lemma cannot count by all that the query limits.
+
+    Examples
+    --------
+    >>> [count_chains(links, 1) for links in (4, 6, 8, 10)]
+    [1, 2, 16, 230]
+    >>> count_chains(9, 2, "burnside", fractionated=True)
+    40
+    """
+    return total_of(count_job(ChainQuery(links, dof, **options), method), workers=workers)

@@ -19,7 +19,7 @@ def _named() -> dict[str, str]:
 
 
 def name_of(chain: str) -> str:
-    """Return the name of a chain given by its id, or nothing.
+    """Return the name of the chain with an id, or nothing.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def chain_names() -> tuple[str, ...]:
 
 
 def chain_named(name: str) -> str:
-    """Return the id of a chain given by its name.
+    """Return the id of the chain with a name.
 
     Parameters
     ----------

@@ -1,23 +1,23 @@
-"""Which chains are asked for: numbers of links and freedoms, kinds, and limits on what they look like."""
+"""Which chains are to be enumerated: numbers of links and freedoms, kinds, and limits of what they look like."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import Any
+from collections import Counter
+from dataclasses import dataclass
 
 import networkx as nx
 import numpy as np
 
 from enumerate.contracted.graphs import MOST_LOOPS, decode
-from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE, Limits, keep_limits, key_of
+from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, Limits, Query
 from graphs.arrays import Bytes
-from graphs.errors import InvariantError
+from graphs.errors import InvariantError, numbered
 
 __all__ = ["ChainQuery", "is_planar"]
 
 
 @dataclass(frozen=True, slots=True)
-class ChainQuery:
+class ChainQuery(Query):
     """The kinematic chains with N links and M degrees of freedom, no sub-chain rigid.
 
     Attributes
@@ -62,14 +62,13 @@ class ChainQuery:
 
     def __post_init__(self) -> None:
         if self.links < 4:
-            raise InvariantError("links", f"{self.links} links", "4 or more: a closed chain has no fewer")
+            raise InvariantError("links", numbered(self.links, "link"), "4 or more: a closed chain has no fewer")
         if self.dof < 1:
-            raise InvariantError("dof", f"{self.dof} degrees of freedom", "1 or more")
+            raise InvariantError("dof", numbered(self.dof, "degree of freedom", "degrees of freedom"), "1 or more")
         if self.loops > MOST_LOOPS:
-            raise InvariantError(
-                "loops", f"{self.links} links with M = {self.dof} have {self.loops} loops", f"{MOST_LOOPS} at most"
-            )
-        keep_limits(self, "longest_string", "symmetry")
+            wrong = f"{self.links} links with M = {self.dof} have {numbered(self.loops, 'loop')}"
+            raise InvariantError("loops", wrong, f"{MOST_LOOPS} at most")
+        self._keep_limits("longest_string", "symmetry")
         if self.assortment is not None and any(count < 0 for count in self.assortment):
             raise InvariantError("assortment", f"the assortment {self.assortment}", "numbers of links")
 
@@ -94,24 +93,18 @@ class ChainQuery:
         high = self.longest_string.most
         return self.dof + 1 if high is None else min(high, self.dof + 1)
 
-    @property
-    def key(self) -> dict[str, Any]:
-        """The query in JSON values."""
-        return {field.name: key_of(getattr(self, field.name)) for field in fields(self)}
-
     def admits_assortment(self, degrees: dict[int, int]) -> bool:
-        """Tell whether a chain with these numbers of links (degree to number) has the assortment asked for."""
+        """Tell whether a chain with these numbers of links (degree to number) has the assortment of the query."""
         if self.assortment is None:
             return True
-        wanted = {degree: count for degree, count in zip(range(2, 1000), self.assortment, strict=False) if count}
-        return wanted == {degree: count for degree, count in degrees.items() if count}
+        assortment = {degree: count for degree, count in enumerate(self.assortment, 2) if count}
+        return assortment == {degree: count for degree, count in degrees.items() if count}
 
     def admits_graph(self, code: Bytes, n: int) -> bool:
-        """Tell whether chains of a contracted graph can be among those asked for."""
+        """Tell whether the query may admit chains of a contracted graph."""
         if self.assortment is not None:
-            degrees = np.bincount(decode(code, n).sum(axis=1))
-            counts = {degree: int(count) for degree, count in zip(range(len(degrees)), degrees, strict=True)}
-            if not self.admits_assortment({2: self.links - n, **{d: c for d, c in counts.items() if c}}):
+            degrees = Counter(decode(code, n).sum(axis=1).tolist())
+            if not self.admits_assortment({2: self.links - n, **degrees}):
                 return False
         return self.planar is None or is_planar(decode(code, n)) == self.planar
 
@@ -121,7 +114,7 @@ class ChainQuery:
 
 
 def is_planar(adjacency: Bytes) -> bool:
-    """Return whether a multigraph, given by its matrix, is planar.
+    """Return whether the multigraph of a matrix is planar.
 
     >>> is_planar(1 - np.eye(5, dtype=np.uint8))
     False

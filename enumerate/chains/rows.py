@@ -1,7 +1,12 @@
-"""Rows of chains: ids and attributes of the chains of contracted graphs.
+"""Rows of chains: ids and attributes of the chains of contracted graphs, their ground links and input joints.
 
 What is the same for all chains of a contracted graph is worked out once for the graph; the rest is compiled. bliss
-itself is asked for the canonical numbers of the few chains that `enumerate.kernel.bliss_order` leaves.
+itself numbers the few chains that `enumerate.kernel.bliss_order` leaves.
+
+M joints are inputs of a chain of M freedoms if nothing moves once they are locked. In a chain a joint leaves one
+of three freedoms, so it is two bars between its links, and a locked one three; a generic chain of N links is
+rigid, and no bar is redundant, exactly if any k links hold at most 3 (k - 1) of the bars (Tay 1984). The pebble
+game decides that. Of choices that symmetries of the chain exchange, one is listed.
 """
 
 from __future__ import annotations
@@ -9,37 +14,34 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import repeat
+from itertools import combinations, repeat
 
 import networkx as nx
 import numpy as np
 
-from enumerate.chains.inputs import input_choices
 from enumerate.chains.query import ChainQuery, is_planar
-from enumerate.contracted.graphs import decode
-from enumerate.contracted.listing import (
+from enumerate.contracted.binary_links import (
     frame_of,
     graph6_rows,
     joints_of_all,
+    link_symmetries,
     orbits_of,
     orbits_of_all,
     placements_of,
-    symmetries_of,
 )
+from enumerate.contracted.graphs import decode
 from enumerate.kernel.bliss_order import MOST_NODES, bliss_orders
-from enumerate.runner.columns import Column, ListColumn
-from enumerate.runner.job import Row
+from enumerate.runner.job import Column, ListColumn, Row
 from graphs.arrays import Bytes, Ints
 from graphs.identity.chains import automorphisms_of, canonical_order
 
 __all__ = [
-    "COLUMNS",
-    "GROUND_COLUMNS",
-    "INPUT_COLUMNS",
     "GraphChains",
+    "are_inputs",
     "assortment_of",
     "chain_ids",
     "columns_of",
+    "input_choices",
     "rows_of_graph",
     "rows_of_joints",
 ]
@@ -71,7 +73,7 @@ def columns_of(query: ChainQuery, bare: bool) -> dict[str, Column]:
 
 @dataclass(frozen=True, slots=True)
 class GraphChains:
-    """The chains of one contracted graph that a query asks for.
+    """The chains of one contracted graph that a query admits.
 
     Rows of x, uint8[r, m], are the binary links on each joint, `order` counts the automorphisms of each chain.
     """
@@ -115,15 +117,15 @@ def rows_of_graph(query: ChainQuery, chains: GraphChains, bare: bool) -> list[Ro
     rows: list[Row] = list(zip(codes, *common, *own, repeat(planar), repeat(False), strict=False))
     if not (query.inversions or query.inputs):
         return rows
-    found: list[Row] = []
+    choices: list[Row] = []
     for i, row in enumerate(rows):
-        generators = symmetries_of(ends, first, moved, automorphisms, query.links, chains.x[i])
+        generators = link_symmetries(ends, first, moved, automorphisms, query.links, chains.x[i])
         order = labels[i].tolist()
         renamed = np.empty_like(generators)
         renamed[:, order] = labels[i][generators]
         pairs = [(order[a], order[b]) for a, b in joints[i].tolist()]
-        found += [(*row, *choice) for choice in _choices(query, pairs, renamed)]
-    return found
+        choices += [(*row, *choice) for choice in _choices(query, pairs, renamed)]
+    return choices
 
 
 def chain_ids(links: int, joints: Ints, automorphisms: Ints | None = None) -> tuple[list[str], Ints]:
@@ -146,7 +148,7 @@ def chain_ids(links: int, joints: Ints, automorphisms: Ints | None = None) -> tu
 
 
 def _choices(query: ChainQuery, joints: list[tuple[int, int]], generators: Ints) -> Iterator[Row]:
-    """Yield the ground links of a chain, with input joints where asked for, one of each orbit.
+    """Yield the ground links of a chain, with input joints if the query has them, one of each orbit.
 
     The generators, int64[g, links], are permutations of links that generate the automorphisms.
     """
@@ -158,7 +160,7 @@ def _choices(query: ChainQuery, joints: list[tuple[int, int]], generators: Ints)
 
 
 def rows_of_joints(query: ChainQuery, joints: Sequence[tuple[int, int]], bare: bool) -> list[Row]:
-    """Return the rows of a chain given by its joints; none if the query does not ask for such a chain.
+    """Return the rows of a chain, by its joints; none if the query does not admit it.
 
     The general way, for rings and for chains that are not 2-connected; links are 0 to N - 1.
     """
@@ -207,3 +209,90 @@ def _longest_string(graph: nx.Graph) -> int:
     """Return the number of links of the longest row of binary links."""
     binary = graph.subgraph(link for link, degree in graph.degree() if degree == 2)
     return max(map(len, nx.connected_components(binary)), default=0)
+
+
+Joint = tuple[int, int]
+
+
+def are_inputs(links: int, joints: Sequence[Joint], locked: Sequence[int]) -> bool:
+    """Return whether locking some joints of a chain, by their indices, takes one freedom each.
+
+    The chain has no rigid sub-chains.
+    """
+    bars = [ends for index, ends in enumerate(joints) for _ in range(2 + (index in locked))]
+    return _is_sparse(links, bars)
+
+
+def _is_sparse(nodes: int, bars: Sequence[Joint]) -> bool:
+    """Tell whether any k nodes hold at most 3 (k - 1) bars: the (3, 3) pebble game.
+
+    Every node has three pebbles; a bar takes one of an end's. It may lie if four pebbles can be brought to its
+    ends, moving pebbles against the bars that took them.
+    """
+    pebbles = [3] * nodes
+    out: list[list[int]] = [[] for _ in range(nodes)]
+    for a, b in bars:
+        while pebbles[a] + pebbles[b] < 4:
+            if not (_fetch(a, b, pebbles, out) or _fetch(b, a, pebbles, out)):
+                return False
+        taker, other = (a, b) if pebbles[a] else (b, a)
+        pebbles[taker] -= 1
+        out[taker].append(other)
+    return True
+
+
+def _fetch(node: int, keep: int, pebbles: list[int], out: list[list[int]]) -> bool:
+    """Bring one more pebble to a node, not from the node ``keep``; return whether there was one."""
+    came_from = {node: node, keep: keep}
+    stack = [node]
+    while stack:
+        here = stack.pop()
+        for there in out[here]:
+            if there in came_from:
+                continue
+            came_from[there] = here
+            if pebbles[there]:
+                pebbles[there] -= 1
+                pebbles[node] += 1
+                while there != node:
+                    before = came_from[there]
+                    out[before].remove(there)
+                    out[there].append(before)
+                    there = before  # noqa: PLW2901 - walk back along the path
+                return True
+            stack.append(there)
+    return False
+
+
+def input_choices(
+    links: int, joints: Sequence[Joint], generators: Sequence[Sequence[int]], dof: int
+) -> Iterator[tuple[int, list[Joint]]]:
+    """Yield choices of a ground link and `dof` input joints of a chain, one of each orbit, the least one.
+
+    The generators are permutations of the links that generate the automorphisms.
+
+    >>> ring = [(0, 1), (1, 2), (2, 3), (3, 0)]
+    >>> list(input_choices(4, ring, [[1, 2, 3, 0], [0, 3, 2, 1]], 1))
+    [(0, [(0, 1)]), (0, [(1, 2)])]
+    """
+    ordered = sorted((min(joint), max(joint)) for joint in joints)
+    number = {joint: i for i, joint in enumerate(ordered)}
+    moves = [
+        (move, [number[min(move[a], move[b]), max(move[a], move[b])] for a, b in ordered]) for move in generators
+    ]
+    chosen = [c for c in combinations(range(len(ordered)), dof) if dof == 1 or are_inputs(links, ordered, c)]
+    seen: set[tuple[int, tuple[int, ...]]] = set()
+    for ground in range(links):
+        for inputs in chosen:
+            if (ground, inputs) in seen:
+                continue
+            yield ground, [ordered[i] for i in inputs]
+            seen.add((ground, inputs))
+            stack = [(ground, inputs)]
+            while stack:
+                link, chosen_joints = stack.pop()
+                for move, joint_move in moves:
+                    image = move[link], tuple(sorted(joint_move[i] for i in chosen_joints))
+                    if image not in seen:
+                        seen.add(image)
+                        stack.append(image)

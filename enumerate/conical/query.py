@@ -1,27 +1,38 @@
 """Conical candidates: every way the joint axes of a chain can lie round one cone, up to what changes nothing.
 
 Projected angles always fit, so a chain lies on a cone with its joints in any cyclic order; what is the same up to
-a turn, a mirror image or a symmetry of the chain (one that leaves the ground link where it is, if one is given)
-counts once. What the candidates do is worked out in `synth.candidates.job`. Source: Hyatt et al. 2020, section 7.
-Theory: docs/theory/conical-candidates.md.
+a turn, a mirror image or a symmetry of the chain (one that keeps the ground link, if there is one) counts once.
+What the candidates do is worked out in `synth.candidates.job`. Source: Hyatt et al. 2020, section 7. Theory:
+docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from enumerate.conical.rounds import Rounds, count_by_burnside, count_by_orbits, placements, prefixes
-from enumerate.conical.symmetries import joint_symmetries
-from enumerate.runner.job import Counting, Row, Unit
+import networkx as nx
+import numpy as np
+
+from enumerate.conical.rounds import Rounds, count_rounds_by_burnside, count_rounds_by_orbits, placements, prefixes
+from enumerate.runner.job import Column, Counting, Row, Unit
 from enumerate.runner.running import total_of, tuples_of
 from graphs.arrays import Ints
-from graphs.errors import InvariantError, UnsolvableError
+from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.identity.bliss import subdivided, symmetries_of
 from graphs.ids import JointId, LinkId
 
-__all__ = ["ConicalCountJob", "ConicalQuery", "Portion", "conical_orders", "count_conical_orders"]
+__all__ = [
+    "ConicalCountJob",
+    "ConicalQuery",
+    "Portion",
+    "conical_orders",
+    "count_conical_orders",
+    "joint_symmetries",
+    "links_apart",
+]
 
 _PLACEMENTS = 2_000_000
 """Placements of a unit that counts, at most; symmetric ones apart."""
@@ -35,7 +46,7 @@ Chain = tuple[tuple[JointId, tuple[LinkId, LinkId]], ...]
 
 @dataclass(frozen=True, slots=True)
 class Portion:
-    """The candidates of one ground link whose first joints lie in given places.
+    """The candidates of one ground link whose first joints lie on the slots of a prefix.
 
     Attributes
     ----------
@@ -49,7 +60,7 @@ class Portion:
 
 @dataclass(frozen=True)
 class ConicalQuery:
-    """Which candidates are asked for.
+    """Which candidates are to be enumerated.
 
     Attributes
     ----------
@@ -64,7 +75,7 @@ class ConicalQuery:
     Raises
     ------
     InvariantError
-        If there are fewer slots than joints, or fewer than three joints, or slots and opposites are asked for.
+        If there are fewer slots than joints, or fewer than three joints, or both slots and opposites.
 
     Examples
     --------
@@ -117,7 +128,7 @@ class ConicalQuery:
         if rounds.completions(1) > _LISTED:
             raise UnsolvableError(
                 f"{rounds.joints} joints have {rounds.completions(1):.2g} placements, symmetric ones apart; "
-                f"more than {_LISTED:.0g} can only be counted, by Burnside's lemma"
+                f"more than {_LISTED:.0g} can only be counted; try --count"
             )
         most = max(most, rounds.completions(1) // _PORTIONS)
         for ground in self.grounds:
@@ -172,16 +183,15 @@ def count_conical_orders(query: ConicalQuery, method: str = "burnside", *, worke
     return total_of(ConicalCountJob(query, method), workers=workers)
 
 
+_ORDER_COLUMNS: dict[str, Column] = {"ground": object, "slots": tuple}
+
+
 @dataclass(frozen=True)
 class _OrderJob:
     """The candidates as rows for this process: a ground link may be of any kind, so no file takes them."""
 
     query: ConicalQuery
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """Names and types of the values of a row."""
-        return {"ground": object, "slots": tuple}
+    columns = _ORDER_COLUMNS
 
     @property
     def key(self) -> dict[str, Any]:
@@ -225,5 +235,80 @@ class ConicalCountJob(Counting):
         """Return the number of candidates of a unit."""
         rounds, symmetries = self.query.rounds, self.query.symmetries(payload.ground)
         if self.method == "burnside":
-            return [(count_by_burnside(rounds, symmetries),)]
-        return [(count_by_orbits(rounds, symmetries, payload.prefix),)]
+            return [(count_rounds_by_burnside(rounds, symmetries),)]
+        return [(count_rounds_by_orbits(rounds, symmetries, payload.prefix),)]
+
+
+_MOST = 100_000
+"""Symmetries beyond this number are not listed."""
+
+
+def joint_symmetries(joints: Mapping[JointId, tuple[LinkId, LinkId]], ground: LinkId | None = None) -> Ints:
+    """Return all symmetries of a chain, as permutations of its joints.
+
+    Parameters
+    ----------
+    joints : mapping of joint id to (link, link)
+        Parallel joints may change places.
+    ground : link id, optional
+        A link that stays where it is.
+
+    Returns
+    -------
+    int64[g, J]
+        Row s takes joint i to joint ``s[i]``; the identity first, then in lexicographic order.
+
+    Raises
+    ------
+    InvariantError
+        If the ground carries no joint.
+    UnsolvableError
+        If there are more than 100 000.
+
+    Examples
+    --------
+    >>> four_bar = dict(enumerate([(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> len(joint_symmetries(four_bar)), joint_symmetries(four_bar, ground=0).tolist()
+    (8, [[0, 1, 2, 3], [3, 2, 1, 0]])
+    """
+    generators, links, size = _generators(joints, ground)
+    if ground is not None and ground not in links:
+        raise InvariantError("ground", f"the ground link {shown(ground)}", "a link with a joint")
+    if size > _MOST:
+        raise UnsolvableError(f"the chain has {size:.3g} symmetries; expected at most {_MOST}")
+    count = len(joints)
+    moves = {tuple(move[len(links) + i] - len(links) for i in range(count)) for move in generators}
+    group = {tuple(range(count))}
+    new = group
+    while new:  # products of the generators, longer by one each time, until there are no others
+        new = {tuple(move[i] for i in symmetry) for symmetry in new for move in moves} - group
+        group = group | new
+    return np.array(sorted(group), np.int64).reshape(-1, count)
+
+
+def links_apart(joints: Mapping[JointId, tuple[LinkId, LinkId]]) -> list[LinkId]:
+    """Return one link of each set of links that symmetries exchange: the different ground links of a chain."""
+    generators, links, _ = _generators(joints, None)
+    orbits = nx.utils.UnionFind(range(len(links)))
+    for move in generators:
+        for i in range(len(links)):
+            orbits.union(i, move[i])
+    first: dict[int, LinkId] = {}
+    for i, link in enumerate(links):
+        first.setdefault(orbits[i], link)
+    return list(first.values())
+
+
+def _generators(
+    joints: Mapping[JointId, tuple[LinkId, LinkId]], ground: LinkId | None
+) -> tuple[list[list[int]], list[LinkId], float]:
+    """Return generators on links, then joints; the links in their order; how many symmetries there are.
+
+    Joints are nodes of their own: so symmetries that exchange parallel joints are found too.
+    """
+    links = list(dict.fromkeys(link for ends in joints.values() for link in ends))
+    number = dict(zip(links, range(len(links)), strict=True))
+    pairs = [(number[a], number[b]) for a, b in joints.values()]
+    marked = None if ground is None else number.get(ground)
+    symmetries = symmetries_of(subdivided(len(links), pairs, marked))
+    return symmetries.generators, links, symmetries.size

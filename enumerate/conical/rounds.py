@@ -1,4 +1,4 @@
-"""Joints round a circle: placements on equal slots up to turns, mirror images and the symmetries of a chain.
+"""Joints round a circle: placements on equal slots up to turns, mirror images and symmetries; layers.
 
 A placement gives each joint a slot, 0 to K - 1; no two joints may have slots that are equal modulo a number of
 *classes*, which divides K. Three uses:
@@ -9,7 +9,11 @@ A placement gives each joint a slot, 0 to K - 1; no two joints may have slots th
 - K = classes >= J: joints on different slots of a circle.
 
 Of the placements that turns, mirror images and symmetries of the chain exchange one is listed, the one whose row
-is lexicographically least. Theory: docs/theory/conical-candidates.md.
+is lexicographically least.
+
+*Layers* say how many links must lie over each other. Links are arcs of a circle that the joints cut into gaps; an
+arc is the set of gaps it covers, bit i of a mask for gap i. Links whose arcs share a gap lie in different layers.
+A link may have several arcs to choose from. Theory: docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
@@ -21,11 +25,20 @@ from math import perm
 
 import numpy as np
 
-from enumerate.kernel.compiled import compiled, doubled
+from enumerate.kernel.compiled import compiled, cycles, doubled
 from graphs.arrays import Ints
 from graphs.errors import InvariantError
 
-__all__ = ["Rounds", "canonical_row", "count_by_burnside", "count_by_orbits", "placements", "prefixes"]
+__all__ = [
+    "Rounds",
+    "canonical_row",
+    "count_rounds_by_burnside",
+    "count_rounds_by_orbits",
+    "fewest_layers",
+    "layers_of_links",
+    "placements",
+    "prefixes",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +79,10 @@ class Rounds:
 
 @compiled
 def _stabiliser(p: Ints, symmetries: Ints, slots: int) -> int:
-    """Return how many images equal a placement, 0 if one is less; joint 0 lies on slot 0."""
+    """Return how many images equal a placement, 0 if one is less; joint 0 lies on slot 0.
+
+    Of the turns only that counts which takes the image of joint 0 to slot 0: any other image is greater.
+    """
     equal = 0
     for row in range(len(symmetries)):
         first = p[symmetries[row, 0]]
@@ -91,19 +107,18 @@ def _listed(symmetries: Ints, slots: int, classes: int, prefix: Ints, keep: bool
     They are kept only if that is asked for.
     """
     joints = symmetries.shape[1]
-    given = len(prefix)
     found = np.empty((64, joints), np.int64)
     order = np.empty((64, 1), np.int64)
     count = 0
     p = np.zeros(joints, np.int64)
     taken = np.zeros(classes, np.bool_)
-    for i in range(given):
+    for i in range(len(prefix)):
         p[i] = prefix[i]
         taken[prefix[i] % classes] = True
-    level = given
-    if given < joints:
+    level = len(prefix)  # the joint that is placed next; -1 is the slot before the first that it tries
+    if level < joints:
         p[level] = -1
-    while level >= given:
+    while level >= len(prefix):
         if level == joints:
             stabiliser = _stabiliser(p, symmetries, slots)
             if stabiliser:
@@ -135,14 +150,14 @@ def placements(rounds: Rounds, symmetries: Ints, prefix: tuple[int, ...] = (0,))
     """Return placements, one of each orbit, in lexicographic order: the slot of each joint, int64[r, J].
 
     With them comes how many symmetries of the chain, each with a turn or mirror image, leave each as it is. All
-    symmetries are given, as `enumerate.conical.symmetries.joint_symmetries` returns them, and slots of the first
+    symmetries are given, as `enumerate.conical.query.joint_symmetries` returns them, and slots of the first
     joints; joint 0 lies on slot 0.
     """
     rows, order, _ = _listed(symmetries, rounds.slots, rounds.classes, np.array(prefix, np.int64), True)
     return rows, order[:, 0]
 
 
-def count_by_orbits(rounds: Rounds, symmetries: Ints, prefix: tuple[int, ...] = (0,)) -> int:
+def count_rounds_by_orbits(rounds: Rounds, symmetries: Ints, prefix: tuple[int, ...] = (0,)) -> int:
     """Return how many placements there are, one of each orbit, by comparing each with its images.
 
     Parameters
@@ -187,7 +202,7 @@ def canonical_row(row: Ints, symmetries: Ints, slots: int) -> tuple[int, ...]:
     return min(map(tuple, images.tolist()))
 
 
-def count_by_burnside(rounds: Rounds, symmetries: Ints) -> int:
+def count_rounds_by_burnside(rounds: Rounds, symmetries: Ints) -> int:
     """Return how many placements there are, one of each orbit, by Burnside's lemma; none is made.
 
     Parameters
@@ -204,18 +219,18 @@ def count_by_burnside(rounds: Rounds, symmetries: Ints) -> int:
 
     Examples
     --------
-    >>> from enumerate.conical.symmetries import joint_symmetries
+    >>> from enumerate.conical.query import joint_symmetries
     >>> watt = joint_symmetries(dict(enumerate([(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)])))
-    >>> count_by_burnside(Rounds.orders(7), watt)
+    >>> count_rounds_by_burnside(Rounds.orders(7), watt)
     102
     """
-    types = Counter(tuple(sorted(Counter(map(len, _cycles(row))).items())) for row in symmetries.tolist())
+    types = Counter(tuple(sorted(Counter(map(len, cycles(row))).items())) for row in symmetries.tolist())
     fold, total = rounds.slots // rounds.classes, 0
     for mirror in (1, -1):
         for turn in range(rounds.slots):
             image = [(mirror * slot + turn) % rounds.slots for slot in range(rounds.slots)]
             lengths: Counter[int] = Counter()
-            for cycle in _cycles(image):
+            for cycle in cycles(image):
                 if len({slot % rounds.classes for slot in cycle}) == len(cycle):
                     lengths[len(cycle)] += 1
             for kind, times in types.items():
@@ -229,16 +244,125 @@ def count_by_burnside(rounds: Rounds, symmetries: Ints) -> int:
     return count
 
 
-def _cycles(permutation: list[int]) -> list[list[int]]:
-    """Return the cycles of a permutation."""
-    seen = [False] * len(permutation)
-    found = []
-    for start in range(len(permutation)):
-        cycle, here = [], start
-        while not seen[here]:
-            seen[here] = True
-            cycle.append(here)
-            here = permutation[here]
-        if cycle:
-            found.append(cycle)
+_WITHOUT_END = 1 << 62
+_STEPS = 20_000_000
+"""Steps of the search for one linkage: a fraction of a second. Twenty links, at random, need a tenth of them."""
+
+
+@compiled
+def _fewest(arcs: Ints, chosen: Ints, layer_of: Ints, steps: int) -> int:
+    """Return the fewest layers of links with masks arcs[n, o]; 0 is no choice. Sets choice and layer of each link.
+
+    Links are put into layers one after the other, each into a layer that has room or the next new one; a branch
+    ends where it has as many layers as the best solution, the search where no fewer are possible or after so many
+    steps.
+    """
+    links, choices = arcs.shape
+    best: int = links  # links before `link` lie in layers; `tried` says where each goes next
+    for i in range(links):  # a layer for each always does
+        layer_of[i] = i
+        chosen[i] = 0
+        while chosen[i] < choices - 1 and arcs[i, chosen[i]] == 0:
+            chosen[i] += 1
+    least = _deepest(arcs)
+    filled = np.zeros((links + 1, links), np.int64)  # what each layer holds before each link
+    used = np.zeros(links + 1, np.int64)
+    tried = np.zeros(links, np.int64)  # next (choice, layer) of each link
+    link = 0
+    while link >= 0 and best > least and steps > 0:
+        steps -= 1
+        if tried[link] == choices * links:
+            tried[link] = 0
+            link -= 1
+            continue
+        choice, layer = tried[link] // links, tried[link] % links
+        tried[link] += 1
+        mask = arcs[link, choice]
+        if mask == 0 or layer > used[link] or filled[link, layer] & mask:
+            continue
+        now = max(used[link], layer + 1)
+        if now >= best:
+            continue
+        if link == links - 1:
+            best = now
+            for i in range(links):
+                chosen[i], layer_of[i] = (tried[i] - 1) // links, (tried[i] - 1) % links
+            continue
+        for i in range(links):
+            filled[link + 1, i] = filled[link, i]
+        filled[link + 1, layer] |= mask
+        used[link + 1] = now
+        link += 1
+    return best
+
+
+@compiled
+def _deepest(arcs: Ints) -> int:
+    """Return how many links cover one gap whatever they choose, at most: no fewer layers are possible."""
+    links, choices = arcs.shape
+    covered = 0
+    for i in range(links):
+        for choice in range(choices):
+            covered |= arcs[i, choice]
+    deepest = 1
+    gap = 0
+    while covered >> gap:
+        over = 0
+        for i in range(links):
+            always = True
+            for choice in range(choices):
+                mask = arcs[i, choice]
+                if mask and not mask >> gap & 1:
+                    always = False
+            over += always
+        deepest = max(deepest, over)
+        gap += 1
+    return deepest
+
+
+@compiled
+def _fewest_of_all(arcs: Ints) -> Ints:
+    found = np.empty(len(arcs), np.int64)
+    chosen, layer_of = np.zeros(arcs.shape[1], np.int64), np.zeros(arcs.shape[1], np.int64)
+    for i in range(len(arcs)):
+        found[i] = _fewest(arcs[i], chosen, layer_of, _WITHOUT_END)
     return found
+
+
+def fewest_layers(arcs: Ints) -> Ints:
+    """Return the fewest layers in which links lie without overlapping.
+
+    Parameters
+    ----------
+    arcs : int64[r, N, o]
+        Masks of the arcs that each link can take, at least one each; 0 where there are fewer choices. All links
+        cover something.
+
+    Returns
+    -------
+    int64[r]
+
+    Examples
+    --------
+    Three arcs round a circle of three gaps, each over two: no two go together.
+
+    >>> fewest_layers(np.array([[[0b011], [0b110], [0b101]], [[0b001], [0b010], [0b100]]])).tolist()
+    [3, 1]
+    """
+    return _fewest_of_all(np.ascontiguousarray(arcs, dtype=np.int64))
+
+
+def layers_of_links(arcs: Ints) -> tuple[Ints, Ints]:
+    """Return the arc and the layer of each link, in the fewest layers (`fewest_layers`).
+
+    Of many more than twenty links they may be more than the fewest: the search ends after a fraction of a second.
+    Arcs, int64[N, o], are masks of those that each link can take; layers count from 0. In the example, the first
+    link has two arcs to choose from, and the second leaves room in its layer.
+
+    >>> [found.tolist() for found in layers_of_links(np.array([[0b011, 0b100], [0b011, 0]]))]
+    [[1, 0], [0, 0]]
+    """
+    masks = np.ascontiguousarray(arcs, dtype=np.int64)
+    chosen, layer_of = np.zeros(len(masks), np.int64), np.zeros(len(masks), np.int64)
+    _fewest(masks, chosen, layer_of, _STEPS)
+    return chosen, layer_of

@@ -6,34 +6,50 @@ links are cubic, and every other one comes from a graph with one link more by co
 any split of the joints of a link into two sets of two or more gives such a graph. So a graph with n links is
 looked for only where it is cheap: joints are contracted that end at a ternary link and whose contraction makes a
 link of the one degree, chosen by the degrees of the result, that can be split in the fewest ways.
-
 A graph is held as its *code*: the places of its joints in the lower triangle of the canonical matrix, in order, a
-byte each. Theory: docs/theory/chains.md.
+byte each.
+
+Two ways lead from the cubic graphs to the others. *Level by level*, repeated graphs are thrown away: all graphs of
+a size are in memory for that. *Streamed*, a graph is taken from one parent only, which it chooses itself: of the
+ways to split a link that are looked at (`cheapest_degree`), the first by the canonical numbers of links. A
+contraction whose undoing is no image of that one under the graph's automorphisms gives the graph to another
+parent, and is passed over. So the graphs that come from one cubic graph are its own, and those of all cubic
+graphs, in any order, are all there are, each once (McKay, *Isomorph-free exhaustive generation*, J. Algorithms 26,
+1998).
+
+A check: a graph with n links has n! / |Aut| labellings, where |Aut| counts permutations of links and of parallel
+joints. So the sum of the *weights* 1 / |Aut| is a coefficient of a generating function of labelled multigraphs,
+and no graph is looked at. A graph that a list lacks, or has twice, or whose symmetries are wrong, changes the sum.
+Theory: docs/theory/chains.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from math import comb, factorial
+from typing import NamedTuple
 
 import numpy as np
 
-from enumerate.contracted.growth import Growth
-from enumerate.kernel.compiled import compiled
+from enumerate.kernel.compiled import compiled, doubled, empty_set, insert
 from enumerate.kernel.labelling import canonical_labels
-from enumerate.kernel.row_set import empty_set, insert
 from graphs.arrays import Bytes, Ints
+from graphs.errors import InvariantError
 
 __all__ = [
     "MOST_LOOPS",
+    "Growth",
     "cheapest_degree",
-    "contract",
     "contracted_graphs",
     "cubic_graphs",
     "decode",
-    "degrees",
-    "encode",
+    "descendants",
     "graph_key",
-    "is_contracted",
+    "streamed_graphs",
+    "total_weights",
+    "weight_of",
 ]
 
 MOST_LOOPS = 11
@@ -97,12 +113,8 @@ def cubic_graphs(loops: int) -> Bytes:
 
 
 def _growth() -> Growth:
-    return Growth(MOST_LOOPS, _theta, _extend_all, _contract_all)
-
-
-def _theta() -> Bytes:
-    """Return the code of two links with three joints."""
-    return np.zeros((1, 3), np.uint8)
+    two_links_with_three_joints = np.zeros((1, 3), np.uint8)
+    return Growth(MOST_LOOPS, two_links_with_three_joints, _extend_all, _contract_all)
 
 
 @compiled
@@ -313,3 +325,288 @@ def _add(adjacency: Bytes, u: int, v: int, joints: int) -> None:
     """Add joints between two links."""
     adjacency[u, v] += joints
     adjacency[v, u] += joints
+
+
+class Growth(NamedTuple):
+    """A kind of cubic graphs or maps that extend to larger ones, and whose joints can be contracted.
+
+    `smallest` holds the codes of those with two links and two loops; `extend` and `contract` take codes and
+    their number of links, and return the codes of those with two links more, and one loop more, or with a link
+    less.
+    """
+
+    most_loops: int
+    smallest: Bytes
+    extend: Callable[[Bytes, int], Bytes]
+    contract: Callable[[Bytes, int], Bytes]
+
+    def cubic(self, loops: int) -> Bytes:
+        """Return the codes of all cubic ones with so many loops.
+
+        Raises `InvariantError` if these are too few or too many.
+        """
+        if not 2 <= loops <= self.most_loops:
+            raise InvariantError("loops", f"{loops} loops", f"2 to {self.most_loops}")
+        codes = self.smallest
+        for links in range(2, 2 * (loops - 1), 2):
+            codes = self.extend(codes, links)
+        return codes
+
+    def levels(self, loops: int) -> Iterator[tuple[int, Bytes]]:
+        """Yield numbers of links, most first, and the codes of all with so many links and loops."""
+        codes = self.cubic(loops)
+        most = 2 * (loops - 1)
+        yield most, codes
+        for links in range(most, 2, -1):
+            codes = self.contract(codes, links)
+            yield links - 1, codes
+
+
+_ANCESTORS = 32
+"""Cubic graphs whose descendants are made together: some ten thousands of graphs with ten loops."""
+
+
+def streamed_graphs(loops: int) -> Iterator[tuple[int, Bytes]]:
+    """Yield all contracted graphs with a number of loops in batches; only the cubic ones are in memory at once.
+
+    Parameters
+    ----------
+    loops : int
+        Independent loops L, 2 to 11.
+
+    Yields
+    ------
+    links : int
+        n, which is that of many batches.
+    codes : uint8[k, n + L - 1]
+        One row a graph, no two isomorphic in all batches: the graphs of
+        `contracted_graphs`, in another order.
+
+    Raises
+    ------
+    InvariantError
+        If there are too few or too many loops.
+
+    Examples
+    --------
+    >>> sum(len(codes) for _, codes in streamed_graphs(5))
+    118
+    """
+    cubic = cubic_graphs(loops)
+    for start in range(0, len(cubic), _ANCESTORS):
+        yield from descendants(cubic[start : start + _ANCESTORS], 2 * (loops - 1))
+
+
+def descendants(codes: Bytes, n: int) -> Iterator[tuple[int, Bytes]]:
+    """Yield contracted graphs and all that come from them and from no others, those with most links first.
+
+    Parameters
+    ----------
+    codes : uint8[k, m]
+        Contracted graphs, all different.
+    n : int
+        Their number of links.
+
+    Yields
+    ------
+    links : int
+        From n down to 2, or to where there are none.
+    codes : uint8[k, m - n + links]
+
+    Examples
+    --------
+    >>> {links: len(codes) for links, codes in descendants(cubic_graphs(4)[:1], 6)}
+    {6: 1, 5: 2, 4: 4, 3: 1, 2: 1}
+    """
+    while len(codes):
+        yield n, codes
+        if n == 2:
+            return
+        codes, n = _children(codes, n), n - 1
+
+
+@compiled
+def _children(parents: Bytes, n: int) -> Bytes:
+    """Return the codes of the graphs with a link less that come from these graphs with n links."""
+    joints = parents.shape[1] - 1
+    rows, used = np.zeros((64, joints), np.uint8), 0
+    for parent in range(len(parents)):
+        adjacency = decode(parents[parent], n)
+        _, automorphisms = canonical_labels(adjacency, n)
+        degree = degrees(parents[parent], n)
+        for u in range(n):
+            for v in range(u):
+                if not is_contracted(adjacency, n, degree, automorphisms, u, v):
+                    continue
+                child = contract(adjacency, n, u, v)
+                order, symmetries = canonical_labels(child, n - 1)
+                numbers = np.zeros(n - 1, np.int64)
+                for i in range(n - 1):
+                    numbers[order[i]] = i
+                halves = _halves(adjacency, n, u, v, numbers)
+                if not _is_first_split(child, order, symmetries, numbers[v], halves):
+                    continue
+                rows = doubled(rows) if used == len(rows) else rows
+                encode(child, order, rows[used])
+                used += 1
+    return rows[:used].copy()
+
+
+@compiled
+def _halves(adjacency: Bytes, n: int, u: int, v: int, numbers: Ints) -> Ints:
+    """Return where the other two joints of a ternary link of two lead, u > v, that become one: int64[h, 2].
+
+    A row for u, for v, or for each if both are ternary, the lesser number first; `numbers`, int64[n - 1], are
+    those that links have when u is gone.
+    """
+    found = np.zeros((2, 2), np.int64)
+    used = 0
+    for k in range(2):
+        link, other = (u, v) if k == 0 else (v, u)
+        joints = 0
+        for w in range(n):
+            joints += adjacency[link, w]
+        if joints != 3:
+            continue
+        at = 0
+        for w in range(n):
+            for _ in range(adjacency[link, w] if w != other else 0):
+                found[used, at] = numbers[w - (w > u)]
+                at += 1
+        if found[used, 0] > found[used, 1]:
+            found[used, 0], found[used, 1] = found[used, 1], found[used, 0]
+        used += 1
+    return found[:used]
+
+
+@compiled
+def _is_first_split(child: Bytes, order: Bytes, symmetries: Bytes, link: int, halves: Ints) -> bool:
+    """Return whether a symmetry takes a split of a graph to the first of all that are looked at.
+
+    The first split takes the first link of a degree, and the first two of its joints. `order` is the link that has
+    each canonical number, symmetries, uint8[a, n], are automorphisms of these numbers; halves, int64[h, 2], are
+    numbers of the links to which two joints lead that are split off, and in the other row, where there are two,
+    those of the joints that are left.
+    """
+    n = len(order)
+    degree = np.zeros(n, np.int64)
+    for i in range(n):
+        for j in range(n):
+            degree[i] += child[order[i], order[j]]
+    first = 0
+    while degree[first] != degree[link]:
+        first += 1
+    one = other = -1
+    for w in range(n):
+        for _ in range(child[order[first], order[w]]):
+            if one < 0:
+                one = w
+            elif other < 0:
+                other = w
+    for a in range(len(symmetries)):
+        if symmetries[a, link] != first:
+            continue
+        for h in range(len(halves)):
+            p, q = symmetries[a, halves[h, 0]], symmetries[a, halves[h, 1]]
+            if min(p, q) == one and max(p, q) == other:
+                return True
+    return False
+
+
+Series = list[list[Fraction]]
+"""Coefficients of x^n y^m: links and joints."""
+
+
+def total_weights(loops: int) -> dict[int, Fraction]:
+    """Return the sum of 1 / |Aut| over the contracted graphs with L >= 2 loops, for each number of links.
+
+    With x for a link and y for a joint, multigraphs without self-joints have the generating function G = sum x^n
+    e^(y n (n - 1) / 2) / n!, connected ones C = log G, 2-connected ones B with B'(x C') = log C' (a connected
+    graph with a root is a set of 2-connected ones at the root, with connected graphs at their other links; Harary
+    and Palmer, Graphical Enumeration, 1973, chapter 1). A 2-connected graph with two loops or more is a contracted
+    one with joints replaced by paths: H(x, y / (1 - x y)) = B(x, y), so H(x, s) = B(x, s / (1 + x s)). Two links
+    with three joints have 12 automorphisms:
+
+    >>> {links: str(weight) for links, weight in total_weights(2).items()}
+    {2: '1/12'}
+    """
+    most = 2 * (loops - 1)
+    blocks = _two_connected(most, most + loops - 1)
+    totals = {}
+    for links in range(most, 1, -1):
+        terms = (
+            (-1) ** paths * comb(links + loops - 2, paths) * blocks[links - paths][links - paths + loops - 1]
+            for paths in range(links - 1)
+        )
+        totals[links] = sum(terms, Fraction(0))
+    return totals
+
+
+def weight_of(codes: Bytes, n: int) -> Fraction:
+    """Return the sum of 1 / |Aut| over contracted graphs of n links, by their codes uint8[k, m]."""
+    orders = Counter(_orders(codes, n).tolist())
+    return sum((Fraction(times, order) for order, times in orders.items()), Fraction(0))
+
+
+@compiled
+def _orders(codes: Bytes, n: int) -> Ints:
+    """Return the number of automorphisms of each graph, those of parallel joints among them."""
+    orders = np.empty(len(codes), np.int64)
+    for c in range(len(codes)):
+        adjacency = decode(codes[c], n)
+        order = len(canonical_labels(adjacency, n)[1])
+        for u in range(n):
+            for v in range(u):
+                for parallel in range(2, adjacency[u, v] + 1):
+                    order *= parallel
+        orders[c] = order
+    return orders
+
+
+def _two_connected(links: int, joints: int) -> Series:
+    """Return the generating function of 2-connected multigraphs without self-joints, up to a size."""
+    every = [
+        [Fraction(comb(n, 2) ** m, factorial(m) * factorial(n)) for m in range(joints + 1)]
+        for n in range(links + 1)
+    ]
+    connected = _logarithm(every)
+    rooted = [[n * value for value in row] for n, row in enumerate(connected)]
+    left = _logarithm(rooted[1:])
+    blocks = [[Fraction(0)] * (joints + 1) for _ in range(links + 1)]
+    power = rooted
+    for k in range(1, links):
+        coefficient = list(left[k])
+        blocks[k + 1] = [value / (k + 1) for value in coefficient]
+        for n in range(k, links):
+            left[n] = [a - b for a, b in zip(left[n], _product(coefficient, power[n]), strict=True)]
+        power = [_sum_of_products(power, rooted, n, joints) for n in range(links + 1)]
+    return blocks
+
+
+def _logarithm(series: Series) -> Series:
+    """Return the logarithm of a series that begins with 1: n l_n = n a_n - sum k l_k a_(n - k)."""
+    logarithm = [[Fraction(0)] * len(series[0])]
+    for n in range(1, len(series)):
+        row = [n * value for value in series[n]]
+        for k in range(1, n):
+            term = _product(logarithm[k], series[n - k])
+            row = [value - k * other for value, other in zip(row, term, strict=True)]
+        logarithm.append([value / n for value in row])
+    return logarithm
+
+
+def _sum_of_products(one: Series, other: Series, n: int, joints: int) -> list[Fraction]:
+    total = [Fraction(0)] * (joints + 1)
+    for k in range(1, n):
+        total = [a + b for a, b in zip(total, _product(one[k], other[n - k]), strict=True)]
+    return total
+
+
+def _product(one: list[Fraction], other: list[Fraction]) -> list[Fraction]:
+    """Return the product of two polynomials in y, cut off where they are."""
+    product = [Fraction(0)] * len(one)
+    for i, a in enumerate(one):
+        if a:
+            for j in range(len(one) - i):
+                product[i + j] += a * other[j]
+    return product

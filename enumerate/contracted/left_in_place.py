@@ -13,8 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from enumerate.kernel.compiled import compiled, doubled
-from enumerate.kernel.row_set import slot_of
+from enumerate.kernel.compiled import compiled, doubled, slot_of
 from graphs.arrays import Bytes, Ints
 
 __all__ = ["Cycles", "count_left_in_place", "cycles_of"]
@@ -161,6 +160,7 @@ def _filled(
                     after[used, k] = row[k]
                 numbers[used, 0] = numbers[used, 1] = 0
                 used += 1
+            # of parallel strings of equal length one is counted: the first of them
             stays = x * (still == 1) + x % 2 * (still == 2) if first or x != rows[i, 2] else 0
             numbers[table[slot], 0] += number[i, 0]
             numbers[table[slot], 1] += number[i, 1] + number[i, 0] * stays

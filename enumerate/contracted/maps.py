@@ -1,10 +1,14 @@
-"""Contracted maps: the contracted graphs of planar chains, drawn on the sphere in all ways.
+"""Contracted maps: contracted graphs drawn on the sphere in all ways; planar chains drawn; plane trees.
 
 A chain drawn on the sphere becomes, when its binary links are taken out, a 2-connected map in which every link has
 three joints or more, parallel joints allowed. Maps come from each other like the graphs of
 `enumerate.contracted.graphs`: cubic ones with one more loop by a joint across a face, the others by contracting
 joints, where a map is 2-connected as long as no face meets a link twice. Codes are those of
-`enumerate.kernel.maps`. Theory: docs/theory/sc-enumeration.md.
+`enumerate.kernel.maps`.
+
+The map of a chain has the links of its contracted map first, then the binary links, string after string. The
+joints of a string follow each other from the link of its even dart to that of its odd dart. Theory:
+docs/theory/sc-enumeration.md.
 """
 
 from __future__ import annotations
@@ -13,14 +17,26 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from enumerate.contracted.graphs import cheapest_degree
-from enumerate.contracted.growth import Growth
-from enumerate.kernel.compiled import compiled
-from enumerate.kernel.maps import canonical_map, decode_map, faces_of, from_turns, symmetries_of_map
-from enumerate.kernel.row_set import empty_set, insert
+from enumerate.contracted.binary_links import rigid_sets
+from enumerate.contracted.graphs import Growth, cheapest_degree
+from enumerate.kernel.compiled import compiled, empty_set, insert
+from enumerate.kernel.maps import END, JOINT, canonical_map, decode_map, faces_of, from_turns, symmetries_of_map
 from graphs.arrays import Bytes, Ints
 
-__all__ = ["MOST_MAP_LOOPS", "contracted_maps", "cubic_maps", "map_symmetries"]
+__all__ = [
+    "MOST_MAP_LOOPS",
+    "code_of",
+    "contracted_maps",
+    "cubic_maps",
+    "expanded",
+    "joint_matrix",
+    "map_symmetries",
+    "outer_faces",
+    "outer_frame",
+    "plane_trees",
+    "ring",
+    "sets_of",
+]
 
 MOST_MAP_LOOPS = 9
 """The maps of all levels are held in memory: 4 million for ten loops."""
@@ -81,7 +97,7 @@ def cubic_maps(loops: int) -> Bytes:
 
 
 def _growth() -> Growth:
-    return Growth(MOST_MAP_LOOPS, _theta, _extend_all, _contract_all)
+    return Growth(MOST_MAP_LOOPS, _theta(), _extend_all, _contract_all)
 
 
 @compiled
@@ -95,6 +111,7 @@ def map_symmetries(turn: Ints, vertex: Ints) -> tuple[Ints, Ints]:
 def _canonical(turn: Ints, vertex: Ints) -> tuple[Bytes, Ints, Ints]:
     """Return canonical code and readings; roots are picked by the degrees of the links and faces about a dart."""
     darts = len(vertex)
+    # Any key that symmetries keep will do; with fewer roots of the least key, fewer readings are compared.
     face, faces = faces_of(turn)
     degree, length = np.zeros(darts, np.int64), np.zeros(faces, np.int64)
     for d in range(darts):
@@ -145,12 +162,20 @@ def _bridged(turn: Ints, vertex: Ints, links: int, d: int, e: int) -> tuple[Ints
     The joint of d may be that of e; both new links are then on it.
     """
     darts = len(vertex)
-    after, ends = np.empty(darts + 6, np.int64), np.empty(darts + 6, np.int64)
-    for k in range(darts):
-        after[k], ends[k] = turn[0, k], vertex[k]
+    after, ends = _longer(turn, vertex, 6)
     across = darts + 4
     _subdivide(after, ends, d, darts, links, across)
     _subdivide(after, ends, darts if e == d else e, darts + 2, links + 1, across + 1)
+    return after, ends
+
+
+@compiled
+def _longer(turn: Ints, vertex: Ints, more: int) -> tuple[Ints, Ints]:
+    """Return copies of ``turn[0]`` and ``vertex`` with room for more darts."""
+    darts = len(vertex)
+    after, ends = np.empty(darts + more, np.int64), np.empty(darts + more, np.int64)
+    for d in range(darts):
+        after[d], ends[d] = turn[0, d], vertex[d]
     return after, ends
 
 
@@ -193,9 +218,7 @@ def _contract_all(parents: Bytes, links: int) -> Bytes:
             u, v = vertex[d], vertex[d ^ 1]
             if degree[u] != 3 and degree[v] != 3:
                 continue
-            common = (
-                0  # faces that meet both links: more than the two beside the joint would meet the one link twice
-            )
+            common = 0  # faces that meet both links; with a third, the one link would meet that face twice
             for f in range(faces):
                 common += meets[f, u] and meets[f, v]
             if common == 2 and degree[u] + degree[v] - 2 == cheapest_degree(degree, u, v, True):
@@ -222,3 +245,156 @@ def _contracted(turn: Ints, vertex: Ints, d: int) -> tuple[Ints, Ints]:
             child[place] = after[k] - 2 * (after[k] > d)
             ends[place] = link - (link > gone)
     return child, ends
+
+
+@compiled
+def outer_faces(code: Bytes) -> Ints:
+    """Return one face of each orbit of faces of a contracted map: those that can be the outer one."""
+    turn, vertex, _ = decode_map(code)
+    face, faces = faces_of(turn)
+    _, corners = map_symmetries(turn, vertex)
+    least = np.arange(faces)
+    for a in range(len(corners)):
+        for d in range(len(face)):
+            least[face[d]] = min(least[face[d]], face[corners[a, d]])
+    return np.flatnonzero(least == np.arange(faces))
+
+
+@compiled
+def outer_frame(code: Bytes, outer: int) -> tuple[Bytes, Bytes, Ints]:
+    """Return of a contracted map the links of its joints, and its symmetries that keep a face, the identity first.
+
+    Symmetries are where they take each joint, uint8[s, m], and each face, int64[s, F]; all of them if the face is
+    -1.
+    """
+    turn, vertex, _ = decode_map(code)
+    face, count = faces_of(turn)
+    darts, corners = map_symmetries(turn, vertex)
+    m = len(vertex) // 2
+    ends = np.empty((m, 2), np.uint8)
+    for e in range(m):
+        ends[e, 0], ends[e, 1] = vertex[2 * e], vertex[2 * e + 1]
+    moved = np.empty((len(darts), m), np.uint8)
+    faces = np.empty((len(darts), count), np.int64)
+    kept = 0
+    for a in range(len(darts)):
+        for d in range(2 * m):
+            faces[kept, face[d]] = face[corners[a, d]]
+        if outer >= 0 and faces[kept, outer] != outer:
+            continue
+        for e in range(m):
+            moved[kept, e] = darts[a, 2 * e] >> 1
+        kept += 1
+    return ends, moved[:kept], faces[:kept]
+
+
+@compiled
+def sets_of(code: Bytes, n: int) -> tuple[Ints, Ints]:
+    """Return the sets of links that could become rigid, and what each needs, as `rigid_sets` does."""
+    return rigid_sets(joint_matrix(code, n), n)
+
+
+@compiled
+def joint_matrix(code: Bytes, n: int) -> Bytes:
+    """Return the numbers of joints between the links of a map: uint8[n, n]."""
+    _, vertex, _ = decode_map(code)
+    adjacency = np.zeros((n, n), np.uint8)
+    for d in range(len(vertex)):
+        adjacency[vertex[d], vertex[d ^ 1]] += 1
+    return adjacency
+
+
+@compiled
+def expanded(code: Bytes, n: int, x: Bytes) -> tuple[Ints, Ints, Ints]:
+    """Return the map of a chain: turn int64[2, D], vertex int64[D] and the face of each dart int64[D].
+
+    Faces have the numbers that they have in the contracted map.
+    """
+    turn, vertex, _ = decode_map(code)
+    face, _ = faces_of(turn)
+    m = len(x)
+    joints = m
+    offset = np.empty(m, np.int64)
+    for e in range(m):
+        offset[e] = 0 if e == 0 else offset[e - 1] + x[e - 1] + 1
+        joints += x[e]
+    image = np.empty(2 * m, np.int64)
+    for e in range(m):
+        image[2 * e] = 2 * offset[e]
+        image[2 * e + 1] = 2 * (offset[e] + x[e]) + 1
+    darts = 2 * joints
+    after, ends, sides = np.empty(darts, np.int64), np.empty(darts, np.int64), np.empty(darts, np.int64)
+    for d in range(2 * m):
+        after[image[d]] = image[turn[0, d]]
+        ends[image[d]] = vertex[d]
+    link = n
+    for e in range(m):
+        for k in range(offset[e], offset[e] + x[e] + 1):
+            sides[2 * k], sides[2 * k + 1] = face[2 * e], face[2 * e + 1]
+        for k in range(offset[e], offset[e] + x[e]):
+            ends[2 * k + 1] = ends[2 * k + 2] = link
+            after[2 * k + 1], after[2 * k + 2] = 2 * k + 2, 2 * k + 1
+            link += 1
+    return from_turns(after), ends, sides
+
+
+@compiled
+def ring(links: int) -> tuple[Ints, Ints, Ints]:
+    """Return the map of a chain of one loop, as `expanded` does; face 0 is the outer one."""
+    darts = 2 * links
+    after, ends, sides = np.empty(darts, np.int64), np.empty(darts, np.int64), np.empty(darts, np.int64)
+    for k in range(links):
+        following = 2 * ((k + 1) % links)
+        ends[2 * k], ends[2 * k + 1] = k, (k + 1) % links
+        after[2 * k + 1], after[following] = following, 2 * k + 1
+        sides[2 * k], sides[2 * k + 1] = 0, 1
+    return from_turns(after), ends, sides
+
+
+@compiled
+def code_of(
+    turn: Ints, vertex: Ints, open_edges: Ints, face: Ints, labels: Ints, outer: int
+) -> tuple[Bytes, Ints, Ints]:
+    """Return the canonical code of a map with an outer face, as `canonical_map` does; roots lie beside it."""
+    key = np.full((2, len(vertex)), -1, np.int64)
+    for d in range(len(vertex)):
+        if face[d] == outer:
+            key[0, d] = 0
+            key[1, turn[0, d]] = 0
+    return canonical_map(turn, vertex, open_edges, face, labels, key)
+
+
+def plane_trees(links: int, most: int) -> Bytes:
+    """Return the codes of all plane trees with N >= 2 links, none with more joints than a limit."""
+    codes = np.array([[JOINT, END, JOINT, END]], np.uint8)
+    for size in range(2, links):
+        codes = _with_leaves(codes, size, most)
+    return codes
+
+
+@compiled
+def _with_leaves(parents: Bytes, links: int, most: int) -> Bytes:
+    """Return the codes of the trees with one leaf more."""
+    table, rows, used = empty_set(parents.shape[1] + 3)
+    for parent in range(len(parents)):
+        turn, vertex, _ = decode_map(parents[parent])
+        degree = np.zeros(links, np.int64)
+        for d in range(len(vertex)):
+            degree[vertex[d]] += 1
+        for d in range(len(vertex)):
+            if degree[vertex[d]] < most:
+                after, ends = _with_leaf(turn, vertex, links, d)
+                none = np.zeros(len(ends), np.int64)
+                code, _, _ = code_of(from_turns(after), ends, none, none, none[:0], 0)
+                table, rows, used = insert(table, rows, used, code)
+    return rows[:used].copy()
+
+
+@compiled
+def _with_leaf(turn: Ints, vertex: Ints, links: int, corner: int) -> tuple[Ints, Ints]:
+    """Return ``turn[0]`` and ``vertex`` with a leaf in a corner."""
+    darts = len(vertex)
+    after, ends = _longer(turn, vertex, 2)
+    after[darts], after[corner], after[darts + 1] = turn[0, corner], darts, darts + 1
+    ends[darts], ends[darts + 1] = vertex[corner], links
+    return after, ends

@@ -4,21 +4,41 @@ Of each orbit the lexicographically largest placement is meant. Classes of joint
 when one is full, a symmetry has left it as it is, or made it smaller and says nothing more, or larger, which ends
 the branch. So all that matters of the past is which symmetries have left it as it is, beside what the sets of
 links still need: placements that agree in both are one state (`enumerate.contracted.states`). Only inside an orbit
-are placements made, and of a graph without symmetries none is. Theory: docs/theory/chains.md.
+are placements made, and of a graph without symmetries none is.
+
+Inversions are placements with a link chosen: one of the contracted graph, or one of a string. Of links that
+symmetries take to each other one is looked at, and then only the symmetries count that leave it where it is, or
+its class of parallel joints. Where there are none but the identity, a link of the graph is chosen with every
+placement, and those of strings are added up while placements are. Where there are some, a link of the graph leaves
+placements with fewer symmetries, and a string that is chosen from leaves them on the other joints: what it holds
+is taken off the needs. Nothing is shared with the count of inversions by Burnside's lemma. Theory:
+docs/theory/chains.md.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from enumerate.contracted.classes import Classes, classes_in_order, order_of_classes, strings_of_classes
-from enumerate.contracted.states import GROUP, GROUPS, LEVEL, States, add, beginning, filled, step, total_at_end
+from enumerate.contracted.states import (
+    GROUP,
+    GROUPS,
+    LEVEL,
+    Classes,
+    StateTable,
+    add,
+    beginning,
+    classes_in_order,
+    filled,
+    lies_in,
+    order_of_classes,
+    step,
+    strings_of_classes,
+    total_at_end,
+)
 from enumerate.kernel.compiled import compiled
-from graphs.arrays import Bytes, Ints, Words
+from graphs.arrays import Bytes, Flags, Ints, Words
 
-__all__ = ["count_orbits"]
-
-_NONE = np.uint64(0)
+__all__ = ["count_orbits", "count_with_a_link"]
 
 
 @compiled
@@ -33,13 +53,13 @@ def count_orbits(ends: Bytes, first: Ints, moved: Bytes, sets: Ints, needs: Ints
     classes = classes_in_order(ends, first, order, sets, needs, units, most)
     strings = strings_of_classes(classes.size.max(), units, most)
     images = _images(classes, moved)
-    groups = np.zeros((2, (len(images) + 63) // 64), np.uint64)
+    groups = np.zeros((2, (len(images) + 63) // 64), np.uint64)  # sets of symmetries: 0 is empty, 1 has all
     for a in range(len(images)):
         groups[1, a // 64] |= np.uint64(1) << np.uint64(a % 64)
     states = beginning(classes, units, int(len(images) > 0))
     ends_of = _ends_of_orbits(classes, images)
     for level in range(len(order)):
-        if ends_of[level] == level + 1:
+        if ends_of[level] == level + 1:  # a class that no symmetry takes to another: its strings have no order
             states = filled(states, classes, level, strings, most, _NONE)
             continue
         i = states.begin[level]
@@ -95,8 +115,8 @@ def _ends_of_orbits(classes: Classes, images: Ints) -> Ints:
 
 @compiled
 def _compared(
-    states: States, i: int, classes: Classes, images: Ints, groups: Words, end: int, most: int
-) -> tuple[States, Words]:
+    states: StateTable, i: int, classes: Classes, images: Ints, groups: Words, end: int, most: int
+) -> tuple[StateTable, Words]:
     """Fill an orbit that symmetries may leave as it is, or make larger, which is not kept.
 
     The table is `states`, i the state before; images are those of `_images`; `groups`, uint64[g, w], says which
@@ -119,6 +139,7 @@ def _compared(
             ties[0] += 1
     x = np.full(m, -1, np.int64)
     c, v = begin, start
+    # All values of the joints of the orbit are tried: joint v of class c gets its next one, or v goes back.
     while v >= start:
         c -= v < m - rest[c]
         first, after, k = m - rest[c], m - rest[c + 1], c - begin
@@ -157,6 +178,7 @@ def _compare(x: Ints, images: Ints, before: Ints, ties: int, tied: Ints, left: I
     and up to where they were compared; those that are still equal are written to `tied`, their number to `left`.
     """
     used = 0
+    # A comparison stops at the first joint whose image is not yet filled, and goes on from there later.
     for i in range(ties):
         a, e = before[i, 0], before[i, 1]
         while e < full and images[a, e] < full and x[images[a, e]] == x[e]:
@@ -183,3 +205,129 @@ def _group_of(tied: Ints, ties: int, groups: Words) -> tuple[Words, int]:
         if same:
             return groups, g
     return np.concatenate((groups, words)), len(groups)
+
+
+_NONE = np.uint64(0)
+
+
+@compiled
+def count_with_a_link(
+    ends: Bytes, first: Ints, moved: Bytes, automorphisms: Bytes, sets: Ints, needs: Ints, units: int, most: int
+) -> int:
+    """Return the number of placements of binary links (`units`) with a link chosen, one of each orbit.
+
+    Joints, first parallel ones, and what automorphisms do to joints and to links are those of
+    `enumerate.contracted.binary_links.frame_of`, sets and needs those of
+    `enumerate.contracted.binary_links.rigid_sets`. No joint holds more than `most`.
+    """
+    total = alone = 0
+    for v in range(automorphisms.shape[1]):
+        if automorphisms[:, v].min() == v:  # the first of its orbit
+            still = automorphisms[:, v] == v
+            if still.sum() == 1:
+                alone += 1
+            else:
+                total += count_orbits(ends, first, _those(moved, still), sets, needs, units, most)
+    free = np.zeros(len(ends), np.bool_)  # classes that no symmetry leaves as they are
+    for e in range(len(ends)):
+        if first[e] == e and moved[:, e].min() == e:
+            still = moved[:, e] == e
+            if still.sum() == 1:
+                free[e] = True
+            else:
+                of_class = _those(moved, still), _those(automorphisms, still)
+                total += _with_a_string(ends, first, *of_class, e, sets, needs, units, most)
+    placements, chosen = _without_symmetries(ends, first, free, sets, needs, units, most)
+    return total + alone * placements + chosen
+
+
+@compiled
+def _those(rows: Bytes, kept: Flags) -> Bytes:
+    """Return some of the rows."""
+    found = np.empty((kept.sum(), rows.shape[1]), np.uint8)
+    used = 0
+    for a in range(len(rows)):
+        if kept[a]:
+            for k in range(rows.shape[1]):
+                found[used, k] = rows[a, k]
+            used += 1
+    return found
+
+
+@compiled
+def _without_symmetries(
+    ends: Bytes, first: Ints, chosen_from: Flags, sets: Ints, needs: Ints, units: int, most: int
+) -> tuple[int, int]:
+    """Return the number of all placements, and of all links that can be chosen in some classes of all of them.
+
+    `chosen_from`, bool[m], is set at the first joint of those classes.
+    """
+    identity = np.arange(len(ends)).astype(np.uint8).reshape(1, -1)
+    order = order_of_classes(ends, first, identity, sets)
+    classes = classes_in_order(ends, first, order, sets, needs, units, most)
+    start, ways = strings_of_classes(classes.size.max(), units, most)
+    passed_by = ways.copy()
+    for way in range(len(ways)):
+        passed_by[way, 3] = 0
+    states = beginning(classes, units, 0)
+    for level in range(len(order)):
+        strings = start, ways if chosen_from[order[level]] else passed_by
+        states = filled(states, classes, level, strings, most, _NONE)
+    return total_at_end(states)
+
+
+@compiled
+def _with_a_string(
+    ends: Bytes,
+    first: Ints,
+    moved: Bytes,
+    automorphisms: Bytes,
+    e: int,
+    sets: Ints,
+    needs: Ints,
+    units: int,
+    most: int,
+) -> int:
+    """Return the number of placements with a link chosen from a string of one class, one of each orbit.
+
+    Symmetries that exchange the ends of the class turn the string round. Its middle link stays, so it is chosen
+    with placements up to all symmetries; of the others one half is exchanged with the other, so those of one half
+    are chosen, up to the symmetries that turn nothing. Permutations `moved` and `automorphisms` are those of the
+    symmetries that leave the class, with first joint e, where it is.
+    """
+    turning = automorphisms[:, ends[e, 0]] != ends[e, 0]
+    turned = turning.any()
+    last = e
+    while last + 1 < len(ends) and first[last + 1] == e:
+        last += 1
+    others, alike, images = _without_joint(ends, first, moved, last)
+    straight = _those(images, ~turning)
+    total = 0
+    for length in range(1, min(most, units) + 1):
+        left = needs.copy()
+        for i in range(len(sets)):
+            left[i] -= min(length, 2) * lies_in(ends, e, sets[i])
+        choices = length // 2 if turned else length  # of two links that are exchanged one
+        if choices:
+            total += choices * count_orbits(others, alike, straight, sets, left, units - length, most)
+        if turned and length % 2:
+            total += count_orbits(others, alike, images, sets, left, units - length, most)
+    return total
+
+
+@compiled
+def _without_joint(ends: Bytes, first: Ints, moved: Bytes, joint: int) -> tuple[Bytes, Ints, Bytes]:
+    """Return ends, first parallel joints and permutations of the other joints; none moves this one.
+
+    The joint is the last of its class.
+    """
+    m = len(ends)
+    others, alike = np.empty((m - 1, 2), np.uint8), np.empty(m - 1, np.int64)
+    images = np.empty((len(moved), m - 1), np.uint8)
+    for e in range(m - 1):
+        old = e + (e >= joint)
+        others[e, 0], others[e, 1] = ends[old, 0], ends[old, 1]
+        alike[e] = first[old] - (first[old] > joint)
+        for a in range(len(moved)):
+            images[a, e] = moved[a, old] - (moved[a, old] > joint)
+    return others, alike, images

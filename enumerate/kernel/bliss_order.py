@@ -106,6 +106,8 @@ def _numbered(adjacent: Ints, cells: _Cells, automorphisms: int) -> bool:
         if component != regions[depth] & unsettled:
             depth += 1
             regions[depth] = component
+        # If each cell that is split is one orbit of the stabiliser of the vertices before it, the product of their
+        # sizes is the order of the group (orbit-stabiliser); otherwise it is greater.
         choices *= _size(cells.at[chosen])
         if choices > automorphisms:
             return False

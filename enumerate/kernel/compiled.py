@@ -1,19 +1,18 @@
-"""The one decorator of compiled functions, and the arrays they work on."""
+"""What compiled code shares: the one decorator, arrays and sets of rows that grow, orbits by Burnside's lemma."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, TypeVar, cast
 
 import numba
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.machine_code.kept import KeptCode
-from enumerate.machine_code.sources import fingerprint
+from enumerate.machine_code.cache import KeptCode, fingerprint
+from graphs.arrays import Bytes, Ints
 
-__all__ = ["compiled", "doubled", "kernels"]
-
+__all__ = ["compiled", "cycles", "doubled", "empty_set", "insert", "kernels", "number_of_orbits", "slot_of"]
 
 T = TypeVar("T", bound=np.generic)
 F = TypeVar("F", bound=Callable[..., object])
@@ -30,11 +29,11 @@ def compiled(function: F) -> F:
     says, and is renewed when the function's module changes or any own module that it imports. Other threads run
     meanwhile.
     """
-    made: Any = numba.njit(nogil=True)(function)
-    if fingerprint(function.__module__) and hasattr(made, "enable_caching"):  # without, numba compiles nothing
-        made._cache = KeptCode(function)
-    kernels.append(made)
-    return cast(F, made)
+    kernel: Any = numba.njit(nogil=True)(function)
+    if fingerprint(function.__module__) and hasattr(kernel, "enable_caching"):  # without, numba compiles nothing
+        kernel._cache = KeptCode(function)
+    kernels.append(kernel)
+    return cast(F, kernel)
 
 
 @compiled
@@ -49,3 +48,79 @@ def doubled(rows: npt.NDArray[T]) -> npt.NDArray[T]:
         for j in range(rows.shape[1]):
             more[i, j] = rows[i, j]
     return more
+
+
+@compiled
+def empty_set(width: int) -> tuple[Ints, Bytes, int]:
+    """Return a new set of rows of bytes, which keeps the order in which rows came.
+
+    It is a hash table, the rows (none of them in use yet), and the number of rows.
+    """
+    return np.full(256, -1, np.int64), np.empty((64, width), np.uint8), 0
+
+
+@compiled
+def slot_of(table: Ints, rows: Bytes | Ints, row: Bytes | Ints) -> np.int64:
+    """Return where a row is in a hash table of rows, or the free slot where it belongs.
+
+    Slots hold places in `rows`, -1 where free; their number is a power of two, and they are tried in turn.
+    """
+    word = np.uint64(0)
+    for value in row:
+        word = (word ^ np.uint64(value)) * np.uint64(0x9E3779B97F4A7C15)
+        word ^= word >> np.uint64(32)
+    slot = np.int64(word & np.uint64(len(table) - 1))
+    while table[slot] >= 0:
+        other = rows[table[slot]]
+        k = 0
+        while k < len(row) and other[k] == row[k]:
+            k += 1
+        if k == len(row):
+            return slot
+        slot = (slot + 1) & np.int64(len(table) - 1)
+    return slot
+
+
+@compiled
+def insert(table: Ints, rows: Bytes, used: int, row: Bytes) -> tuple[Ints, Bytes, int]:
+    """Add a row to a set of rows, which may grow; return table, rows and their number."""
+    slot = slot_of(table, rows, row)
+    if table[slot] >= 0:
+        return table, rows, used
+    table[slot] = used
+    for k in range(len(row)):
+        rows[used, k] = row[k]
+    used += 1
+    if used == len(rows):
+        rows = doubled(rows)
+        table = np.full(8 * used, -1, np.int64)
+        for i in range(used):
+            table[slot_of(table, rows, rows[i])] = i
+    return table, rows, used
+
+
+def cycles(permutation: Sequence[int]) -> list[list[int]]:
+    """Return the cycles of a permutation of 0 to n - 1."""
+    seen = [False] * len(permutation)
+    found = []
+    for start in range(len(permutation)):
+        cycle, here = [], start
+        while not seen[here]:
+            seen[here] = True
+            cycle.append(here)
+            here = permutation[here]
+        if cycle:
+            found.append(cycle)
+    return found
+
+
+@compiled
+def number_of_orbits(fixed: int, symmetries: int) -> int:
+    """Return the number of orbits by Burnside's lemma: the mean number of objects that a symmetry fixes.
+
+    `fixed` is the sum over all symmetries. Raises `ArithmeticError` if the mean is no whole number: the symmetries
+    are no group, or something was counted wrongly. That is a fault of the program.
+    """
+    if fixed % symmetries:
+        raise ArithmeticError("Burnside's lemma gives no whole number of orbits")
+    return fixed // symmetries

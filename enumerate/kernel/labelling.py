@@ -17,7 +17,7 @@ import numpy as np
 from enumerate.kernel.compiled import compiled, doubled
 from graphs.arrays import Bytes, Words
 
-__all__ = ["MOST_VERTICES", "canonical_labels", "refine"]
+__all__ = ["canonical_labels"]
 
 MOST_VERTICES = 22
 """A pair of vertices must fit one byte."""
@@ -86,7 +86,7 @@ def refine(
             colour[v] = start
             trace = (trace ^ sums[v]) * np.uint64(0x9E3779B97F4A7C15) + np.uint64(start)
             trace ^= trace >> np.uint64(29)
-        if new_cells in (cells, n):
+        if new_cells in (cells, n):  # sums split no cell any more: the colouring is equitable
             return trace
         cells = new_cells
 
@@ -132,6 +132,8 @@ def canonical_labels(adjacency: Bytes, n: int) -> tuple[Bytes, Bytes]:
     at = np.zeros(n + 1, np.int64)  # of each level: the place in the cell that is being tried, and its end
     end = np.zeros(n + 1, np.int64)
     traces = np.zeros(n + 1, np.uint64)
+    # Traces are the same for images under automorphisms, so a node whose trace is greater than the best of its
+    # level has no best leaf below it; one with a lesser trace makes all leaves up to now worse.
     known, has_leaf = 0, False  # levels whose best trace is known; is there a leaf for them
     best = np.zeros(n, np.uint8)
     place = np.zeros(n, np.uint8)
@@ -158,7 +160,7 @@ def canonical_labels(adjacency: Bytes, n: int) -> tuple[Bytes, Bytes]:
                         best[i] = orders[depth, i]
                         place[best[i]] = i
                     found, has_leaf = 0, True
-                if verdict <= 0:
+                if verdict <= 0:  # equal matrices: what takes the best order to this one is an automorphism
                     automorphisms = doubled(automorphisms) if found == len(automorphisms) else automorphisms
                     for i in range(n):
                         automorphisms[found, i] = place[orders[depth, i]]

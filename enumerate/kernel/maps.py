@@ -222,7 +222,7 @@ def canonical_map(
             verdict, size = _read(turn, vertex, open_edges, face, labels, reading, best, code, work)
             if verdict > 0:
                 continue
-            if verdict < 0:
+            if verdict < 0:  # the readings up to now gave a greater code: they are forgotten
                 best, code, length, found = code, best, size, 0
             orders = doubled(orders) if found == len(orders) else orders
             for i in range(darts):

@@ -1,7 +1,8 @@
-"""Folders that machine code is kept in: which may be used, and which are old.
+"""Folders that machine code is kept in: which may be used, which are old; a notice when code is compiled.
 
 What is kept are pickles, which do what they like when they are loaded. So a folder counts only if it belongs to
-this user and nobody else may write there. There may be several: what one cannot take goes to the next.
+this user and nobody else may write there. There may be several: what one cannot take goes to the next. The user is
+notified once in a run, by the process that is the first to compile. Loads without numba.
 """
 
 from __future__ import annotations
@@ -12,11 +13,25 @@ import shutil
 import stat
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
+from typing import Any, TypeAlias
 
-__all__ = ["bases", "is_ours", "made", "prune", "safe", "touch", "usable_bases", "writable_base"]
+__all__ = [
+    "bases",
+    "compiling",
+    "heard_by",
+    "is_ours",
+    "make_folder",
+    "on_compiling",
+    "prune",
+    "safe",
+    "to_workers",
+    "touch",
+    "usable_bases",
+    "writable_base",
+]
 
 _DAY = 86_400
 _OLD = 30 * _DAY
@@ -40,7 +55,8 @@ def bases() -> Iterator[Path]:
         if caches is not None:
             yield caches / "synthedra"
     with suppress(OSError):  # no temporary folder
-        yield Path(tempfile.gettempdir()) / f"synthedra-{_user()}"
+        user = os.geteuid() if hasattr(os, "geteuid") else 0
+        yield Path(tempfile.gettempdir()) / f"synthedra-{user}"
 
 
 def _caches() -> Path | None:
@@ -55,22 +71,12 @@ def _caches() -> Path | None:
     return home / ".cache" if _by_us(home.stat()) else None
 
 
-def _user() -> int:
-    """Return the number of this user; 0 where users have no numbers, and temporary folders are their own."""
-    return os.geteuid() if hasattr(os, "geteuid") else 0
-
-
 def _by_us(entry: os.stat_result) -> bool:
     return not hasattr(os, "geteuid") or entry.st_uid == os.geteuid()
 
 
 def is_ours(entry: os.stat_result) -> bool:
-    """Return whether a file or folder belongs to this user and no other may write it.
-
-    >>> with tempfile.NamedTemporaryFile() as file:
-    ...     is_ours(os.fstat(file.fileno()))
-    True
-    """
+    """Return whether a file or folder belongs to this user and no other may write it."""
     return _by_us(entry) and (os.name == "nt" or not entry.st_mode & (stat.S_IWGRP | stat.S_IWOTH))
 
 
@@ -87,7 +93,7 @@ def safe(base: Path, name: str) -> Path | None:
     return base / name if _is_safe(base) and _is_safe(base / name) else None
 
 
-def made(base: Path, name: str = "") -> Path | None:
+def make_folder(base: Path, name: str = "") -> Path | None:
     """Return a folder in a base, made with the base if need be; None if it cannot be made or is not ours."""
     for folder in (base, base / name):
         with suppress(OSError):
@@ -103,7 +109,7 @@ def usable_bases() -> Iterator[Path]:
     One that is ours and read-only, as in an image, is read before that.
     """
     for base in bases():
-        if made(base) is not None:
+        if make_folder(base) is not None:
             yield base
             if os.access(base, os.W_OK):
                 return
@@ -137,3 +143,52 @@ def prune(base: Path) -> None:
         for number, (last, folder) in enumerate(sorted(folders, reverse=True)):
             if number >= _MOST or time.time() - last > _OLD:
                 shutil.rmtree(folder, ignore_errors=True)
+
+
+Notify: TypeAlias = Callable[[Path | None], None]
+"""Notifies the user; takes the folder where the code will be kept, if there is one."""
+
+
+class _Notice:
+    """How this process notifies the user, and whether it has.
+
+    The count of the semaphore `left`, if there are several processes, says whether another one has.
+    """
+
+    notify: Notify | None = None
+    notified = False
+    left: Any = None
+
+
+_notice = _Notice()
+
+
+def on_compiling(notify: Notify | None) -> None:
+    """Let a function be called before the first function is compiled; without one, nothing is said."""
+    _notice.notify, _notice.notified, _notice.left = notify, False, None
+
+
+def compiling() -> None:
+    """Note that something is about to be compiled."""
+    if _notice.notify is None or _notice.notified:
+        return
+    _notice.notified = True
+    if _notice.left is None or _notice.left.acquire(block=False):
+        _notice.notify(writable_base())
+
+
+def to_workers() -> tuple[Notify, Any] | None:
+    """Return what `heard_by` needs in each worker process, so that only one process of all notifies."""
+    if _notice.notify is None:
+        return None
+    if _notice.left is None:
+        from multiprocessing import Semaphore
+
+        _notice.left = Semaphore(0 if _notice.notified else 1)
+    return _notice.notify, _notice.left
+
+
+def heard_by(shared: tuple[Notify, Any] | None) -> None:
+    """Share in a worker what `to_workers` returned in the process that started it."""
+    notify, left = shared or (None, None)
+    _notice.notify, _notice.notified, _notice.left = notify, False, left

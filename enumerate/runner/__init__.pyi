@@ -1,18 +1,18 @@
 from enumerate.runner.job import (
     Counting as Counting,
     Job as Job,
+    Limits as Limits,
     Progress as Progress,
     Row as Row,
     Sink as Sink,
     Unit as Unit,
 )
-from enumerate.runner.limits import Limits as Limits
-from enumerate.runner.running import (
-    Interrupted as Interrupted,
-    rows_of as rows_of,
-    run as run,
-    total_of as total_of,
+from enumerate.runner.running import rows_of as rows_of, run as run, total_of as total_of
+from enumerate.runner.sinks import (
+    CountSink as CountSink,
+    RowSink as RowSink,
+    SortedSink as SortedSink,
+    sink_for as sink_for,
 )
-from enumerate.runner.sinks import RowSink as RowSink, SortedSink as SortedSink, sink_for as sink_for
+from enumerate.runner.stopping import Interrupted as Interrupted
 from enumerate.runner.store import SqliteSink as SqliteSink, read_meta as read_meta, read_rows as read_rows
-from enumerate.runner.totals import CountSink as CountSink

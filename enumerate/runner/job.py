@@ -1,20 +1,46 @@
-"""What the runner works on: jobs, units, and sinks that take rows.
+"""What the runner works on: queries, jobs, units, columns of rows, and sinks that take rows.
 
-A *job* says what is enumerated and splits it into units; a *unit* is enumerated by one worker and gives some
-thousands of rows; a *sink* takes the rows of unit after unit.
+A *query* says which mechanisms are to be enumerated, with limits of their numbers. A *job* splits that into units;
+a *unit* is enumerated by one worker and gives some thousands of rows; a *sink* takes the rows of unit after unit.
+A column of rows holds numbers or text, or lists: a list is a tuple in a row, of numbers or text, or of tuples of
+them. JSON and Parquet get it as a list, a store as JSON text, and a table as the text that its column makes of it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, Protocol
+import json
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import Any, Protocol, TypeVar
 
-from enumerate.runner.columns import Column
+from graphs.arrays import Bytes, Flags, Ints
+from graphs.errors import InvariantError
+from graphs.plain_text import plain
 
-__all__ = ["Counting", "Job", "Progress", "Row", "Sink", "Unit"]
+__all__ = [
+    "ANY_NUMBER",
+    "ONE_OR_MORE",
+    "Column",
+    "Counting",
+    "Job",
+    "Limits",
+    "ListColumn",
+    "Progress",
+    "Query",
+    "RangeColumn",
+    "Row",
+    "RowCount",
+    "Sink",
+    "Unit",
+    "batches",
+    "packed",
+    "row_as_dict",
+    "stored",
+    "unstored",
+]
 
 Row = tuple[Any, ...]
+Rows = TypeVar("Rows", Bytes, list[Any])
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,21 +107,58 @@ class Counting:
 
     Examples
     --------
-    >>> class Squares(Counting):
-    ...     key = {"count": "squares"}
-    ...     def units(self):
-    ...         return [Unit(1), Unit(2)]
-    ...     def work(self, payload):
-    ...         return [(payload**2,)]
-    >>> from enumerate.runner.running import total_of
-    >>> total_of(Squares())
-    5
+    >>> from enumerate.chains import ChainQuery, count_job
+    >>> list(count_job(ChainQuery(6, 1), "orbits").columns)
+    ['count', 'contracted_links']
     """
 
     @property
     def columns(self) -> dict[str, type]:
         """The number; a job may have more columns, which say what it is a part of."""
         return {"count": int}
+
+
+class Listing(Job, Protocol):
+    """A job that says how many rows a unit has, and makes them only as far as that needs."""
+
+    def number(self, payload: Any) -> int:
+        """Return the number of rows of a unit."""
+
+
+@dataclass(frozen=True)
+class RowCount(Counting):
+    """The number of rows of a job, where rows have to be made to be counted; `key` says what the count is."""
+
+    rows: Listing
+    key: dict[str, Any]
+
+    def units(self) -> Sequence[Unit]:
+        """Return those of the job."""
+        return self.rows.units()
+
+    def work(self, payload: Any) -> list[Row]:
+        """Return the number of rows of a unit."""
+        return [(self.rows.number(payload),)]
+
+
+def packed(parts: Iterable[tuple[Any, int]], size: int) -> Iterator[Unit]:
+    """Yield units of parts, which come with their weights: tuples of at most so much weight, or of one part."""
+    held: list[Any] = []
+    weight = 0
+    for part, count in parts:
+        if held and weight + count > size:
+            yield Unit(tuple(held), weight)
+            held, weight = [], 0
+        held.append(part)
+        weight += count
+    if held:
+        yield Unit(tuple(held), weight)
+
+
+def batches(rows: Rows, size: int) -> Iterator[Rows]:
+    """Yield slices of so many rows of a list or an array; the last may be shorter."""
+    for start in range(0, len(rows), size):
+        yield rows[start : start + size]
 
 
 class Sink(Protocol):
@@ -105,21 +168,14 @@ class Sink(Protocol):
     --------
     `run` starts a sink, hands it units, and finishes or aborts it:
 
-    >>> from enumerate.chains.jobs import ChainJob
-    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.chains import ChainJob, ChainQuery
     >>> from enumerate.runner.running import run
-    >>> class Lengths:
-    ...     def start(self, job):
-    ...         return ()
+    >>> from enumerate.runner.sinks import RowSink
+    >>> class Lengths(RowSink):
     ...     def take(self, number, rows, seconds):
     ...         print("unit", number, "rows", len(rows))
-    ...     def finish(self):
-    ...         print("done")
-    ...     def abort(self):
-    ...         print("stopped")
-    >>> _ = run(ChainJob(ChainQuery(6, 1), bare=True), Lengths())
+    >>> _ = run(ChainJob(ChainQuery(6, 1), bare=True), Lengths(print))
     unit 0 rows 2
-    done
     """
 
     def start(self, job: Job) -> Collection[int]:
@@ -177,3 +233,137 @@ class Progress:
         """What is left, if the rest goes as fast as what is done."""
         done = self.weight - self.skipped_weight
         return self.seconds * (self.total_weight - self.weight) / done if done else float("inf")
+
+
+@dataclass(frozen=True, slots=True)
+class ListColumn:
+    """A column of lists; `between` parts the items in a table.
+
+    Where the items are lists themselves, `within` parts their values, else it is empty; `before_last` stands
+    before the last of these, if it is something else: the name before a number. `kind` is the type of all values,
+    None where they differ.
+
+    >>> ListColumn(" ", "-", ":", None).text((("a", "b", 28.15), ("b", "c", 30.0)))
+    'a-b:28.15 b-c:30'
+    """
+
+    between: str
+    within: str = ""
+    before_last: str = ""
+    kind: type | None = int
+
+    def text(self, values: tuple[Any, ...]) -> str:
+        """Return how a table shows a list."""
+        return self.between.join(map(self.item_text, values))
+
+    def item_text(self, item: Any) -> str:
+        """Return how a table shows an item; names come from files, so they may be long."""
+        if not isinstance(item, tuple):
+            return f"{item:.12g}" if isinstance(item, float) else plain(item)
+        *first, last = map(self.item_text, item)
+        return self.within.join(first) + (self.before_last or self.within) + last
+
+
+@dataclass(frozen=True, slots=True)
+class RangeColumn(ListColumn):
+    """A column of lists of (least, greatest); a table shows those that are equal once.
+
+    >>> RangeColumn(" ", "..").text(((0, 1), (1, 1)))
+    '0..1 1'
+    """
+
+    def item_text(self, item: Any) -> str:
+        """Return how a table shows least and greatest."""
+        least, greatest = item
+        return str(least) if least == greatest else f"{least}{self.within}{greatest}"
+
+
+Column = type | ListColumn
+"""int, str, bool or float; or a column of lists."""
+
+
+def row_as_dict(columns: Iterable[str], row: tuple[Any, ...]) -> dict[str, Any]:
+    """Return a row as a dictionary of its columns, with lists for tuples."""
+    return {
+        name: _as_list(value) if isinstance(value, tuple) else value
+        for name, value in zip(columns, row, strict=True)
+    }
+
+
+def _as_list(value: Any) -> Any:
+    return [_as_list(item) for item in value] if isinstance(value, tuple) else value
+
+
+def stored(values: tuple[Any, ...] | None) -> str | None:
+    """Return a list as compact JSON text; None where a row has none."""
+    return None if values is None else json.dumps(values, separators=(",", ":"))
+
+
+def unstored(text: str | None) -> tuple[Any, ...] | None:
+    """Return the list of a JSON text, as it stands in a row."""
+    return None if text is None else tuple(_as_tuple(item) for item in json.loads(text))
+
+
+def _as_tuple(value: Any) -> Any:
+    return tuple(map(_as_tuple, value)) if isinstance(value, list) else value
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """A least and a greatest value.
+
+    Attributes
+    ----------
+    least : int
+    most : int or None
+        None: there is no greatest value.
+
+    Examples
+    --------
+    >>> 3 in Limits(2), 3 in Limits(0, 2)
+    (True, False)
+    """
+
+    least: int = 0
+    most: int | None = None
+
+    def __contains__(self, value: int) -> bool:
+        """Tell whether a value is within the limits."""
+        return value >= self.least and (self.most is None or value <= self.most)
+
+    def admitted(self, values: Ints) -> Flags:
+        """Tell which of some values are within the limits."""
+        enough: Flags = values >= self.least
+        return enough if self.most is None else enough & (values <= self.most)
+
+
+ANY_NUMBER, ONE_OR_MORE = Limits(0), Limits(1)
+
+
+@dataclass(frozen=True, slots=True)
+class Query:
+    """What queries have in common: they are as JSON values what their fields say."""
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """The query in JSON values; limits are least and greatest value."""
+        return {field.name: _key_of(getattr(self, field.name)) for field in fields(self)}
+
+    def _keep_limits(self, *names: str) -> None:
+        """Make limits of fields that may also be a pair or one number; the smaller number must come first."""
+        for name in names:
+            limits = getattr(self, name)
+            if isinstance(limits, int):
+                limits = limits, limits
+            if isinstance(limits, Sequence):
+                limits = Limits(*limits)
+            if limits.most is not None and limits.most < limits.least:
+                wrong = f"the range {limits.least} to {limits.most}"
+                raise InvariantError(name.replace("_", " "), wrong, "the smaller number first")
+            object.__setattr__(self, name, limits)
+
+
+def _key_of(value: object) -> object:
+    if isinstance(value, Limits):
+        return [value.least, value.most]
+    return list(value) if isinstance(value, tuple) else value

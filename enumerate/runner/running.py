@@ -1,8 +1,8 @@
 """Running a job: units of work, worker processes, and rows that arrive in order.
 
-Units are worked on in any order and handed to the
-sink in theirs, so that two runs give equal files and a store holds exactly the units 0 to k - 1 whatever killed
-the run. Only a fixed number of units is in the air at any time: memory does not grow with the number of rows.
+Units are worked on in any order and handed to the sink in theirs, so that two runs give equal files and a store
+holds exactly the units 0 to k - 1 whatever killed the run. Only a fixed number of units is in the air at any time:
+memory does not grow with the number of rows.
 """
 
 from __future__ import annotations
@@ -15,14 +15,12 @@ from concurrent.futures import Future
 from contextlib import closing, contextmanager
 from typing import Any
 
-from enumerate.runner.cluster import Cluster
-from enumerate.runner.columns import row_as_dict
-from enumerate.runner.job import Job, Progress, Row, Sink, Unit
-from enumerate.runner.stopping import Interrupted, interruptible
-from enumerate.runner.workers import LocalWorkers, Workers, timed
+from enumerate.runner.job import Job, Progress, Row, Sink, Unit, row_as_dict
+from enumerate.runner.stopping import interruptible
+from enumerate.runner.workers import Cluster, LocalWorkers, Workers, timed
 from graphs.errors import StoreError
 
-__all__ = ["Interrupted", "rows_of", "run", "total_of", "tuples_of"]
+__all__ = ["rows_of", "run", "total_of", "tuples_of"]
 
 _AHEAD = 4
 """Units in the air for each worker."""
@@ -32,7 +30,6 @@ _SMALL = 5_000
 
 _PATIENCE = 3
 """How often workers may die on one unit before the run gives up."""
-
 
 _LOOK = 0.1
 """Seconds between two looks whether a unit that is waited for can still come, and is still wanted."""
@@ -68,14 +65,13 @@ def run(
     Raises
     ------
     Interrupted
-        If the user pressed Ctrl-C, or the process was asked to end. What was handed to a store stays there.
+        If the user pressed Ctrl-C, or the process got a signal to end. What was handed to a store stays there.
     StoreError
         If the sink cannot take the rows, workers die again and again, or the cluster is not reached, or lost.
 
     Examples
     --------
-    >>> from enumerate.chains.jobs import ChainJob
-    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.chains import ChainJob, ChainQuery
     >>> from enumerate.runner.sinks import RowSink
     >>> done = run(ChainJob(ChainQuery(6, 1), bare=True), RowSink(lambda columns, rows: print(columns, rows)))
     ('code',) [('k1:E`hW',), ('k1:E@zO',)]
@@ -141,7 +137,7 @@ class _UnitsOnce:
         return getattr(self._job, name)
 
     def units(self) -> Sequence[Unit]:
-        """Return the units of the job, found when they are first asked for."""
+        """Return the units of the job, worked out when they are first needed."""
         if self._units is None:
             self._units = self._job.units()
         return self._units
@@ -178,8 +174,7 @@ def rows_of(job: Job, *, workers: int = 1) -> Iterator[dict[str, Any]]:
 
     Examples
     --------
-    >>> from enumerate.chains.jobs import ChainJob
-    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.chains import ChainJob, ChainQuery
     >>> list(rows_of(ChainJob(ChainQuery(6, 1), bare=True)))
     [{'code': 'k1:E`hW'}, {'code': 'k1:E@zO'}]
     """
@@ -197,10 +192,6 @@ def total_of(job: Job, *, workers: int = 1) -> int:
     workers : int
         Local processes; 1 works in this one.
 
-    Returns
-    -------
-    int
-
     Raises
     ------
     StoreError
@@ -210,8 +201,7 @@ def total_of(job: Job, *, workers: int = 1) -> int:
     --------
     Chains of eight links and one freedom, as Burnside's lemma counts them:
 
-    >>> from enumerate.chains.jobs import count_job
-    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.chains import ChainQuery, count_job
     >>> total_of(count_job(ChainQuery(8, 1), "burnside"))
     16
     """
@@ -246,14 +236,14 @@ def _in_order(
 ) -> Generator[tuple[int, list[Row], float]]:
     """Yield what others work out, in order; begin again with the first unit that is missing where workers die."""
     numbers = list(units)
-    given = done = deaths = 0
+    submitted = done = deaths = 0
     waiting: deque[Future[tuple[list[Row], float]]] = deque()
     while done < len(numbers):
         check()
         try:
-            while given < len(numbers) and len(waiting) < _AHEAD * workers.number:
-                waiting.append(workers.submit(job, units[numbers[given]].payload))
-                given += 1
+            while submitted < len(numbers) and len(waiting) < _AHEAD * workers.number:
+                waiting.append(workers.submit(job, units[numbers[submitted]].payload))
+                submitted += 1
             rows, seconds = _waited_for(waiting[0], workers, check)
         except workers.deaths:
             check()  # whoever stops a run may stop its workers too
@@ -263,7 +253,7 @@ def _in_order(
                     f"worker processes died {deaths} times at unit {numbers[done]}; is there enough memory?"
                 ) from None
             workers.restart()
-            given = done
+            submitted = done
             waiting.clear()
             continue
         waiting.popleft()

@@ -1,4 +1,4 @@
-"""Where the rows of an enumeration go: files, a folder of mechanisms, a store, or a callback.
+"""Where the rows of an enumeration go: files, a folder of mechanisms, a store, a callback, or a sum.
 
 Files are written beside their place and moved there when the run is complete; what a killed run left there
 is removed by the next one to the same place. To add a format, write a sink and enter it in ``SINKS``.
@@ -9,13 +9,13 @@ from __future__ import annotations
 import csv
 import io
 import json
+from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.columns import Column, ListColumn, row_as_dict, stored
-from enumerate.runner.job import Job, Row, Sink, Unit
-from enumerate.runner.store import SqliteSink
+from enumerate.runner.job import Column, Job, ListColumn, Row, Sink, Unit, row_as_dict, stored
+from enumerate.runner.store import SqliteSink, read_rows
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, InvariantError, StoreError, shown
 from graphs.files.atomic import Beside, FolderBeside
@@ -25,24 +25,10 @@ from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 
-__all__ = ["SINKS", "FolderSink", "RowSink", "SortedSink", "mechanism_text", "sink_for"]
+__all__ = ["CountSink", "FolderSink", "JsonLinesSink", "ParquetSink", "RowSink", "SortedSink", "sink_for"]
 
 
-class _MemorySink:
-    """A sink with nothing to open, close or remove."""
-
-    def start(self, job: Job) -> Collection[int]:
-        """Nothing is there already."""
-        return ()
-
-    def finish(self) -> None:
-        """Nothing is left to do."""
-
-    def abort(self) -> None:
-        """Nothing is left to do."""
-
-
-class RowSink(_MemorySink):
+class RowSink:
     """A sink that calls a function with the columns and the rows of each unit.
 
     Parameters
@@ -52,8 +38,7 @@ class RowSink(_MemorySink):
 
     Examples
     --------
-    >>> from enumerate.chains.jobs import ChainJob
-    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.chains import ChainJob, ChainQuery
     >>> from enumerate.runner.running import run
     >>> codes = []
     >>> _ = run(ChainJob(ChainQuery(6, 1), bare=True), RowSink(lambda columns, rows: codes.extend(rows)))
@@ -66,13 +51,19 @@ class RowSink(_MemorySink):
         self._columns: tuple[str, ...] = ()
 
     def start(self, job: Job) -> Collection[int]:
-        """Note the columns."""
+        """Note the columns; nothing is there already."""
         self._columns = tuple(job.columns)
-        return super().start(job)
+        return ()
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Call the function."""
         self._function(self._columns, rows)
+
+    def finish(self) -> None:
+        """Do nothing: nothing is open."""
+
+    def abort(self) -> None:
+        """Do nothing: nothing is open."""
 
 
 class _Sorted:
@@ -181,11 +172,11 @@ class Graph6Sink(_FileSink):
     def start(self, job: Job) -> Collection[int]:
         """Open the file."""
         if job.columns.get("code") is not str and "order" in job.columns:
-            raise StoreError(f"{self._path}: graph6 has no place for angles; name a .jsonl or .sqlite file")
+            raise StoreError(f"{self._path}: graph6 cannot hold angles; try a .jsonl or .sqlite file")
         beyond = {"ground": "the ground link", "chain": "a drawing, centres and open edges"}
         for column, what in beyond.items():
             if column in job.columns:
-                raise StoreError(f"{self._path}: graph6 has no place for {what}; name a .jsonl or .sqlite file")
+                raise StoreError(f"{self._path}: graph6 cannot hold {what}; try a .jsonl or .sqlite file")
         return super().start(job)
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
@@ -234,7 +225,9 @@ class ParquetSink(_FileSink):
             import pyarrow as arrow
             from pyarrow import parquet
         except ImportError:
-            raise StoreError(f"{self._path}: Parquet needs pyarrow: pip install 'synthedra[parquet]'") from None
+            raise StoreError(
+                f"{self._path}: Parquet requires pyarrow; try pip install 'synthedra[parquet]'"
+            ) from None
         super().start(job)
         assert self._file is not None
         self._schema = arrow.schema([(column, _arrow_type(kind)) for column, kind in job.columns.items()])
@@ -312,10 +305,7 @@ class FolderSink:
         self._number = 0
 
     def start(self, job: Job) -> Collection[int]:
-        """Make a folder beside the place of this one.
-
-        Raises `FileError` if there is something at its place, or it cannot be made.
-        """
+        """Make a folder beside its place; raises `FileError` if there is something at its place."""
         remove_left(self._path)
         self._folder = FolderBeside(self._path)
         self._columns = tuple(job.columns)
@@ -379,10 +369,6 @@ def sink_for(
     looking : callable, optional
         Takes the part of a store to be resumed that has been looked through.
 
-    Returns
-    -------
-    Sink
-
     Raises
     ------
     FileError
@@ -393,8 +379,7 @@ def sink_for(
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
-    >>> from enumerate.chains.jobs import ChainJob
-    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.chains import ChainJob, ChainQuery
     >>> from enumerate.runner.running import run
     >>> with TemporaryDirectory() as folder:
     ...     _ = run(ChainJob(ChainQuery(6, 1), bare=True), sink_for(Path(folder, "six.jsonl")))
@@ -414,3 +399,88 @@ def sink_for(
     if not suffix:
         return FolderSink(path)
     return SINKS[suffix](path, force=force)
+
+
+class CountSink:
+    """A sink that adds up the first value of every row, apart for rows whose other values differ.
+
+    Parameters
+    ----------
+    store : SqliteSink, optional
+        Keeps the rows too. The numbers are then those of the store when it is complete: units that a run before
+        this one has counted are among them, and each is there once.
+
+    Attributes
+    ----------
+    total : int
+        The sum of all; of a run with a store, once it is finished.
+    parts : mapping
+        The sums by the other values of the rows, in the order in which these first came.
+
+    Examples
+    --------
+    >>> from enumerate.chains import ChainQuery, count_job
+    >>> from enumerate.runner.running import run
+    >>> sink = CountSink()
+    >>> _ = run(count_job(ChainQuery(8, 1), "burnside"), sink)
+    >>> sink.total
+    16
+    """
+
+    def __init__(self, store: SqliteSink | None = None) -> None:
+        self._store = store
+        self._names: tuple[str, ...] = ()
+        self.parts: Counter[Row] = Counter()
+
+    @property
+    def total(self) -> int:
+        """The sum of all."""
+        return self.parts.total()
+
+    def start(self, job: Job) -> Collection[int]:
+        """Open the store, if there is one; return the units that it holds."""
+        self._names = tuple(job.columns)
+        return () if self._store is None else self._store.start(job)
+
+    def take(self, number: int, rows: list[Row], seconds: float) -> None:
+        """Add the numbers, or store them."""
+        if self._store is None:
+            self._add(rows)
+        else:
+            self._store.take(number, rows, seconds)
+
+    def finish(self) -> None:
+        """Complete the store, and add up what it holds."""
+        if self._store is not None:
+            self._store.finish()
+            self._add(read_rows(self._store.path))
+
+    def abort(self) -> None:
+        """Close the store; what it holds stays."""
+        if self._store is not None:
+            self._store.abort()
+
+    def _add(self, rows: Any) -> None:
+        for count, *rest in rows:
+            self.parts[tuple(rest)] += count
+
+    def by(self, column: str) -> dict[Any, int]:
+        """Return the sums by the values of a column, the largest value first; none if the job has no such column.
+
+        Examples
+        --------
+        >>> from enumerate.chains.jobs import count_job
+        >>> from enumerate.chains.query import ChainQuery
+        >>> from enumerate.runner.running import run
+        >>> sink = CountSink()
+        >>> progress = run(count_job(ChainQuery(8, 1), "orbits"), sink)
+        >>> sink.by("contracted_links")
+        {4: 9, 3: 5, 2: 2}
+        """
+        if column not in self._names[1:]:
+            return {}
+        place = self._names.index(column) - 1
+        sums: Counter[Any] = Counter()
+        for values, count in self.parts.items():
+            sums[values[place]] += count
+        return dict(sorted(sums.items(), reverse=True))

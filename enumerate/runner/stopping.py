@@ -68,8 +68,7 @@ def interruptible(*, ending: bool = False) -> Iterator[Callable[[], None]]:
 
     While one is cleaned up after, a second signal is noted only; a third one raises again. An error that occurs
     after a signal is taken for its consequence. Inside another one, both have the same flag. With `ending` the
-    process ends here: signals are ignored afterwards. What is yielded raises `Interrupted` if a signal has asked
-    to stop.
+    process ends here: signals are ignored afterwards. What is yielded raises `Interrupted` if a signal has come.
     """
     if threading.current_thread() is not threading.main_thread():
         yield lambda: None

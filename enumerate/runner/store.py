@@ -3,7 +3,7 @@
 What is in it: `enumerate.runner.store_units`. During a run the file is in WAL mode: it can be read meanwhile, and
 survives the death of the run at any moment. A complete store is one plain file, as soon as nobody else reads it.
 A store is looked through before a run goes on with it, and each unit when it is read
-(`enumerate.runner.store_repair`).
+(`enumerate.runner.store_units`).
 """
 
 from __future__ import annotations
@@ -17,10 +17,19 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.columns import Column, ListColumn, stored, unstored
-from enumerate.runner.job import Job, Row
-from enumerate.runner.store_repair import examined, rebuilt
-from enumerate.runner.store_units import FORMAT, VERSION, UnitTable, make_tables, meta_in, named, reading
+from enumerate.runner.job import Column, Job, ListColumn, Row, stored, unstored
+from enumerate.runner.store_units import (
+    FORMAT,
+    PATIENCE,
+    VERSION,
+    UnitTable,
+    examine_store,
+    make_tables,
+    meta_in,
+    naming,
+    reading,
+    rebuild_store,
+)
 from graphs.errors import StoreError
 from graphs.files.atomic import check_place
 from graphs.files.unfinished import remove_left
@@ -29,9 +38,6 @@ __all__ = ["SqliteSink", "job_in", "read_meta", "read_rows"]
 
 _REMEMBERED = 4096
 """Lists of a column whose JSON text is kept: many rows share theirs."""
-
-_PATIENCE = 30.0
-"""Seconds for which a lock of another process is waited for while the store grows."""
 
 _PATIENCE_AT_END = 200
 """Milliseconds for which readers are waited for when the store is complete: only its files depend on them."""
@@ -75,7 +81,7 @@ class SqliteSink:
     def start(self, job: Job) -> Collection[int]:
         """Make the file, or look through it; return the numbers of the units that it holds.
 
-        What is damaged is taken out, and told.
+        A damaged store is repaired first, with a message.
 
         Raises
         ------
@@ -86,16 +92,15 @@ class SqliteSink:
         check_place(self.path, force=True)  # a file only, in a folder that is there
         if self.path.exists() and not (self._resume or self._force):
             raise StoreError(
-                f"{self.path}: exists already; continue it with --resume, begin anew with --force, "
-                "or name another file"
+                f"{self.path}: exists already; try --resume to continue it, --force to replace it, or another name"
             )
         if self._force:
             self._remove()
         remove_left(self.path)  # of a repair that was killed
         if self.path.exists() and _has_tables(self.path):
             self._look_through(job)
-        with named(self.path):
-            self._connection = sqlite3.connect(self.path, isolation_level=None, timeout=_PATIENCE)
+        with naming(self.path):
+            self._connection = sqlite3.connect(self.path, isolation_level=None, timeout=PATIENCE)
             self._units = UnitTable(self._connection, list(job.columns))
             if not self._complete:  # else there is nothing to write
                 self._connection.execute("PRAGMA journal_mode=WAL")
@@ -118,14 +123,14 @@ class SqliteSink:
         meta = read_meta(self.path)
         if meta["job"] != job.key:
             theirs = ", ".join(f"{key}={value}" for key, value in meta["job"].items())
-            raise StoreError(f"{self.path}: holds another run ({theirs}); name another file")
+            raise StoreError(f"{self.path}: holds another run ({theirs}); try another file name")
         units = len(job.units())
-        findings = examined(self.path, units, self._looking)
+        findings = examine_store(self.path, units, self._looking)
         self._complete = findings.sound and meta["complete"]
         if not findings.sound:
-            rebuilt(self.path, findings)
+            rebuild_store(self.path, findings)
             whole = len(findings.whole)
-            self._tell(f"{self.path}: was damaged; {whole} of {units} units are whole, the others are made again")
+            self._tell(f"{self.path}: repaired a damaged store; kept {whole} of {units} units")
 
     @contextmanager
     def _transaction(self) -> Iterator[None]:
@@ -144,8 +149,8 @@ class SqliteSink:
         """
         assert self._units is not None
         first = self._first_row_of(number)
-        with named(self.path), self._transaction():
-            self._units.add(number, first, self._told(rows), round(seconds, 6))
+        with naming(self.path), self._transaction():
+            self._units.add(number, first, self._with_texts(rows), round(seconds, 6))
         self._rows[number] = len(rows)
 
     def _first_row_of(self, number: int) -> int:
@@ -155,14 +160,14 @@ class SqliteSink:
             self._next += 1
         return self._first
 
-    def _told(self, rows: list[Row]) -> list[Row]:
+    def _with_texts(self, rows: list[Row]) -> list[Row]:
         """Return rows with lists as JSON text."""
         return list(_replaced(rows, self._lists)) if self._lists else rows
 
     def finish(self) -> None:
         """Mark the store complete, after a look that every unit is there with its rows.
 
-        Others who read it do not hinder that; only then its files stay as they are during a run, which is told.
+        Others who read it do not hinder that; only then its files stay as they are during a run, with a message.
 
         Raises
         ------
@@ -170,7 +175,7 @@ class SqliteSink:
             If rows are missing.
         """
         assert self._connection is not None
-        with named(self.path):
+        with naming(self.path):
             if not self._complete:
                 self._mark_complete(self._connection)
             self._make_one_file(self._connection)
@@ -183,7 +188,7 @@ class SqliteSink:
             ).fetchone()
             [rows, greatest] = connection.execute("SELECT count(*), max(rowid) FROM type").fetchone()
             if units and (units != last + 1 or not rows == promised == (greatest or 0)):
-                raise StoreError(f"{self.path}: holds {rows} rows, its units say {promised}")
+                raise StoreError(f"{self.path}: holds {rows} rows; expected {promised}, as its units say")
             connection.execute("UPDATE meta SET value = 'true' WHERE key = 'complete'")
 
     def _make_one_file(self, connection: sqlite3.Connection) -> None:
@@ -194,8 +199,8 @@ class SqliteSink:
             if error.sqlite_errorcode & 0xFF not in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
                 raise
             self._tell(
-                f"{self.path}: is complete; another process has it open: {self.path.name}-wal belongs to it; "
-                "--resume makes it one file"
+                f"{self.path}: complete, but another process has it open: {self.path.name}-wal belongs to it; "
+                "try --resume to make it one file"
             )
 
     def abort(self) -> None:
@@ -212,10 +217,6 @@ def read_meta(path: str | Path) -> dict[str, Any]:
     path : str or Path
         A ``.sqlite`` store; it may still be growing.
 
-    Returns
-    -------
-    dict of str to object
-
     Raises
     ------
     StoreError
@@ -224,14 +225,13 @@ def read_meta(path: str | Path) -> dict[str, Any]:
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
-    >>> from enumerate.chains.jobs import ChainJob
-    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.chains import ChainJob, ChainQuery
     >>> from enumerate.runner.running import run
     >>> with TemporaryDirectory() as folder:
     ...     store = Path(folder, "six.sqlite")
     ...     _ = run(ChainJob(ChainQuery(6, 1), bare=True), SqliteSink(store))
-    ...     told = read_meta(store)
-    >>> told["columns"], told["complete"]
+    ...     meta = read_meta(store)
+    >>> meta["columns"], meta["complete"]
     (['code'], True)
     """
     with reading(Path(path)) as connection:
@@ -271,8 +271,7 @@ def read_rows(path: str | Path) -> Iterator[Row]:
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
-    >>> from enumerate.chains.jobs import ChainJob
-    >>> from enumerate.chains.query import ChainQuery
+    >>> from enumerate.chains import ChainJob, ChainQuery
     >>> from enumerate.runner.running import run
     >>> with TemporaryDirectory() as folder:
     ...     store = Path(folder, "six.sqlite")
@@ -289,7 +288,7 @@ def read_rows(path: str | Path) -> Iterator[Row]:
         for number in units.numbers():
             rows = units.rows(number)
             if rows is None:
-                raise StoreError(f"{path}: is damaged at unit {number}; the same run with --resume mends it")
+                raise StoreError(f"{path}: damaged at unit {number}; try the same command with --resume")
             yield from _replaced(rows, lists) if lists else rows
 
 

@@ -1,9 +1,12 @@
-"""How units lie in a store, and the digest that tells whether one is as it was written.
+"""How units lie in a store, digests that say whether they are as they were written, and the repair of a store.
 
 Tables: ``meta(key, value)`` says what was enumerated; ``unit(id, state, first, rows, seconds, digest)`` which are
 there, the row each begins with and how many it has; ``type`` holds the rows, numbered as if the units had come one
 after the other, each with its unit, lists as JSON text. A digest is made of the entry of a unit and of its rows,
 column by column, as they will be read.
+
+A store that is damaged is never written to: its units that are as they were written go into a new file, which
+takes its place. The rows keep their numbers, so that units which are computed again fill the gaps.
 """
 
 from __future__ import annotations
@@ -12,34 +15,40 @@ import hashlib
 import json
 import marshal
 import math
+import shutil
 import sqlite3
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
+from functools import partial
 from itertools import count
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from enumerate.runner.job import Row
-from graphs.errors import StoreError, shown
+from graphs.errors import OpenError, StoreError, shown
+from graphs.files.unfinished import Unfinished, remove_folder
 
 __all__ = [
     "COMPLAINTS",
     "FORMAT",
+    "PATIENCE",
     "VERSION",
-    "StoredUnit",
     "UnitTable",
-    "is_damage",
+    "examine_store",
     "make_tables",
     "meta_in",
-    "named",
+    "naming",
     "quoted",
     "reading",
+    "rebuild_store",
 ]
+
+T = TypeVar("T")
 
 FORMAT = "synthedra/store"
 VERSION = 3
-_PATIENCE = 30.0
+PATIENCE = 30.0
 """Seconds for which a lock of another process is waited for."""
 
 _DAMAGE = {
@@ -93,10 +102,9 @@ class UnitTable:
 
     def entry(self, number: int) -> StoredUnit | None:
         """Return the entry of a unit, if there is one, whatever its values are."""
-        found = self._connection.execute(
-            "SELECT id, state, first, rows, seconds, digest FROM unit WHERE id = ?", (number,)
-        ).fetchone()
-        return None if found is None else StoredUnit(*found)
+        query = "SELECT id, state, first, rows, seconds, digest FROM unit WHERE id = ?"
+        entry = self._connection.execute(query, (number,)).fetchone()
+        return None if entry is None else StoredUnit(*entry)
 
     def add(self, number: int, first: int, rows: Sequence[Row], seconds: float) -> None:
         """Write a unit with its rows; the transaction is the caller's."""
@@ -181,11 +189,11 @@ def meta_in(connection: sqlite3.Connection, path: Path) -> dict[str, Any]:
     texts = dict(connection.execute("SELECT key, value FROM meta"))
     if texts.get("format") != json.dumps(FORMAT) or texts.get("version") != json.dumps(VERSION):
         raise StoreError(
-            f"{path}: is not a store of version {VERSION}: format {shown(texts.get('format'))}, "
-            f"version {shown(texts.get('version'))}"
+            f"{path}: not a store that can be read here; expected format {FORMAT!r}, version {VERSION}, "
+            f"got format {shown(texts.get('format'))}, version {shown(texts.get('version'))}"
         )
     if texts.get("digest") != json.dumps(_meta_digest(texts)) or texts.get("complete") not in ("true", "false"):
-        raise StoreError(f"{path}: is damaged: what it says of itself was altered; begin again with another file")
+        raise StoreError(f"{path}: damaged: its table meta was altered; try another file")
     return {key: json.loads(text) for key, text in texts.items()}
 
 
@@ -200,7 +208,7 @@ def reading(path: Path) -> Iterator[sqlite3.Connection]:
     connection = None
     try:
         connection = sqlite3.connect(
-            f"{path.resolve().as_uri()}?mode=ro", uri=True, isolation_level=None, timeout=_PATIENCE
+            f"{path.resolve().as_uri()}?mode=ro", uri=True, isolation_level=None, timeout=PATIENCE
         )
         connection.execute("PRAGMA writable_schema=ON")  # else a file that was cut off is not opened at all
         connection.execute("BEGIN")
@@ -234,7 +242,7 @@ def _has_code(error: Exception) -> bool:
 
 
 @contextmanager
-def named(path: Path) -> Iterator[None]:
+def naming(path: Path) -> Iterator[None]:
     """Turn what SQLite says into one line that names the file."""
     try:
         yield
@@ -243,9 +251,9 @@ def named(path: Path) -> Iterator[None]:
     except COMPLAINTS as error:
         code = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_OK) & 0xFF
         if code in (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR):
-            hint = "; what was stored stays: make room and --resume"
+            hint = "; try --resume when there is room: stored units are kept"
         elif code == sqlite3.SQLITE_BUSY:
-            hint = ": another process holds it; what was stored stays: --resume when that has ended"
+            hint = ": another process holds it; try --resume when that has ended: stored units are kept"
         else:
             hint = ""
         raise StoreError(f"{path}: {_said(error)}{hint}") from None
@@ -254,3 +262,98 @@ def named(path: Path) -> Iterator[None]:
 def quoted(columns: Iterable[str]) -> str:
     """Return names of columns for a statement."""
     return ", ".join(f'"{column}"' for column in columns)
+
+
+@dataclass(frozen=True, slots=True)
+class Findings:
+    """What a store says of itself (`meta`), and the numbers, rising, of its units that are as they were written.
+
+    Sound: the file is a good database and holds these units, nothing else, and all of them if it says that it is
+    complete.
+    """
+
+    meta: dict[str, Any]
+    whole: tuple[int, ...]
+    sound: bool
+
+
+def examine_store(path: Path, units: int, looking: Callable[[float], None]) -> Findings:
+    """Look at every page and every unit of a store whose job has so many units.
+
+    `looking` takes the part of the rows that has been looked through, 0 to 1, after each unit. Raises `StoreError`
+    if the file cannot be read as a store at all.
+    """
+    with reading(path) as connection:
+        meta = meta_in(connection, path)
+        table = UnitTable(connection, meta["columns"])
+        whole = tuple(_whole(table, units, looking))
+        check: list[Row] = _despite_damage(lambda: connection.execute("PRAGMA quick_check(1)").fetchall(), [])
+        sound = check == [("ok",)] and _holds_only(connection, table, whole)
+    return Findings(meta, whole, sound and (len(whole) == units or not meta["complete"]))
+
+
+def _whole(table: UnitTable, units: int, looking: Callable[[float], None]) -> Iterator[int]:
+    """Yield the numbers of the units that are as they were written."""
+    total, seen = _despite_damage(table.promised, 0.0), 0
+    for number in range(units):
+        rows = _despite_damage(partial(table.rows, number), None)
+        if rows is not None:
+            yield number
+            seen += len(rows)
+            looking(min(seen / total, 1.0) if total > 0 else 1.0)
+
+
+def _despite_damage(read: Callable[[], T], otherwise: T) -> T:
+    """Return what is read, or something else if SQLite complains that it is damaged."""
+    try:
+        return read()
+    except COMPLAINTS as error:
+        if not is_damage(error):
+            raise
+        return otherwise
+
+
+def _holds_only(connection: sqlite3.Connection, table: UnitTable, whole: tuple[int, ...]) -> bool:
+    """Return whether a good database has the units named, their rows, and no others."""
+    if table.numbers() != list(whole):
+        return False
+    [rows] = connection.execute("SELECT count(*) FROM type").fetchone()
+    return bool(table.promised() == rows)
+
+
+def rebuild_store(path: Path, findings: Findings) -> None:
+    """Put a store that holds the whole units only in the place of a damaged one.
+
+    Raises `StoreError` or `OpenError` if it cannot be written; the damaged one stays.
+    """
+    place = path.resolve()
+    try:
+        unfinished = Unfinished(place, folder=True)
+    except OSError as error:
+        raise OpenError(path, "", f"cannot be repaired: {error.strerror}", "a writable folder") from None
+    repaired = unfinished.path / place.name
+    try:
+        with naming(path):
+            _copy(place, repaired, findings)
+        shutil.copymode(place, repaired)
+        for ending in ("-wal", "-shm", "-journal"):  # else SQLite would take them for those of the new one
+            Path(f"{place}{ending}").unlink(missing_ok=True)
+        repaired.replace(place)
+    finally:
+        remove_folder(unfinished.path)
+        unfinished.release()
+
+
+def _copy(source: Path, target: Path, findings: Findings) -> None:
+    meta: Mapping[str, Any] = {**findings.meta, "complete": False}
+    with closing(sqlite3.connect(target, isolation_level=None)) as repaired, reading(source) as damaged:
+        repaired.execute("PRAGMA journal_mode=WAL")
+        repaired.execute("BEGIN")
+        make_tables(repaired, {key: value for key, value in meta.items() if key != "digest"})
+        theirs, ours = UnitTable(damaged, meta["columns"]), UnitTable(repaired, meta["columns"])
+        for number in findings.whole:
+            unit, rows = theirs.entry(number), theirs.rows(number)
+            assert unit is not None
+            assert rows is not None  # they were read a moment ago
+            ours.add(number, unit.first, rows, unit.seconds)
+        repaired.execute("COMMIT")

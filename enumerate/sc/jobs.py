@@ -1,27 +1,84 @@
-"""The jobs of SC graph enumeration: how listing and counting are split into units."""
+"""SC graphs: every planar chain, drawn on the sphere in every way, with every outer face; rows, forms, numbers.
+
+A drawn chain is a contracted map (`enumerate.contracted.maps`) with binary links on its joints
+(`enumerate.contracted.binary_links`); the bounded faces are its loops, with centres as general as the joints
+allow. Work grows with the number of SC graphs. Numbers are found in two ways. The most general form of a chain is
+the SC graph with the most centres: Watt's chain has two, Stephenson's one. Theory: docs/theory/sc-enumeration.md.
+
+Source: Wiener 2016, sections 3.3 and 6.4, which names an exhaustive type synthesis as the use of SC graphs.
+"""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import partial
+from itertools import repeat
+from string import ascii_letters
 from typing import Any
 
 import numpy as np
 
-from enumerate.contracted.binary_links import EVERY
-from enumerate.contracted.embedded import outer_faces
-from enumerate.contracted.maps import contracted_maps
-from enumerate.kernel.maps import decode_map
-from enumerate.runner.columns import Column
-from enumerate.runner.job import Counting, Row, Unit
-from enumerate.sc.listing import count_drawn, count_drawn_by_burnside, weight_of
+from enumerate.chains.jobs import beginnings
+from enumerate.chains.names import name_of
+from enumerate.chains.rows import assortment_of, chain_ids
+from enumerate.contracted.binary_links import EVERY, PlacementRange
+from enumerate.contracted.graphs import graph_key
+from enumerate.contracted.maps import contracted_maps, joint_matrix, outer_faces
+from enumerate.kernel.maps import END, JOINT, OPEN, decode_map
+from enumerate.runner.job import ANY_NUMBER, Column, Counting, ListColumn, Row, RowCount, Unit, batches, packed
+from enumerate.runner.running import rows_of, total_of
+from enumerate.sc.listing import (
+    Centres,
+    centres_of_all,
+    count_drawn,
+    count_drawn_by_burnside,
+    count_on_map,
+    describe,
+    list_drawn,
+)
 from enumerate.sc.query import SCQuery
-from enumerate.sc.rows import SC_COLUMNS, DrawnChains, sc_rows_of
 from graphs.arrays import Bytes, Ints
 from graphs.errors import UnsolvableError
+from graphs.identity.drawings import map_text, mechanism_from_map_id
+from graphs.mechanism.sc import SCGraph
 
-__all__ = ["MapPart", "Maps", "SCCountJob", "SCJob", "drawn_of", "map_units", "maps_for", "sc_count_job"]
+__all__ = [
+    "LABEL_LETTERS",
+    "UNIT_ROWS",
+    "FormJob",
+    "Maps",
+    "SCCountJob",
+    "SCJob",
+    "chain_forms",
+    "count_sc_graphs",
+    "drawn_of",
+    "map_ids",
+    "map_units",
+    "sc_count_job",
+    "sc_graphs",
+    "sc_rows",
+]
+
+SC_COLUMNS: dict[str, Column] = {
+    "code": str,
+    "chain": str,
+    "links": int,
+    "joints": int,
+    "dof": int,
+    "loops": int,
+    "spatial": int,
+    "centres": int,
+    "infinite": int,
+    "assortment": ListColumn(","),
+    "loop_sizes": ListColumn(","),
+    "outer_size": int,
+    "symmetry": int,
+    "reduced": str,
+    "exact_dof": int,
+}
+
 
 UNIT_ROWS = 20_000
 """SC graphs of a unit, about, where a job does not say otherwise."""
@@ -29,26 +86,86 @@ UNIT_ROWS = 20_000
 _MAPS = 256
 """Maps of a unit of counting."""
 
-_NOWHERE = np.zeros(0, np.int64)
-_RING: Bytes = np.zeros(0, np.uint8)
-
 
 @dataclass(frozen=True, slots=True)
 class MapPart:
-    """SC graphs of one contracted map and outer face that begin in one way; an empty code is a ring."""
+    """SC graphs of one contracted map and outer face that begin in one way; an empty code is a ring.
+
+    Of the binary links, so many are first or second ones on their joints (`only`), and the first are on `prefix`.
+    """
 
     code: Bytes
     n: int
     outer: int
     only: int = EVERY
-    prefix: Ints = field(default_factory=lambda: _NOWHERE)
+    prefix: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
 
 
 Maps = tuple[MapPart, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class DrawnChains:
+    """SC graphs of a part.
+
+    Binary links on each joint are uint8[r, m], labels of the faces int64[r, F] (`enumerate.kernel.centres`);
+    `order` is the number of symmetries.
+    """
+
+    x: Bytes
+    labels: Ints
+    order: Ints
+
+
+def drawn_of(query: SCQuery, part: MapPart) -> DrawnChains:
+    """Return the SC graphs of a part that a query admits."""
+    strings = PlacementRange(query.links, query.chains.most, part.only)
+    centres = Centres(query.dof, query.spatial, query.infinite)
+    x, labels, order = list_drawn(part.code, part.n, part.outer, strings, part.prefix, centres)
+    kept = query.symmetry.admitted(order)
+    if len(part.code) and query.longest_string.least > 0:
+        kept &= x.max(axis=1, initial=0) >= query.longest_string.least
+    if query.centres != ANY_NUMBER:
+        kept &= query.centres.admitted(centres_of_all(part.code, part.n, query.links, x, labels))
+    return DrawnChains(x[kept], labels[kept], order[kept])
+
+
+def _rows_of_maps(query: SCQuery, maps: Maps) -> list[Row]:
+    return [row for part in maps for row in _rows(query, part, drawn_of(query, part))]
+
+
+def _rows(query: SCQuery, part: MapPart, drawn: DrawnChains) -> list[Row]:
+    """Return the rows of the SC graphs of a part; columns are `SC_COLUMNS`."""
+    if not len(drawn.x):
+        return []
+    codes, joints, sizes, facts, left = describe(
+        part.code, part.n, query.links, part.outer, drawn.x, drawn.labels, not query.plain
+    )
+    ids = map_ids(codes, np.full(len(codes), codes.shape[1]), 0 if query.plain else drawn.labels.shape[1])
+    chains, _ = chain_ids(query.links, joints)
+    whole = (1 << query.chains.joints) - 1  # without ride-alongs, all joints are left: the chain itself
+    reduced = [
+        chain if kept == whole else _reduced(joints[i], kept)
+        for i, (chain, kept) in enumerate(zip(chains, left.tolist(), strict=True))
+    ]
+    common = query.links, query.chains.joints, query.dof, query.loops, query.spatial
+    assortment = assortment_of(Counter(np.bincount(joints[0].ravel()).tolist()))
+    centres, infinite, exact = facts.T.tolist()
+    loops, outer = map(tuple, np.sort(sizes[:, 1:], axis=1).tolist()), sizes[:, 0].tolist()
+    columns = centres, infinite, repeat(assortment), loops, outer, drawn.order.tolist(), reduced, exact
+    return list(zip(ids, chains, *map(repeat, common), *columns, strict=False))
+
+
+def _reduced(joints: Ints, kept: int) -> str:
+    """Return the id of the chain of some of the joints."""
+    pairs = [pair for k, pair in enumerate(joints.tolist()) if kept >> k & 1]
+    number: dict[int, int] = {}
+    named = [[number.setdefault(link, len(number)) for link in pair] for pair in pairs]
+    return chain_ids(len(number), np.array([named], np.int64))[0][0]
+
+
 def maps_for(query: SCQuery) -> Iterator[tuple[int, Bytes]]:
-    """Yield the contracted maps whose chains can be among those asked for, most links first."""
+    """Yield the contracted maps whose chains a query may admit, most links first."""
     if not query.possible or query.loops < 2:
         return
     for n, codes in contracted_maps(query.loops):
@@ -71,17 +188,8 @@ def map_units(query: SCQuery, size: int = UNIT_ROWS) -> Iterator[Unit]:
     if query.possible and query.loops == 1:
         degrees = Counter({2: query.links})
         if query.links in query.longest_string and query.chains.admits_assortment(degrees):
-            yield Unit((MapPart(_RING, 0, 0),))
-    held: list[MapPart] = []
-    weight = 0
-    for part, count in _parts(query, size):
-        if held and weight + count > size:
-            yield Unit(tuple(held), weight)
-            held, weight = [], 0
-        held.append(part)
-        weight += count
-    if held:
-        yield Unit(tuple(held), weight)
+            yield Unit((MapPart(np.zeros(0, np.uint8), 0, 0),))
+    yield from packed(_parts(query, size), size)
 
 
 def _parts(query: SCQuery, size: int) -> Iterator[tuple[MapPart, int]]:
@@ -89,39 +197,20 @@ def _parts(query: SCQuery, size: int) -> Iterator[tuple[MapPart, int]]:
     for n, codes in maps_for(query):
         for code in codes:
             for outer in outer_faces(code).tolist():
-                yield from _split(query, MapPart(code, n, outer), size)
+                number = partial(_number_in, query, MapPart(code, n, outer))
+                ways = beginnings(number, query.links - n, (len(code) - n) // 2, 2 * size)
+                for only, prefix, count in ways:
+                    yield MapPart(code, n, outer, only, prefix), count
 
 
-def number_in(query: SCQuery, part: MapPart) -> int:
-    """Return the number of drawn chains of a part."""
-    return int(weight_of(part.code, part.n, part.outer, query.links, query.chains.most, part.only, part.prefix))
-
-
-def _split(query: SCQuery, part: MapPart, size: int) -> Iterator[tuple[MapPart, int]]:
-    count = number_in(query, part)
-    if count <= 2 * size:
-        if count:
-            yield part, count
-    elif part.only == EVERY:
-        for only in range(query.links - part.n + 1):
-            yield from _split(query, MapPart(part.code, part.n, part.outer, only), size)
-    elif len(part.prefix) >= query.links - part.n:
-        yield part, count
-    else:
-        joints = (len(part.code) - part.n) // 2
-        for slot in range(part.prefix[-1] if len(part.prefix) else 0, joints):
-            prefix = np.append(part.prefix, slot)
-            yield from _split(query, MapPart(part.code, part.n, part.outer, part.only, prefix), size)
-
-
-def drawn_of(query: SCQuery, part: MapPart) -> DrawnChains:
-    """Return the SC graphs of a part."""
-    return DrawnChains.of(query, part.code, part.n, part.outer, part.only, part.prefix)
+def _number_in(query: SCQuery, part: MapPart, only: int, prefix: Ints) -> int:
+    """Return the number of drawn chains of a part that begin in one way."""
+    return int(count_on_map(part.code, part.n, part.outer, query.links, query.chains.most, only, prefix))
 
 
 @dataclass(frozen=True)
 class SCJob:
-    """All SC graphs that a query asks for, as rows.
+    """All SC graphs of a query, as rows.
 
     Attributes
     ----------
@@ -132,11 +221,7 @@ class SCJob:
 
     query: SCQuery
     unit_rows: int = UNIT_ROWS
-
-    @property
-    def columns(self) -> dict[str, Column]:
-        """Names and types of the values of a row."""
-        return SC_COLUMNS
+    columns = SC_COLUMNS
 
     @property
     def key(self) -> dict[str, Any]:
@@ -149,12 +234,16 @@ class SCJob:
 
     def work(self, payload: Maps) -> list[Row]:
         """Return the rows of a unit."""
-        return [row for part in payload for row in sc_rows_of(self.query, drawn_of(self.query, part))]
+        return _rows_of_maps(self.query, payload)
+
+    def number(self, payload: Maps) -> int:
+        """Return the number of SC graphs of a unit, without their attributes."""
+        return sum(len(drawn_of(self.query, part).x) for part in payload)
 
 
 @dataclass(frozen=True)
 class SCCountJob(Counting):
-    """The number of SC graphs of which nothing is asked but what their chains show; rows are numbers to be added.
+    """The number of SC graphs, chosen only by what their chains show; rows are numbers to be added.
 
     Attributes
     ----------
@@ -175,11 +264,7 @@ class SCCountJob(Counting):
 
     def units(self) -> Sequence[Unit]:
         """Units of some hundreds of maps each."""
-        return [
-            Unit((n, codes[i : i + _MAPS]), len(codes[i : i + _MAPS]))
-            for n, codes in maps_for(self.query)
-            for i in range(0, len(codes), _MAPS)
-        ]
+        return [Unit((n, some), len(some)) for n, codes in maps_for(self.query) for some in batches(codes, _MAPS)]
 
     def work(self, payload: tuple[int, Bytes]) -> list[Row]:
         """Return the number of SC graphs of a unit."""
@@ -192,28 +277,8 @@ class SCCountJob(Counting):
         return [(number(query.chains.most) - (number(low - 1) if low > 0 else 0),)]
 
 
-@dataclass(frozen=True)
-class _ListedCountJob(Counting):
-    """The number of SC graphs that have to be made to be counted."""
-
-    query: SCQuery
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
-        return {"count": "sc", **self.query.key}
-
-    def units(self) -> Sequence[Unit]:
-        """Return those of the listing."""
-        return list(map_units(self.query))
-
-    def work(self, payload: Maps) -> list[Row]:
-        """Return the number of SC graphs of a unit; nothing about them is worked out that is not asked for."""
-        return [(sum(len(drawn_of(self.query, part).x) for part in payload),)]
-
-
-def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True) -> SCCountJob | _ListedCountJob:
-    """Return the job that counts what a query asks for.
+def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True) -> SCCountJob | RowCount:
+    """Return the job that counts the SC graphs of a query.
 
     Parameters
     ----------
@@ -230,12 +295,10 @@ def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True
     Raises
     ------
     UnsolvableError
-        If it can only be counted by listing, and Burnside's lemma or embeddings without outer face are asked for.
+        If Burnside's lemma, or embeddings without an outer face, cannot be counted by all that the query limits.
 
     Examples
     --------
-    Both ways to count:
-
     >>> from enumerate.runner.running import total_of
     >>> [total_of(sc_count_job(SCQuery(6, 1), method)) for method in ("orbits", "burnside")]
     [4, 4]
@@ -244,9 +307,218 @@ def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True
         return SCCountJob(query, method, outside)
     if method == "burnside" and query.loops > 1:
         raise UnsolvableError(
-            "Burnside's lemma counts SC graphs with finite centres, by assortment and longest string; "
-            "not by centres, symmetries, spatial loops or centres at infinity"
+            "Burnside's lemma cannot count by centres or symmetries, nor spatial loops or centres at infinity; "
+            "try --method orbits"
         )
     if not outside and query.loops > 1:
-        raise UnsolvableError("embeddings without outer face have no centres yet to choose them by")
-    return _ListedCountJob(query)
+        raise UnsolvableError("embeddings without an outer face have no centres by which to choose them")
+    return RowCount(SCJob(query), {"count": "sc", **query.key})
+
+
+_COLUMNS: dict[str, Column] = {
+    "code": str,
+    "chain": str,
+    "name": str,
+    "links": int,
+    "joints": int,
+    "dof": int,
+    "loops": int,
+    "assortment": ListColumn(","),
+    "sc_graphs": int,
+    "centres": int,
+    "forms": int,
+}
+_CODE, _CHAIN, _CENTRES = (list(SC_COLUMNS).index(name) for name in ("code", "chain", "centres"))
+
+
+@dataclass(frozen=True)
+class FormJob:
+    """One row for each planar chain: how many SC graphs it has, and one with the most centres.
+
+    ``centres`` of the query limits what counts as a form: chains without such SC graphs have no row.
+    """
+
+    query: SCQuery
+    columns = _COLUMNS
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {"enumerate": "sc forms", **self.query.key}
+
+    def units(self) -> Sequence[Unit]:
+        """Units of whole contracted graphs: all drawings of a chain are in one."""
+        rings = [Unit((unit.payload,), unit.weight) for unit in map_units(self.query) if self.query.loops == 1]
+        return [*rings, *packed(self._graphs(), UNIT_ROWS)]
+
+    def _graphs(self) -> Iterator[tuple[Maps, int]]:
+        """Yield the maps of each contracted graph, with all their outer faces, and the number of SC graphs."""
+        for n, codes in maps_for(self.query):
+            graphs: dict[bytes, list[MapPart]] = {}
+            for code in codes:
+                parts = [MapPart(code, n, outer) for outer in outer_faces(code).tolist()]
+                graphs.setdefault(graph_key(joint_matrix(code, n), n).tobytes(), []).extend(parts)
+            for maps in graphs.values():
+                count = sum(_number_in(self.query, part, part.only, part.prefix) for part in maps)
+                if count:
+                    yield tuple(maps), count
+
+    def work(self, payload: tuple[Maps, ...]) -> list[Row]:
+        """Return the rows of a unit."""
+        return [row for maps in payload for row in self._forms(maps)]
+
+    def _forms(self, maps: Maps) -> list[Row]:
+        """Return a row for each chain drawn in some maps."""
+        chains: dict[str, list[Row]] = {}
+        for row in _rows_of_maps(self.query, maps):
+            chains.setdefault(row[_CHAIN], []).append(row)
+        rows = []
+        for chain, drawings in chains.items():
+            most = max(row[_CENTRES] for row in drawings)
+            forms = sorted(row[_CODE] for row in drawings if row[_CENTRES] == most)
+            values = dict(zip(SC_COLUMNS, drawings[0], strict=True))
+            values |= {"code": forms[0], "name": name_of(chain), "sc_graphs": len(drawings), "centres": most}
+            values["forms"] = len(forms)
+            rows.append(tuple(values[column] for column in _COLUMNS))
+        return rows
+
+
+def sc_graphs(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterator[SCGraph]:
+    """Yield all SC graphs of N links and M degrees of freedom, in a fixed order.
+
+    Parameters
+    ----------
+    links, dof : int
+        N >= 4 and M >= 1. N - 1 and M + 3 S must be both even or both odd, else there is none.
+    workers : int
+        Processes.
+    **options
+        Other fields of `SCQuery`: ``spatial``, ``infinite``, ``centres``, ``symmetry``, ``assortment``,
+        ``longest_string``.
+
+    Yields
+    ------
+    SCGraph
+        The loops are the bounded faces. Graph attributes hold the row of `sc_rows`.
+
+    Raises
+    ------
+    InvariantError
+        If a number is out of its range.
+
+    Examples
+    --------
+    >>> [len(sc.centre_classes()) for sc in sc_graphs(6, 1)]
+    [2, 1, 1, 1]
+    """
+    for row in sc_rows(links, dof, workers=workers, **options):
+        mechanism = mechanism_from_map_id(row["code"])
+        mechanism.graph.update(row)
+        yield mechanism
+
+
+def sc_rows(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterator[dict[str, Any]]:
+    """Yield a dictionary for each SC graph.
+
+    Keys: ``code`` (its id), ``chain`` (id of the link-joint graph), ``links``, ``joints``, ``dof``, ``loops``,
+    ``spatial`` (loops without a centre), ``centres`` (classes), ``infinite`` (how many of them lie at infinity),
+    ``assortment`` (numbers of binary, ternary, ... links), ``loop_sizes``, ``outer_size`` (joints round the
+    faces), ``symmetry`` (their number), ``reduced`` (id of the chain without ride-alongs), ``exact_dof`` (joints
+    minus rank).
+
+    Parameters
+    ----------
+    links, dof, workers, **options
+        As for `sc_graphs`.
+
+    Examples
+    --------
+    >>> sorted((row["loop_sizes"], row["outer_size"]) for row in sc_rows(6, 1))
+    [([4, 4], 6), ([4, 5], 5), ([4, 6], 4), ([5, 5], 4)]
+    """
+    yield from rows_of(SCJob(SCQuery(links, dof, **options)), workers=workers)
+
+
+def chain_forms(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterator[dict[str, Any]]:
+    """Yield a dictionary for each planar chain: its number of SC graphs, and one with the most centres.
+
+    Parameters
+    ----------
+    links, dof, workers, **options
+        As for `sc_graphs`.
+
+    Examples
+    --------
+    >>> [(row["name"], row["centres"]) for row in chain_forms(6, 1)]
+    [('watt', 2), ('stephenson', 1)]
+    """
+    yield from rows_of(FormJob(SCQuery(links, dof, **options)), workers=workers)
+
+
+def count_sc_graphs(
+    links: int, dof: int, method: str = "orbits", *, outside: bool = True, workers: int = 1, **options: Any
+) -> int:
+    """Return the number of SC graphs of N links and M degrees of freedom.
+
+    Parameters
+    ----------
+    links, dof, **options
+        As for `sc_graphs`.
+    method : {"orbits", "burnside"}
+        Two ways that share the contracted maps and the conditions of rigidity only.
+    outside : bool
+        Whether an outer face is chosen; without it, embeddings of the chains in the sphere are counted.
+    workers : int
+        Processes.
+
+    Raises
+    ------
+    InvariantError
+        If a number is out of its range.
+    UnsolvableError
+        If the method cannot count by all that the options limit.
+
+    Examples
+    --------
+    >>> [count_sc_graphs(links, 1) for links in (4, 6, 8, 10)]
+    [1, 4, 54, 1564]
+    >>> [count_sc_graphs(links, 1, "burnside", outside=False) for links in (4, 6, 8)]
+    [1, 2, 20]
+    """
+    return total_of(sc_count_job(SCQuery(links, dof, **options), method, outside=outside), workers=workers)
+
+
+LABEL_LETTERS = "ofis"
+"""Letters of the labels of `enumerate.kernel.centres`."""
+
+_LETTERS = np.full(256, ord("?"), np.uint8)
+_LETTERS[[OPEN, END]] = np.frombuffer(b"-.", np.uint8)
+_LETTERS[JOINT : JOINT + len(ascii_letters)] = np.frombuffer(ascii_letters.encode("ascii"), np.uint8)
+
+
+def map_ids(codes: Bytes, lengths: Ints, labels: int) -> list[str]:
+    """Return the ids of codes, one in each row of uint8[r, width] with anything after it.
+
+    A length includes the labels at the end, so many for each code, the first that of the outer face.
+
+    >>> map_ids(np.array([[2, 3, 1, 2, 3, 1, 0, 1, 2]], np.uint8), np.array([9]), 3)
+    ['m1:ab.ab;fi']
+    """
+    if not len(codes):
+        return []
+    width = codes.shape[1]
+    ends = (lengths - labels).tolist()
+    if codes.max() < JOINT + len(ascii_letters):
+        text = _LETTERS[codes].tobytes().decode("ascii")
+        texts = ["m1:" + text[i * width : i * width + end - 1] for i, end in enumerate(ends)]
+    else:
+        texts = [map_text(row[:end]) for row, end in zip(codes.tolist(), ends, strict=True)]
+    if not labels:
+        return texts
+    suffixes = [
+        "".join(LABEL_LETTERS[label] for label in row[end + 1 : end + labels])
+        for row, end in zip(codes.tolist(), ends, strict=True)
+    ]
+    return [
+        f"{text};{suffix}" if set(suffix) - {"f"} else text for text, suffix in zip(texts, suffixes, strict=True)
+    ]

@@ -1,6 +1,8 @@
-"""SC graphs of a contracted map, listed, counted and described, compiled.
+"""SC graphs of a contracted map, listed, counted, described and reduced, compiled.
 
-Theory: docs/theory/sc-enumeration.md.
+Ride-alongs are taken off by the rule of `graphs.reduce.ride_alongs.reduce`: binary links u, v joined to each
+other, their other neighbours a and b joined by a joint, and the cycle a-u-v-b a sum of loops of one class. Sets
+of joints are words of 64 bits. Theory: docs/theory/sc-enumeration.md, docs/theory/reduction.md.
 """
 
 from __future__ import annotations
@@ -10,24 +12,30 @@ from typing import NamedTuple
 import numpy as np
 
 from enumerate.chains.counting import count_fixed, count_in
-from enumerate.contracted.binary_links import EVERY, Wanted
-from enumerate.contracted.embedded import code_of, expanded, outer_faces, outer_frame, ring, sets_of
-from enumerate.contracted.listing import list_placements
-from enumerate.kernel.burnside import number_of_orbits
-from enumerate.kernel.centre_labels import FINITE, INFINITE, OUTER, classes_of, joints_of_faces, labellings
-from enumerate.kernel.compiled import compiled
-from enumerate.kernel.ranks import class_points, mobility_of
-from enumerate.sc.reduced import reduced_joints
+from enumerate.contracted.binary_links import EVERY, PlacementRange, list_placements
+from enumerate.contracted.maps import code_of, expanded, outer_faces, outer_frame, ring, sets_of
+from enumerate.kernel.centres import (
+    FINITE,
+    OUTER,
+    centres_at_infinity,
+    class_points,
+    classes_of,
+    joints_of_faces,
+    labellings,
+    mobility_of,
+)
+from enumerate.kernel.compiled import compiled, doubled, number_of_orbits
 from graphs.arrays import Bytes, Ints, Words
 
 __all__ = [
+    "Centres",
     "centres_of_all",
     "codes_of_all",
     "count_drawn",
     "count_drawn_by_burnside",
+    "count_on_map",
     "describe",
     "list_drawn",
-    "weight_of",
 ]
 
 
@@ -44,7 +52,7 @@ class Centres(NamedTuple):
 
 
 @compiled
-def weight_of(code: Bytes, n: int, outer: int, links: int, most: int, only: int, prefix: Ints) -> int:
+def count_on_map(code: Bytes, n: int, outer: int, links: int, most: int, only: int, prefix: Ints) -> int:
     """Return the number of drawn chains of a contracted map with one outer face that begin in one way.
 
     The map has n links; the outer face is -1 for embeddings in the sphere without one. The other arguments are
@@ -52,7 +60,7 @@ def weight_of(code: Bytes, n: int, outer: int, links: int, most: int, only: int,
     """
     ends, moved, _ = outer_frame(code, outer)
     sets, needs = sets_of(code, n)
-    return count_in(ends, np.arange(len(ends)), moved, sets, needs, n, Wanted(links, most, only), prefix)
+    return count_in(ends, np.arange(len(ends)), moved, sets, needs, n, PlacementRange(links, most, only), prefix)
 
 
 @compiled
@@ -69,7 +77,7 @@ def count_drawn(codes: Bytes, n: int, links: int, most: int, outside: bool) -> i
         for k in range(len(faces)):
             ends, moved, _ = outer_frame(codes[c], faces[k])
             first = np.arange(len(ends))
-            total += count_in(ends, first, moved, sets, needs, n, Wanted(links, most, EVERY), nowhere)
+            total += count_in(ends, first, moved, sets, needs, n, PlacementRange(links, most, EVERY), nowhere)
     return total
 
 
@@ -101,11 +109,11 @@ def _drawing(code: Bytes, n: int, x: Bytes, links: int) -> tuple[Ints, Ints, Int
 
 @compiled
 def list_drawn(
-    code: Bytes, n: int, outer: int, wanted: Wanted, prefix: Ints, centres: Centres
+    code: Bytes, n: int, outer: int, wanted: PlacementRange, prefix: Ints, centres: Centres
 ) -> tuple[Bytes, Ints, Ints]:
     """List the SC graphs of a contracted map with one outer face: binary links, labels of faces, and symmetries.
 
-    The arguments are those of `weight_of`; an empty code is a ring. Binary links on each joint of the map are
+    The arguments are those of `count_on_map`; an empty code is a ring. Binary links on each joint of the map are
     uint8[r, m], labels int64[r, F], and numbers of symmetries int64[r].
     """
     if len(code):
@@ -133,13 +141,8 @@ def _labelled(
     code: Bytes, n: int, outer: int, links: int, x: Bytes, moved: Bytes, faces: Ints, centres: Centres
 ) -> tuple[Bytes, Ints, Ints]:
     """Return drawn chains with all labels of their faces that make mechanisms."""
-    count = faces.shape[1]
-    size = used = 0
-    more_x, more_labels, more_order = (
-        np.zeros((64, x.shape[1]), np.uint8),
-        np.zeros((64, count), np.int64),
-        np.zeros(64, np.int64),
-    )
+    count, used = faces.shape[1], 0
+    more_x, facts = np.zeros((64, x.shape[1]), np.uint8), np.zeros((64, count + 1), np.int64)  # labels, then order
     for r in range(len(x)):
         _, _, face = _drawing(code, n, x[r], links)
         around = joints_of_faces(face, count)
@@ -152,37 +155,15 @@ def _labelled(
         for k in range(len(labels)):
             if not is_mechanism(face, labels[k], around, centres.dof):
                 continue
-            size = len(more_x)
-            if used == size:
-                grown_x, grown_labels, grown_order = (
-                    np.zeros((2 * size, x.shape[1]), np.uint8),
-                    np.zeros((2 * size, count), np.int64),
-                    np.zeros(2 * size, np.int64),
-                )
-                for i in range(size):
-                    for e in range(x.shape[1]):
-                        grown_x[i, e] = more_x[i, e]
-                    for f in range(count):
-                        grown_labels[i, f] = more_labels[i, f]
-                    grown_order[i] = more_order[i]
-                more_x, more_labels, more_order = grown_x, grown_labels, grown_order
+            if used == len(more_x):
+                more_x, facts = doubled(more_x), doubled(facts)
             for e in range(x.shape[1]):
                 more_x[used, e] = x[r, e]
             for f in range(count):
-                more_labels[used, f] = labels[k, f]
-            more_order[used] = order[k]
+                facts[used, f] = labels[k, f]
+            facts[used, count] = order[k]
             used += 1
-    return more_x[:used], more_labels[:used], more_order[:used]
-
-
-@compiled
-def _at_infinity(labels: Ints, number: Ints, classes: int) -> Ints:
-    """Return 1 for each class with a centre at infinity, else 0."""
-    found = np.zeros(classes, np.int64)
-    for f in range(len(labels)):
-        if labels[f] == INFINITE:
-            found[number[f]] = 1
-    return found
+    return more_x[:used], facts[:used, :count].copy(), facts[:used, count].copy()
 
 
 @compiled
@@ -190,7 +171,7 @@ def is_mechanism(face: Ints, labels: Ints, around: Words, dof: int) -> bool:
     """Tell whether the exact rank gives so many freedoms and every joint moves."""
     number, classes = classes_of(around, labels)
     points = class_points(face, number)
-    return mobility_of(face, labels, points, _at_infinity(labels, number, classes), True) == dof
+    return mobility_of(face, labels, points, centres_at_infinity(labels, number, classes), True) == dof
 
 
 @compiled
@@ -225,7 +206,7 @@ def describe(
         turn, vertex, face = _drawing(code, n, x[r], links)
         around = joints_of_faces(face, count)
         number, classes = classes_of(around, labels[r])
-        infinite = _at_infinity(labels[r], number, classes)
+        infinite = centres_at_infinity(labels[r], number, classes)
         points = class_points(face, number)
         facts[r, 0], facts[r, 2] = classes, mobility_of(face, labels[r], points, infinite, False)
         for c in range(classes):
@@ -260,3 +241,105 @@ def codes_of_all(code: Bytes, n: int, links: int, outer: int, x: Bytes, labels: 
         for f in range(count):
             met[r, f] = text[darts + links + f]
     return codes, met
+
+
+@compiled
+def reduced_joints(vertex: Ints, around: Words, number: Ints) -> np.uint64:
+    """Return the joints that are left when all ride-alongs are taken off, as bits.
+
+    Given are the links of the joints, the joints round each face, and the class of each face, -1 without a centre.
+    """
+    loops = around.copy()
+    owner = number.copy()
+    joints = len(vertex) // 2
+    alive = ~np.uint64(0) >> np.uint64(64 - joints)
+    degree = np.zeros(joints + 1, np.int64)
+    for d in range(len(vertex)):
+        degree[vertex[d]] += 1
+    left = joints
+    again = True
+    while again and left > 4:
+        again = False
+        for j in range(joints):
+            first, last, between = _addendum(vertex, degree, alive, j)
+            if between < 0:
+                continue
+            string = _bit(first) | _bit(j) | _bit(last)
+            dropped = _in_sum(loops, owner, string | _bit(between))
+            if dropped < 0:
+                continue
+            for f in range(len(loops)):
+                if loops[f] & string:
+                    loops[f] ^= string | _bit(between)
+            owner[dropped], loops[dropped] = -1, 0
+            alive &= ~string
+            for d in (2 * first, 2 * first + 1, 2 * last, 2 * last + 1):
+                degree[vertex[d]] -= 1
+            left -= 3
+            again = True
+            break
+    return alive
+
+
+@compiled
+def _bit(joint: int) -> np.uint64:
+    return np.uint64(1) << np.uint64(joint)
+
+
+@compiled
+def _other_joint(vertex: Ints, alive: np.uint64, link: int, joint: int) -> int:
+    """Return the other joint of a binary link."""
+    for d in range(len(vertex)):
+        if vertex[d] == link and d >> 1 != joint and alive & _bit(d >> 1):
+            return d >> 1
+    return -1
+
+
+@compiled
+def _addendum(vertex: Ints, degree: Ints, alive: np.uint64, j: int) -> tuple[int, int, int]:
+    """Return joints a-u, v-b and a-b where joint j is u-v of such an addendum; -1 for the last where it is not."""
+    u, v = vertex[2 * j], vertex[2 * j + 1]
+    if not alive & _bit(j) or degree[u] != 2 or degree[v] != 2:
+        return -1, -1, -1
+    first, last = _other_joint(vertex, alive, u, j), _other_joint(vertex, alive, v, j)
+    a = vertex[2 * first] + vertex[2 * first + 1] - u
+    b = vertex[2 * last] + vertex[2 * last + 1] - v
+    if a != b:
+        for k in range(len(vertex) // 2):
+            p, q = vertex[2 * k], vertex[2 * k + 1]
+            if alive & _bit(k) and ((p == a and q == b) or (p == b and q == a)):
+                return first, last, k
+    return -1, -1, -1
+
+
+@compiled
+def _in_sum(loops: Words, owner: Ints, cycle: np.uint64) -> int:
+    """Return a loop of the sum of loops of one class that is a cycle; -1 if it is no such sum."""
+    faces = len(loops)
+    for c in range(faces):
+        rows = np.zeros(faces, np.uint64)
+        parts = np.zeros(faces, np.int64)
+        used = 0
+        for f in range(faces):
+            if owner[f] == c:
+                rows[used], parts[used] = loops[f], 1 << f
+                used += 1
+        if used == 0:
+            continue
+        target, mask = cycle, 0
+        for i in range(used):  # each row clears its lowest joint from the later ones and from the cycle
+            low = rows[i] & (~rows[i] + np.uint64(1))
+            if low == 0:
+                continue
+            for k in range(i + 1, used):
+                if rows[k] & low:
+                    rows[k] ^= rows[i]
+                    parts[k] ^= parts[i]
+            if target & low:
+                target ^= rows[i]
+                mask ^= parts[i]
+        if target == 0:
+            for f in range(faces):
+                if (mask >> f) & 1:
+                    return f
+    return -1

@@ -1,21 +1,20 @@
-"""Which SC graphs are asked for."""
+"""Which SC graphs are to be enumerated."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import dataclass
 
 from enumerate.chains.query import ChainQuery
 from enumerate.contracted.maps import MOST_MAP_LOOPS
-from enumerate.kernel.centre_labels import MOST_JOINTS
-from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE, Limits, keep_limits, key_of
-from graphs.errors import InvariantError
+from enumerate.kernel.centres import MOST_JOINTS
+from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, Limits, Query
+from graphs.errors import InvariantError, numbered
 
 __all__ = ["SCQuery"]
 
 
 @dataclass(frozen=True, slots=True)
-class SCQuery:
+class SCQuery(Query):
     """The SC graphs of N links and M degrees of freedom: drawn chains with an outer face and centres.
 
     Attributes
@@ -57,18 +56,18 @@ class SCQuery:
 
     def __post_init__(self) -> None:
         if self.spatial < 0:
-            raise InvariantError("spatial loops", f"{self.spatial} spatial loops", "0 or more")
+            raise InvariantError("spatial loops", numbered(self.spatial, "spatial loop"), "0 or more")
         if self.dof < 1:
-            raise InvariantError("dof", f"{self.dof} degrees of freedom", "1 or more")
-        keep_limits(self, "centres", "symmetry", "longest_string")
+            raise InvariantError("dof", numbered(self.dof, "degree of freedom", "degrees of freedom"), "1 or more")
+        self._keep_limits("centres", "symmetry", "longest_string")
         if self.chains.loops > MOST_MAP_LOOPS:
             raise InvariantError(
                 "loops",
-                f"{self.links} links with M = {self.dof} have {self.loops} loops",
+                f"{self.links} links with M = {self.dof} have {numbered(self.loops, 'loop')}",
                 f"{MOST_MAP_LOOPS} at most",
             )
         if self.chains.joints > MOST_JOINTS:
-            raise InvariantError("joints", f"{self.chains.joints} joints", f"{MOST_JOINTS} at most")
+            raise InvariantError("joints", numbered(self.chains.joints, "joint"), f"{MOST_JOINTS} at most")
 
     @property
     def chains(self) -> ChainQuery:
@@ -96,11 +95,6 @@ class SCQuery:
         return self.spatial == 0 and not self.infinite
 
     @property
-    def key(self) -> dict[str, Any]:
-        """The query in JSON values."""
-        return {field.name: key_of(getattr(self, field.name)) for field in fields(self)}
-
-    @property
     def unfiltered(self) -> bool:
-        """Whether nothing is asked of an SC graph that its chain's placement does not show."""
+        """Whether SC graphs are chosen only by what the placement of binary links shows."""
         return self.plain and self.centres == ANY_NUMBER and self.symmetry == ONE_OR_MORE

@@ -1,27 +1,109 @@
-"""The jobs of SCD graph enumeration: how listing and counting are split into units."""
+"""SCD graphs: every valid placement of open edges on every SC graph, and on every plane tree, listed and counted.
+
+The thesis stops at single examples of SCD graphs (section 3.4); here are all of a size, by the rules of
+`graphs.mechanism.rules` and with the exact rank under the forced geometry (rule S3). Theory:
+docs/theory/scd-enumeration.md.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
-from enumerate.runner.columns import Column
-from enumerate.runner.job import Counting, Row, Unit
-from enumerate.sc.jobs import UNIT_ROWS, MapPart, Maps, drawn_of, map_units
+from enumerate.chains.rows import chain_ids
+from enumerate.contracted.maps import plane_trees
+from enumerate.kernel.centres import FINITE, MOST_JOINTS, OUTER, SPATIAL
+from enumerate.runner.job import ANY_NUMBER, Column, Counting, ListColumn, Row, Unit, batches
+from enumerate.runner.running import rows_of, total_of
+from enumerate.sc.jobs import LABEL_LETTERS, UNIT_ROWS, Maps, drawn_of, map_ids, map_units
 from enumerate.sc.listing import codes_of_all
-from enumerate.sc.query import SCQuery
-from enumerate.scd.choices import numbers_of_placements
-from enumerate.scd.counting import count_placements
-from enumerate.scd.plane_trees import plane_trees
+from enumerate.scd.listing import count_placements, list_placements_of, sides_of_all
+from enumerate.scd.patterns import numbers_of_placements, outline
 from enumerate.scd.query import PlacementQuery, SCDQuery
-from enumerate.scd.rows import SCD_COLUMNS, placements_on, scd_rows_of
 from graphs.arrays import Bytes, Ints
-from graphs.errors import UnsolvableError
+from graphs.count.report import mobility_report
+from graphs.errors import InvariantError, UnsolvableError, numbered
+from graphs.identity.drawings import map_code, map_id, mechanism_from_map_id
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 
-__all__ = ["AllMechanisms", "Drawn", "Mechanisms", "OneMechanism", "SCDCountJob", "SCDJob", "scd_count_job"]
+__all__ = [
+    "AllMechanisms",
+    "Mechanisms",
+    "SCDCountJob",
+    "SCDJob",
+    "all_mechanisms",
+    "count_scd_graphs",
+    "mechanism_of",
+    "placements_on",
+    "scd_count_job",
+    "scd_graphs",
+    "scd_graphs_of",
+    "scd_rows",
+]
+
+SCD_COLUMNS: dict[str, Column] = {
+    "code": str,
+    "sc": str,
+    "chain": str,
+    "links": int,
+    "joints": int,
+    "dof": int,
+    "loops": int,
+    "spatial": int,
+    "centres": int,
+    "infinite": int,
+    "sides": ListColumn(","),
+    "open_edges": int,
+    "vertices": int,
+    "explicit": int,
+    "implicit": int,
+    "symmetry": int,
+    "exact_dof": int,
+}
+
+
+def placements_on(
+    query: PlacementQuery, code: Bytes, labels: Ints, dof: int, first: int, last: int
+) -> tuple[Bytes, Ints, Ints]:
+    """Return the placements that a query asks for, as `enumerate.scd.listing.list_placements_of` does.
+
+    The code is without open edges; labels begin with the outer face, and the last number is excluded.
+    """
+    codes, lengths, facts = list_placements_of(
+        code, labels, query.max_degree, dof, first, last, query.sheets, query.symmetric
+    )
+    if query.vertices == ANY_NUMBER:
+        return codes, lengths, facts
+    kept = query.vertices.admitted(facts[:, 1])
+    return codes[kept], lengths[kept], facts[kept]
+
+
+def _rows_on(query: PlacementQuery, dof: int, code: Bytes, labels: Ints, first: int, last: int) -> list[Row]:
+    """Return the rows of the placements on a mechanism; columns are `SCD_COLUMNS`. Arguments: `placements_on`."""
+    codes, lengths, facts = placements_on(query, code, labels, dof, first, last)
+    if not len(codes):
+        return []
+    faces = len(labels)
+    text, joints, centres, infinite = outline(code, labels)
+    links = int(joints.max()) + 1
+    sc = map_ids(text[None], np.array([len(text)]), faces)[0]
+    chain = chain_ids(links, joints[None])[0][0]
+    spatial = int((labels == SPATIAL).sum())
+    common = sc, chain, links, len(joints), dof, faces - 1, spatial, centres, infinite
+    sides = sides_of_all(codes, lengths, faces, query.max_degree)[:, 3:].tolist()
+    return [
+        (code_text, *common, _without_last_zeros(degrees), *values)
+        for code_text, degrees, values in zip(map_ids(codes, lengths, faces), sides, facts.tolist(), strict=True)
+    ]
+
+
+def _without_last_zeros(counts: list[int]) -> tuple[int, ...]:
+    return tuple(counts[: max(i for i, count in enumerate(counts) if count) + 1])
+
 
 _PLACEMENTS = 40_000
 """Placements of a unit, about; symmetric ones counted apart."""
@@ -29,11 +111,9 @@ _PLACEMENTS = 40_000
 _MECHANISMS = 5_000
 """Mechanisms of a unit, about."""
 
-_ALL = 1 << 62
-
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
+class CodedMechanisms:
     """Mechanisms as codes without labels and open edges, uint8[r, D + N].
 
     Labels of the faces, uint8[r, F], are in the order in which the codes meet them, the outer one first.
@@ -46,39 +126,17 @@ class Drawn:
         """Return the number of mechanisms."""
         return len(self.codes)
 
-    def slice(self, start: int, end: int) -> Drawn:
+    def slice(self, start: int, end: int) -> CodedMechanisms:
         """Return some of them; what is pickled then holds no others."""
-        return Drawn(self.codes[start:end], self.labels[start:end])
+        return CodedMechanisms(self.codes[start:end], self.labels[start:end])
 
     def each(self) -> Iterator[tuple[Bytes, Ints]]:
         """Yield code and labels of each, as compiled functions take them."""
         yield from zip(self.codes, self.labels.astype(np.int64), strict=True)
 
 
-Source = Maps | Drawn
+Source = Maps | CodedMechanisms
 """Where some mechanisms come from: contracted maps, or they are there themselves."""
-
-
-class Mechanisms(Protocol):
-    """The mechanisms on which open edges are placed."""
-
-    @property
-    def dof(self) -> int:
-        """Their degrees of freedom."""
-
-    @property
-    def placements(self) -> PlacementQuery:
-        """What is asked of the placements."""
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What they are, in JSON values."""
-
-    def sources(self, size: int) -> Iterator[Unit]:
-        """Yield units of about so many mechanisms, whose payloads are sources, without listing mechanisms."""
-
-    def drawn(self, source: Source) -> Iterator[Drawn]:
-        """Yield the mechanisms of a source."""
 
 
 @dataclass(frozen=True)
@@ -94,7 +152,7 @@ class AllMechanisms:
 
     @property
     def placements(self) -> PlacementQuery:
-        """What is asked of the placements."""
+        """Which placements are enumerated."""
         return self.query.placements
 
     @property
@@ -103,28 +161,23 @@ class AllMechanisms:
         return {"enumerate": "scd", **self.query.key}
 
     def sources(self, size: int) -> Iterator[Unit]:
-        """Yield contracted maps, or trees."""
+        """Yield units of about so many mechanisms: contracted maps, without listing mechanisms, or trees."""
         if not self.query.tree:
             yield from map_units(self.query.sc, size)
             return
-        codes = plane_trees(self.query.links, self.query.placements.max_degree)
-        trees = Drawn(codes, np.zeros((len(codes), 1), np.uint8))
-        for start in range(0, len(trees), size):
-            some = trees.slice(start, start + size)
-            yield Unit(some, len(some))
+        for codes in batches(plane_trees(self.query.links, self.query.placements.max_degree), size):
+            yield Unit(CodedMechanisms(codes, np.zeros((len(codes), 1), np.uint8)), len(codes))
 
-    def drawn(self, source: Source) -> Iterator[Drawn]:
+    def drawn(self, source: Source) -> Iterator[CodedMechanisms]:
         """Yield the SC graphs of each map, or the trees."""
-        if isinstance(source, Drawn):
+        if isinstance(source, CodedMechanisms):
             yield source
-        else:
-            yield from (_drawn(self.query.sc, part) for part in source)
-
-
-def _drawn(query: SCQuery, part: MapPart) -> Drawn:
-    listed = drawn_of(query, part)
-    codes, labels = codes_of_all(part.code, part.n, query.links, part.outer, listed.x, listed.labels)
-    return Drawn(codes, labels.astype(np.uint8))
+            return
+        for part in source:
+            listed = drawn_of(self.query.sc, part)
+            arguments = part.code, part.n, self.query.links, part.outer, listed.x, listed.labels
+            codes, labels = codes_of_all(*arguments)
+            yield CodedMechanisms(codes, labels.astype(np.uint8))
 
 
 @dataclass(frozen=True)
@@ -133,7 +186,7 @@ class OneMechanism:
 
     name: str
     dof: int
-    source: Drawn
+    source: CodedMechanisms
     placements: PlacementQuery
 
     @property
@@ -146,10 +199,14 @@ class OneMechanism:
         del size
         yield Unit(self.source)
 
-    def drawn(self, source: Source) -> Iterator[Drawn]:
+    def drawn(self, source: Source) -> Iterator[CodedMechanisms]:
         """Yield the mechanism."""
         del source
         yield self.source
+
+
+Mechanisms = AllMechanisms | OneMechanism
+"""The mechanisms on which open edges are placed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,9 +216,14 @@ class _Placements:
     Mechanisms are listed once, when units are made: the rows on each take far more room.
     """
 
-    mechanisms: Drawn
+    mechanisms: CodedMechanisms
     first: int = 0
-    last: int = _ALL
+    last: int = 1 << 62
+
+    def each(self) -> Iterator[tuple[Bytes, Ints, int, int]]:
+        """Yield code and labels of each mechanism, as compiled functions take them, and the range of numbers."""
+        for code, labels in self.mechanisms.each():
+            yield code, labels, self.first, self.last
 
 
 @dataclass(frozen=True)
@@ -177,11 +239,7 @@ class SCDJob:
 
     mechanisms: Mechanisms
     unit_rows: int = _PLACEMENTS
-
-    @property
-    def columns(self) -> dict[str, Column]:
-        """Names and types of the values of a row."""
-        return SCD_COLUMNS
+    columns = SCD_COLUMNS
 
     @property
     def key(self) -> dict[str, Any]:
@@ -195,12 +253,16 @@ class SCDJob:
     def work(self, payload: tuple[_Placements, ...]) -> list[Row]:
         """Return the rows of a unit."""
         query, dof = self.mechanisms.placements, self.mechanisms.dof
-        return [
-            row
+        return [row for part in payload for which in part.each() for row in _rows_on(query, dof, *which)]
+
+    def number(self, payload: tuple[_Placements, ...]) -> int:
+        """Return the number of rows of a unit."""
+        query, dof = self.mechanisms.placements, self.mechanisms.dof
+        return sum(
+            len(placements_on(query, code, labels, dof, first, last)[0])
             for part in payload
-            for code, labels in part.mechanisms.each()
-            for row in scd_rows_of(query, code, labels, dof, part.first, part.last)
-        ]
+            for code, labels, first, last in part.each()
+        )
 
 
 def _units(mechanisms: Mechanisms, unit_rows: int) -> Iterator[Unit]:
@@ -226,13 +288,13 @@ def _ranges(mechanisms: Mechanisms, unit_rows: int) -> Iterator[tuple[_Placement
             counts = numbers_of_placements(drawn.codes, drawn.labels.astype(np.int64), most).tolist()
             if min(counts, default=0) < 0:
                 raise UnsolvableError(
-                    f"one mechanism has more than 10^18 placements of open edges for links of up to {most} sides: "
-                    "choose fewer"
+                    f"one mechanism has more than 10^18 placements of open edges for links of up to {most} sides; "
+                    "try a smaller --max-degree"
                 )
             yield from _ranges_on(drawn, counts, unit_rows)
 
 
-def _ranges_on(drawn: Drawn, counts: list[int], unit_rows: int) -> Iterator[tuple[_Placements, int]]:
+def _ranges_on(drawn: CodedMechanisms, counts: list[int], unit_rows: int) -> Iterator[tuple[_Placements, int]]:
     """Yield ranges of the placements on mechanisms that have so many each."""
     start = weight = 0
     for row, count in zip(range(len(counts)), counts, strict=True):
@@ -279,15 +341,8 @@ class SCDCountJob(Counting):
 
     def work(self, payload: Any) -> list[Row]:
         """Return the number of placements of a unit."""
-        return [(self._listed(payload) if self.method == "orbits" else self._counted(payload),)]
-
-    def _listed(self, payload: tuple[_Placements, ...]) -> int:
-        query, dof = self.mechanisms.placements, self.mechanisms.dof
-        return sum(
-            len(placements_on(query, code, labels, dof, part.first, part.last)[0])
-            for part in payload
-            for code, labels in part.mechanisms.each()
-        )
+        listing = SCDJob(self.mechanisms)
+        return [(listing.number(payload) if self.method == "orbits" else self._counted(payload),)]
 
     def _counted(self, source: Source) -> int:
         query, dof = self.mechanisms.placements, self.mechanisms.dof
@@ -310,19 +365,13 @@ def scd_count_job(mechanisms: Mechanisms, method: str | None = None) -> SCDCount
     method : {"burnside", "orbits"}, optional
         ``orbits`` makes the placements, ``burnside`` none.
 
-    Returns
-    -------
-    SCDCountJob
-
     Raises
     ------
     UnsolvableError
-        If Burnside's lemma is asked for what it does not count here.
+        If Burnside's lemma cannot count by all that the query limits.
 
     Examples
     --------
-    Both ways to count:
-
     >>> from enumerate.runner.running import total_of
     >>> four = AllMechanisms(SCDQuery(4, 1, PlacementQuery(4)))
     >>> [total_of(scd_count_job(four, method)) for method in ("orbits", "burnside")]
@@ -330,5 +379,183 @@ def scd_count_job(mechanisms: Mechanisms, method: str | None = None) -> SCDCount
     """
     counted = mechanisms.placements.counted
     if method == "burnside" and not counted:
-        raise UnsolvableError("Burnside's lemma counts neither by vertices nor the symmetric ones alone")
+        raise UnsolvableError("Burnside's lemma cannot count by vertices or symmetry; try --method orbits")
     return SCDCountJob(mechanisms, method or ("burnside" if counted else "orbits"))
+
+
+_OPEN = 0
+
+
+def scd_graphs(links: int, dof: int, max_degree: int, *, workers: int = 1, **options: Any) -> Iterator[SCDGraph]:
+    """Yield all SCD graphs of N links and M degrees of freedom, in a fixed order.
+
+    Parameters
+    ----------
+    links, dof : int
+        With M = N - 1 open chains, else as for `enumerate.sc.jobs.sc_graphs`.
+    max_degree : int
+        The most sides of a link.
+    workers : int
+        Processes.
+    **options
+        Other fields of `PlacementQuery` and `SCDQuery`: ``sheets``, ``symmetric``, ``vertices``, ``spatial``,
+        ``infinite``.
+
+    Yields
+    ------
+    SCDGraph
+        Graph attributes hold the row of `scd_rows`.
+
+    Raises
+    ------
+    InvariantError
+        If a number is out of its range.
+
+    Examples
+    --------
+    >>> [scd.counts.vertices for scd in scd_graphs(4, 1, 4)]
+    [8, 5, 6, 7, 7, 8, 9]
+    """
+    yield from _graphs(all_mechanisms(links, dof, max_degree, **options), workers)
+
+
+def scd_graphs_of(mechanism: SCGraph, max_degree: int, *, workers: int = 1, **options: Any) -> Iterator[SCDGraph]:
+    """Yield all SCD graphs of an SC graph; see `mechanism_of`.
+
+    Parameters
+    ----------
+    mechanism, max_degree, **options
+        As for `mechanism_of`.
+    workers : int
+        Processes.
+
+    Yields
+    ------
+    SCDGraph
+        Graph attributes hold the row of `scd_rows`.
+
+    Raises
+    ------
+    UnsolvableError, InvariantError
+        As of `mechanism_of`.
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Loop
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> len(list(scd_graphs_of(four_bar, 4)))
+    7
+    """
+    yield from _graphs(mechanism_of(mechanism, max_degree, **options), workers)
+
+
+def _graphs(mechanisms: Mechanisms, workers: int) -> Iterator[SCDGraph]:
+    for row in rows_of(SCDJob(mechanisms), workers=workers):
+        scd = mechanism_from_map_id(row["code"])
+        assert isinstance(scd, SCDGraph)
+        scd.graph.update(row)
+        yield scd
+
+
+def scd_rows(
+    links: int, dof: int, max_degree: int, *, workers: int = 1, **options: Any
+) -> Iterator[dict[str, Any]]:
+    """Yield a dictionary for each SCD graph.
+
+    Keys: ``code`` (its id), ``sc`` (id of its SC graph), ``chain`` (id of the link-joint graph), ``links``,
+    ``joints``, ``dof``, ``loops``, ``spatial``, ``centres``, ``infinite`` (as for
+    `enumerate.sc.jobs.sc_rows`), ``sides`` (numbers of links with 3, 4, ... sides), ``open_edges``,
+    ``vertices`` (of the polyhedron model), ``explicit``, ``implicit`` (centres of loops), ``symmetry``,
+    ``exact_dof`` (joints minus rank, vertices placed too).
+
+    Parameters
+    ----------
+    links, dof, max_degree, workers, **options
+        As for `scd_graphs`.
+
+    Examples
+    --------
+    >>> [(row["sides"], row["open_edges"], row["symmetry"]) for row in scd_rows(4, 1, 3)]
+    [([4], 4, 8)]
+    """
+    yield from rows_of(SCDJob(all_mechanisms(links, dof, max_degree, **options)), workers=workers)
+
+
+def count_scd_graphs(
+    links: int, dof: int, max_degree: int, method: str | None = None, *, workers: int = 1, **options: Any
+) -> int:
+    """Return the number of SCD graphs of N links and M degrees of freedom.
+
+    Parameters
+    ----------
+    links, dof, max_degree, **options
+        As for `scd_graphs`.
+    method : {"burnside", "orbits"}, optional
+        Two ways: ``orbits`` makes every placement and compares it with its images, ``burnside`` makes none.
+    workers : int
+        Processes.
+
+    Raises
+    ------
+    InvariantError
+        If a number is out of its range.
+    UnsolvableError
+        If the method cannot count by all that the options limit, or one mechanism has more than 10^18.
+
+    Examples
+    --------
+    >>> [count_scd_graphs(links, 1, 3) for links in (4, 6, 8)]
+    [1, 1, 2]
+    """
+    return total_of(scd_count_job(all_mechanisms(links, dof, max_degree, **options), method), workers=workers)
+
+
+def all_mechanisms(
+    links: int, dof: int, max_degree: int, *, spatial: int = 0, infinite: bool = False, **options: Any
+) -> AllMechanisms:
+    """Return the mechanisms of a size as a source of `SCDJob`.
+
+    Parameters
+    ----------
+    links, dof, max_degree, spatial, infinite, **options
+        As for `scd_graphs`.
+
+    Raises
+    ------
+    InvariantError
+        If a number is out of its range.
+
+    Examples
+    --------
+    Of the seven with four links and one freedom all but one are sheets:
+
+    >>> [len(list(rows_of(SCDJob(all_mechanisms(4, 1, 4, sheets=only))))) for only in (False, True)]
+    [7, 6]
+    """
+    query = SCDQuery(links, dof, PlacementQuery(max_degree, **options), spatial, infinite)
+    return AllMechanisms(query)
+
+
+def mechanism_of(mechanism: SCGraph, max_degree: int, **options: Any) -> OneMechanism:
+    """Return a mechanism as a source of `SCDJob`; options are fields of `PlacementQuery`.
+
+    Its loops are the bounded faces of a drawing. Of an SCD graph, the open edges are placed anew. Names and the
+    ground link do not count. Raises `UnsolvableError` if the loops are not faces
+    (`graphs.identity.drawings.map_id`), or the mobility cannot be counted, `InvariantError` if there are too many
+    joints.
+    """
+    query = PlacementQuery(max_degree, **options)
+    if len(mechanism.joints) + len(mechanism.loops) > MOST_JOINTS:
+        raise InvariantError(
+            "joints",
+            f"{numbered(len(mechanism.joints), 'joint')} and {numbered(len(mechanism.loops), 'loop')}",
+            f"{MOST_JOINTS} in all",
+        )
+    symbols, letters = map_code(mechanism)
+    code = np.array([symbol for symbol in symbols if symbol != _OPEN], np.uint8)
+    faces = len(mechanism.joints) - len(mechanism) + 1
+    labels = [OUTER, *(LABEL_LETTERS.index(letter) for letter in letters or faces * LABEL_LETTERS[FINITE])]
+    dof = mobility_report(mechanism).mobility
+    if dof is None:
+        raise UnsolvableError("the mobility of the mechanism cannot be counted")
+    return OneMechanism(map_id(mechanism), dof, CodedMechanisms(code[None], np.array([labels], np.uint8)), query)

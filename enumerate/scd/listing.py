@@ -1,11 +1,13 @@
-"""Placements of open edges on a drawn mechanism, listed and counted, compiled.
+"""Placements of open edges on a drawn mechanism, listed, and counted by Burnside's lemma, compiled.
 
 A placement is a *pattern* (`enumerate.scd.patterns`), a set of *explicit* faces whose corners have no open edge,
 at most one of a class, and a number of open edges in each corner that may have some. With pattern and explicit
 faces chosen, links do not depend on each other, so the placements of a mechanism are numbered: those of each
 choice follow each other, and count through the ways of the links like the digits of a number. Any range of
-numbers can be listed. Of each orbit under the symmetries the largest placement is kept. Theory:
-docs/theory/scd-enumeration.md.
+numbers can be listed. Of each orbit under the symmetries the largest placement is kept.
+
+The count makes no placement: one that a symmetry leaves as it is, is constant on the cycles of corners, and a
+cycle of links is as free as one of its links. Theory: docs/theory/scd-enumeration.md.
 """
 
 from __future__ import annotations
@@ -14,24 +16,29 @@ from typing import NamedTuple
 
 import numpy as np
 
-from enumerate.contracted.embedded import code_of
-from enumerate.kernel.compiled import compiled, doubled
+from enumerate.contracted.binary_links import symmetries_fixing
+from enumerate.contracted.maps import code_of
+from enumerate.kernel.compiled import compiled, doubled, number_of_orbits
 from enumerate.kernel.maps import END
-from enumerate.scd.choices import (
+from enumerate.scd.patterns import (
+    CLOSED,
+    OPENED,
+    TOO_MANY,
     all_explicit,
     corner_states,
+    corner_symmetries,
     drawn,
     explicit_sets,
     forced_mobility,
+    has_centre,
+    patterns,
     placements_of_choice,
     room_of,
-    symmetries_of,
     ways_to_lay,
 )
-from enumerate.scd.patterns import CLOSED, OPENED, has_centre, patterns
-from graphs.arrays import Bytes, Ints
+from graphs.arrays import Bytes, Flags, Ints
 
-__all__ = ["SCD_FACTS", "list_placements_of", "sides_of_all"]
+__all__ = ["count_placements", "list_placements_of", "sides_of_all"]
 
 SCD_FACTS = ("open_edges", "vertices", "explicit", "implicit", "symmetry", "exact_dof")
 """Columns of the facts of `list_placements_of`."""
@@ -55,13 +62,13 @@ def list_placements_of(
 ) -> tuple[Bytes, Ints, Ints]:
     """List placements of open edges on a mechanism, one of each orbit, those of a range of numbers.
 
-    Code, labels and the greatest link degree are those of `enumerate.scd.choices.number_of_placements`; the last
+    Code, labels and the greatest link degree are those of `enumerate.scd.patterns.number_of_placements`; the last
     number is excluded, and the rank must give `dof`. `sheets`: only those with an explicit centre in every bounded
     face; `symmetric`: only those with a symmetry. Returns codes, uint8[r, width], with the labels at their end,
     then nothing; their lengths; and `SCD_FACTS`, int64[r, 6].
     """
     turn, vertex, face, kinds, number = drawn(code, labels)
-    symmetries = symmetries_of(turn, vertex, face, kinds)
+    symmetries = corner_symmetries(turn, vertex, face, kinds)
     sets = explicit_sets(kinds, number)
     allowed = patterns(turn, vertex, face, kinds, number, most)
     links = len(code) - len(vertex)
@@ -106,7 +113,7 @@ def _list_choice(
             if states[d] != CLOSED:
                 placement[d] = (states[d] == OPENED) + rows[offset[vertex[d]] + digit[vertex[d]], place[d]]
                 total += placement[d]
-        fixed = _is_largest(placement, symmetries)
+        fixed = symmetries_fixing(placement, symmetries)
         if fixed > symmetric:
             if used == len(codes):
                 codes, facts = doubled(codes), doubled(facts)
@@ -214,21 +221,6 @@ def _compositions(slots: int, low: int, high: int) -> Bytes:
 
 
 @compiled
-def _is_largest(placement: Ints, symmetries: Ints) -> int:
-    """Return 0 if a symmetry makes a placement larger, else how many leave it as it is."""
-    fixed = 0
-    for a in range(len(symmetries)):
-        d = 0
-        while d < len(placement) and placement[symmetries[a, d]] == placement[d]:
-            d += 1
-        if d == len(placement):
-            fixed += 1
-        elif placement[symmetries[a, d]] > placement[d]:
-            return 0
-    return fixed
-
-
-@compiled
 def sides_of_all(codes: Bytes, lengths: Ints, labels: int, most: int) -> Ints:
     """Return how many links have each number of sides: int64[r, most + 1].
 
@@ -245,3 +237,78 @@ def sides_of_all(codes: Bytes, lengths: Ints, labels: int, most: int) -> Ints:
             else:
                 sides += 1
     return found
+
+
+@compiled
+def count_placements(code: Bytes, labels: Ints, most: int, dof: int, sheets: bool) -> int:
+    """Return the number of placements up to symmetry, -1 if it is past counting.
+
+    The arguments are those of `enumerate.scd.listing.list_placements_of`.
+    """
+    turn, vertex, face, kinds, number = drawn(code, labels)
+    symmetries = corner_symmetries(turn, vertex, face, kinds)
+    sets = explicit_sets(kinds, number)
+    allowed = patterns(turn, vertex, face, kinds, number, most)
+    fixed = 0
+    for p in range(len(allowed)):
+        if forced_mobility(turn, face, kinds, number, allowed[p]) != dof:
+            continue
+        for explicit in sets:
+            if sheets and not all_explicit(kinds, explicit):
+                continue
+            states = corner_states(face, kinds, allowed[p], explicit)
+            for a in range(len(symmetries)):
+                count = _fixed_by(vertex, states, symmetries[a], most)
+                if count < 0 or fixed > TOO_MANY:
+                    return -1
+                fixed += count
+    return number_of_orbits(fixed, len(symmetries))
+
+
+@compiled
+def _fixed_by(vertex: Ints, states: Bytes, symmetry: Ints, most: int) -> int:
+    """Return the number of placements of one choice that a symmetry leaves as they are; -1 if past counting."""
+    for d in range(len(vertex)):
+        if states[symmetry[d]] != states[d]:
+            return 0
+    slots, low, high = room_of(vertex, states, most)
+    done = np.zeros(len(slots), np.bool_)
+    product = 1
+    for v in range(len(slots)):
+        if done[v]:
+            continue
+        total = _ways_in_cycles(vertex, states, symmetry, v, low[v], high[v], done)
+        if total == 0:
+            return 0
+        if product > TOO_MANY // total:
+            return -1
+        product *= total
+    return product
+
+
+@compiled
+def _ways_in_cycles(
+    vertex: Ints, states: Bytes, symmetry: Ints, link: int, low: int, high: int, done: Flags
+) -> int:
+    """Return in how many ways a link takes low to high open edges that a symmetry leaves as they are.
+
+    The links in its cycle are noted in ``done``.
+    """
+    ways = np.zeros(max(high, 0) + 1, np.int64)  # with so many open edges
+    ways[0] = 1
+    seen = np.zeros(len(vertex), np.bool_)
+    for d in range(len(vertex)):
+        if vertex[d] != link or seen[d]:
+            continue
+        weight, e = 0, d
+        while not seen[e]:
+            seen[e] = done[vertex[e]] = True
+            weight += vertex[e] == link
+            e = symmetry[e]
+        if states[d] != CLOSED:
+            for k in range(weight, len(ways)):
+                ways[k] += ways[k - weight]
+    total = 0
+    for k in range(low, high + 1):
+        total += ways[k]
+    return total

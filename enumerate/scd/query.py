@@ -1,13 +1,13 @@
-"""Which SCD graphs are asked for."""
+"""Which SCD graphs are to be enumerated."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
-from enumerate.runner.limits import ANY_NUMBER, Limits, keep_limits, key_of
+from enumerate.runner.job import ANY_NUMBER, Limits, Query
 from enumerate.sc.query import SCQuery
-from graphs.errors import InvariantError
+from graphs.errors import InvariantError, numbered
 
 __all__ = ["PlacementQuery", "SCDQuery"]
 
@@ -15,8 +15,8 @@ _MOST_DEGREE = 60
 
 
 @dataclass(frozen=True, slots=True)
-class PlacementQuery:
-    """Which placements of open edges are asked for, on any mechanism.
+class PlacementQuery(Query):
+    """Which placements of open edges are to be enumerated, on any mechanism.
 
     Attributes
     ----------
@@ -48,18 +48,13 @@ class PlacementQuery:
 
     def __post_init__(self) -> None:
         if not 3 <= self.max_degree <= _MOST_DEGREE:
-            raise InvariantError("max degree", f"{self.max_degree} sides", f"3 to {_MOST_DEGREE}")
-        keep_limits(self, "vertices")
+            raise InvariantError("max degree", numbered(self.max_degree, "side"), f"3 to {_MOST_DEGREE}")
+        self._keep_limits("vertices")
 
     @property
     def counted(self) -> bool:
-        """Whether nothing is asked that Burnside's lemma does not count."""
+        """Whether Burnside's lemma can count them."""
         return not self.symmetric and self.vertices == ANY_NUMBER
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """The query in JSON values."""
-        return {field.name: key_of(getattr(self, field.name)) for field in fields(self)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +89,7 @@ class SCDQuery:
     def __post_init__(self) -> None:
         if self.tree:
             if self.links < 2:
-                raise InvariantError("links", f"{self.links} links", "2 or more")
+                raise InvariantError("links", numbered(self.links, "link"), "2 or more")
         else:
             self.sc  # noqa: B018 - its own checks
 

@@ -1,4 +1,4 @@
-"""R/- strings: open chains of panels between two bodies, and the joints they stand for.
+"""R/- strings: open chains of panels between two bodies, the joints they stand for, and their graphs.
 
 ``R`` is a crease; creases written together meet in one point (a *cluster*); ``-`` is a rectangular panel, whose
 two creases are parallel. ``RR-R-RRR`` is a universal joint, a prismatic joint, a spherical joint: UPS. A chain and
@@ -13,11 +13,15 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
+from itertools import pairwise, product
 
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.ids import JointId, LinkId
+from graphs.mechanism.rotation import Side
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 
-__all__ = ["MAX_CLUSTER", "MAX_PANELS", "ChainString", "count_strings", "joint_chain", "strings"]
+__all__ = ["ChainString", "chain_sc", "chain_scd", "count_strings", "joint_chain", "string_of_chain", "strings"]
 
 MAX_PANELS = 2
 """Rectangular panels in the strings of Table 8, at most."""
@@ -114,11 +118,9 @@ class ChainString:
         It is less than the number of creases where a cluster has more than three, where two spherical joints
         leave a rotation about the line through their centres, or where more than three creases are parallel.
 
-        Notes
-        -----
         The axes are placed at random over the prime field of 2^61 - 1 elements: a crease beside a rectangular
-        panel is parallel to the crease on the panel's other side. The rank found is never too high; it is too
-        low with a probability below 6 / 2^61.
+        panel is parallel to the crease on the panel's other side. The rank is never too high; it is too low with a
+        probability below 6 / 2^61.
 
         Examples
         --------
@@ -179,9 +181,7 @@ class ChainString:
         A cluster of two or more creases is a vertex at one end of the creases beside it. Along the chain the next
         one lies on the same side or diagonally opposite. Palindromes are taken up to reversal.
 
-        Notes
-        -----
-        Table 7. k such clusters have 2^(k - 1) modes, palindromes (2^(k - 1) + 2^ceil((k - 1) / 2)) / 2.
+        k such clusters have 2^(k - 1) modes, palindromes (2^(k - 1) + 2^ceil((k - 1) / 2)) / 2 (Table 7).
 
         Examples
         --------
@@ -190,8 +190,7 @@ class ChainString:
         >>> ChainString.parse("R-R-R").modes()
         ['']
         """
-        gaps = max(sum(k >= 2 for k in self.clusters) - 1, 0)
-        every = ("".join(choice) for choice in product("SD", repeat=gaps))
+        every = ("".join(choice) for choice in product("SD", repeat=self._gaps))
         if self.is_palindrome:
             every = (min(mode, mode[::-1]) for mode in every)
         return list(dict.fromkeys(every))
@@ -204,9 +203,13 @@ class ChainString:
         >>> ChainString.parse("RR-RR-RR").count_modes()
         3
         """
-        gaps = max(sum(k >= 2 for k in self.clusters) - 1, 0)
-        palindromic = (1 << gaps) + (1 << (gaps + 1) // 2)
-        return palindromic // 2 if self.is_palindrome else 1 << gaps
+        palindromic = (1 << self._gaps) + (1 << (self._gaps + 1) // 2)
+        return palindromic // 2 if self.is_palindrome else 1 << self._gaps
+
+    @property
+    def _gaps(self) -> int:
+        """Number of gaps between clusters of two creases or more."""
+        return max(sum(k >= 2 for k in self.clusters) - 1, 0)
 
 
 def joint_chain(text: str) -> ChainString:
@@ -285,10 +288,6 @@ def count_strings(
         Number of R, 1 or more.
     max_panels, max_cluster : int or None, optional
         At most so many panels, and creases in a cluster; None for no limit. The defaults are those of Table 8.
-
-    Returns
-    -------
-    int
 
     Raises
     ------
@@ -382,3 +381,134 @@ def _rank(rows: list[list[int]]) -> int:
         ]
         rank += 1
     return rank
+
+
+def chain_sc(chain: ChainString) -> SCGraph:
+    """Return the SC graph of a chain between two bodies: links 0 and n, and n - 1 panels between them.
+
+    Parameters
+    ----------
+    chain : ChainString
+
+    Returns
+    -------
+    SCGraph
+        An open chain, without loops.
+
+    Examples
+    --------
+    >>> len(chain_sc(ChainString.parse("RR-R-RRR")))
+    7
+    """
+    return SCGraph(chain.creases + 1, [(i, i + 1) for i in range(chain.creases)])
+
+
+def chain_scd(chain: ChainString, mode: str | None = None, ends: tuple[int, int] = (3, 3)) -> SCDGraph:
+    """Return the SCD graph of a chain between two bodies.
+
+    The link between two creases of a cluster is a triangle, the creases meeting in one of its vertices; a
+    panel is a quadrilateral.
+
+    Parameters
+    ----------
+    chain : ChainString
+    mode : str, optional
+        One letter for each gap between clusters of two or more: S, the next vertex lies on the same side, or
+        D, on the other. All S without it.
+    ends : (int, int), optional
+        Numbers of sides of the two bodies.
+
+    Raises
+    ------
+    InvariantError
+        If the mode has not as many letters as there are gaps, or others, or a body has fewer than three sides.
+
+    Examples
+    --------
+    >>> scd = chain_scd(ChainString.parse("RR-R-RRR"))
+    >>> scd.counts.vertices, scd.counts.edges
+    (11, 21)
+    """
+    letters = "S" * chain._gaps if mode is None else mode
+    if len(letters) != chain._gaps or set(letters) - {"S", "D"}:
+        expected = f"{numbered(chain._gaps, 'letter')} S or D"
+        raise InvariantError("mode", f"the mode {shown(letters)} of {chain.text}", expected)
+    turns = iter(letters)
+    rotation: dict[LinkId, list[Side]] = {0: [0, *[None] * (ends[0] - 1)]}
+    above, seen, crease = False, False, 0
+    for k in chain.clusters:
+        if crease:  # the rectangular panel before this cluster
+            rotation[crease] = [crease, None, crease - 1, None]
+        if k >= 2 and seen:
+            above ^= next(turns) == "D"
+        seen |= k >= 2
+        for _ in range(k - 1):
+            crease += 1
+            rotation[crease] = [crease, crease - 1, None] if above else [crease, None, crease - 1]
+        crease += 1
+    rotation[crease] = [crease - 1, *[None] * (ends[1] - 1)]
+    return SCDGraph(crease + 1, [(i, i + 1) for i in range(crease)], rotation=rotation)
+
+
+def string_of_chain(scd: SCDGraph) -> tuple[ChainString, str]:
+    """Return the string and the mode of a chain of panels between two bodies.
+
+    Parameters
+    ----------
+    scd : SCDGraph
+        An open chain. Between its ends, a link whose two creases share a vertex belongs to a cluster; any
+        other is a panel.
+
+    Returns
+    -------
+    chain : ChainString
+        From the body that comes first in the graph.
+    mode : str
+
+    Raises
+    ------
+    UnsolvableError
+        If the graph is no open chain, or creases that meet one by one do not all meet in one point.
+
+    Examples
+    --------
+    >>> chain, mode = string_of_chain(chain_scd(ChainString.parse("RR-RRR"), "D"))
+    >>> chain.text, mode
+    ('RR-RRR', 'D')
+    """
+    path, creases = _walk(scd)
+    clusters, corners = [1], [-1]  # creases so far in each cluster, and the vertex in which they meet
+    sides: list[bool] = []
+    for before, link, after in zip(creases, path[1:-1], creases[1:], strict=False):
+        common = set(scd.drawing.ends_of_joint(before)) & set(scd.drawing.ends_of_joint(after))
+        if not common:
+            clusters.append(1)
+            corners.append(-1)
+            continue
+        (vertex,) = common
+        if clusters[-1] == 1:
+            row = scd.rotation[link]
+            sides.append(row[(row.index(before) - 1) % len(row)] == after)
+            corners[-1] = vertex
+        elif corners[-1] != vertex:
+            raise UnsolvableError(f"joint {shown(before)} meets the joints on its two sides in different points")
+        clusters[-1] += 1
+    mode = "".join("S" if before == after else "D" for before, after in pairwise(sides))
+    return ChainString(tuple(clusters)), mode
+
+
+def _walk(scd: SCDGraph) -> tuple[list[LinkId], list[JointId]]:
+    """Return the links of an open chain from end to end, and the joints between them."""
+    ends = [link for link in scd.nodes if scd.degree(link) == 1]
+    if scd.independent_loops or len(ends) != 2 or any(scd.degree(link) > 2 for link in scd.nodes):
+        raise UnsolvableError("the graph is not an open chain between two bodies")
+    path: list[LinkId] = [ends[0]]
+    creases: list[JointId] = []
+    while path[-1] != ends[1]:
+        here = path[-1]
+        ((joint, link),) = (
+            (joint, other) for _, other, joint in scd.edges(here, keys=True) if not creases or joint != creases[-1]
+        )
+        creases.append(joint)
+        path.append(link)
+    return path, creases

@@ -1,7 +1,7 @@
 import networkx as nx
 import pytest
 
-from enumerate.addenda import AddendumCountJob, AddendumJob, addenda
+from enumerate.addenda import AddendumJob, addenda, addendum_count_job
 from enumerate.runner.running import run
 from enumerate.runner.totals import CountSink
 from graphs.edit.edits import add_ride_along
@@ -97,7 +97,7 @@ def test_ground_and_kind_of_centre_count():
 def test_counting_and_errors(data):
     base = mechanism(data, "watt")
     sink = CountSink()
-    run(AddendumCountJob(AddendumJob(base, 0)), sink)
+    run(addendum_count_job(AddendumJob(base, 0)), sink)
     assert sink.total == len(list(addenda(base, 0)))
     with pytest.raises(InvariantError, match="-2 or more"):
         AddendumJob(base, -3)

@@ -9,7 +9,7 @@ from by_coordinates import cone_angles_by_coordinates, quadrilaterals_by_coordin
 from conical import FOUR_BAR, crosses, random_lengths, random_link_angles, random_linkages
 from golden_numbers import golden_numbers
 
-from enumerate.conical.rounds import Rounds, count_by_burnside, placements
+from enumerate.conical.rounds import Rounds, count_rounds_by_burnside, placements
 from graphs.count.report import mobility_report
 from graphs.edit.analogues import planar_analogue
 from graphs.files.formats import read
@@ -356,7 +356,9 @@ def test_the_twelve_cases_come_out_of_the_enumeration_of_candidates():
     for case, told in found.items():
         assert set(told) == {"one way" if ROWS[case][0].startswith("Y") else "both ways"}
     pair = np.array([[0, 1, 2, 3], [3, 2, 1, 0], [1, 0, 3, 2], [2, 3, 0, 1]])  # symmetries that keep {CO, AB}
-    assert count_by_burnside(Rounds.opposites(4), pair) == len(placements(Rounds.opposites(4), pair)[0]) == 12
+    assert (
+        count_rounds_by_burnside(Rounds.opposites(4), pair) == len(placements(Rounds.opposites(4), pair)[0]) == 12
+    )
     # the same by angles: all four-bars on 11 slots, none of which lies opposite to another
     placed = CandidateJob(FOUR_BAR, (0,), slots=11)
     seen = set()

@@ -8,8 +8,14 @@ import pytest
 from counted import counted_numbers
 from oracle import numeric_mobility
 
-from enumerate.strings.graphs import chain_scd, string_of_chain
-from enumerate.strings.panel_strings import ChainString, count_strings, joint_chain, strings
+from enumerate.strings.panel_strings import (
+    ChainString,
+    chain_scd,
+    count_strings,
+    joint_chain,
+    string_of_chain,
+    strings,
+)
 from graphs.convert.table import to_polyhedron
 from graphs.count.equations import (
     modified_cgk,

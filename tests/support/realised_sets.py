@@ -6,7 +6,7 @@ from random import Random
 
 import numpy as np
 
-from enumerate.scd.graphs import scd_rows
+from enumerate.scd.jobs import scd_rows
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.drawing import FaceKind
 from graphs.rank.pose import pose_mobility

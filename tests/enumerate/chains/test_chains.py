@@ -8,12 +8,11 @@ import pytest
 from rigidity import chains_by_geng
 
 from enumerate.chains.fractionated import glued, shapes
-from enumerate.chains.inputs import are_inputs, input_choices
-from enumerate.chains.jobs import count_job
-from enumerate.chains.kinematic import chain_rows, chains, count_chains
+from enumerate.chains.jobs import chain_rows, chains, count_chains, count_job
 from enumerate.chains.query import ChainQuery
+from enumerate.chains.rows import are_inputs, input_choices
 from enumerate.runner.running import run
-from enumerate.runner.totals import CountSink
+from enumerate.runner.sinks import CountSink
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import automorphisms_of, chain_id
 

@@ -6,8 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from enumerate.chains.contracted_weights import total_weights, weight_of
-from enumerate.contracted.graphs import contracted_graphs
+from enumerate.contracted.graphs import contracted_graphs, total_weights, weight_of
 
 RECORDED = Path(__file__).parents[3] / "benchmarks" / "results" / "contracted_weights-9.json"
 

@@ -11,8 +11,8 @@ import pytest
 from enumerate.chains.jobs import CountJob
 from enumerate.chains.query import ChainQuery
 from enumerate.runner.running import run
+from enumerate.runner.sinks import CountSink
 from enumerate.runner.store import SqliteSink
-from enumerate.runner.totals import CountSink
 from graphs.errors import StoreError
 
 PROGRAM = runpy.run_path(str(Path(__file__).parents[3] / "benchmarks" / "a233288.py"))

@@ -8,19 +8,24 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from enumerate.chains.kinematic import chains
+from enumerate.chains.jobs import chains
 from enumerate.chains.names import chain_named
-from enumerate.conical.layers import fewest_layers
-from enumerate.conical.query import ConicalQuery, conical_orders, count_conical_orders
+from enumerate.conical.query import (
+    ConicalQuery,
+    conical_orders,
+    count_conical_orders,
+    joint_symmetries,
+    links_apart,
+)
 from enumerate.conical.rounds import (
     Rounds,
     canonical_row,
-    count_by_burnside,
-    count_by_orbits,
+    count_rounds_by_burnside,
+    count_rounds_by_orbits,
+    fewest_layers,
     placements,
     prefixes,
 )
-from enumerate.conical.symmetries import joint_symmetries, links_apart
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import chain_from_id
 
@@ -114,7 +119,12 @@ def test_orbits_by_brute_force(name, rounds):
         symmetries = joint_symmetries(joints_of(graph), ground)
         wanted = orbits_by_brute_force(graph, rounds, ground)
         rows, order = placements(rounds, symmetries)
-        assert len(rows) == wanted == count_by_burnside(rounds, symmetries) == count_by_orbits(rounds, symmetries)
+        assert (
+            len(rows)
+            == wanted
+            == count_rounds_by_burnside(rounds, symmetries)
+            == count_rounds_by_orbits(rounds, symmetries)
+        )
         # orbits and stabilisers: all placements that have joint 0 on slot 0
         assert sum(2 * len(symmetries) // int(one) for one in order) == rounds.completions(1)
         for row, one in zip(rows, order.tolist(), strict=True):

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from enumerate.chains.counting import count_by_burnside, count_by_orbits, count_of_graph
+from enumerate.contracted.binary_links import frame_of, orbits_of_all, placements_of
 from enumerate.contracted.graphs import contracted_graphs
-from enumerate.contracted.listing import frame_of, orbits_of_all, placements_of
 from graphs.identity.chains import automorphisms_of, chain_id
 
 

@@ -5,8 +5,7 @@ from collections import defaultdict
 import numpy as np
 import pytest
 
-from enumerate.contracted.descent import descendants, streamed_graphs
-from enumerate.contracted.graphs import contracted_graphs, cubic_graphs
+from enumerate.contracted.graphs import contracted_graphs, cubic_graphs, descendants, streamed_graphs
 from graphs.errors import InvariantError
 
 

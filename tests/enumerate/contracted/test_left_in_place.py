@@ -7,9 +7,8 @@ import pytest
 from placements import is_moving
 
 from enumerate.chains.counting import count_by_burnside, count_by_orbits, count_fixed
-from enumerate.contracted.binary_links import rigid_sets
+from enumerate.contracted.binary_links import frame_of, rigid_sets
 from enumerate.contracted.graphs import contracted_graphs, decode
-from enumerate.contracted.listing import frame_of
 
 
 def fixed_ones(moved, ends, first, sets, needs, units, most):

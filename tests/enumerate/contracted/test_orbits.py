@@ -8,11 +8,10 @@ import pytest
 from placements import is_moving
 
 from enumerate.chains.counting import count_in
-from enumerate.contracted.binary_links import EVERY, Wanted, no_prefix, rigid_sets
-from enumerate.contracted.classes import strings_of_classes
+from enumerate.contracted.binary_links import EVERY, PlacementRange, frame_of, no_prefix, rigid_sets
 from enumerate.contracted.graphs import contracted_graphs, decode
-from enumerate.contracted.listing import frame_of
 from enumerate.contracted.orbits import count_orbits
+from enumerate.contracted.states import strings_of_classes
 
 
 @lru_cache
@@ -73,10 +72,10 @@ def test_counted_as_they_are_listed(loops, dof, step):
                 for alike in (first, np.arange(len(ends))):
                     problem = ends, alike, group, sets, needs
                     parts = [
-                        count_in(*problem, n, Wanted(links, dof + 1, only), no_prefix())
+                        count_in(*problem, n, PlacementRange(links, dof + 1, only), no_prefix())
                         for only in range(links - n + 1)
                     ]
-                    assert count_in(*problem, n, Wanted(links, dof + 1, EVERY), no_prefix()) == sum(parts)
+                    assert count_in(*problem, n, PlacementRange(links, dof + 1, EVERY), no_prefix()) == sum(parts)
 
 
 @pytest.mark.parametrize("most", [0, 1, 2, 3, 6])

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from enumerate.chains.kinematic import chain_rows
+from enumerate.chains.jobs import chain_rows
 from enumerate.kernel.bliss_order import MOST_NODES, bliss_orders
 from graphs.identity.chains import automorphisms_of, canonical_numbers, chain_from_id
 

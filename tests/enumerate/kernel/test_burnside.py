@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from enumerate.conical.rounds import Rounds, count_by_burnside
-from enumerate.kernel.burnside import number_of_orbits
+from enumerate.conical.rounds import Rounds, count_rounds_by_burnside
+from enumerate.kernel.compiled import number_of_orbits
 
 
 def test_a_remainder_is_a_fault():
@@ -15,4 +15,4 @@ def test_a_remainder_is_a_fault():
 
 def test_symmetries_that_are_no_group_are_a_fault():
     with pytest.raises(ArithmeticError, match="no group"):
-        count_by_burnside(Rounds.orders(4), np.array([[0, 1, 2, 3], [0, 1, 3, 2], [0, 1, 3, 2]]))
+        count_rounds_by_burnside(Rounds.orders(4), np.array([[0, 1, 2, 3], [0, 1, 3, 2], [0, 1, 3, 2]]))

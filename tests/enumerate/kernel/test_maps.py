@@ -5,9 +5,8 @@ from math import comb, factorial
 import numpy as np
 import pytest
 
-from enumerate.contracted.maps import MOST_MAP_LOOPS, contracted_maps, cubic_maps, map_symmetries
+from enumerate.contracted.maps import MOST_MAP_LOOPS, contracted_maps, cubic_maps, map_symmetries, plane_trees
 from enumerate.kernel.maps import decode_map, faces_of
-from enumerate.scd.plane_trees import plane_trees
 from graphs.errors import InvariantError
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from enumerate.machine_code.folders import bases, made, prune, safe, touch, usable_bases, writable_base
+from enumerate.machine_code.folders import bases, make_folder, prune, safe, touch, usable_bases, writable_base
 
 unix = pytest.mark.skipif(os.name == "nt", reason="folders have no modes")
 as_root = pytest.mark.skipif(getattr(os, "geteuid", lambda: 1)() != 0, reason="only root can give folders away")
@@ -53,11 +53,11 @@ def test_no_folder_is_looked_into_beyond_the_one_that_is_written(places):
 @pytest.mark.parametrize("mode", [0o777, 0o770, 0o702, 0o1777])
 def test_a_folder_that_others_may_write_is_refused(places, which, mode):
     base = places / "named"
-    folder = made(base, "inner")
+    folder = make_folder(base, "inner")
     assert folder == safe(base, "inner") == base / "inner"
     {"base": base, "inner": folder}[which].chmod(mode)
     assert safe(base, "inner") is None
-    assert made(base, "inner") is None
+    assert make_folder(base, "inner") is None
 
 
 @unix
@@ -65,7 +65,7 @@ def test_a_folder_that_others_may_write_is_refused(places, which, mode):
 @pytest.mark.parametrize("which", ["base", "inner"])
 def test_a_folder_of_another_user_is_refused(places, which):
     base = places / "named"
-    folder = made(base, "inner")
+    folder = make_folder(base, "inner")
     os.chown({"base": base, "inner": folder}[which], 12345, -1)
     assert safe(base, "inner") is None
     assert writable_base() == (base if which == "inner" else places / "home" / ".cache" / "synthedra")
@@ -76,9 +76,9 @@ def test_a_folder_of_another_user_is_refused(places, which):
 def test_a_link_of_another_user_is_refused(places):
     (places / "mine").mkdir(mode=0o700)
     (places / "named").symlink_to(places / "mine")
-    assert made(places / "named") == places / "named"
+    assert make_folder(places / "named") == places / "named"
     os.lchown(places / "named", 12345, -1)
-    assert made(places / "named") is None
+    assert make_folder(places / "named") is None
 
 
 @unix

@@ -5,7 +5,7 @@ import os
 import pytest
 from toy_kernels import edit, make_toy, run
 
-from enumerate.machine_code.kept import read_whole, write_whole
+from enumerate.machine_code.cache import read_whole, write_whole
 
 forks = pytest.mark.skipif(not hasattr(os, "fork"), reason="the processes are forks")
 
@@ -40,7 +40,7 @@ print(json.dumps(wrong))
 
 FILES = """
 import json, os
-from enumerate.machine_code.kept import CodeFiles
+from enumerate.machine_code.cache import CodeFiles
 
 def child(mine):
     pid = os.fork()

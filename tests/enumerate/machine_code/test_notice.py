@@ -3,12 +3,12 @@
 import pytest
 from toy_kernels import make_toy, run
 
-from enumerate.machine_code.notice import compiling, heard_by, on_compiling, to_workers
+from enumerate.machine_code.folders import compiling, heard_by, on_compiling, to_workers
 
 WORKERS = """
 import json, sys
 from concurrent.futures import ProcessPoolExecutor
-from enumerate.machine_code.notice import heard_by, on_compiling, to_workers
+from enumerate.machine_code.folders import heard_by, on_compiling, to_workers
 from toy.outer import outer
 
 def tell(folder):

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from toy_kernels import ROOT, edit, make_toy
 
-from enumerate.machine_code import sources
+from enumerate.machine_code import cache
 
 FILES = [path for package in ("graphs", "enumerate", "synth") for path in (ROOT / package).rglob("*.py")]
 
@@ -18,9 +18,9 @@ def fresh(monkeypatch, tmp_path):
     """The toy package, as if imported; what was read is forgotten."""
 
     def fingerprint(module):
-        for known in (sources.fingerprint, sources._file, sources._read):
+        for known in (cache.fingerprint, cache._file, cache._read):
             known.cache_clear()
-        return sources.fingerprint(module)
+        return cache.fingerprint(module)
 
     package = make_toy(tmp_path)
     monkeypatch.setattr(sys, "path", [str(tmp_path), *sys.path])
@@ -73,4 +73,4 @@ def heads(path: Path) -> set[str]:
 def test_imports_are_found_as_the_syntax_tree_has_them():
     for path in FILES:
         name = ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
-        assert heads(path) <= sources._read(name)[1], path
+        assert heads(path) <= cache._read(name)[1], path

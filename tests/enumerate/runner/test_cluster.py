@@ -36,7 +36,7 @@ def test_a_scheduler_that_is_killed_gives_one_line_and_the_store_stays(tmp_path,
             if progress.done == 3:
                 processes[0].kill()
 
-        with pytest.raises(StoreError, match=r"lost the Dask scheduler at .*: go on with --resume"):
+        with pytest.raises(StoreError, match=r"lost the Dask scheduler at .*; try --resume"):
             run(Squares(10_000), SqliteSink(store), scheduler=address, report=kill)
     assert capfd.readouterr() == ("", "")
     stored = len(list(read_rows(store)))

@@ -9,8 +9,7 @@ from typing import Any, ClassVar
 
 import pytest
 
-from enumerate.runner.columns import Column, ListColumn, RangeColumn, row_as_dict, stored, unstored
-from enumerate.runner.job import Row, Unit
+from enumerate.runner.job import Column, ListColumn, RangeColumn, Row, Unit, row_as_dict, stored, unstored
 from enumerate.runner.running import run
 from enumerate.runner.sinks import JsonLinesSink, ParquetSink, SortedSink
 from enumerate.runner.store import SqliteSink, read_meta, read_rows

@@ -14,8 +14,7 @@ from clusters import cluster
 from runs import complaints, contents, enumerating, kill, units_in, wait_for
 from toy_job import Squares
 
-from enumerate.chains.jobs import ChainJob
-from enumerate.chains.kinematic import count_chains
+from enumerate.chains.jobs import ChainJob, count_chains
 from enumerate.chains.query import ChainQuery
 from enumerate.runner.running import run
 from enumerate.runner.sinks import sink_for
@@ -229,7 +228,7 @@ def test_a_cluster_that_loses_a_worker_and_then_its_scheduler(tmp_path, again):
         assert running.poll() is None
         processes[0].kill()
         [told] = complaints(running.communicate(timeout=120)[1])
-        assert told == f"lost the Dask scheduler at {address!r}; what was stored stays: go on with --resume"
+        assert told == f"lost the Dask scheduler at {address!r}; try --resume: stored units are kept"
         assert running.returncode == 2
     assert held + 3 <= units_in(store) < 22
     assert read_meta(store)["complete"] is False

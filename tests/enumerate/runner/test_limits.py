@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from enumerate.chains.query import ChainQuery
-from enumerate.runner.limits import Limits
-from enumerate.sc.graphs import count_sc_graphs
+from enumerate.runner.job import Limits
+from enumerate.sc.jobs import count_sc_graphs
 from enumerate.sc.query import SCQuery
 from enumerate.scd.query import PlacementQuery
 from graphs.errors import InvariantError

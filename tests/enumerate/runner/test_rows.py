@@ -6,11 +6,11 @@ import pytest
 from toy_job import Squares
 
 from enumerate.addenda import addenda
-from enumerate.chains.kinematic import chain_rows
+from enumerate.chains.jobs import chain_rows
 from enumerate.conical.query import ConicalQuery, conical_orders, count_conical_orders
 from enumerate.runner.running import rows_of, total_of
-from enumerate.sc.graphs import sc_rows
-from enumerate.scd.graphs import scd_rows
+from enumerate.sc.jobs import sc_rows
+from enumerate.scd.jobs import scd_rows
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 

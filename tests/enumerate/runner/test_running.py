@@ -12,10 +12,10 @@ from toy_job import Squares
 
 from enumerate.chains.jobs import ChainJob
 from enumerate.chains.query import ChainQuery
-from enumerate.runner.running import Interrupted, run
-from enumerate.runner.sinks import RowSink, SortedSink
+from enumerate.runner.running import run
+from enumerate.runner.sinks import CountSink, RowSink, SortedSink
+from enumerate.runner.stopping import Interrupted
 from enumerate.runner.store import SqliteSink, read_meta, read_rows
-from enumerate.runner.totals import CountSink
 from graphs.errors import FileError, StoreError
 
 
@@ -155,7 +155,7 @@ def test_stores_that_are_refused(tmp_path):
     with sqlite3.connect(other) as connection:
         connection.execute("CREATE TABLE meta (key TEXT, value TEXT)")
     connection.close()
-    with pytest.raises(StoreError, match="is not a store of version 3"):
+    with pytest.raises(StoreError, match="not a store that can be read here"):
         run(Squares(), SqliteSink(other, resume=True))
     with pytest.raises(FileError, match="there is no folder"):
         run(Squares(), SqliteSink(tmp_path / "no" / "store.sqlite"))
@@ -214,7 +214,7 @@ def test_a_full_disk_gives_one_line_and_loses_nothing(tmp_path, name):
         assert len(complaints(first.stderr)) == 1
         assert name in first.stderr
         if name == "chains.sqlite":
-            assert "make room and --resume" in first.stderr
+            assert "try --resume when there is room" in first.stderr
             subprocess.run(["mount", "-o", "remount,size=20m", disk], check=True)
             subprocess.run([*command, "--resume"], check=True, timeout=120)
             assert [row[0] for row in read_rows(disk / name)] == ids(12)

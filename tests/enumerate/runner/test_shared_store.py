@@ -32,8 +32,8 @@ def test_a_reader_does_not_hinder_the_end(tmp_path):
             assert next(readers[0]) == (0, 0)
 
     run(Squares(), SqliteSink(store, tell=told.append), report=read)
-    wal = f"{store}: is complete; another process has it open: squares.sqlite-wal belongs to it; "
-    assert told == [wal + "--resume makes it one file"]
+    wal = f"{store}: complete, but another process has it open: squares.sqlite-wal belongs to it; "
+    assert told == [wal + "try --resume to make it one file"]
     assert read_meta(store)["complete"] is True
     assert list(read_rows(store)) == ROWS
     assert len(list(readers[0])) == 49  # what was there when it began
@@ -93,15 +93,13 @@ def test_a_reader_in_another_process(tmp_path):
 
 def test_a_store_that_stays_locked_is_told_in_one_line(tmp_path, monkeypatch):
     store = tmp_path / "squares.sqlite"
-    monkeypatch.setattr("enumerate.runner.store._PATIENCE", 0.1)
+    monkeypatch.setattr("enumerate.runner.store.PATIENCE", 0.1)
     sink = SqliteSink(store)
     sink.start(Squares())
     sink.take(0, ROWS[:10], 0.0)
     with closing(sqlite3.connect(store, isolation_level=None)) as other:
         other.execute("BEGIN IMMEDIATE")
-        with pytest.raises(
-            StoreError, match="database is locked: another process holds it; what was stored stays"
-        ):
+        with pytest.raises(StoreError, match="database is locked: another process holds it; try --resume"):
             sink.take(1, ROWS[10:20], 0.0)
         other.execute("ROLLBACK")
     sink.take(1, ROWS[10:20], 0.0)
@@ -121,7 +119,7 @@ def test_two_runs_and_a_reader_on_one_store(tmp_path):
             other.take(0, ROWS[:10], 0.0)
         other.abort()
         one.take(1, ROWS[10:20], 0.0)
-        with pytest.warns(UserWarning, match="is complete"):
+        with pytest.warns(UserWarning, match="complete, but another process"):
             one.finish()
     assert list(read_rows(store)) == ROWS[:20]
 
@@ -149,7 +147,7 @@ def test_two_runs_of_chains_and_a_reader_in_processes_of_their_own(tmp_path, lat
         if one.returncode:
             assert lines == [f"{store}: another run is writing to it"]
         else:
-            assert all("is complete; another process has it open" in line for line in lines)
+            assert all("complete, but another process has it open" in line for line in lines)
             assert len(lines) <= 1
     assert run(job, SqliteSink(store, resume=True)).rows == 0
     assert contents(store) == contents(tmp_path / "whole.sqlite")

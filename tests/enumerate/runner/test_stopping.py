@@ -11,8 +11,9 @@ from pathlib import Path
 import pytest
 from toy_job import Squares
 
-from enumerate.runner.running import Interrupted, run
+from enumerate.runner.running import run
 from enumerate.runner.sinks import FolderSink, JsonLinesSink, RowSink
+from enumerate.runner.stopping import Interrupted
 from enumerate.runner.store import SqliteSink, read_rows
 from graphs.files import atomic
 from graphs.files.atomic import FolderBeside

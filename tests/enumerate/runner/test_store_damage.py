@@ -91,7 +91,7 @@ def test_only_what_was_altered_is_made_again(tmp_path, stores, statement, lost):
     store.write_bytes(stores[0])
     altered(store, statement)
     told, made = mended(store)
-    assert told == [f"{store}: was damaged; {100 - lost} of 100 units are whole, the others are made again"]
+    assert told == [f"{store}: repaired a damaged store; kept {100 - lost} of 100 units"]
     assert made == lost
     assert mended(store) == ([], 0)
     assert [path.name for path in tmp_path.iterdir()] == ["squares.sqlite"]
@@ -103,18 +103,18 @@ def test_altered_rows_are_not_read(tmp_path, stores):
     altered(store, "UPDATE type SET square = 0 WHERE n = 355")
     rows = read_rows(store)
     assert [next(rows) for _ in range(350)] == ROWS[:350]
-    with pytest.raises(StoreError, match="is damaged at unit 35; the same run with --resume mends it"):
+    with pytest.raises(StoreError, match="damaged at unit 35; try the same command with --resume"):
         next(rows)
 
 
 @pytest.mark.parametrize(
     ("statement", "words"),
     [
-        ("UPDATE meta SET value = '{\"squares\": 900}' WHERE key = 'job'", "what it says of itself was altered"),
-        ("UPDATE meta SET value = '{' WHERE key = 'job'", "what it says of itself was altered"),
-        ("UPDATE meta SET key = x'0102' WHERE key = 'columns'", "what it says of itself was altered"),
-        ("UPDATE meta SET value = '2' WHERE key = 'version'", "is not a store of version 3: .* version '2'"),
-        ("UPDATE meta SET value = 1 WHERE key = 'complete'", "what it says of itself was altered"),
+        ("UPDATE meta SET value = '{\"squares\": 900}' WHERE key = 'job'", "its table meta was altered"),
+        ("UPDATE meta SET value = '{' WHERE key = 'job'", "its table meta was altered"),
+        ("UPDATE meta SET key = x'0102' WHERE key = 'columns'", "its table meta was altered"),
+        ("UPDATE meta SET value = '2' WHERE key = 'version'", "not a store that can be read here; .* version '2'"),
+        ("UPDATE meta SET value = 1 WHERE key = 'complete'", "its table meta was altered"),
         ("DROP TABLE meta", "no such table: meta"),
     ],
 )
@@ -175,10 +175,8 @@ def test_a_damaged_store_at_the_command_line(tmp_path):
     altered(store, "UPDATE type SET links = 11 WHERE rowid = 5")
     assert "exists already" in command_line(*command, code=2).stderr
     units = len(job.units())
-    whole = f"{units - 1} of {units} units are whole"
-    assert (
-        command_line(*command, "--resume").stderr == f"{store}: was damaged; {whole}, the others are made again\n"
-    )
+    line = f"{store}: repaired a damaged store; kept {units - 1} of {units} units\n"
+    assert command_line(*command, "--resume").stderr == line
     assert list(read_rows(store)) == rows
     store.chmod(0)
     store.unlink()
@@ -231,6 +229,6 @@ def test_how_much_has_been_looked_through_is_told(tmp_path, stores):
     store, parts = tmp_path / "squares.sqlite", []
     store.write_bytes(stores[1])
     altered(store, "UPDATE type SET square = square + 1 WHERE rowid = 355")
-    with pytest.warns(UserWarning, match="was damaged; 59 of 100 units are whole"):
+    with pytest.warns(UserWarning, match="repaired a damaged store; kept 59 of 100 units"):
         SqliteSink(store, resume=True, looking=parts.append).start(JOB)
     assert parts == [k / 60 for k in range(1, 60)]

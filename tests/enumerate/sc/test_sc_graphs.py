@@ -8,11 +8,10 @@ import pytest
 from embeddings import face_code, spherical_embeddings
 from rigidity import chains_by_geng
 
-from enumerate.chains.kinematic import chain_rows
+from enumerate.chains.jobs import chain_rows
 from enumerate.runner.running import run
 from enumerate.runner.sinks import RowSink
-from enumerate.sc.graphs import chain_forms, count_sc_graphs, sc_graphs, sc_rows
-from enumerate.sc.jobs import SCJob
+from enumerate.sc.jobs import SCJob, chain_forms, count_sc_graphs, sc_graphs, sc_rows
 from enumerate.sc.query import SCQuery
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import automorphisms_of, chain_id

@@ -2,21 +2,21 @@ import pytest
 from rigidity import chains_by_geng
 from scd_oracle import code, scd_codes
 
-from enumerate.runner.columns import row_as_dict
+from enumerate.runner.job import row_as_dict
 from enumerate.runner.running import run
-from enumerate.runner.sinks import RowSink
-from enumerate.runner.totals import CountSink
-from enumerate.sc.graphs import sc_rows
-from enumerate.scd.choices import number_of_placements
-from enumerate.scd.graphs import (
+from enumerate.runner.sinks import CountSink, RowSink
+from enumerate.sc.jobs import sc_rows
+from enumerate.scd.jobs import (
+    SCDJob,
     all_mechanisms,
     count_scd_graphs,
     mechanism_of,
+    scd_count_job,
     scd_graphs,
     scd_graphs_of,
     scd_rows,
 )
-from enumerate.scd.jobs import SCDJob, scd_count_job
+from enumerate.scd.patterns import number_of_placements
 from enumerate.scd.query import PlacementQuery, SCDQuery
 from graphs.convert.panels import polyhedron_of
 from graphs.convert.table import to_sc

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from spherical import FOUR_BAR, STEPHENSON, WATT, by_newton, is_among, spherical
 
-from enumerate.chains.kinematic import chains
+from enumerate.chains.jobs import chains
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.mechanism.sc import SCGraph

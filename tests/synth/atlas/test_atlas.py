@@ -16,7 +16,7 @@ import pytest
 from commands import run
 
 import synth
-from enumerate.sc.graphs import sc_rows
+from enumerate.sc.jobs import sc_rows
 from graphs.edit.analogues import planar_analogue
 from graphs.errors import InvariantError, StoreError, SynthedraError, UnsolvableError
 from graphs.files.formats import mechanism_of_id, read

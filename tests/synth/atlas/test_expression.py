@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from enumerate.runner.columns import ListColumn, stored
+from enumerate.runner.job import ListColumn, stored
 from graphs.errors import SynthedraError
 from synth.atlas.columns import stored_columns
 from synth.atlas.expression import ExpressionError, condition_of

@@ -12,13 +12,13 @@ from commands import run
 from conical import STEPHENSON, WATT
 from rebuilt import Space, closing_error
 
-from enumerate.chains.kinematic import chains
-from enumerate.conical.query import Portion, count_conical_orders
+from enumerate.chains.jobs import chains
+from enumerate.conical.query import Portion, count_conical_orders, links_apart
 from enumerate.conical.rounds import canonical_row
-from enumerate.conical.symmetries import links_apart
-from enumerate.runner.columns import row_as_dict
-from enumerate.runner.running import Interrupted, run as run_job
+from enumerate.runner.job import row_as_dict
+from enumerate.runner.running import run as run_job
 from enumerate.runner.sinks import RowSink
+from enumerate.runner.stopping import Interrupted
 from enumerate.runner.store import SqliteSink, read_rows
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from conical import WATT
 
-from enumerate.runner.columns import row_as_dict
+from enumerate.runner.job import row_as_dict
 from synth.candidates.job import CandidateJob
 from synth.candidates.pictures import picture_of_row, title_of_picture
 from synth.conformed.layers import layers, links_in_layers

@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from enumerate.machine_code import notice
+from enumerate.machine_code import folders
 from synth.cli.__main__ import run
 
 FIRST = [
@@ -34,7 +34,7 @@ def said(folder):
 def test_compiling_is_said_once_on_standard_error(tmp_path, monkeypatch, capsys):
     def compile_twice(prog_name):
         for _ in range(2):
-            notice.compiling()
+            folders.compiling()
 
     monkeypatch.setenv("SYNTHEDRA_CACHE", str(tmp_path))
     monkeypatch.setattr("synth.cli.main.main", compile_twice)
@@ -43,7 +43,7 @@ def test_compiling_is_said_once_on_standard_error(tmp_path, monkeypatch, capsys)
     try:
         run()
     finally:
-        notice.on_compiling(None)
+        folders.on_compiling(None)
         for number, handler in heeded.items():
             signal.signal(number, handler)
     assert capsys.readouterr() == ("", said(tmp_path))

@@ -9,7 +9,7 @@ import shlex
 import pytest
 from commands import run
 
-from enumerate.runner.columns import row_as_dict
+from enumerate.runner.job import row_as_dict
 from enumerate.runner.store import read_rows
 from graphs.files.formats import read_linkage
 

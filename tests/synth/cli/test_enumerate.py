@@ -9,7 +9,7 @@ import re
 import pytest
 from commands import run
 
-from enumerate.runner.columns import row_as_dict
+from enumerate.runner.job import row_as_dict
 from enumerate.runner.store import read_rows
 from graphs.files.formats import read
 from graphs.identity.chains import chain_id
@@ -107,7 +107,7 @@ def test_enumerate_inversions_and_inputs(tmp_path):
         r["ground"] for r in grounds
     ]
     message = run(*base, "--inversions", "-o", tmp_path / "c.g6", code=2).stderr
-    assert "graph6 has no place for the ground link" in message
+    assert "graph6 cannot hold the ground link" in message
 
 
 @pytest.mark.parametrize(
@@ -131,7 +131,7 @@ def test_enumerate_inversions_and_inputs(tmp_path):
         ("--links 8 --dof 1 -o /proc/chains.sqlite", "unable to open database file"),
         ("--links 8 --dof 1 -o chains.g6 --resume", "only a .sqlite store can be resumed"),
         ("--links 30 --dof 1 --count", "30 links with M = 1 have 14 loops; expected 11 at most"),
-        ("--links 8 --dof 1 --inputs --count --method burnside", "Burnside's lemma counts"),
+        ("--links 8 --dof 1 --inputs --count --method burnside", "Burnside's lemma cannot count"),
         ("--links 8 --dof 1 --scheduler there", "no Dask scheduler at 'there'"),
     ],
 )
@@ -164,7 +164,7 @@ def test_enumerate_sc(tmp_path):
     assert [row_as_dict(rows[0], row) for row in read_rows(files["c.sqlite"])] == rows
     assert pytest.importorskip("pyarrow.parquet").read_table(files["c.parquet"]).to_pylist() == rows
     assert [map_id(read(file)) for file in sorted(files["folder"].iterdir())] == [row["code"] for row in rows]
-    assert "graph6 has no place for a drawing" in run(*base, "-o", tmp_path / "c.g6", code=2).stderr
+    assert "graph6 cannot hold a drawing" in run(*base, "-o", tmp_path / "c.g6", code=2).stderr
     forms = run("enumerate", "sc", "--links", 6, "--dof", 1, "--per-chain").stdout
     assert re.search(r"watt +2 +1", forms)
     assert re.search(r"stephenson +1 +2", forms)

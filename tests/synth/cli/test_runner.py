@@ -41,7 +41,7 @@ def test_damage_is_told_on_a_line_of_its_own(tmp_path, terminal):
     command_line(*CHAINS, store)
     altered(store)
     shown = command_line(*CHAINS, store, "--resume").stderr
-    assert re.search(rf" \r{store}: was damaged; \d of \d units are whole, the others are made again\n", shown)
+    assert re.search(rf" \r{store}: repaired a damaged store; kept \d of \d units\n", shown)
 
 
 def test_how_long_looking_through_takes(capsys, monkeypatch):

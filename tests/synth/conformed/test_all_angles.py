@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from conical import FOUR_BAR, STEPHENSON, WATT
 
-from enumerate.chains.kinematic import chains
+from enumerate.chains.jobs import chains
+from enumerate.conical.query import links_apart
 from enumerate.conical.rounds import Rounds, placements
-from enumerate.conical.symmetries import links_apart
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from synth.candidates.job import CandidateJob
 from synth.candidates.rows import loop_circuits

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 from commands import run
 
-from enumerate.chains.kinematic import chain_rows
+from enumerate.chains.jobs import chain_rows
 from graphs.errors import FileError, InvariantError
 from graphs.files.formats import read
 from synth.drawing.catalogue import catalogue_entries, catalogue_pages

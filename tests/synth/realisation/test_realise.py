@@ -4,7 +4,7 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from enumerate.scd.graphs import scd_graphs
+from enumerate.scd.jobs import scd_graphs
 from graphs.answer.identity import identify
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import InvariantError, UnsolvableError

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from enumerate.scd.graphs import scd_graphs
+from enumerate.scd.jobs import scd_graphs
 from graphs.convert.table import to_scd
 from graphs.errors import UnsolvableError
 from graphs.identity.drawings import map_id, mechanism_from_map_id

@@ -7,8 +7,7 @@ import pytest
 from commands import run
 from measured import lines_of_svg
 
-from enumerate.strings.graphs import string_of_chain
-from enumerate.strings.panel_strings import ChainString, strings
+from enumerate.strings.panel_strings import ChainString, string_of_chain, strings
 from graphs.convert.table import to_scd
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read

@@ -6,7 +6,7 @@ import networkx as nx
 import pytest
 from shapely.geometry import LineString, Polygon
 
-from enumerate.chains.kinematic import chains
+from enumerate.chains.jobs import chains
 from graphs.identity.chains import chain_from_id
 from synth.drawing.layout.mechanisms import layout_of
 

@@ -5,12 +5,11 @@ from itertools import islice
 
 import pytest
 
-from enumerate.runner.columns import row_as_dict
+from enumerate.runner.job import row_as_dict
 from enumerate.runner.running import run
 from enumerate.runner.store import read_rows
-from enumerate.scd.graphs import scd_rows
-from enumerate.strings.graphs import string_of_chain
-from enumerate.strings.panel_strings import ChainString
+from enumerate.scd.jobs import scd_rows
+from enumerate.strings.panel_strings import ChainString, string_of_chain
 from graphs.convert.panels import scd_from_panels
 from graphs.convert.table import to_scd
 from graphs.errors import StoreError

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from enumerate.scd.graphs import scd_graphs
+from enumerate.scd.jobs import scd_graphs
 from graphs.answer.identity import identify
 from graphs.files.formats import read, write
 from graphs.identity.drawings import map_id, mechanism_from_map_id

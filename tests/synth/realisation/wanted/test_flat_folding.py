@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from enumerate.scd.graphs import scd_graphs
+from enumerate.scd.jobs import scd_graphs
 from graphs.convert.table import to_scd
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read, write

@@ -4,7 +4,7 @@ import networkx as nx
 import numpy as np
 import pytest
 
-from enumerate.scd.graphs import scd_graphs
+from enumerate.scd.jobs import scd_graphs
 from graphs.convert.table import to_scd
 from graphs.errors import UnsolvableError
 from graphs.files.formats import read
