@@ -17,7 +17,7 @@ from drawings.together import above, beside, said
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.mechanism.surfaces import Cone
-from synth.conformed.layers import links_in_layers
+from synth.conformed.all_angles import links_in_layers
 from synth.conformed.linkages import OnSurface, linkage_on_surfaces, loop_of_steps, loop_on_cones
 from synth.conformed.rates import ConformedChain
 from synth.drawing import Scene
@@ -27,10 +27,9 @@ from synth.drawing.scene.palette import FINE, NORMAL, STRONG
 from synth.drawing.scene.plot import Plot, round_steps, signed
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Shape, arc_points
 from synth.drawing.sums import draw_loop_sums
-from synth.surfaces.circuit import wrapped
-from synth.surfaces.cone import cone_reach, link_angles, map_to_cones
+from synth.surfaces.circuit import link_angles, loop_steps, wrapped
+from synth.surfaces.loop_maps import cone_reach, map_to_cones
 from synth.surfaces.loop_sums import loop_sum, sum_rounding
-from synth.surfaces.several_loops import loop_steps
 
 __all__ = ["DRAWINGS"]
 

@@ -13,7 +13,7 @@ from drawings.pieces import in_rows, of_shapes
 from drawings.together import beside, said
 from graphs.arrays import Flags, Floats
 from graphs.mechanism.sc import SCGraph
-from synth.conformed.layers import links_in_layers
+from synth.conformed.all_angles import links_in_layers
 from synth.conformed.rates import ConformedChain
 from synth.drawing import Scene
 from synth.drawing.scene.palette import FINE, NORMAL, STRONG

@@ -29,8 +29,7 @@ from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import Cone, Cylinder, Surface
 from synth.candidates.rows import CandidateChain, order_rows, placed_rows
-from synth.conformed.cycles import loops_of_chain
-from synth.conformed.rates import ConformedChain
+from synth.conformed.rates import ConformedChain, loops_of_chain
 
 __all__ = ["CandidateCountJob", "CandidateJob", "Filter"]
 

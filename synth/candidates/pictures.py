@@ -14,7 +14,7 @@ from graphs.files.atomic import FolderBeside
 from graphs.files.unfinished import remove_left
 from graphs.mechanism.surfaces import Cone
 from synth.candidates.job import CandidateJob
-from synth.conformed.layers import links_in_layers
+from synth.conformed.all_angles import links_in_layers
 from synth.conformed.rates import ConformedChain
 from synth.drawing.conformed import draw_conformed
 from synth.drawing.scene.shapes import Scene

@@ -22,16 +22,15 @@ from synth.conformed.all_angles import (
     Allowed,
     OverAngles,
     RateFormulas,
+    layers,
     never_singular,
     orders_with_opposites,
     over_angles,
 )
 from synth.conformed.behaviours import Way, behaviour_of_motion, link_arcs
-from synth.conformed.layers import layers
 from synth.conformed.rates import ConformedChain, first_order
-from synth.surfaces.circuit import wrapped
-from synth.surfaces.cone import link_angles
-from synth.surfaces.cylinder import chords
+from synth.surfaces.circuit import link_angles, wrapped
+from synth.surfaces.loop_maps import chords
 
 __all__ = ["CandidateChain", "order_rows", "placed_rows"]
 

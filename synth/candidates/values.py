@@ -1,7 +1,7 @@
 """What is evaluated of conical candidates, for many at a time: circuits, half turns, Grashof classes.
 
-Layers: `synth.conformed.layers`; rank and behaviour: `synth.conformed.rates`, `synth.conformed.behaviours`; over
-all angles: `synth.conformed.all_angles`. Theory: docs/theory/conical-candidates.md.
+Layers and all angles: `synth.conformed.all_angles`; rank and behaviour: `synth.conformed.rates`,
+`synth.conformed.behaviours`. Theory: docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
@@ -15,9 +15,8 @@ import numpy.typing as npt
 from graphs.mechanism.surfaces import Cone, Surface
 from synth.conformed.rates import ConformedChain
 from synth.fourbar.closing import grashof_class, planar_differences, spherical_differences
-from synth.surfaces.circuit import HALF_TURN, Circuits, circuits, wrapped
-from synth.surfaces.cone import link_angles
-from synth.surfaces.cylinder import chords
+from synth.surfaces.circuit import HALF_TURN, Circuits, circuits, link_angles, wrapped
+from synth.surfaces.loop_maps import chords
 
 __all__ = ["four_bar_classes", "half_turns", "loop_circuits"]
 

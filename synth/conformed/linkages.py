@@ -23,20 +23,20 @@ from graphs.mechanism.surfaces import Cone, Cylinder, Surface, surface_json
 from graphs.printing import Block, Printed, TableBlock, plain
 from synth.conformed.behaviours import (
     Behaviour,
+    TableRow,
     Way,
     behaviour,
     half_turn_arcs,
     icrl,
     instant_centres,
     link_arcs,
+    table_row,
     ways_over,
 )
 from synth.conformed.rates import ConformedChain
-from synth.conformed.twelve_cases import TableRow, table_row
 from synth.surfaces.circuit import HALF_TURN, azimuths, closing_step, wrapped
-from synth.surfaces.cone import map_to_cones
-from synth.surfaces.cylinder import map_to_cylinders
 from synth.surfaces.linkages import map_linkage
+from synth.surfaces.loop_maps import map_to_cones, map_to_cylinders
 from synth.surfaces.mapping import in_degrees, joints_text
 
 __all__ = [

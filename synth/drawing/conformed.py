@@ -1,7 +1,7 @@
 """Pictures of a linkage at its conformed position: circle with ICRL and shadow, surface with the links as strips.
 
 Both are seen from the side of the apex, where azimuths grow counter-clockwise. The layers drawn are those counted
-(`synth.conformed.layers`). Static pictures; Hyatt et al. 2020, Figs. 7 to 9; Hyatt et al. 2021, section 5.
+(`synth.conformed.all_angles`). Static pictures; Hyatt et al. 2020, Figs. 7 to 9; Hyatt et al. 2021, section 5.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ import numpy.typing as npt
 from graphs.arrays import Floats
 from graphs.geometry import unit
 from graphs.mechanism.surfaces import Cylinder, Surface
+from synth.conformed.all_angles import LinksInLayers, links_in_layers
 from synth.conformed.behaviours import Way, behaviour_of_motion, icrl
-from synth.conformed.layers import LinksInLayers, links_in_layers
 from synth.conformed.rates import ConformedChain, first_order
 from synth.drawing.on_surface import colour_of_link, surface_layer
 from synth.drawing.scene.frame import Frame, captions_of, page_of

@@ -9,7 +9,7 @@ import numpy as np
 
 from graphs.arrays import Flags, Floats
 from graphs.mechanism.surfaces import Cone, Cylinder, Surface
-from synth.conformed.layers import LinksInLayers
+from synth.conformed.all_angles import LinksInLayers
 from synth.conformed.rates import ConformedChain
 from synth.drawing.scene.palette import FINE, NORMAL, SMALL, colour_of_class
 from synth.drawing.scene.shapes import Label, Layer, Line, Point, Polygon, Shape

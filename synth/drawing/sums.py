@@ -12,8 +12,7 @@ from synth.drawing.scene.frame import Frame, page_of
 from synth.drawing.scene.palette import FINE, SMALL, STRONG, colour_of_class
 from synth.drawing.scene.plot import Plot, round_steps
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Scene, Shape
-from synth.surfaces.cone import ConeMap, cone_reach
-from synth.surfaces.cylinder import CylinderMap, cylinder_reach
+from synth.surfaces.loop_maps import ConeMap, CylinderMap, cone_reach, cylinder_reach
 from synth.surfaces.loop_sums import Base, loop_sum, sign_patterns
 
 __all__ = ["draw_loop_sums"]
@@ -57,13 +56,13 @@ def draw_loop_sums(mapped: ConeMap | CylinderMap) -> Scene:
 
     Examples
     --------
-    >>> from synth.surfaces.cone import map_to_cones
+    >>> from synth.surfaces.loop_maps import map_to_cones
     >>> scene = draw_loop_sums(map_to_cones(np.radians([70, 80, 120, 40])))
     >>> [layer.name for layer in scene.layers]
     ['turns', 'sums', 'axes', 'legend', 'caption']
     >>> scene.title
     'loop sums of link angles 70°, 80°, 120°, 40°: the loop closes where one is a multiple of 360° (dots)'
-    >>> from synth.surfaces.cylinder import map_to_cylinders
+    >>> from synth.surfaces.loop_maps import map_to_cylinders
     >>> "radius R" in [label.text for label in draw_loop_sums(map_to_cylinders([4, 3, 5, 1])).labels()]
     True
     """

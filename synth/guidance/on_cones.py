@@ -16,7 +16,7 @@ import numpy as np
 
 from synth.fourbar.joint_lines import supplementary
 from synth.guidance.fourbars import GuidedFourBar
-from synth.surfaces.cone import map_to_cones
+from synth.surfaces.loop_maps import map_to_cones
 from synth.surfaces.mapping import FamilyOfCircles, MappedLoop
 
 __all__ = ["ConicalForm", "conical_forms"]

@@ -1,8 +1,7 @@
 """What mapping a loop to a cone or a cylinder gives: one circle after the other, and families of them.
 
-Both surfaces share this: `synth.surfaces.cone` and `synth.surfaces.cylinder` say what the circles mean. Where
-rounding decides whether there is a circle, or leaves few digits of it, the circle says so.
-Theory: docs/theory/rounding.md.
+Cones and cylinders share this (`synth.surfaces.loop_maps`). Where rounding decides whether there is a circle, or
+leaves few digits of it, the circle says so. Theory: docs/theory/rounding.md.
 """
 
 from __future__ import annotations
@@ -75,7 +74,7 @@ class MappedLoop:
 
     Examples
     --------
-    >>> from synth.surfaces.cylinder import map_to_cylinders
+    >>> from synth.surfaces.loop_maps import map_to_cylinders
     >>> [(one.circuit, one.signs, one.turns) for one in map_to_cylinders([4, 3, 5, 1]).cylinders]
     [('open', (1, 1, 1, 1), 1), ('crossed', (1, 1, -1, -1), 0)]
     """
@@ -127,7 +126,7 @@ class FamilyOfCircles:
     --------
     A parallelogram lies crossed, in two ways, on every cylinder that its longest link can span:
 
-    >>> from synth.surfaces.cylinder import map_to_cylinders
+    >>> from synth.surfaces.loop_maps import map_to_cylinders
     >>> [(float(one.interval[0]), one.interval[1], one.signs) for one in map_to_cylinders([2, 1, 2, 1]).families]
     [(1.0, inf, (1, 1, -1, -1)), (1.0, inf, (1, -1, -1, 1))]
     """
@@ -200,7 +199,7 @@ def circles_table(
     `flat` are the loops that lie in a plane: no cone. `angular`: sizes are angles of cones, in radians and printed
     as degrees; otherwise they are lengths, of cylinders.
 
-    >>> from synth.surfaces.cylinder import map_to_cylinders
+    >>> from synth.surfaces.loop_maps import map_to_cylinders
     >>> circles_table(map_to_cylinders([4, 3, 5, 1]).cylinders, (), flat=(), angular=False)[0].rows[0][1:4]
     ('open', '++++', '1')
     """

@@ -13,9 +13,8 @@ from synth.cli.surfaces.circles import NumberList, in_radians
 if TYPE_CHECKING:
     from graphs.mechanism.on_surface import SurfaceLinkage
     from synth.conformed.linkages import OnSurface
-    from synth.surfaces.cone import ConeMap
-    from synth.surfaces.cylinder import CylinderMap
     from synth.surfaces.linkages import LinkageMap
+    from synth.surfaces.loop_maps import ConeMap, CylinderMap
 
 __all__ = ["behaviour_command", "map_answer", "move_command"]
 
@@ -33,9 +32,8 @@ def map_answer(
     A picture of a loop that is given by its links shows loop sums, unless the number of a surface is given.
     """
     from synth.conformed.linkages import linkage_on_surfaces, surface_of_number
-    from synth.surfaces.cone import map_to_cones
-    from synth.surfaces.cylinder import map_to_cylinders
     from synth.surfaces.linkages import by_sizes as given_by_sizes, map_linkage
+    from synth.surfaces.loop_maps import map_to_cones, map_to_cylinders
 
     if output is None and number is not None:
         raise click.UsageError(f"--{asked.kind} says what -o draws or writes: expected -o")

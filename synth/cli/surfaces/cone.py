@@ -81,7 +81,7 @@ def map_command(
     if supplementary:
         if asked.sizes is None or output is not None:
             raise click.UsageError("--supplementary lists linkages for --angles, and writes none")
-        from synth.surfaces.supplementary import supplementary_linkages
+        from synth.surfaces.linkages import supplementary_linkages
 
         answer: Any = supplementary_linkages(asked.linkage_sizes)
     else:

@@ -8,7 +8,7 @@ from typing import Any
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import InvariantError, shown
 from graphs.files.ids import is_id, mechanism_of_id
-from synth.conformed.cycles import loops_of_chain
+from synth.conformed.rates import loops_of_chain
 from synth.drawing.catalogue.rows import order_of_row
 
 __all__ = ["drawable_of_type"]

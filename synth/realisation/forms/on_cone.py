@@ -26,9 +26,8 @@ from graphs.rank.generic import exact_mobility
 from graphs.tolerances import DOUBLE
 from synth.conformed.rates import ConformedChain, first_order
 from synth.moving.made import configuration_of
-from synth.surfaces.circuit import wrapped
+from synth.surfaces.circuit import link_pairs, loop_steps, wrapped
 from synth.surfaces.linkages import by_sizes, map_linkage
-from synth.surfaces.several_loops import link_pairs, loop_steps
 
 __all__ = ["CONE_ANGLE", "OnOneCone", "realise_on_cone"]
 

@@ -16,7 +16,7 @@ from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.mechanism.surfaces import Surface
 from graphs.plain_text import plain
 from graphs.tolerances import DOUBLE
-from synth.conformed.layers import links_in_layers
+from synth.conformed.all_angles import links_in_layers
 from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain
 from synth.templates.scale import GREATEST

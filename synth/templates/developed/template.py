@@ -11,7 +11,7 @@ import numpy as np
 
 from graphs.errors import UnsolvableError, numbered
 from graphs.mechanism.surfaces import Cone, Cylinder, Surface
-from synth.conformed.layers import links_in_layers
+from synth.conformed.all_angles import links_in_layers
 from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain
 from synth.drawing.on_surface import surface_layer

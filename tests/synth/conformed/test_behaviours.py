@@ -8,11 +8,18 @@ from conical import FOUR_BAR, STEPHENSON, WATT, random_linkages, steps_of
 
 from graphs.errors import InvariantError
 from graphs.mechanism.sc import SCGraph
-from synth.conformed.behaviours import Way, behaviour, icrl, instant_centres, link_arcs, shadow_allows
-from synth.conformed.four_bar_poses import poses_from_conformed
-from synth.conformed.pose import joint_axes
+from synth.conformed.behaviours import (
+    Way,
+    behaviour,
+    icrl,
+    instant_centres,
+    link_arcs,
+    shadow_allows,
+    table4,
+    table_row,
+)
+from synth.conformed.pose import joint_axes, poses_from_conformed
 from synth.conformed.rates import ConformedChain, first_order, pole_axes
-from synth.conformed.twelve_cases import table4, table_row
 
 COUNT = 10_000
 FIVE = SCGraph(5, [(i, (i + 1) % 5) for i in range(5)])

@@ -18,9 +18,9 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.on_surface import SurfaceLinkage, places_of_steps
 from graphs.mechanism.sc import SCGraph
 from synth.conformed.pose import joint_axes
-from synth.surfaces.common import common_surfaces
-from synth.surfaces.cone import link_angles, map_to_cones
-from synth.surfaces.several_loops import link_pairs, loop_steps
+from synth.surfaces.circuit import link_angles, link_pairs, loop_steps
+from synth.surfaces.linkages import common_surfaces
+from synth.surfaces.loop_maps import map_to_cones
 
 ROOT = Path(__file__).resolve().parents[3]
 FIG_11 = ROOT / "data" / "surfaces" / "fig11-stephenson.json"

@@ -1,32 +1,38 @@
-"""Right cones: projected angles and link angles, and every cone on which a spherical loop lies.
+"""Loops on cones and cylinders: every right cone of a spherical loop, every cylinder of a planar one.
 
-The apex is the spherical centre, joint axes are ruling lines. The cone angle lambda is the angle between a
-ruling line and the plane across the axis: 0 is a flat disk, 90 degrees a needle, which no linkage has. A link of
-angle phi spans the projected angle phi_0 with sin(phi / 2) = cos(lambda) sin(phi_0 / 2). Sources: Hyatt,
-Magleby, Howell 2020; Hyatt et al. 2021, sections 3.2 and 4. Theory: docs/theory/mapping.md.
+On a cone the apex is the spherical centre, joint axes are ruling lines. The cone angle lambda is the angle between
+a ruling line and the plane across the axis: 0 is a flat disk, 90 degrees a needle, which no linkage has. A link of
+angle phi spans the projected angle phi_0 with sin(phi / 2) = cos(lambda) sin(phi_0 / 2). Across the axis of a
+cylinder, the joints of a planar loop lie on a circle. Sources: Hyatt, Magleby, Howell 2020; Hyatt et al. 2021,
+sections 3 and 4. Theory: docs/theory/mapping.md.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import cos, degrees
+from dataclasses import dataclass, replace
+from math import cos, degrees, fsum, inf
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
-from graphs.errors import UnsolvableError, numbered
-from graphs.mechanism.surfaces import checked_cone_angle
-from graphs.printing import Block, Printed
+from graphs.errors import InvariantError, UnsolvableError, numbered
+from graphs.mechanism.surfaces import Cylinder, checked_cone_angle
+from graphs.printing import Block, Printed, TableBlock
+from graphs.tolerances import DOUBLE
 from synth.fourbar.closing import (
     FourBarKind,
     checked_link_angles,
+    checked_link_lengths,
+    kind_of_planar,
     kind_of_spherical,
     spherical_differences,
 )
 from synth.fourbar.joint_lines import minimal_supplementary
-from synth.fourbar.rounding import rounding_of
+from synth.fourbar.rounding import ILL_CONDITIONED, rounding_of
+from synth.surfaces.circuit import azimuths
+from synth.surfaces.loop_sums import sign_patterns
 from synth.surfaces.mapping import (
     FamilyOfCircles,
     MappedLoop,
@@ -39,12 +45,17 @@ from synth.surfaces.mapping import (
 
 __all__ = [
     "ConeMap",
+    "CylinderMap",
+    "central_angles",
+    "chords",
     "cone_chords",
     "cone_reach",
+    "cylinder_reach",
     "is_flat",
+    "joint_coordinates",
     "largest_cone_angle",
-    "link_angles",
     "map_to_cones",
+    "map_to_cylinders",
     "projected_angles",
     "solution_class",
 ]
@@ -136,36 +147,6 @@ class ConeMap(Printed):
 def _in_json(one: MappedLoop) -> dict[str, Any]:
     bounds = [degrees(x) for x in one.bounds]
     return {"lambda_deg": degrees(one.size), "lambda_bounds_deg": bounds, "R": cos(one.size), **one.to_json()}
-
-
-def link_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
-    """Return the link angles of projected angles (Hyatt et al. 2020, Eq. 5).
-
-    Parameters
-    ----------
-    steps : float[...]
-        Projected angles, radians.
-    cone_angle : float[...]
-        lambda, broadcast against the steps.
-
-    Returns
-    -------
-    float[...]
-        phi in [0, pi], with cos(phi) = sin(lambda)^2 + cos(lambda)^2 cos(phi_0).
-
-    Raises
-    ------
-    InvariantError
-        If the cone angle is out of range.
-
-    Examples
-    --------
-    >>> np.degrees(link_angles(np.radians([40, -40, 120]), np.radians([20, 20, 35]))).round(4).tolist()
-    [37.4945, 37.4945, 90.3733]
-    """
-    lam, half = checked_cone_angle(cone_angle), np.asarray(steps, dtype=float) / 2.0
-    flat, rest = np.cos(lam) * np.sin(half), np.hypot(np.sin(lam) * np.sin(half), np.cos(half))
-    return np.asarray(2.0 * np.arctan2(np.abs(flat), rest))
 
 
 def projected_angles(angles: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
@@ -324,3 +305,174 @@ def _why_not(angles: Floats, flat: bool) -> str:
         return "T4 < 0: the links wrap round the sphere"
     most = np.degrees(largest_cone_angle(angles.max()))
     return f"no loop sum is a multiple of 360 degrees for lambda up to {most:.6g}, where the longest link ends"
+
+
+@dataclass(frozen=True, slots=True)
+class CylinderMap(Printed):
+    """All cylinders on which a planar loop lies.
+
+    Attributes
+    ----------
+    lengths : tuple of float
+    cylinders : tuple of MappedLoop
+        Their size is the radius.
+    families : tuple of FamilyOfCircles
+        Intervals of radii, up to infinity.
+    kind : FourBarKind or None
+        Of four-bars.
+    why : str
+        Why there is no cylinder; empty where there is one.
+    stretched : tuple of tuples of int
+        Signs with which the lengths sum to zero within their rounding, and not quite: the loop may be on one more
+        circle, too large to be told.
+
+    Examples
+    --------
+    >>> found = map_to_cylinders([4, 3, 5, 1])
+    >>> len(found.cylinders), found.kind.name
+    (2, 'rocker-crank')
+    """
+
+    lengths: tuple[float, ...]
+    cylinders: tuple[MappedLoop, ...]
+    families: tuple[FamilyOfCircles, ...]
+    kind: FourBarKind | None
+    why: str
+    stretched: tuple[tuple[int, ...], ...]
+
+    def cautions(self) -> tuple[str, ...]:
+        """Return what of the map rounding decides: of its type, its circles, its families, and beyond them."""
+        large = f"{ILL_CONDITIONED}: stretched out within rounding: one more cylinder may be very large"
+        return cautions_of(self.kind, self.cylinders, self.families, large if self.stretched else "")
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        blocks: list[Block] = [] if self.kind is None else [kind_line(self.kind, angular=False)]
+        blocks += circles_table(self.cylinders, self.families, flat=(), angular=False)
+        blocks += [f"caution: {caution}" for caution in self.cautions()]
+        for number, cylinder in enumerate(self.cylinders, start=1):
+            rows = [
+                (str(joint), f"{x + 0.0:.8g}", f"{y + 0.0:.8g}")
+                for joint, (x, y) in enumerate(
+                    joint_coordinates(cylinder.size, azimuths(cylinder.steps)).tolist(), start=1
+                )
+            ]
+            blocks += [f"joints on cylinder {number}", TableBlock(("joint", "x", "y"), rows, ["x", "y"])]
+        return [*blocks, f"no cylinder: {self.why}"] if self.why else blocks
+
+    def __repr__(self) -> str:
+        return f"<CylinderMap: {len(self.lengths)} links, {numbered(len(self.cylinders), 'cylinder')}>"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the map as plain data, with the keys that scripts rely on (docs/command-json.md)."""
+        return {
+            "lengths": list(self.lengths),
+            **({} if self.kind is None else self.kind.to_json(angular=False)),
+            "cylinders": [
+                {
+                    "radius": cylinder.size,
+                    "radius_bounds": [None if x == inf else x for x in cylinder.bounds],
+                    **cylinder.to_json(),
+                    "coordinates": joint_coordinates(cylinder.size, azimuths(cylinder.steps)).tolist(),
+                }
+                for cylinder in self.cylinders
+            ],
+            "families": [
+                {"radius": [None if x == inf else x for x in family.interval], **family.to_json()}
+                for family in self.families
+            ],
+            "why": self.why or None,
+            "cautions": list(self.cautions()),
+        }
+
+
+def joint_coordinates(radius: float, places: npt.ArrayLike) -> Floats:
+    """Return where joints at azimuths float[J] are across the axis of a cylinder: (R sin t, R cos t), float[J, 2].
+
+    >>> joint_coordinates(2.0, [0.0, np.pi]).tolist()
+    [[0.0, 2.0], [0.0, -2.0]]
+    """
+    points, _ = Cylinder(radius).axes(places)
+    return np.where(np.abs(points) > DOUBLE.same_point * radius, points, 0.0)[:, ::2]
+
+
+def central_angles(lengths: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:
+    """Return the angles that links span round the axis, psi = 2 asin(length / 2 R) (Hyatt et al. 2021, Eq. 19).
+
+    Parameters
+    ----------
+    lengths, radius : float[...]
+        Any one unit.
+
+    Raises
+    ------
+    InvariantError
+        If a link is longer than the diameter.
+
+    Examples
+    --------
+    >>> float(np.degrees(central_angles(1.0, 1.0)).round(9))
+    60.0
+    """
+    ratio = np.asarray(lengths, dtype=float) / (2.0 * np.asarray(radius, dtype=float))
+    if not ((ratio >= 0) & (ratio <= 1)).all():
+        raise InvariantError(
+            "radius", "a link is longer than the diameter, or the radius is not positive", "2 R >= every length"
+        )
+    return np.asarray(2.0 * np.arcsin(ratio))
+
+
+def chords(steps: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:
+    """Return the lengths of links that span angles, in radians, signed or not, on a cylinder of a radius."""
+    return np.asarray(2.0 * np.asarray(radius) * np.abs(np.sin(np.asarray(steps, dtype=float) / 2.0)))
+
+
+def cylinder_reach(lengths: npt.ArrayLike) -> Floats:
+    """Return 1 / length^2, the reach of links in a loop sum."""
+    return np.asarray(np.asarray(lengths, dtype=float) ** -2.0)
+
+
+def map_to_cylinders(lengths: npt.ArrayLike) -> CylinderMap:
+    """Return every cylinder on which a planar loop of any number of links lies, by its loop sums.
+
+    Parameters
+    ----------
+    lengths : float[n]
+        In loop order, any one unit. Of a four-bar: ground, input, coupler, output.
+
+    Raises
+    ------
+    InvariantError
+        If a length is not positive, or the links cannot close.
+    UnsolvableError
+        If there are too many links.
+
+    Examples
+    --------
+    Hyatt et al. 2021, Fig. 10:
+
+    >>> [(round(one.size, 2), one.circuit) for one in map_to_cylinders([4, 3, 5, 1]).cylinders]
+    [(2.54, 'open'), (2.59, 'crossed')]
+    """
+    given = checked_link_lengths(lengths)
+    unit = 2.0 ** np.frexp(given.max())[1]  # a power of two: no digit of the lengths is lost
+    loops, families = mapped_loop(cylinder_reach(given / unit), 0)
+    found = tuple(_scaled(one, unit) for one in loops)
+    many = tuple(replace(one, interval=(one.interval[0] * unit, inf)) for one in families)
+    kind = kind_of_planar(given) if len(given) == 4 else None
+    why = "" if found or many else "the loop closes stretched out only, at an infinite radius"
+    stretched = _nearly_stretched(given, {family.signs for family in many})
+    return CylinderMap(tuple(given.tolist()), found, many, kind, why, stretched)
+
+
+def _scaled(one: MappedLoop, unit: float) -> MappedLoop:
+    least, most = one.bounds
+    return replace(one, size=float(one.size * unit), bounds=(float(least * unit), float(most * unit)))
+
+
+def _nearly_stretched(lengths: Floats, families: set[tuple[int, ...]]) -> tuple[tuple[int, ...], ...]:
+    """Return the signs, but for those of families, with which lengths sum to nearly zero, and not to zero."""
+    patterns = sign_patterns(len(lengths))
+    near = patterns[np.abs(patterns @ lengths) <= rounding_of(lengths)]
+    signs = [tuple(row) for row in near.tolist()]
+    return tuple(one for one in signs if one not in families and fsum(np.multiply(one, lengths)) != 0.0)
