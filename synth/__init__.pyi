@@ -20,10 +20,10 @@ from graphs.mechanism.scd import SCDGraph as SCDGraph
 from graphs.mechanism.sheet import Sheet as Sheet
 from graphs.mechanism.vertex_edge import VertexEdgeGraph as VertexEdgeGraph
 from graphs.reduce.ride_alongs import reduce as reduce
-from synth.advice.advised import advise as advise
-from synth.assembly.found import positions as positions
+from synth.advice.advice import advise as advise
+from synth.assembly.modes import positions as positions
 from synth.atlas.asked.opened import open_atlas as open_atlas
-from synth.compliance.stated import states as states
+from synth.compliance.compliance_states import states as states
 from synth.drawing.mechanisms.pictures import draw as draw
 from synth.folding.motion import fold as fold
 from synth.guidance.fourbars import four_bars as four_bars
@@ -32,7 +32,7 @@ from synth.guidance.orientations import Orientations as Orientations
 from synth.guidance.synthesis import guiding_dyads as guiding_dyads
 from synth.moving.motion import move as move
 from synth.notebook import load_ipython_extension as load_ipython_extension
-from synth.overconstraint.explained import explain as explain
+from synth.overconstraint.explanation import explain as explain
 from synth.patterns.generated import generate as generate
 from synth.realisation.forms.on_cone import realise_on_cone as realise_on_cone
 from synth.realisation.realised import realise as realise

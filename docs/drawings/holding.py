@@ -15,9 +15,8 @@ from drawings.together import above, beside, said
 from graphs.arrays import Floats
 from graphs.errors import numbered
 from graphs.mechanism.sheet import Sheet
-from synth.compliance.equilibrium import equilibrium, load_path
-from synth.compliance.limited import limits
-from synth.compliance.springs import ElasticLinkage, Springs
+from synth.compliance.joint_limits import limits
+from synth.compliance.springs import ElasticLinkage, Springs, equilibrium, load_path
 from synth.drawing import Scene
 from synth.drawing.scene.palette import FINE, SMALL, STRONG, colour_of_class
 from synth.drawing.scene.plot import Plot, round_steps, signed

@@ -75,7 +75,7 @@ def _run(command: str) -> int:
 
 def _positions() -> int:
     """Compile what counts positions, for which commands need a file."""
-    from synth.assembly.found import positions
+    from synth.assembly.modes import positions
     from synth.patterns.rings.spherical import spherical_ring
 
     before = _compiled()

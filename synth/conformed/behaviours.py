@@ -29,21 +29,16 @@ from synth.conformed.rates import ConformedChain, FirstOrder, first_order
 from synth.surfaces.circuit import HALF_TURN
 
 __all__ = [
-    "COLUMNS",
-    "ROWS",
     "Behaviour",
     "TableRow",
     "Way",
     "behaviour",
     "behaviour_of_motion",
-    "half_turn_arcs",
     "icrl",
     "instant_centres",
     "link_arcs",
-    "shadow_allows",
     "table4",
     "table_row",
-    "ways_over",
 ]
 
 
@@ -52,19 +47,13 @@ class Way(IntEnum):
 
     Attributes
     ----------
-    INWARD, OUTWARD
-        All of it that moves moves towards the axis, or away from it.
-    STILL
-        Not at all to first order: the ground link, or one that turns about the axis.
-    BOTH
-        Some of it in, some out: transmobile.
-    UNKNOWN
-        The linkage has no freedom, or more than one.
+    INWARD, OUTWARD, BOTH
+        All of it that moves moves towards the axis, or away from it; or some in, some out (transmobile).
+    STILL, UNKNOWN
+        Immobile to first order (the ground link, or one that turns about the axis); not one freedom in all.
 
     Examples
     --------
-    The other sense of the motion:
-
     >>> Way(-Way.OUTWARD).name
     'INWARD'
     """
@@ -83,14 +72,13 @@ class Behaviour:
     Attributes
     ----------
     ways : int8[..., N]
-        `Way` of each link, in the order of the chain's links, for the sense of motion in which the first link
-        that moves one way moves outward. The other sense has INWARD and OUTWARD exchanged.
+        `Way` of each link of the chain, in the sense in which the first link that moves one way moves outward. The
+        other sense has INWARD and OUTWARD exchanged.
     one_way : bool[...]
-        Whether all moving links move the same way: the linkage can be intramobile and extramobile, by the sense
-        of its motion. Else it is transmobile.
+        Whether all moving links move the same way: intramobile or extramobile, by the sense; else transmobile.
     tangent : bool[..., J]
-        Joints that move, but along the surface to first order: what they do follows from second order. A joint
-        half a turn away from a fixed joint of its link goes outward, in both senses.
+        Joints that move along the surface to first order. A joint half a turn away from a fixed joint of its link
+        goes outward to second order, in both senses.
     ranges : float[..., N, 2]
         Least and greatest outward rate over each link, per unit distance from the apex or axis.
     motion : FirstOrder
@@ -107,26 +95,19 @@ class Behaviour:
 def behaviour(chain: ConformedChain, places: npt.ArrayLike, arcs: npt.ArrayLike | None = None) -> Behaviour:
     """Return the first-order behaviour of every link of linkages at their conformed position, by velocities.
 
+    The cone angle does not matter, and a cylinder behaves alike (`synth.conformed.rates`).
+
     Parameters
     ----------
     chain : ConformedChain
     places : float[..., J]
         Azimuths of the joints, radians.
     arcs : float[..., N, 2], optional
-        Where each link lies: start and length of its arc, radians. By default the shortest arc over its joints.
-
-    Returns
-    -------
-    Behaviour
-
-    Notes
-    -----
-    The cone angle does not matter, and a cylinder behaves alike (`synth.conformed.rates`).
+        Start and length of each link's arc, radians. By default the shortest arc over its joints.
 
     Examples
     --------
-    Hyatt et al. 2021, Table 4, case 1: an open four-bar on less than half the circle, a link next to the longest
-    as ground.
+    Hyatt et al. 2021, Table 4, case 1: an open four-bar on less than half the circle.
 
     >>> from graphs.mechanism.sc import SCGraph
     >>> chain = SCGraph(4, {"O": (0, 1), "A": (1, 2), "B": (2, 3), "C": (3, 0)})
@@ -142,7 +123,7 @@ def behaviour(chain: ConformedChain, places: npt.ArrayLike, arcs: npt.ArrayLike 
 def behaviour_of_motion(
     chain: ConformedChain, places: npt.ArrayLike, motion: FirstOrder, arcs: npt.ArrayLike
 ) -> Behaviour:
-    """Return the behaviour that a motion gives to links that lie on given arcs.
+    """Return the behaviour that a motion gives to links on known arcs.
 
     Parameters
     ----------
@@ -150,28 +131,21 @@ def behaviour_of_motion(
     places : float[..., J]
         Azimuths of the joints, radians.
     motion : FirstOrder
-        Of these places.
+        At these places.
     arcs : float[..., N, 2]
-        Where each link lies: start and length of its arc, radians.
-
-    Returns
-    -------
-    Behaviour
+        Start and length of each link's arc, radians.
 
     Examples
     --------
-    What a link does depends on where its material lies: the longest of this open four-bar moves outward over its
-    joints, and both ways if it goes all round the cone.
+    The longest link of this four-bar moves outward over its joints, and both ways if it goes all round the cone.
 
     >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, {"O": (0, 1), "A": (1, 2), "B": (2, 3), "C": (3, 0)}))
     >>> places = np.radians([40, 90, 140, 0])
-    >>> motion, arcs = first_order(chain, places), link_arcs(chain, places)
-    >>> Way(behaviour_of_motion(chain, places, motion, arcs).ways[3]).name
-    'OUTWARD'
-    >>> arcs[3] = 0, 2 * np.pi
-    >>> Way(behaviour_of_motion(chain, places, motion, arcs).ways[3]).name
-    'BOTH'
+    >>> arcs = np.stack([link_arcs(chain, places)] * 2)
+    >>> arcs[1, 3] = 0, 2 * np.pi
+    >>> [Way(behaviour_of_motion(chain, places, first_order(chain, places), arc).ways[3]).name for arc in arcs]
+    ['OUTWARD', 'BOTH']
     """
     t = np.asarray(places, dtype=float)
     ways, ranges, small = _ways_and_ranges(motion.motions, np.asarray(arcs, dtype=float))
@@ -193,7 +167,7 @@ def ways_over(motions: Floats, arcs: npt.ArrayLike) -> npt.NDArray[np.int8]:
 
 
 def _ways_and_ranges(motions: Floats, arcs: Floats) -> tuple[npt.NDArray[np.int8], Floats, Floats]:
-    """Return ways, outward rates at least and at most, and how small a rate is none."""
+    """Return ways, least and greatest outward rates, and the rate below which a link is still."""
     ranges = _outward_ranges(motions, arcs)
     scale = np.abs(motions[..., ::2]).max(axis=(-2, -1))
     small = (DOUBLE.zero_rate * np.where(np.isfinite(scale), scale, 0.0))[..., np.newaxis]
@@ -216,7 +190,7 @@ def _outward_ranges(motions: Floats, arcs: Floats) -> Floats:
 
 
 def _tangent(chain: ConformedChain, t: Floats, motion: FirstOrder, small: Floats) -> npt.NDArray[np.bool_]:
-    """Tell which joints move along the surface."""
+    """Find the joints that move along the surface."""
     tangent = np.zeros(t.shape, dtype=bool)
     for joint in range(len(chain.joints)):
         link = next(n for n, joints in enumerate(chain.joints_of) if joint in joints)
@@ -231,26 +205,22 @@ def _tangent(chain: ConformedChain, t: Floats, motion: FirstOrder, small: Floats
 def link_arcs(chain: ConformedChain, places: npt.ArrayLike, begins: Mapping[int, int] | None = None) -> Floats:
     """Return the shortest arc over the joints of each link: all the circle but the largest gap between them.
 
+    Start and length in radians, float[..., N, 2]. A binary link has its minor arc; of two halves, either
+    (`half_turn_arcs`).
+
     Parameters
     ----------
     chain : ConformedChain
     places : float[..., J]
     begins : mapping of int to int, optional
-        Number of a link to the number of the joint at which its arc begins: of one that spans half a turn.
-
-    Returns
-    -------
-    float[..., N, 2]
-        Start and length, radians. A binary link's arc is its minor arc; of two halves, either (`half_turn_arcs`).
+        Number of a link that spans half a turn to the number of the joint at which its arc begins.
 
     Examples
     --------
     >>> from graphs.mechanism.sc import SCGraph
     >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
-    >>> np.degrees(link_arcs(four_bar, np.radians([0, 40, 90, 140]))).round(9).tolist()
-    [[0.0, 140.0], [0.0, 40.0], [40.0, 50.0], [90.0, 50.0]]
-    >>> np.degrees(link_arcs(four_bar, np.radians([0, 40, 90, 180]), {0: 3})[0]).round(9).tolist()
-    [180.0, 180.0]
+    >>> np.degrees(link_arcs(four_bar, np.radians([0, 40, 90, 180]), {0: 3})).round(9).tolist()
+    [[180.0, 180.0], [0.0, 40.0], [40.0, 50.0], [90.0, 90.0]]
     """
     t = np.asarray(places, dtype=float)
     arcs = []
@@ -270,9 +240,9 @@ def link_arcs(chain: ConformedChain, places: npt.ArrayLike, begins: Mapping[int,
 def half_turn_arcs(
     chain: ConformedChain, places: npt.ArrayLike
 ) -> dict[int, tuple[tuple[int, int], tuple[int, int]]]:
-    """Return the links that span half a turn, which may curve either way: each with its two arcs.
+    """Return the links that span half a turn and may curve either way, at places float[J]: each with its two arcs.
 
-    An arc is told by the numbers of the joints at which it begins and ends, azimuths growing. Places are float[J].
+    An arc is the numbers of the joints at which it begins and ends, azimuths growing.
 
     >>> from graphs.mechanism.sc import SCGraph
     >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
@@ -280,7 +250,7 @@ def half_turn_arcs(
     {0: ((0, 3), (3, 0))}
     """
     t = np.remainder(np.asarray(places, dtype=float), 2 * np.pi)
-    found = {}
+    halves = {}
     for number, joints in enumerate(chain.joints_of):
         mine = sorted(joints, key=lambda joint: float(t[joint]))
         gaps = np.diff(t[mine], append=t[mine[0]] + 2 * np.pi) if mine else np.zeros(0)
@@ -288,24 +258,20 @@ def half_turn_arcs(
         if len(wide) == 2:
             # an arc that leaves out a gap begins where the gap ends
             ends = [(mine[(gap + 1) % len(mine)], mine[gap]) for gap in wide]
-            found[number] = (ends[1], ends[0])
-    return found
+            halves[number] = (ends[1], ends[0])
+    return halves
 
 
 def icrl(motions: npt.ArrayLike) -> Floats:
-    """Return the direction of the ICRL of links: the line through the centre of the circle and the instant centre.
+    """Return the azimuth of the ICRL of links, the line through circle centre and instant centre: float[..., N].
+
+    In (-pi, pi]. Right of it (azimuths up to half a turn larger) the link moves outward. On a cone the line is the
+    projection of the pole axis. nan where the link does not move, or turns about the centre.
 
     Parameters
     ----------
     motions : float[..., N, 3]
         w of each link.
-
-    Returns
-    -------
-    float[..., N]
-        Azimuth of the line, radians, in (-pi, pi]. Right of it (azimuths up to half a turn larger) the link
-        moves outward. On a cone the line is the projection of the pole axis. nan where the link does not move,
-        or turns about the centre.
 
     Examples
     --------
@@ -319,18 +285,14 @@ def icrl(motions: npt.ArrayLike) -> Floats:
 
 
 def instant_centres(motions: npt.ArrayLike) -> Floats:
-    """Return the instant centres of links with respect to the ground: where pole axes meet the circle's plane.
+    """Return the instant centres of links with respect to the ground, in radii: float[..., N, 2].
+
+    Pole axes meet the circle's plane there; the point at azimuth t is (sin t, cos t). Infinite without rotation.
 
     Parameters
     ----------
     motions : float[..., N, 3]
         w; differences of two give relative centres.
-
-    Returns
-    -------
-    float[..., N, 2]
-        In radii, in the plane of the circle: the point at azimuth t is (sin t, cos t). Infinite where a link
-        does not turn.
 
     Examples
     --------
@@ -346,12 +308,11 @@ def instant_centres(motions: npt.ArrayLike) -> Floats:
 
 
 def shadow_allows(places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-    """Tell by the shadow method whether four-bars can be intra- or extramobile (Hyatt et al. 2021, section 5).
+    """Check by the shadow method whether four-bars can be intra- or extramobile (Hyatt et al. 2021, section 5).
 
     The lines of the two side links, O A and B C, cut the plane into two double wedges. If the centre of the circle
     lies in the one that holds ground and coupler, the linkage is transmobile; else it is not. Azimuths, float[...,
-    4], are those of O, A, B, C; the ground link is C O, the coupler A B. Raises `InvariantError` unless there are
-    four.
+    4], are those of O, A, B, C; the ground link is C O, the coupler A B.
     """
     t = np.asarray(places, dtype=float)
     if t.shape[-1:] != (4,):
@@ -442,8 +403,7 @@ def table4(case: int, configuration: str, column: str, *, diameter: bool = False
     column : {"A", "B"}
     diameter : bool, optional
         Whether P4 P1 (case 1) or a diagonal (case 2) is a diameter. A joint half a turn from the fixed joint of
-        its link moves along the surface, and to second order outward: intramobility is lost, or extramobility
-        gained.
+        its link then moves outward to second order: intramobility is lost, or extramobility gained.
 
     Raises
     ------

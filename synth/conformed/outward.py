@@ -45,7 +45,7 @@ from graphs.errors import UnsolvableError
 from graphs.rank.spaces import rank_of
 from synth.conformed.rates import ConformedChain, signed_cycles
 
-__all__ = ["OutwardRate", "SignRelations", "arc_sets", "brackets", "joint_rates", "outward_rates", "sign_of_sum"]
+__all__ = ["OutwardRate", "joint_rates", "outward_rates"]
 
 _BASES = 12
 _PATHS = 12
@@ -82,17 +82,7 @@ class OutwardRate:
         return zip(self.factors.tolist(), sines, self.triples, strict=True)
 
     def values(self, places: npt.ArrayLike) -> Floats:
-        """Return the rates of linkages.
-
-        Parameters
-        ----------
-        places : float[..., J]
-            Azimuths, radians.
-
-        Returns
-        -------
-        float[...]
-        """
+        """Return the rates of linkages with azimuths float[..., J], radians: float[...]."""
         t = np.asarray(places, dtype=float)
         total = np.zeros(t.shape[:-1])
         for factor, i, triples in self._terms:
@@ -104,30 +94,16 @@ class OutwardRate:
         return total
 
     def signs(self, places: npt.ArrayLike) -> npt.NDArray[np.int8]:
-        """Return the sign that all terms have, 0 where they differ; it is that of all linkages of the same order.
+        """Return the sign of all terms, 0 where they differ, at azimuths float[..., J] in [0, 2 pi): int8[...].
 
-        Parameters
-        ----------
-        places : float[..., J]
-            Azimuths between 0 and 2 pi in the order of joints and opposite points that is asked for.
-
-        Returns
-        -------
-        int8[...]
+        It is that of all linkages with the same order of joints and opposite points.
         """
         return _common_sign(self._term_signs(np.asarray(places, dtype=float)))
 
     def signs_by_chords(self, slots: Ints) -> npt.NDArray[np.int8]:
-        """Return the sign of the rate where each term has a larger one of the other sign, else 0.
+        """Return the sign of the rate where each term has a larger one of the other sign, else 0: int8[r].
 
-        Parameters
-        ----------
-        slots : int64[r, J]
-            Orders with opposites, on 2 J slots.
-
-        Returns
-        -------
-        int8[r]
+        Slots, int64[r, J], are orders with opposites, on 2 J slots.
         """
         t = slots * (np.pi / slots.shape[-1])
         arcs, every = arc_sets(slots), (1 << slots.shape[-1]) - 1
@@ -158,15 +134,7 @@ class OutwardRate:
 
 
 def brackets(places: npt.ArrayLike) -> Floats:
-    """Return det(e_a, e_b, e_c) of three joints: twice the area of their triangle, + if they are in order.
-
-    Places, float[..., 3], are azimuths, radians.
-
-    >>> from synth.conformed.rates import ring_axes
-    >>> places = np.array([0.3, 2.0, 4.5])
-    >>> bool(np.isclose(brackets(places), np.linalg.det(ring_axes(places))))
-    True
-    """
+    """Return det(e_a, e_b, e_c) of joints at azimuths float[..., 3]: twice their triangle's area, + in order."""
     a, b, c = np.moveaxis(np.asarray(places, dtype=float) / 2.0, -1, 0)
     return np.asarray(4.0 * np.sin(b - a) * np.sin(c - b) * np.sin(c - a))
 
@@ -228,7 +196,8 @@ def _checked(chain: ConformedChain) -> ConformedChain:
     loops, joints = len(chain.loops), len(chain.joints)
     if joints != 3 * loops + 1:
         raise UnsolvableError(
-            f"{joints} joints and {loops} independent loops have not one freedom: expected {3 * loops + 1} joints"
+            f"{joints} joints and {loops} independent loops do not have 1 degree of freedom; "
+            f"expected {3 * loops + 1} joints"
         )
     return chain
 
@@ -240,11 +209,6 @@ def outward_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     ----------
     chain : ConformedChain
         Of one freedom: J = 3 L + 1.
-
-    Returns
-    -------
-    tuple of tuples of OutwardRate
-        For each joint.
 
     Raises
     ------
@@ -364,7 +328,7 @@ def _minor(basis: Ints, left_out: int) -> Iterator[_Term]:
 
 @compiled
 def _matched(fits: npt.NDArray[np.bool_], rows: int, columns: int) -> bool:
-    """Tell whether every row can have a column of its own that fits (augmenting paths)."""
+    """Check whether every row can have a column of its own that fits (augmenting paths)."""
     owner = np.full(columns, -1, np.int64)
     came = np.empty(columns, np.int64)
     queue = np.empty(rows + 1, np.int64)
@@ -403,7 +367,7 @@ def _matched(fits: npt.NDArray[np.bool_], rows: int, columns: int) -> bool:
 
 @compiled
 def _all_dominated(signs: Signs, sets: Ints, less: int) -> bool:
-    """Tell whether each term of sign ``less`` has a larger term of the other sign of its own."""
+    """Check whether each term of sign ``less`` has a larger term of the other sign of its own."""
     terms, factors = sets.shape
     fits = np.zeros((terms, terms), np.bool_)
     within = np.zeros((factors, factors), np.bool_)
@@ -438,10 +402,7 @@ def _signs(signs: Signs, sets: Ints) -> Signs:
 def arc_sets(slots: Ints) -> Ints:
     """Return the sizes of fine gaps that the shorter arc between two joints covers, as masks int64[r, J, J].
 
-    Orders with opposites are given on 2 J slots; bit g is the gap after a slot that is g modulo J.
-
-    >>> arc_sets(np.array([[0, 2, 4]]))[0].tolist()
-    [[0, 3, 6], [3, 0, 5], [6, 5, 0]]
+    Slots are orders with opposites, on 2 J slots; bit g is the gap after a slot that is g modulo J.
     """
     joints = slots.shape[-1]
     first, second = slots[:, :, np.newaxis], slots[:, np.newaxis, :]
@@ -455,12 +416,7 @@ def arc_sets(slots: Ints) -> Ints:
 def sign_of_sum(signs: Signs, sets: Ints) -> Signs:
     """Return the signs of sums of products of chords, 0 where this does not decide.
 
-    Signs, int8[r, T], are those of the terms, sets, int64[r, T, F], the arcs of each term's chords. In the
-    example, a chord less a shorter one within its arc, and less one elsewhere.
-
-    >>> sets = np.array([[[0b011], [0b001]], [[0b011], [0b100]]])
-    >>> sign_of_sum(np.array([[1, -1], [1, -1]], np.int8), sets).tolist()
-    [1, 0]
+    Signs, int8[r, T], are those of the terms, sets, int64[r, T, F], the arcs of each term's chords.
     """
     return np.asarray(_signs(np.ascontiguousarray(signs), np.ascontiguousarray(sets)))
 
@@ -527,12 +483,7 @@ class SignRelations:
 
     @classmethod
     def of(cls, chain: ConformedChain) -> SignRelations:
-        """Set up the relations of a chain.
-
-        >>> from graphs.mechanism.sc import SCGraph
-        >>> len(SignRelations.of(ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))).unknowns)
-        26
-        """
+        """Set up the relations of a chain."""
         links, joints = len(chain.links), len(chain.joints)
         zero = np.zeros(links * joints + joints, bool)
         zero[:joints] = True
@@ -569,7 +520,7 @@ class SignRelations:
         )
 
     def start(self, count: int) -> Signs:
-        """Return signs of which nothing is known but what is zero: int8[count, N J + J]."""
+        """Return signs of which none is known but that of zeros: int8[count, N J + J]."""
         known = np.zeros((count, len(self.zero)), np.int8)
         known[:, self.zero] = _ZERO
         return known
@@ -591,7 +542,7 @@ class SignRelations:
 
 
 def _direction(chain: ConformedChain, joint: int, m: int, n: int) -> int:
-    """Return the sign of q_i e_i in w of link n less w of link m: paths, closed by loops, say it."""
+    """Return the sign of q_i e_i in w of link n less w of link m, from their paths, closed by loops."""
     step = chain.paths[n] - chain.paths[m]
     step[joint] -= 1
     # +1 if the rest is a sum of loops, that is, rates that close leave nothing over

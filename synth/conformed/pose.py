@@ -37,7 +37,7 @@ class PoseCheck:
     Attributes
     ----------
     link_angles : float[...]
-        Largest difference between a link angle measured between axes and the one asked for.
+        Largest difference between a link angle measured between axes and the required one.
     on_cone : float[...]
         Largest difference between an axis' angle with the plane across the cone's axis and lambda.
     """
@@ -47,7 +47,10 @@ class PoseCheck:
 
 
 def dihedral_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
-    """Return the dihedral angle at each joint of loops (Hyatt et al. 2020, Eqs. 13, 14 and Table 2, put right).
+    """Return the dihedral angle at each joint of loops: float[..., n].
+
+    Hyatt et al. 2020, Eqs. 13, 14 and Table 2, put right. Right-handed about the outward joint axis, from the
+    plane of link i - 1 to that of link i, in (-pi, pi].
 
     Parameters
     ----------
@@ -55,17 +58,12 @@ def dihedral_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
         Signed projected angles in loop order, radians; joint i lies between steps i - 1 and i.
     cone_angle : float[...]
 
-    Returns
-    -------
-    float[..., n]
-        Right-handed about the outward joint axis, from the plane of link i - 1 to that of link i, in (-pi, pi].
-
     Notes
     -----
-    With a and b the two steps, cos(theta) = (cos e - cos f1 cos f2) / (sin f1 sin f2), e being the link angle of
-    a + b, and the sign is that of a b (a + b) (docs/misprints.md 000-3, 000-4). sin(theta) is here the volume of
-    the three axes, 4 sin(lambda) cos(lambda)^2 sin(a/2) sin(b/2) sin((a + b)/2), by the same denominator; so no
-    digits are lost.
+    With a and b the two steps, cos(theta) = (cos e - cos f1 cos f2) / (sin f1 sin f2), e being the link angle of a
+    + b, and the sign is that of a b (a + b) (docs/misprints.md 000-3, 000-4). sin(theta) is here the volume of the
+    three axes, 4 sin(lambda) cos(lambda)^2 sin(a/2) sin(b/2) sin((a + b)/2), by the same denominator; so no digits
+    are lost.
 
     Examples
     --------
@@ -85,22 +83,16 @@ def dihedral_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
 
 
 def measured_dihedral_angles(axes: npt.ArrayLike) -> Floats:
-    """Return the dihedral angles of closed loops of axes in space, measured.
+    """Return the measured dihedral angles of closed loops of axes in space, as `dihedral_angles`: float[..., n].
 
     Parameters
     ----------
     axes : float[..., n, 3]
         Joint axes in loop order, in any pose.
 
-    Returns
-    -------
-    float[..., n]
-        As in `dihedral_angles`.
-
     Examples
     --------
-    >>> corner = np.eye(3)
-    >>> np.degrees(measured_dihedral_angles(corner)).tolist()
+    >>> np.degrees(measured_dihedral_angles(np.eye(3))).tolist()
     [-90.0, -90.0, -90.0]
     """
     e = np.asarray(axes, dtype=float)
@@ -114,19 +106,18 @@ def check_pose(angles: npt.ArrayLike, steps: npt.ArrayLike, cone_angle: npt.Arra
     Parameters
     ----------
     angles : float[..., n]
-        Link angles that are asked for, radians.
+        Required link angles, radians.
     steps : float[..., n]
         Signed projected angles.
     cone_angle : float[...]
 
     Examples
     --------
-    >>> from synth.surfaces.loop_maps import map_to_cones
+    >>> from synth.surfaces import map_to_cones
     >>> angles = np.radians([120, 95, 45, 85])
-    >>> (first, _) = map_to_cones(angles).cones
-    >>> check = check_pose(angles, first.steps, first.size)
-    >>> bool(check.link_angles < 1e-12), bool(check.on_cone < 1e-15)
-    (True, True)
+    >>> cone = map_to_cones(angles).cones[0]
+    >>> bool(check_pose(angles, cone.steps, cone.size).link_angles < 1e-12)
+    True
     """
     axes = joint_axes(azimuths(steps), cone_angle)
     measured = sectors(axes)
@@ -172,11 +163,7 @@ def poses_from_conformed(steps: npt.ArrayLike, cone_angle: float, turns: npt.Arr
     cone_angle : float
         lambda > 0.
     turns : float[M]
-        How far the input has turned from the conformed pose.
-
-    Returns
-    -------
-    FourBarPoses
+        Input angles from the conformed pose, radians.
 
     Raises
     ------
@@ -194,18 +181,18 @@ def poses_from_conformed(steps: npt.ArrayLike, cone_angle: float, turns: npt.Arr
     >>> np.degrees(poses.psi - poses.conformed[1]).round(4).tolist()
     [-11.1118, 34.9421]
     """
-    given = np.asarray(steps, dtype=float)
+    signed = np.asarray(steps, dtype=float)
     lam = float(checked_cone_angle(cone_angle))
-    total = given.sum()
-    if given.shape != (4,) or abs(total - 2 * np.pi * np.rint(total / (2 * np.pi))) > 1e-9:
+    total = signed.sum()
+    if signed.shape != (4,) or abs(total - 2 * np.pi * np.rint(total / (2 * np.pi))) > 1e-9:
         raise InvariantError("closed loop", "the steps do not close", "four that sum to a multiple of 360 degrees")
     if lam == 0.0:
         raise InvariantError("cone angle", "at lambda = 0 the linkage is at a dead point", "a cone angle above 0")
-    start = joint_axes(azimuths(given), lam)
+    start = joint_axes(azimuths(signed), lam)
     o, a0, b0, c = start
-    dihedral = dihedral_angles(given, lam)
+    dihedral = dihedral_angles(signed, lam)
     theta0, xi0, psi0 = float(dihedral[0]), float(dihedral[1]), float(np.pi - dihedral[3])
-    links = link_angles(np.roll(given, 1), lam)
+    links = link_angles(np.roll(signed, 1), lam)
     both = np.array([output_spherical(links, theta0, branch) for branch in (1, -1)])
     branch = 1 if abs(_turned(both[0] - psi0)) <= abs(_turned(both[1] - psi0)) else -1
     theta = theta0 + np.asarray(turns, dtype=float)

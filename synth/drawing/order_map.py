@@ -15,10 +15,8 @@ from synth.drawing.labels import spread
 from synth.drawing.scene.frame import COLUMN, Frame, framed, page_of
 from synth.drawing.scene.palette import FINE, NORMAL, SMALL
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Polygon, Scene, Shape
-from synth.guidance.dyads import Dyad
-from synth.guidance.four import AxisCurve
-from synth.guidance.hoop_method import pair_name
-from synth.guidance.order import order_verdicts
+from synth.guidance.dyads import AxisCurve, Dyad
+from synth.guidance.order import order_verdicts, pair_name
 from synth.guidance.orientations import Orientations
 
 __all__ = ["CCW", "CW", "NEITHER", "draw_map"]

@@ -22,7 +22,7 @@ from synth.drawing.scene.palette import FINE, NORMAL, SMALL, STRONG
 from synth.drawing.scene.plot import Plot
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Scene, Shape, text_width
 from synth.drawing.space.view import View, view_from
-from synth.guidance.hoop_method import Crossing, Hoop, direction_words, pair_name
+from synth.guidance.order import Hoop, HoopCrossing, direction_words, pair_name
 from synth.guidance.orientations import Orientations, unit_vector
 
 __all__ = ["draw_hoop"]
@@ -51,7 +51,7 @@ def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Sc
     axis : float[3]
         The fixed axis.
     hoop : Hoop
-        Of :func:`synth.guidance.hoop_method.hoop`.
+        Of :func:`synth.guidance.order.hoop`.
 
     Raises
     ------
@@ -61,7 +61,7 @@ def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Sc
     Examples
     --------
     >>> from scipy.spatial.transform import Rotation
-    >>> from synth.guidance.hoop_method import hoop
+    >>> from synth.guidance.order import hoop
     >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
     >>> given = Orientations.from_rotation(body)
     >>> [layer.name for layer in draw_hoop(given, (0, 0, 1), hoop(given, (0, 0, 1))).layers]
@@ -166,7 +166,7 @@ def _bodies(globe: _Globe, orientations: Orientations) -> list[Shape]:
 
 
 def _ends(
-    orientations: Orientations, g: Floats, start: Floats, across: Floats, shown: Sequence[Crossing],
+    orientations: Orientations, g: Floats, start: Floats, across: Floats, shown: Sequence[HoopCrossing],
     needed: set[tuple[int, int]],
 ) -> list[tuple[Floats, str, str]]:  # fmt: skip
     """Return the ends of axes that the hoop crosses, with their names and colours; that of S12 and of G."""
@@ -194,11 +194,11 @@ def _marks(globe: _Globe, marks: Sequence[tuple[Floats, str, str]], orientations
     return shapes
 
 
-def _strip(shown: Sequence[Crossing], needed: set[tuple[int, int]]) -> list[Shape]:
+def _strip(shown: Sequence[HoopCrossing], needed: set[tuple[int, int]]) -> list[Shape]:
     """Return crossings along the angle of the hoop, those that decide above the line."""
     plot = Plot(6.0, _SIDE, _SIDE - 12.0, _STRIP - 26.0, (-13.0, 193.0), (-2.4, 2.4))
     shapes: list[Shape] = [Line([plot.at(-13.0, 0.0), plot.at(193.0, 0.0)], "ink", NORMAL)]
-    deciding = [Crossing((1, 2), 0.0), *(c for c in shown if c.pair in needed)]
+    deciding = [HoopCrossing((1, 2), 0.0), *(c for c in shown if c.pair in needed)]
     for crossings, sign, colour in (
         (deciding, 1.0, NEEDED),
         ([c for c in shown if c.pair not in needed], -1.0, "ink"),

@@ -27,9 +27,7 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import Cone, Cylinder, Surface
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.tolerances import DOUBLE
-from synth.fourbar.closing import checked_link_angles, spherical_differences
-from synth.fourbar.joint_lines import supplementary
-from synth.fourbar.rounding import ILL_CONDITIONED
+from synth.fourbar.closing import ILL_CONDITIONED, checked_link_angles, spherical_differences, supplementary
 from synth.surfaces.circuit import HALF_TURN, circuits, link_angles, link_pairs, loop_steps, wrapped
 from synth.surfaces.loop_maps import (
     ConeMap,
@@ -52,7 +50,6 @@ __all__ = [
     "by_sizes",
     "common_surfaces",
     "map_linkage",
-    "sizes_on",
     "supplementary_linkages",
 ]
 
@@ -77,7 +74,7 @@ class LinkageMap(Printed):
         """Return the lines and tables that are printed."""
         blocks = [block for one in self.surfaces for block in self._of_surface(one)]
         for family in self.families:
-            told = "; ".join(
+            loops = "; ".join(
                 f"{joints_text(loop.joints)}: {signs_text(signs)}, k {turns}"
                 for loop, signs, turns in zip(self.linkage.chain.loops, family.signs, family.turns, strict=True)
             )
@@ -85,37 +82,39 @@ class LinkageMap(Printed):
             every = f"lambda between {degrees(low):.10g} and {degrees(high):.10g} degrees"
             if self.linkage.kind == "cylinder":
                 every = f"radius from {low:.10g} on"
-            blocks.append(f"every {every}   ({told})")
+            blocks.append(f"every {every}   ({loops})")
             blocks += [family.caution] if family.caution else []
         return blocks or [f"no {self.linkage.kind} is common to all loops"]
 
-    def _of_surface(self, one: CommonSurface) -> list[Block]:
-        chain, surface = self.linkage.chain, one.surface
+    def _of_surface(self, common: CommonSurface) -> list[Block]:
+        chain, surface = self.linkage.chain, common.surface
         link_of = link_pairs(chain)
         loops = [
             (joints_text(loop.joints), circuit, signs_text(signs), str(turns))
-            for loop, circuit, signs, turns in zip(chain.loops, one.circuits, one.signs, one.turns, strict=True)
+            for loop, circuit, signs, turns in zip(
+                chain.loops, common.circuits, common.signs, common.turns, strict=True
+            )
         ]
         rows = [
             (plain(link_of[pair]), joints_text(pair), *(f"{size:.8g}" for size in sizes))
-            for pair, sizes in _sizes_and_chords(self.linkage, one).items()
+            for pair, sizes in _sizes_and_chords(self.linkage, common).items()
         ]
         heads = ["length"] if isinstance(surface, Cylinder) else ["angle (deg)", "chord"]
         blocks: list[Block] = [
             str(surface) if isinstance(surface, Cylinder) else f"{surface}, R {cos(surface.angle):.8g}",
-            *([one.caution] if one.caution else []),
+            *([common.caution] if common.caution else []),
             TableBlock(("loop", "circuit", "signs", "k"), loops, ["k"]),
             TableBlock(("link", "joints", *heads), rows, heads),
         ]
         if isinstance(surface, Cylinder):
-            blocks.append(_coordinates_table(surface, one.places))
+            blocks.append(_coordinates_table(surface, common.places))
         return blocks
 
     def __repr__(self) -> str:
         return f"<LinkageMap: {self.linkage!r}, {numbered(len(self.surfaces), self.linkage.kind)}>"
 
     def to_json(self) -> dict[str, Any]:
-        """Return what scripts rely on (docs/command-json.md): circuit, signs and k are lists, an item a loop."""
+        """Return plain data (docs/command-json.md): circuit, signs and k are lists with one item per loop."""
         on_cone = self.linkage.kind == "cone"
         return {
             "loops": [list(map(str, loop.joints)) for loop in self.linkage.chain.loops],
@@ -147,11 +146,11 @@ class LinkageMap(Printed):
             ],
         }
 
-    def _sizes_json(self, one: CommonSurface) -> dict[str, Any]:
-        sizes = _sizes_and_chords(self.linkage, one)
+    def _sizes_json(self, common: CommonSurface) -> dict[str, Any]:
+        sizes = _sizes_and_chords(self.linkage, common)
         first = [[str(a), str(b), size[0]] for (a, b), size in sizes.items()]
-        if isinstance(one.surface, Cylinder):
-            points = _coordinates(one.surface, one.places)
+        if isinstance(common.surface, Cylinder):
+            points = _coordinates(common.surface, common.places)
             return {"link_lengths": first, "coordinates": {str(joint): at for joint, at in points.items()}}
         return {"link_angles_deg": first, "chords": [[str(a), str(b), size[1]] for (a, b), size in sizes.items()]}
 
@@ -162,23 +161,16 @@ def _size_json(surface: Surface) -> dict[str, float]:
     return {"lambda_deg": degrees(surface.angle), "R": cos(surface.angle)}
 
 
-def _sizes_and_chords(linkage: SurfaceLinkage, one: CommonSurface) -> dict[Pair, tuple[float, ...]]:
+def _sizes_and_chords(linkage: SurfaceLinkage, common: CommonSurface) -> dict[Pair, tuple[float, ...]]:
     """Return the lengths of links, or their angles in degrees and the chords of these."""
-    found = sizes_on(linkage, one.surface, one.places)
-    if isinstance(one.surface, Cylinder):
-        return {pair: (size,) for pair, size in found.items()}
-    return {pair: (in_degrees([size])[0], float(cone_chords(size))) for pair, size in found.items()}
+    sizes = sizes_on(linkage, common.surface, common.places)
+    if isinstance(common.surface, Cylinder):
+        return {pair: (size,) for pair, size in sizes.items()}
+    return {pair: (in_degrees([size])[0], float(cone_chords(size))) for pair, size in sizes.items()}
 
 
 def sizes_on(linkage: SurfaceLinkage, surface: Surface, places: Mapping[JointId, float]) -> dict[Pair, float]:
-    """Return the link angles, radians, or lengths between all joints of each link on a surface.
-
-    >>> from graphs.mechanism.on_surface import ring
-    >>> square = SurfaceLinkage(ring(4), steps={})
-    >>> places = dict(zip(square.chain.joints, np.radians([0, 90, 180, 270]), strict=True))
-    >>> round(sizes_on(square, Cylinder(1.0), places)["1", "2"], 6)
-    1.414214
-    """
+    """Return the link angles, radians, or lengths between all joints of each link on a surface."""
 
     def size(step: float) -> float:
         if isinstance(surface, Cylinder):
@@ -206,21 +198,16 @@ def _coordinates_table(surface: Cylinder, places: Mapping[JointId, float]) -> Ta
 
 
 def by_sizes(linkage: SurfaceLinkage) -> SurfaceLinkage:
-    """Return a linkage given by steps on a surface as one that is given by all its link angles or lengths.
+    """Return a linkage of steps on a surface as one of all its link angles or lengths; one of sizes unchanged.
 
     Parameters
     ----------
     linkage : SurfaceLinkage
-        One that is given by its sizes is returned as it is.
-
-    Returns
-    -------
-    SurfaceLinkage
 
     Raises
     ------
     UnsolvableError
-        If the surface is not given.
+        If it has no surface.
 
     Examples
     --------
@@ -230,15 +217,17 @@ def by_sizes(linkage: SurfaceLinkage) -> SurfaceLinkage:
     >>> from graphs.mechanism.surfaces import Cone
     >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
     >>> steps = {(0, 1): np.pi / 2, (1, 2): np.pi / 2, (2, 3): np.pi / 2}
-    >>> given = by_sizes(SurfaceLinkage(chain, steps=steps, surface=Cone(np.pi / 4)))
-    >>> {pair: round(degrees(angle), 9) for pair, angle in given.angles.items()}
-    {(0, 3): 60.0, (0, 1): 60.0, (1, 2): 60.0, (2, 3): 60.0}
+    >>> linkage = by_sizes(SurfaceLinkage(chain, steps=steps, surface=Cone(np.pi / 4)))
+    >>> {round(degrees(angle), 9) for angle in linkage.angles.values()}
+    {60.0}
     """
     if linkage.steps is None:
         return linkage
     if linkage.surface is None:
-        told = "lengths: expected 'radius'" if linkage.kind == "cylinder" else "link angles: expected 'lambda_deg'"
-        raise UnsolvableError(f"steps without a {linkage.kind} have no {told}")
+        missing = (
+            "lengths; expected 'radius'" if linkage.kind == "cylinder" else "link angles; expected 'lambda_deg'"
+        )
+        raise UnsolvableError(f"steps without a {linkage.kind} have no {missing}")
     at = dict(zip(linkage.chain.joints, linkage.places(), strict=True))
     sizes = sizes_on(linkage, linkage.surface, at)
     if linkage.kind == "cylinder":
@@ -247,17 +236,13 @@ def by_sizes(linkage: SurfaceLinkage) -> SurfaceLinkage:
 
 
 def map_linkage(linkage: SurfaceLinkage, tolerance: float = 1e-7) -> LinkageMap:
-    """Return the surfaces of a linkage: from the sizes of links, or, given steps, the one named or every one.
+    """Return the surfaces of a linkage: from the sizes of links, or, for steps, its own surface or every one.
 
     Parameters
     ----------
     linkage : SurfaceLinkage
     tolerance : float, optional
         How well its loops must close together, radians; a loop of less than a turn in proportion.
-
-    Returns
-    -------
-    LinkageMap
 
     Examples
     --------
@@ -303,7 +288,7 @@ class CommonSurface:
     residual : float
         Largest closure error of a loop, radians.
     caution : str
-        Which loops do not tell the surface, since they close within the tolerance when they lie flat too; else
+        The loops that close within the tolerance when they lie flat too, and so do not fix the surface; else
         empty.
     """
 
@@ -324,8 +309,7 @@ class CommonFamily:
     ----------
     interval : (float, float)
         lambda, radians, the least, 0, being flat; or radii, the greatest being infinite.
-    signs : tuple of tuples of int
-    turns : tuple of int
+    signs, turns : tuple of tuples of int, tuple of int
     caution : str
         Where a loop closes on them within the rounding of its links only; else empty.
     """
@@ -347,7 +331,7 @@ class _Cycle:
 def common_surfaces(
     chain: SCGraph, sizes: Mapping[Pair, float], tolerance: float = 1e-7, *, lengths: bool = False
 ) -> tuple[tuple[CommonSurface, ...], tuple[CommonFamily, ...]]:
-    """Return the cones, or cylinders, on which all loops of a linkage of given links lie.
+    """Return the cones, or cylinders, on which all loops of a linkage of known sizes lie, and families of them.
 
     Parameters
     ----------
@@ -361,10 +345,6 @@ def common_surfaces(
         loop it is less in proportion.
     lengths : bool, optional
         Whether the sizes are lengths: on cylinders.
-
-    Returns
-    -------
-    (tuple of CommonSurface, tuple of CommonFamily)
 
     Raises
     ------
@@ -381,30 +361,27 @@ def common_surfaces(
     >>> cones, _ = common_surfaces(chain, dict(zip(pairs, np.radians([120, 95, 45, 85]))))
     >>> [round(float(np.degrees(cone.surface.angle)), 4) for cone in cones]
     [13.9984, 29.0445]
-    >>> cylinders, _ = common_surfaces(chain, dict(zip(pairs, [4, 3, 5, 1])), lengths=True)
-    >>> [round(cylinder.surface.radius, 4) for cylinder in cylinders]
-    [2.5361, 2.5909]
     """
-    pairs, given = _checked_pairs(chain, sizes, lengths=lengths)
+    pairs, values = _checked_pairs(chain, sizes, lengths=lengths)
     cycles = _cycles(chain, pairs, "length" if lengths else "angle")
-    unit = float(2.0 ** np.frexp(given.max())[1]) if lengths and len(given) else 1.0
-    links = SizedLinks(cylinder_reach(given / unit), 0) if lengths else SizedLinks(cone_reach(given), 1)
+    unit = float(2.0 ** np.frexp(values.max())[1]) if lengths and len(values) else 1.0
+    links = SizedLinks(cylinder_reach(values / unit), 0) if lengths else SizedLinks(cone_reach(values), 1)
     roots = [loop_roots(links.reach[cycle.pairs], links.base) for cycle in cycles]
     end = float(links.reach[np.concatenate([cycle.pairs for cycle in cycles])].min())
     loops = len(chain.loops)
     everywhere = [np.concatenate([r.family_signs, -r.family_signs]) for r in roots]
-    closing = list(_agreeing(cycles, everywhere, len(given)))
-    found: list[CommonSurface] = []
+    closing = list(_agreeing(cycles, everywhere, len(values)))
+    surfaces: list[CommonSurface] = []
     for size in _candidates(roots, end, links):
         steps = links.spans(size)
         half = steps > HALF_TURN  # half a turn has no sign
         patterns = [_closing(cycle, size, links, tolerance) for cycle in cycles]
-        for signs in _agreeing(cycles, patterns, len(given)):
+        for signs in _agreeing(cycles, patterns, len(values)):
             if not (signs[half] < 0).any() and not _in_a_family(signs, half, closing):
                 caution = _caution(cycles, signs, links, tolerance)
                 circle = size_of(size, links.base)
                 surface = Cylinder(unit * circle) if lengths else Cone(circle)
-                found.append(_common_surface(chain, pairs, cycles, signs * steps, surface, caution))
+                surfaces.append(_common_surface(chain, pairs, cycles, signs * steps, surface, caution))
     families = []
     for signs in closing:
         of_loops = tuple(tuple(_along(cycle, signs).astype(int).tolist()) for cycle in cycles[:loops])
@@ -413,7 +390,7 @@ def common_surfaces(
         last = unit * size_of(end, links.base)
         interval = (last, np.inf) if lengths else (0.0, last)
         families.append(CommonFamily(interval, of_loops, (0,) * loops, "" if exact else within))
-    return tuple(found), tuple(families)
+    return tuple(surfaces), tuple(families)
 
 
 def _checked_pairs(
@@ -421,7 +398,7 @@ def _checked_pairs(
 ) -> tuple[dict[Pair, int], Floats]:
     """Return the number of each pair, and the sizes in that order."""
     if not chain.loops:
-        raise UnsolvableError("the chain has no loops; name them")
+        raise UnsolvableError("the chain has no loops; expected one or more, by their joints")
     known = link_pairs(chain)
     number: dict[Pair, int] = {}
     what, key = ("length", "lengths") if lengths else ("angle", "angles")
@@ -430,27 +407,27 @@ def _checked_pairs(
         if (a, b) not in known and (b, a) not in known:
             raise InvariantError("one link", f"{named}: no link carries both", "joints of one link", (key, place))
         if (a, b) in number or (b, a) in number:
-            raise InvariantError(f"one {what}", f"{named} is given twice", "once", (key, place))
+            raise InvariantError(f"one {what}", f"{named} occurs twice", "once", (key, place))
         if lengths and not 0.0 < size < np.inf:
             raise InvariantError("length", f"{named} is {size:.12g}", "above 0", (key, place))
         if not lengths and not 0.0 < size < np.pi:
-            told = f"{named} is {np.degrees(size):.12g} degrees"
-            raise InvariantError("link angle", told, "between 0 and 180", (key, place))
+            offender = f"{named} is {np.degrees(size):.12g} degrees"
+            raise InvariantError("link angle", offender, "between 0 and 180", (key, place))
         number[a, b] = place
     return number, np.array(list(sizes.values()), dtype=float)
 
 
 def _cycles(chain: SCGraph, pairs: Mapping[Pair, int], what: str) -> list[_Cycle]:
     """Return the loops of the chain as cycles of pairs, then cycles of pairs within a link."""
-    made = [_cycle(loop.joints, pairs, what) for loop in chain.loops]
+    cycles = [_cycle(loop.joints, pairs, what) for loop in chain.loops]
     links = link_pairs(chain)
     within: dict[object, nx.Graph] = {}
     for pair in pairs:
         link = links.get(pair, links.get(pair[::-1]))
         within.setdefault(link, nx.Graph()).add_edge(*pair)
     for graph in within.values():
-        made += [_cycle(tuple(joints), pairs, what) for joints in nx.cycle_basis(graph)]
-    return made
+        cycles += [_cycle(tuple(joints), pairs, what) for joints in nx.cycle_basis(graph)]
+    return cycles
 
 
 def _cycle(joints: Sequence[JointId], pairs: Mapping[Pair, int], what: str) -> _Cycle:
@@ -460,7 +437,7 @@ def _cycle(joints: Sequence[JointId], pairs: Mapping[Pair, int], what: str) -> _
             raise InvariantError(
                 "sizes of links",
                 f"no {what} between joints {shown(a)} and {shown(b)}",
-                "one: they follow in a loop",
+                "one, as they follow each other in a loop",
             )
         numbers.append(pairs.get((a, b), pairs.get((b, a), 0)))
         turned.append(1 if (a, b) in pairs else -1)
@@ -492,7 +469,7 @@ def _closing(cycle: _Cycle, size: float, links: SizedLinks, tolerance: float) ->
 def _closes(
     patterns: npt.NDArray[np.int8], size: float, links: SizedLinks, tolerance: float
 ) -> npt.NDArray[np.bool_]:
-    """Tell which signed steps sum to a multiple of 2 pi, within a tolerance that shrinks with small loops."""
+    """Check which signed steps sum to a multiple of 2 pi, within a tolerance that shrinks with small loops."""
     steps = links.spans(size)
     sums = patterns @ steps
     allowed = tolerance * min(1.0, steps.sum() / (2.0 * np.pi))
@@ -507,7 +484,7 @@ def _weights(cycle: _Cycle, signs: npt.NDArray[np.int8], reach: Floats) -> Float
 
 
 def _caution(cycles: Sequence[_Cycle], signs: npt.NDArray[np.int8], links: SizedLinks, tolerance: float) -> str:
-    """Say which cycles would close flat too, if they do not close everywhere.
+    """Return a caution that names the cycles that would close flat too, if they do not close everywhere.
 
     On a cylinder that is so large that it is flat, steps are in proportion to lengths.
     """
@@ -519,15 +496,16 @@ def _caution(cycles: Sequence[_Cycle], signs: npt.NDArray[np.int8], links: Sized
         lengths = own.reach**-0.5
         return bool(abs(along @ lengths) <= tolerance * lengths.sum() / (2.0 * np.pi))
 
-    told = [
+    doubtful = [
         str(number + 1)
         for number, cycle in enumerate(cycles)
         if _weights(cycle, signs, links.reach).any() and closes_flat(cycle)
     ]
-    if not told:
+    if not doubtful:
         return ""
+    loops = f"loop {doubtful[0]} closes" if len(doubtful) == 1 else f"loops {', '.join(doubtful)} close"
     size = "lambda" if links.base else "radius"
-    return f"{ILL_CONDITIONED}: loop {', '.join(told)} closes flat too, within the tolerance, and tells no {size}"
+    return f"{ILL_CONDITIONED}: {loops} flat too, within the tolerance, so the {size} is undetermined"
 
 
 def _along(cycle: _Cycle, signs: npt.NDArray[np.int8]) -> npt.NDArray[np.int8]:
@@ -538,10 +516,7 @@ def _along(cycle: _Cycle, signs: npt.NDArray[np.int8]) -> npt.NDArray[np.int8]:
 def _agreeing(
     cycles: Sequence[_Cycle], patterns: Sequence[npt.NDArray[np.int8]], count: int
 ) -> Iterator[npt.NDArray[np.int8]]:
-    """Yield all signs of pairs that give every cycle one of its patterns; the first of the first cycle is +.
-
-    Pairs in no cycle have +.
-    """
+    """Yield all signs of pairs that give every cycle one of its patterns; first +, + for pairs in no cycle."""
 
     def extended(depth: int, signs: npt.NDArray[np.int8]) -> Iterator[npt.NDArray[np.int8]]:
         if depth == len(cycles):
@@ -571,17 +546,17 @@ def _common_surface(
 ) -> CommonSurface:
     loops = len(chain.loops)
     of_loops = [steps[cycle.pairs] * cycle.turned for cycle in cycles]
-    found = [circuits(one) for one in of_loops]
+    loop_circuits = [circuits(one) for one in of_loops]
     signed = {pair: float(steps[number]) for pair, number in pairs.items()}
     first = chain.loops[0].joints[0]
     places = places_of_steps(signed, tolerance=np.inf)
     return CommonSurface(
         surface,
         tuple(tuple(np.sign(one).astype(int).tolist()) for one in of_loops[:loops]),
-        tuple(int(one.turns) for one in found[:loops]),
-        tuple(str(one.names()) for one in found[:loops]),
+        tuple(int(one.turns) for one in loop_circuits[:loops]),
+        tuple(str(one.names()) for one in loop_circuits[:loops]),
         {joint: float(wrapped(places[joint] - places[first])) for joint in chain.joints if joint in places},
-        float(max(abs(one.residual) for one in found)),
+        float(max(abs(one.residual) for one in loop_circuits)),
         caution,
     )
 
@@ -589,7 +564,7 @@ def _common_surface(
 def _in_a_family(
     signs: npt.NDArray[np.int8], half: npt.NDArray[np.bool_], families: Sequence[npt.NDArray[np.int8]]
 ) -> bool:
-    """Tell whether signs, or their mirror image, are those of a family but for steps of half a turn."""
+    """Check whether signs, or their mirror image, are those of a family but for steps of half a turn."""
     rest = ~half
     return any((signs[rest] == turn * family[rest]).all() for family in families for turn in (1, -1))
 
@@ -601,8 +576,8 @@ class SupplementaryLinkages(Printed):
     Attributes
     ----------
     turned : tuple of tuples of int
-        The joints, from 1, whose other end is taken; of the first linkage none. Link i lies between joints i and
-        i + 1.
+        The joints, from 1, whose other end is taken; none for the first linkage. Link i lies between joints i, i +
+        1.
     maps : tuple of ConeMap
         The link angles and the cones of each.
 
@@ -657,18 +632,18 @@ class SupplementaryLinkages(Printed):
         }
 
 
-def _fourth(one: ConeMap) -> float:
-    return in_degrees([float(spherical_differences(np.array(one.angles))[3])])[0]
+def _fourth(cone_map: ConeMap) -> float:
+    return in_degrees([float(spherical_differences(np.array(cone_map.angles))[3])])[0]
 
 
-def _cones(one: ConeMap) -> str:
-    told = [f"{degrees(cone.size):.8g} {cone.circuit}" for cone in one.cones]
-    told += [
+def _cones(cone_map: ConeMap) -> str:
+    surfaces = [f"{degrees(cone.size):.8g} {cone.circuit}" for cone in cone_map.cones]
+    surfaces += [
         f"{degrees(low):.6g} to {degrees(high):.6g} {family.circuit}"
-        for family in one.families
+        for family in cone_map.families
         for low, high in [family.interval]
     ]
-    return ", ".join(told) or "none"
+    return ", ".join(surfaces) or "none"
 
 
 def supplementary_linkages(angles: npt.ArrayLike) -> SupplementaryLinkages:
@@ -686,12 +661,12 @@ def supplementary_linkages(angles: npt.ArrayLike) -> SupplementaryLinkages:
 
     Examples
     --------
-    >>> found = supplementary_linkages(np.radians([85, 120, 95, 45]))
-    >>> len(found.maps), found.distinct, [len(one.cones) for one in found.maps[:4]]
+    >>> linkages = supplementary_linkages(np.radians([85, 120, 95, 45]))
+    >>> len(linkages.maps), linkages.distinct, [len(cone_map.cones) for cone_map in linkages.maps[:4]]
     (16, 8, [2, 0, 2, 0])
     """
-    given = checked_link_angles(angles)
-    if len(given) != 4:
-        raise InvariantError("four-bar", f"{len(given)} link angles", "the four of a four-bar")
+    checked = checked_link_angles(angles)
+    if len(checked) != 4:
+        raise InvariantError("four-bar", f"{len(checked)} link angles", "the four of a four-bar")
     turned = [tuple(joint + 1 for joint in range(4) if ends[joint]) for ends in product((0, 1), repeat=4)]
-    return SupplementaryLinkages(tuple(turned), tuple(map_to_cones(one) for one in supplementary(given)))
+    return SupplementaryLinkages(tuple(turned), tuple(map_to_cones(one) for one in supplementary(checked)))

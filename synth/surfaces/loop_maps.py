@@ -22,15 +22,16 @@ from graphs.mechanism.surfaces import Cylinder, checked_cone_angle
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
 from synth.fourbar.closing import (
+    ILL_CONDITIONED,
     FourBarKind,
     checked_link_angles,
     checked_link_lengths,
     kind_of_planar,
     kind_of_spherical,
+    minimal_supplementary,
+    rounding_of,
     spherical_differences,
 )
-from synth.fourbar.joint_lines import minimal_supplementary
-from synth.fourbar.rounding import ILL_CONDITIONED, rounding_of
 from synth.surfaces.circuit import azimuths
 from synth.surfaces.loop_sums import sign_patterns
 from synth.surfaces.mapping import (
@@ -43,22 +44,7 @@ from synth.surfaces.mapping import (
     mapped_loop,
 )
 
-__all__ = [
-    "ConeMap",
-    "CylinderMap",
-    "central_angles",
-    "chords",
-    "cone_chords",
-    "cone_reach",
-    "cylinder_reach",
-    "is_flat",
-    "joint_coordinates",
-    "largest_cone_angle",
-    "map_to_cones",
-    "map_to_cylinders",
-    "projected_angles",
-    "solution_class",
-]
+__all__ = ["ConeMap", "CylinderMap", "central_angles", "map_to_cones", "map_to_cylinders", "projected_angles"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,10 +55,8 @@ class ConeMap(Printed):
     ----------
     angles : tuple of float
         Link angles, radians, at most pi.
-    cones : tuple of MappedLoop
-        0 < lambda < 90 degrees.
-    flat : tuple of MappedLoop
-        lambda = 0: the loop lies in a plane.
+    cones, flat : tuple of MappedLoop
+        Loops with 0 < lambda < 90 degrees, and with lambda = 0: in a plane.
     families : tuple of FamilyOfCircles
     kind : FourBarKind or None
         Of four-bars.
@@ -85,8 +69,8 @@ class ConeMap(Printed):
 
     Examples
     --------
-    >>> found = map_to_cones(np.radians([120, 95, 45, 85]))
-    >>> len(found.cones), found.kind.grashof, found.solutions
+    >>> cone_map = map_to_cones(np.radians([120, 95, 45, 85]))
+    >>> len(cone_map.cones), cone_map.kind.grashof, cone_map.solutions
     (2, 'Grashof', 'a')
     """
 
@@ -100,7 +84,7 @@ class ConeMap(Printed):
     supplementary: ConeMap | None
 
     def cautions(self) -> tuple[str, ...]:
-        """Return what of the map rounding decides: of its type and class, its circles and its families."""
+        """Return where rounding decides: the type and class, circles, or families."""
         return cautions_of(self.kind, (*self.flat, *self.cones), self.families)
 
     def blocks(self) -> list[Block]:
@@ -116,8 +100,12 @@ class ConeMap(Printed):
         if self.why:
             blocks.append(f"no cone: {self.why}")
         if self.supplementary is not None:
-            told = ", ".join(f"{degrees(angle):.6g}" for angle in self.supplementary.angles)
-            blocks += ["", f"supplementary linkage, on the same joint lines: {told}", *self.supplementary.blocks()]
+            angles = ", ".join(f"{degrees(angle):.6g}" for angle in self.supplementary.angles)
+            blocks += [
+                "",
+                f"supplementary linkage, on the same joint lines: {angles}",
+                *self.supplementary.blocks(),
+            ]
         return blocks
 
     def __repr__(self) -> str:
@@ -144,25 +132,20 @@ class ConeMap(Printed):
         return document
 
 
-def _in_json(one: MappedLoop) -> dict[str, Any]:
-    bounds = [degrees(x) for x in one.bounds]
-    return {"lambda_deg": degrees(one.size), "lambda_bounds_deg": bounds, "R": cos(one.size), **one.to_json()}
+def _in_json(cone: MappedLoop) -> dict[str, Any]:
+    bounds = [degrees(x) for x in cone.bounds]
+    return {"lambda_deg": degrees(cone.size), "lambda_bounds_deg": bounds, "R": cos(cone.size), **cone.to_json()}
 
 
 def projected_angles(angles: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
-    """Return the projected angles of links, without sign (Hyatt et al. 2020, Eq. 7; 2021, Eq. 9).
+    """Return the unsigned projected angles of links, phi_0 in [0, pi] (Hyatt et al. 2020, Eq. 7; 2021, Eq. 9).
+
+    cos(phi_0) = (cos(phi) - sin(lambda)^2) / cos(lambda)^2, float[...].
 
     Parameters
     ----------
-    angles : float[...]
-        Link angles phi, radians, in [0, pi].
-    cone_angle : float[...]
-        lambda, broadcast against them.
-
-    Returns
-    -------
-    float[...]
-        phi_0 in [0, pi], with cos(phi_0) = (cos(phi) - sin(lambda)^2) / cos(lambda)^2.
+    angles, cone_angle : float[...]
+        Link angles phi in [0, pi] and lambda, radians, broadcast against each other.
 
     Raises
     ------
@@ -175,48 +158,32 @@ def projected_angles(angles: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats
     --------
     >>> float(np.degrees(projected_angles(np.radians(60), np.radians(60))).round(5))
     180.0
-    >>> projected_angles(np.radians(60), np.radians(61))
-    Traceback (most recent call last):
-    ...
-    graphs.errors.UnsolvableError: a link of 60 degrees does not fit on a cone of 61; 60 is the largest cone angle
     """
     phi, lam = np.broadcast_arrays(np.asarray(angles, dtype=float), checked_cone_angle(cone_angle))
     beyond = lam - largest_cone_angle(phi)
     if (beyond > rounding_of(np.stack([lam, phi / 2, np.full_like(phi, np.pi / 2)], axis=-1))).any():
         worst = np.unravel_index(beyond.argmax(), beyond.shape)
-        told = [f"{np.degrees(value[worst]).round(9):.12g}" for value in (phi, lam, largest_cone_angle(phi))]
+        numbers = [f"{np.degrees(value[worst]).round(9):.12g}" for value in (phi, lam, largest_cone_angle(phi))]
         raise UnsolvableError(
-            f"a link of {told[0]} degrees does not fit on a cone of {told[1]}; {told[2]} is the largest cone angle"
+            f"a link of {numbers[0]} degrees does not fit on a cone of {numbers[1]}; "
+            f"{numbers[2]} is the largest cone angle"
         )
     other = np.maximum(np.sin((np.pi - phi) / 2 - lam) * np.sin((np.pi - phi) / 2 + lam), 0.0)
     return np.asarray(2.0 * np.arctan2(np.sin(phi / 2), np.sqrt(other)))
 
 
 def largest_cone_angle(angles: npt.ArrayLike) -> Floats:
-    """Return the largest cone angle for links, pi / 2 - phi / 2: there they span half the circle.
-
-    Link angles are in radians; a loop is bound by its largest. Source: Hyatt et al. 2021, Eqs. 15, 16.
-    """
+    """Return the largest cone angle for links, pi / 2 - phi / 2, radians (Hyatt et al. 2021, Eqs. 15, 16)."""
     return np.asarray((np.pi - np.asarray(angles, dtype=float)) / 2.0)
 
 
 def cone_chords(angles: npt.ArrayLike) -> Floats:
-    """Return the chords of links on the unit sphere, 2 sin(phi / 2) (Hyatt et al. 2021, Eq. 13).
-
-    On a cone their circle has the radius R = cos(lambda) (Eq. 14).
-
-    >>> cone_chords(np.radians([70, 80, 120, 40])).round(3).tolist()
-    [1.147, 1.286, 1.732, 0.684]
-    """
+    """Return the chords of links on the unit sphere, 2 sin(phi / 2) (Hyatt et al. 2021, Eq. 13)."""
     return np.asarray(2.0 * np.sin(np.asarray(angles, dtype=float) / 2.0))
 
 
 def is_flat(cone_angle: float, longest: float) -> bool:
-    """Say whether a cone is flat within the rounding of the longest link, which ends the cones.
-
-    >>> is_flat(0.0, 1.0), is_flat(1e-12, 1.0)
-    (True, False)
-    """
+    """Check whether a cone is flat within the rounding of the longest link, which ends the cones."""
     return bool(cone_angle <= rounding_of([longest]))
 
 
@@ -235,10 +202,6 @@ def map_to_cones(angles: npt.ArrayLike) -> ConeMap:
         Link angles in loop order, radians, between 0 and 2 pi (over pi: the joint axes are those of 2 pi less the
         angle). Of a four-bar: ground, input, coupler, output.
 
-    Returns
-    -------
-    ConeMap
-
     Raises
     ------
     InvariantError
@@ -248,27 +211,24 @@ def map_to_cones(angles: npt.ArrayLike) -> ConeMap:
 
     Examples
     --------
-    Hyatt et al. 2021, Fig. 3, and a linkage that wraps round the sphere:
+    Hyatt et al. 2021, Fig. 3:
 
-    >>> (one,) = map_to_cones(np.radians([70, 80, 120, 40])).cones
-    >>> round(float(np.degrees(one.size)), 2), one.circuit
+    >>> (cone,) = map_to_cones(np.radians([70, 80, 120, 40])).cones
+    >>> round(float(np.degrees(cone.size)), 2), cone.circuit
     (25.21, 'open')
-    >>> found = map_to_cones(np.radians([170, 160, 150, 145]))
-    >>> len(found.cones), len(found.supplementary.cones), found.why
-    (0, 2, 'T4 < 0: the links wrap round the sphere')
     """
-    given = checked_link_angles(angles)
-    loops, families = mapped_loop(cone_reach(given), 1, given)
-    cones = tuple(one for one in loops if not is_flat(one.size, given.max()))
-    flat = tuple(one for one in loops if is_flat(one.size, given.max()))
+    links = checked_link_angles(angles)
+    loops, families = mapped_loop(cone_reach(links), 1, links)
+    cones = tuple(one for one in loops if not is_flat(one.size, links.max()))
+    flat = tuple(one for one in loops if is_flat(one.size, links.max()))
     kind = solutions = supplement = None
-    four = len(given) == 4
+    four = len(links) == 4
     if four:
-        kind, solutions = kind_of_spherical(given), solution_class(given)
-    why = "" if cones or families else _why_not(given, bool(flat))
-    if why and four and spherical_differences(given)[3] < 0 and not _is_straight(given.max()):
-        supplement = map_to_cones(minimal_supplementary(given))
-    return ConeMap(tuple(given.tolist()), cones, flat, families, kind, solutions, why, supplement)
+        kind, solutions = kind_of_spherical(links), solution_class(links)
+    why = "" if cones or families else _why_not(links, bool(flat))
+    if why and four and spherical_differences(links)[3] < 0 and not _is_straight(links.max()):
+        supplement = map_to_cones(minimal_supplementary(links))
+    return ConeMap(tuple(links.tolist()), cones, flat, families, kind, solutions, why, supplement)
 
 
 def solution_class(angles: npt.ArrayLike) -> str:
@@ -278,9 +238,9 @@ def solution_class(angles: npt.ArrayLike) -> str:
     c: folding, one cone of angle 0; d: two pairs of equal angles, infinitely many. With T4 < 0: "none" if Grashof,
     "crossed only" if non-Grashof, one crossed cone (the paper says none, docs/misprints.md 000-6).
     """
-    given = np.asarray(angles, dtype=float)
-    t = spherical_differences(given)
-    zero = np.abs(t) <= rounding_of(given)
+    links = np.asarray(angles, dtype=float)
+    t = spherical_differences(links)
+    zero = np.abs(t) <= rounding_of(links)
     if zero[:3].sum() >= 2:
         return "d"
     if zero.any():
@@ -323,13 +283,13 @@ class CylinderMap(Printed):
     why : str
         Why there is no cylinder; empty where there is one.
     stretched : tuple of tuples of int
-        Signs with which the lengths sum to zero within their rounding, and not quite: the loop may be on one more
-        circle, too large to be told.
+        Signs with which the lengths sum to nearly zero, within rounding: perhaps one more circle, too large to
+        find.
 
     Examples
     --------
-    >>> found = map_to_cylinders([4, 3, 5, 1])
-    >>> len(found.cylinders), found.kind.name
+    >>> cylinder_map = map_to_cylinders([4, 3, 5, 1])
+    >>> len(cylinder_map.cylinders), cylinder_map.kind.name
     (2, 'rocker-crank')
     """
 
@@ -341,7 +301,7 @@ class CylinderMap(Printed):
     stretched: tuple[tuple[int, ...], ...]
 
     def cautions(self) -> tuple[str, ...]:
-        """Return what of the map rounding decides: of its type, its circles, its families, and beyond them."""
+        """Return where rounding decides: the type, circles, families, or one more cylinder beyond them."""
         large = f"{ILL_CONDITIONED}: stretched out within rounding: one more cylinder may be very large"
         return cautions_of(self.kind, self.cylinders, self.families, large if self.stretched else "")
 
@@ -387,11 +347,7 @@ class CylinderMap(Printed):
 
 
 def joint_coordinates(radius: float, places: npt.ArrayLike) -> Floats:
-    """Return where joints at azimuths float[J] are across the axis of a cylinder: (R sin t, R cos t), float[J, 2].
-
-    >>> joint_coordinates(2.0, [0.0, np.pi]).tolist()
-    [[0.0, 2.0], [0.0, -2.0]]
-    """
+    """Return where joints at azimuths float[J] are across a cylinder's axis: (R sin t, R cos t), float[J, 2]."""
     points, _ = Cylinder(radius).axes(places)
     return np.where(np.abs(points) > DOUBLE.same_point * radius, points, 0.0)[:, ::2]
 
@@ -423,7 +379,7 @@ def central_angles(lengths: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:
 
 
 def chords(steps: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:
-    """Return the lengths of links that span angles, in radians, signed or not, on a cylinder of a radius."""
+    """Return the lengths of links that span angles (radians, signed or not) on a cylinder of a radius."""
     return np.asarray(2.0 * np.asarray(radius) * np.abs(np.sin(np.asarray(steps, dtype=float) / 2.0)))
 
 
@@ -454,20 +410,20 @@ def map_to_cylinders(lengths: npt.ArrayLike) -> CylinderMap:
     >>> [(round(one.size, 2), one.circuit) for one in map_to_cylinders([4, 3, 5, 1]).cylinders]
     [(2.54, 'open'), (2.59, 'crossed')]
     """
-    given = checked_link_lengths(lengths)
-    unit = 2.0 ** np.frexp(given.max())[1]  # a power of two: no digit of the lengths is lost
-    loops, families = mapped_loop(cylinder_reach(given / unit), 0)
-    found = tuple(_scaled(one, unit) for one in loops)
+    sides = checked_link_lengths(lengths)
+    unit = 2.0 ** np.frexp(sides.max())[1]  # a power of two: no digit of the lengths is lost
+    loops, families = mapped_loop(cylinder_reach(sides / unit), 0)
+    cylinders = tuple(_scaled(one, unit) for one in loops)
     many = tuple(replace(one, interval=(one.interval[0] * unit, inf)) for one in families)
-    kind = kind_of_planar(given) if len(given) == 4 else None
-    why = "" if found or many else "the loop closes stretched out only, at an infinite radius"
-    stretched = _nearly_stretched(given, {family.signs for family in many})
-    return CylinderMap(tuple(given.tolist()), found, many, kind, why, stretched)
+    kind = kind_of_planar(sides) if len(sides) == 4 else None
+    why = "" if cylinders or many else "the loop closes stretched out only, at an infinite radius"
+    stretched = _nearly_stretched(sides, {family.signs for family in many})
+    return CylinderMap(tuple(sides.tolist()), cylinders, many, kind, why, stretched)
 
 
-def _scaled(one: MappedLoop, unit: float) -> MappedLoop:
-    least, most = one.bounds
-    return replace(one, size=float(one.size * unit), bounds=(float(least * unit), float(most * unit)))
+def _scaled(loop: MappedLoop, unit: float) -> MappedLoop:
+    least, most = loop.bounds
+    return replace(loop, size=float(loop.size * unit), bounds=(float(least * unit), float(most * unit)))
 
 
 def _nearly_stretched(lengths: Floats, families: set[tuple[int, ...]]) -> tuple[tuple[int, ...], ...]:

@@ -40,24 +40,9 @@ import numpy.typing as npt
 
 from graphs.arrays import Flags, Floats
 from graphs.errors import UnsolvableError
-from synth.fourbar.rounding import rounding_of
+from synth.fourbar.closing import rounding_of
 
-__all__ = [
-    "MOST_LINKS",
-    "Base",
-    "ConicalQuadrilaterals",
-    "CyclicQuadrilaterals",
-    "LoopRoots",
-    "circumradii",
-    "cone_angles",
-    "crossed_area",
-    "half_steps",
-    "loop_roots",
-    "loop_sum",
-    "put_together",
-    "sign_patterns",
-    "sum_rounding",
-]
+__all__ = ["LoopRoots", "circumradii", "cone_angles", "loop_roots", "loop_sum"]
 
 Base = Literal[0, 1]
 
@@ -75,12 +60,10 @@ class LoopRoots:
 
     Attributes
     ----------
-    loop : int[M]
-        Which loop.
+    loop, turns : int[M]
+        Which loop, and k: the steps sum to 2 pi k.
     signs : int8[M, n]
         Signs of its steps; the first is +.
-    turns : int[M]
-        k: the steps sum to 2 pi k.
     size : float[M]
         z, with z = tan(lambda)^2 on a cone and 1 / (2 R)^2 on a cylinder.
     residual : float[M]
@@ -108,20 +91,14 @@ class LoopRoots:
 def half_steps(size: npt.ArrayLike, reach: npt.ArrayLike, base: Base) -> Floats:
     """Return half of the steps that links span, in [0, pi/2], on a cylinder (base 0) or a cone (base 1).
 
-    `size` is z, at most the reach C, against which it is broadcast (more is taken as equal, for rounding). A link
-    of 60 degrees on the flat cone, lambda = 0, and at the largest lambda, where it spans half the circle:
-
-    A link of 60 degrees on the flat cone, lambda = 0, and at the largest lambda, where it spans half the circle:
-
-    >>> np.degrees(2 * half_steps([0, 3], 3.0, 1)).round(9)
-    array([ 60., 180.])
+    `size` is z, at most the reach C, against which it is broadcast (more is taken as equal, for rounding).
     """
     z, c = np.asarray(size, dtype=float), np.asarray(reach, dtype=float)
     return np.asarray(np.arctan2(np.sqrt(base + z), np.sqrt(np.maximum(c - z, 0.0))))
 
 
 def loop_sum(size: npt.ArrayLike, reach: npt.ArrayLike, signs: npt.ArrayLike, base: Base) -> Floats:
-    """Return the sum of signed steps, radians (Hyatt et al. 2020, Eq. 12; 2021, Eq. 20).
+    """Return the sum of signed steps, radians, float[...] (Hyatt et al. 2020, Eq. 12; 2021, Eq. 20).
 
     Parameters
     ----------
@@ -146,13 +123,7 @@ def sum_rounding(size: npt.ArrayLike, reach: npt.ArrayLike, weights: npt.ArrayLi
     is to half a turn: by tan(half a step), up to the root of a last digit. The longest link is half a turn where
     the interval ends, whatever its last digit. Reach and weights are float[..., n]; weights are the signs, those
     of equal reaches added up or not. A small linkage has a small rounding, and the end of the interval a large one
-    for its second longest link:
-
-    A small linkage has a small rounding, and the end of the interval a large one for its second longest link:
-
-    >>> small, large = (np.tan(np.array([1.0, 0.9, 0.8]) * part / 2) ** -2 for part in (1e-3, 1.0))
-    >>> [float(f"{sum_rounding(0.0, reach, [1, 1, -1], 1):.1g}") for reach in (small, large)]
-    [4e-18, 4e-15]
+    for its second longest link.
     """
     z = np.asarray(size, dtype=float)[..., np.newaxis]
     c = np.asarray(reach, dtype=float)
@@ -174,11 +145,7 @@ def put_together(signs: npt.ArrayLike, reach: npt.ArrayLike) -> tuple[Floats, Fl
 
 
 def sign_patterns(links: int) -> npt.NDArray[np.int8]:
-    """Return all sign patterns with first sign +: int8[2^(links - 1), links], the pattern of all + first.
-
-    >>> sign_patterns(3).tolist()
-    [[1, 1, 1], [1, 1, -1], [1, -1, 1], [1, -1, -1]]
-    """
+    """Return all sign patterns with first sign +: int8[2^(links - 1), links], the pattern of all + first."""
     bits = np.arange(2 ** (links - 1))[:, np.newaxis] >> np.arange(links - 1)[::-1] & 1
     return np.concatenate([np.ones((len(bits), 1), np.int8), (1 - 2 * bits).astype(np.int8)], axis=1)
 
@@ -192,10 +159,6 @@ def loop_roots(reach: npt.ArrayLike, base: Base) -> LoopRoots:
         Reaches of the links of each loop, in loop order.
     base : {0, 1}
         0 on a cylinder (z = 0, an infinite radius, is no root), 1 on a cone (z = 0 is the flat one and is a root).
-
-    Returns
-    -------
-    LoopRoots
 
     Raises
     ------
@@ -241,10 +204,7 @@ def loop_roots(reach: npt.ArrayLike, base: Base) -> LoopRoots:
 def _roots_of_chunk(
     reaches: Floats, patterns: npt.NDArray[np.int8], first_loop: int, base: Base
 ) -> tuple[npt.NDArray[np.generic], ...]:
-    """Return columns loop, pattern, turns, size, residual, double; and loop, pattern, exact of families.
-
-    Families are exact where all weights are 0.
-    """
+    """Return columns loop, pattern, turns, size, residual, double; loop, pattern, exact of families."""
     loops, n = reaches.shape
     order = np.argsort(reaches, axis=1)
     sorted_reach = np.take_along_axis(reaches, order, axis=1)
@@ -258,7 +218,7 @@ def _roots_of_chunk(
     weights = _merged(signs.astype(float), reach)
     vanishing = ~weights.any(axis=1)
     changes = _sign_changes(weights)
-    found: list[tuple[npt.NDArray[np.generic], ...]] = []
+    roots: list[tuple[npt.NDArray[np.generic], ...]] = []
     families = [np.column_stack([of[vanishing], np.ones(vanishing.sum(), np.intp)])]
     for count in range(n):
         rows = np.flatnonzero((changes == count) & ~vanishing)
@@ -269,8 +229,8 @@ def _roots_of_chunk(
             families.append(np.column_stack([nowhere_else, np.zeros(len(nowhere_else), np.intp)]))
             for turns, row, size, residual, double in _crossings(sums, base):
                 whole = np.full(len(row), turns)
-                found.append((*of[rows[row]].T, whole, size, residual, double))
-    columns = [np.concatenate([part[i] for part in found]) if found else np.zeros(0) for i in range(6)]
+                roots.append((*of[rows[row]].T, whole, size, residual, double))
+    columns = [np.concatenate([part[i] for part in roots]) if roots else np.zeros(0) for i in range(6)]
     return (*columns, np.concatenate(families))
 
 
@@ -295,10 +255,7 @@ def _sign_changes(weights: Floats) -> npt.NDArray[np.int64]:
 
 
 def _nodes(weights: Floats, reach: Floats, changes: int) -> Floats:
-    """Return 0, the zeros of g and the least reach of each row, in rising order: float[rows, changes + 2].
-
-    Where g has fewer zeros than sign changes, the last node is repeated.
-    """
+    """Return 0, the zeros of g, and the least reach (repeated if zeros lack) of rows: float[rows, changes + 2]."""
     tower = [weights]
     for _ in range(changes):
         tower.append(_one_change_fewer(tower[-1], reach))
@@ -321,8 +278,8 @@ def _one_change_fewer(weights: Floats, reach: Floats) -> Floats:
         open_ &= ~here
         before[column != 0] = i
         last = np.where(column != 0, column, last)
-    made = weights * (np.take_along_axis(reach, place[:, np.newaxis], axis=1) - reach)
-    return np.asarray(made / np.abs(made).max(axis=1, keepdims=True))
+    fewer = weights * (np.take_along_axis(reach, place[:, np.newaxis], axis=1) - reach)
+    return np.asarray(fewer / np.abs(fewer).max(axis=1, keepdims=True))
 
 
 def _between_zeros(nodes: Floats, weights: Floats, reach: Floats, level: int) -> Floats:
@@ -415,10 +372,7 @@ def _bisected(value: object, low: Floats, high: Floats, number: npt.NDArray[np.i
 
 @dataclass(frozen=True, slots=True)
 class CyclicQuadrilaterals:
-    """Circumradii, float[...], of open and crossed quadrilaterals; nan where there is none.
-
-    They are in the unit of the sides, float[..., 4].
-    """
+    """Circumradii, float[...], of open and crossed quadrilaterals with sides float[..., 4]; or nan."""
 
     open: Floats
     crossed: Floats
@@ -426,16 +380,13 @@ class CyclicQuadrilaterals:
 
     @property
     def ill_conditioned(self) -> Flags:
-        """bool[...]: whether a sum of sides with signs is within their rounding of zero, and so decides."""
+        """Whether a sum of sides with signs is within their rounding of zero, and so decides: bool[...]."""
         return _nearly_zero(self.sides, angular=False)
 
 
 @dataclass(frozen=True, slots=True)
 class ConicalQuadrilaterals:
-    """Cones of open and crossed spherical four-bars with link angles float[..., 4], radians.
-
-    Cone angles are float[...], lambda in [0, pi/2), radians; nan where there is none.
-    """
+    """Cone angles, float[...] in [0, pi/2), of open and crossed four-bars with angles float[..., 4]; or nan."""
 
     open: Floats
     crossed: Floats
@@ -443,7 +394,7 @@ class ConicalQuadrilaterals:
 
     @property
     def ill_conditioned(self) -> Flags:
-        """bool[...]: whether a sum of angles with signs, or all less a turn, is within rounding of zero."""
+        """Whether a sum of angles with signs, or all less a turn, is within rounding of zero: bool[...]."""
         return _nearly_zero(self.angles, angular=True)
 
 
@@ -478,57 +429,49 @@ def circumradii(sides: npt.ArrayLike) -> CyclicQuadrilaterals:
     sides : float[..., 4]
         Positive lengths; their order does not matter.
 
-    Returns
-    -------
-    CyclicQuadrilaterals
-
     Notes
     -----
     Eq. 12 with mu = -1 also gives real radii where numerator and denominator are both negative; no quadrilateral
-    has them. Where both vanish (two pairs of equal sides) there are infinitely many crossed circles, and nan is
-    returned.
+    has them. Where both vanish (two pairs of equal sides) there are infinitely many crossed circles: nan.
 
     Examples
     --------
-    >>> found = circumradii([4, 3, 5, 1])
-    >>> float(found.open.round(4)), float(found.crossed.round(4))
+    >>> circles = circumradii([4, 3, 5, 1])
+    >>> float(circles.open.round(4)), float(circles.crossed.round(4))
     (2.5361, 2.5909)
     """
-    given = np.asarray(sides, dtype=float)
-    a, b, c, d = _sides(given)
+    lengths = np.asarray(sides, dtype=float)
+    a, b, c, d = _sides(lengths)
     radii = []
     for mu in (1, -1):
         numerator, denominator = _numerator(a, b, c, d, mu), _sixteen_area_squared(a, b, c, d, mu)
         with np.errstate(invalid="ignore", divide="ignore"):
             there = (numerator > 0) & (denominator > 0)
             radii.append(np.where(there, np.sqrt(numerator / denominator), np.nan))
-    return CyclicQuadrilaterals(radii[0], radii[1], given)
+    return CyclicQuadrilaterals(radii[0], radii[1], lengths)
 
 
 def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
     """Return the cones on which spherical four-bars lie (Hyatt et al. 2021, Eqs. 12 to 14).
+
+    lambda = 0 where a crossed linkage folds flat; nan where two pairs of angles are equal and there are infinitely
+    many crossed cones.
 
     Parameters
     ----------
     angles : float[..., 4]
         Link angles, radians, between 0 and pi; their order does not matter.
 
-    Returns
-    -------
-    ConicalQuadrilaterals
-        lambda = 0 where a crossed linkage folds flat; nan where two pairs of angles are equal and there are
-        infinitely many crossed cones.
-
     Examples
     --------
     Hyatt et al. 2020, Fig. 10(a) and (b):
 
-    >>> found = cone_angles(np.radians([[120, 95, 45, 85], [155, 50, 65, 80]]))
-    >>> np.degrees(found.open).round(3), np.degrees(found.crossed).round(3)
+    >>> cones = cone_angles(np.radians([[120, 95, 45, 85], [155, 50, 65, 80]]))
+    >>> np.degrees(cones.open).round(3), np.degrees(cones.crossed).round(3)
     (array([13.998,  8.864]), array([29.044,    nan]))
     """
-    given = np.asarray(angles, dtype=float)
-    half = [angle / 2.0 for angle in _sides(given)]
+    links = np.asarray(angles, dtype=float)
+    half = [angle / 2.0 for angle in _sides(links)]
     x, y, z, w = half
     chords = [2.0 * np.sin(angle) for angle in half]
     middle = (x + y + z + w) / 2.0
@@ -540,19 +483,19 @@ def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
         convex, crossed = convex * np.sin(angle), crossed * np.cos(angle)
     for angle in pairs:
         convex, crossed = convex * np.cos(angle), crossed * np.sin(angle)
-    found = []
+    cones = []
     for mu, product in ((1, convex), (-1, crossed)):
         numerator = _numerator(chords[0], chords[1], chords[2], chords[3], mu)
         with np.errstate(invalid="ignore", divide="ignore"):
             there = (numerator > 0) & (product >= 0)
-            found.append(np.where(there, np.arctan(np.sqrt(256.0 * product / numerator)), np.nan))
-    return ConicalQuadrilaterals(found[0], found[1], given)
+            cones.append(np.where(there, np.arctan(np.sqrt(256.0 * product / numerator)), np.nan))
+    return ConicalQuadrilaterals(cones[0], cones[1], links)
 
 
 def crossed_area(sides: npt.ArrayLike) -> Floats:
-    """Return the area, float[...], of crossed cyclic quadrilaterals with sides float[..., 4] (Eq. 11).
+    """Return the area, float[...], of crossed cyclic quadrilaterals with sides float[..., 4] (Eq. 11); or nan.
 
-    Triangles of opposite sense are subtracted; nan where no crossed quadrilateral has a circle.
+    Triangles of opposite sense are subtracted.
     """
     with np.errstate(invalid="ignore"):
         return np.asarray(np.sqrt(_sixteen_area_squared(*_sides(sides), -1)) / 4.0)

@@ -18,8 +18,7 @@ from graphs.mechanism.surfaces import Cone
 from synth.candidates.job import CandidateJob
 from synth.conformed.pose import dihedral_angles, joint_axes, poses_from_conformed
 from synth.conformed.rates import ConformedChain, first_order, pole_axes
-from synth.fourbar.closing import grashof_class, kind_of_spherical, spherical_differences
-from synth.fourbar.joint_lines import supplementary
+from synth.fourbar.closing import grashof_class, kind_of_spherical, spherical_differences, supplementary
 from synth.surfaces.circuit import azimuths, circuits, link_angles, link_pairs, loop_steps, table1
 from synth.surfaces.loop_maps import largest_cone_angle, map_to_cones, projected_angles
 from synth.surfaces.loop_sums import circumradii, cone_angles, loop_roots

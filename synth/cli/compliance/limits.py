@@ -35,7 +35,7 @@ def limits(file: str, keep: tuple[str, ...], as_json: bool) -> None:
       synth limits cylinder.fold
     """
     from graphs.edit.named import link_named
-    from synth.compliance.limited import limits as found_limits
+    from synth.compliance.joint_limits import limits as found_limits
     from synth.moving.made import configuration_of
 
     thing = read(file)

@@ -15,8 +15,8 @@ from synth.cli.things.driven import driven_angles, numbers_of_joints
 if TYPE_CHECKING:
     from graphs.convert.table import Mechanism
     from graphs.mechanism.sc import SCGraph
-    from synth.compliance.small_motions import Mass, Masses
-    from synth.compliance.stated import Drive
+    from synth.compliance.compliance_states import DrivenJoint
+    from synth.compliance.springs import Mass, Masses
 
 __all__ = ["states"]
 
@@ -85,8 +85,8 @@ def states(
       synth states four-bar.json --stiffness 1=2 --drive 0=40 --frames 8
     """
     from graphs.edit.named import joint_named, link_named
+    from synth.compliance.compliance_states import states as stated
     from synth.compliance.springs import Springs
-    from synth.compliance.stated import states as stated
     from synth.moving.made import configuration_of
 
     thing = read(file)
@@ -112,13 +112,13 @@ def states(
         click.echo(str(found))
 
 
-def _drive(graph: SCGraph, word: str | None, frames: int) -> Drive | None:
-    from synth.compliance.stated import Drive
+def _drive(graph: SCGraph, word: str | None, frames: int) -> DrivenJoint | None:
+    from synth.compliance.compliance_states import DrivenJoint
 
     if word is None:
         return None
     [(joint, angle)] = driven_angles(graph, (word,)).items()
-    return Drive(joint, angle, frames)
+    return DrivenJoint(joint, angle, frames)
 
 
 def _masses(
@@ -127,7 +127,7 @@ def _masses(
     """Return the masses of the options --mass, --density and --ground."""
     from graphs.edit.named import link_named
     from graphs.errors import UnsolvableError
-    from synth.compliance.small_motions import Masses, sheet_masses
+    from synth.compliance.springs import Masses, sheet_masses
     from synth.moving.made import sheet_of
 
     words, density, ground = asked
@@ -146,7 +146,7 @@ def _masses(
 
 def _mass(graph: SCGraph, word: str) -> Mass:
     from graphs.edit.named import link_named
-    from synth.compliance.small_motions import Mass
+    from synth.compliance.springs import Mass
 
     link, _, rest = word.rpartition("=")
     value, _, place = rest.partition("@")

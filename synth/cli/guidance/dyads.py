@@ -105,7 +105,7 @@ def _drawn(orientations: Orientations, found: tuple[Dyad, ...]) -> Any:
     from synth.drawing.order_map import draw_map
 
     if len(orientations) == 4:
-        from synth.guidance.four import centre_axes
+        from synth.guidance.dyads import centre_axes
 
         return draw_map(orientations, (), centre_axes(orientations, 720))
     return draw_map(orientations, found)

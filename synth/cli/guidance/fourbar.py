@@ -117,7 +117,7 @@ def _told(four_bar: GuidedFourBar, cones: bool) -> dict[str, Any]:
 
 def _told_cones(four_bar: GuidedFourBar) -> dict[str, Any]:
     """Return every cone, and interval of cones, on which a four-bar can lie."""
-    from synth.guidance.on_cones import conical_forms
+    from synth.guidance.fourbars import conical_forms
 
     forms = conical_forms(four_bar)
     return {
@@ -143,7 +143,7 @@ def _table_of_cones(listed: Sequence[GuidedFourBar]) -> Any:
 def _table(listed: Sequence[GuidedFourBar]) -> Any:
     from math import degrees
 
-    from synth.guidance.hoop_method import direction_words
+    from synth.guidance.order import direction_words
 
     rows = table(
         "driver G", "follower G", "ground driver coupler follower", "type", "driver turns", "defects",

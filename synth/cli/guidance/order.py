@@ -18,7 +18,7 @@ from synth.cli.output import (
 )
 
 if TYPE_CHECKING:
-    from synth.guidance.hoop_method import Direction
+    from synth.guidance.order import Direction
 
 __all__ = ["AXIS", "ORIENTATIONS", "order"]
 

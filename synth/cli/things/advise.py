@@ -96,7 +96,7 @@ def advise(
     """
     from graphs.convert.duality import mechanism_of_sheet
     from graphs.edit.named import joint_named, link_named
-    from synth.advice.advised import advise as advised
+    from synth.advice.advice import advise as advised
     from synth.moving.made import configuration_of, sheet_of
 
     thing = read(file)

@@ -29,7 +29,7 @@ def explain(file: str, as_json: bool) -> None:
       synth generate miura --rows 4 --columns 4 --fold 60 -o miura.fold
       synth explain miura.fold
     """
-    from synth.overconstraint.explained import explain as explained
+    from synth.overconstraint.explanation import explain as explained
 
     thing = read(file)
     with about(file):

@@ -48,7 +48,7 @@ def positions(file: str, drive: tuple[str, ...], circuits: bool, seed: int, as_j
 
     Exit status 1: the linkage has no assembly mode at these inputs, or not all were found.
     """
-    from synth.assembly.found import positions as found_at
+    from synth.assembly.modes import positions as found_at
     from synth.cli.things.driven import numbers_of_joints
     from synth.moving.made import configuration_of
 

@@ -19,7 +19,7 @@ from synth.motion.branches import Branch, first_branch, search_for
 from synth.motion.configuration import Configuration
 from synth.motion.placement import moved
 from synth.moving.made import configuration_of
-from synth.overconstraint.explained import explain
+from synth.overconstraint.explanation import explain
 
 __all__ = ["Moving", "judged"]
 

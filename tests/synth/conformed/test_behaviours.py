@@ -224,7 +224,7 @@ def test_a_tree_has_no_closure():
         (lambda: ConformedChain.of(SCGraph(3, [(0, 1)])), "the chain is in several parts"),
         (
             lambda: first_order(ConformedChain.of(FOUR_BAR), [0.0, 1.0]),
-            "azimuths of 2 joints; expected those of the 4",
+            "2 azimuths; expected 4, one per joint",
         ),
         (lambda: shadow_allows([0.0, 1.0]), "four azimuths"),
         (lambda: table_row([0.0, 1.0]), "2 azimuths; expected four"),

@@ -15,10 +15,8 @@ from synth.drawing.labels import spread
 from synth.drawing.order_map import CCW, CW, NEITHER, draw_map
 from synth.drawing.scene import shapes
 from synth.drawing.sphere import draw_hoop
-from synth.guidance.dyads import dyads_of_three
-from synth.guidance.four import centre_axes
-from synth.guidance.hoop_method import hoop
-from synth.guidance.order import order_verdicts
+from synth.guidance.dyads import centre_axes, dyads_of_three
+from synth.guidance.order import hoop, order_verdicts
 from synth.guidance.orientations import read_orientations
 from synth.guidance.synthesis import guiding_dyads
 

@@ -9,8 +9,15 @@ from conical import random_lengths, random_link_angles, random_linkages
 from graphs.errors import InvariantError
 from graphs.geometry import angles_between
 from synth.conformed.pose import dihedral_angles, joint_axes, measured_dihedral_angles, poses_from_conformed
-from synth.fourbar.closing import kind_of_planar, kind_of_spherical, planar_differences, spherical_differences
-from synth.fourbar.joint_lines import in_a_hemisphere, minimal_supplementary, supplementary
+from synth.fourbar.closing import (
+    in_a_hemisphere,
+    kind_of_planar,
+    kind_of_spherical,
+    minimal_supplementary,
+    planar_differences,
+    spherical_differences,
+    supplementary,
+)
 from synth.fourbar.position import (
     input_limits_planar,
     input_limits_spherical,

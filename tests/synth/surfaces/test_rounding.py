@@ -218,7 +218,7 @@ def test_small_linkages_of_several_loops():
     angles = {(a, b): float(link_angles(at[b] - at[a], 0.7)) for a, b in link_pairs(WATT)}
     cones, families = common_surfaces(WATT, angles)
     assert cones
-    assert all("tells no lambda" in one.caution for one in cones)
+    assert all("lambda is undetermined" in one.caution for one in cones)
 
 
 def test_a_family_of_several_loops_within_rounding_says_so():
