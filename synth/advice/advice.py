@@ -42,7 +42,7 @@ __all__ = ["Advice", "Creased", "Locked", "advise"]
 
 _USED_UP = "; the search ended at its work limit"
 _LOOSE = 1e4
-"""Play that is made so many times larger is told as more."""
+"""Amplification of play is printed up to this factor, above as more."""
 
 
 @dataclass(frozen=True, slots=True)

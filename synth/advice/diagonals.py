@@ -140,7 +140,7 @@ def _beyond(pose: GeneralPose, diagonal: Diagonal) -> set[int]:
 
 
 def _parts_a_hinge(pose: GeneralPose, diagonal: Diagonal) -> bool:
-    """Tell whether a joint has edges on both sides of a diagonal."""
+    """Check whether a joint has edges on both sides of a diagonal."""
     between, around = _sides(pose, diagonal)
     return not _joints_at(pose, between).isdisjoint(_joints_at(pose, around))
 
@@ -174,7 +174,7 @@ def _in_plane(points: Floats) -> Floats:
 
 
 def _is_inside(corners: Floats, pair: tuple[int, int]) -> bool:
-    """Tell whether the line between two corners of a polygon parts it in two."""
+    """Check whether the line between two corners of a polygon parts it in two."""
     first, last = pair
     parts = (corners[first : last + 1], np.concatenate([corners[last:], corners[: first + 1]]))
     if min(map(len, parts)) < 3:
@@ -193,7 +193,7 @@ def _is_inside(corners: Floats, pair: tuple[int, int]) -> bool:
 
 
 def _meet(a: Floats, b: Floats, c: Floats, d: Floats) -> bool:
-    """Tell whether two segments share a point."""
+    """Check whether two segments share a point."""
     over, under = signed_area([[(a, b, c), (a, b, d)], [(c, d, a), (c, d, b)]])
     near = DOUBLE.same_point
     return all(min(areas) <= near and max(areas) >= -near for areas in (over, under))

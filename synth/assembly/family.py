@@ -190,7 +190,7 @@ class _Axes:
             return numbers, [1] * len(loop.joints)
         if centre is not Centre.INFINITE:
             names = list(self._linkage.graph.joints)
-            ids = shown([names[joint] for joint in loop.joints])
+            ids = ", ".join(shown(names[joint]) for joint in loop.joints)
             raise UnsolvableError(
                 f"the axes of loop {ids} neither meet in a point nor are parallel, as positions require"
             )
@@ -288,7 +288,7 @@ def general_positions(family: Family, seed: int = 0) -> GeneralPositions:
     random = np.random.default_rng(seed)
     number, inputs = len(family.axes), family.driven
     here = np.concatenate([_random_axes(random, number), np.zeros(inputs, dtype=complex)])
-    known = np.zeros((1, family.unknowns), dtype=complex)  # the pose at which the axes are told
+    known = np.zeros((1, family.unknowns), dtype=complex)  # all joint angles are 0 where the axes were read
     derivatives = family.derivatives(here, known[0])
     parts = as_real(derivatives)
     if rank_of(parts) < min(parts.shape):
@@ -297,6 +297,7 @@ def general_positions(family: Family, seed: int = 0) -> GeneralPositions:
     quiet = 0
     for curves in range(1, _MOST_CURVES + 1):
         turn = np.concatenate([_random_axes(random, number), _random(random, inputs, np.pi, np.pi)])
+        # there and back on different curves: the closed curve permutes positions, and brings missing ones
         there = _carried(family, (here, turn), known, random)
         back = _carried(family, (turn, here), there, random)
         more = apart(np.concatenate([known, back]), family.turning)

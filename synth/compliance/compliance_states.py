@@ -42,7 +42,7 @@ __all__ = ["DrivenJoint", "States", "states"]
 _LISTED = 20
 """Sets, transitions, poses and modes that are printed; data has all."""
 
-_OTHER_QUESTION = "states asks of each set of active members which freedoms it has, on the freest branch"
+_OTHER_QUESTION = "states reports the degrees of freedom of each set of active members, on the freest branch"
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ class Transition:
         """Return plain data."""
         return {"class": self.name, "before": self.before.to_json(), "after": self.after.to_json()}
 
-    def told(self) -> str:
+    def line(self) -> str:
         """Return the transition as a line."""
         return f"{self.name}: {_told(self.before)} to {_told(self.after)}"
 
@@ -255,7 +255,7 @@ class States(Printed):
                 f"{len(rows)} of {numbered(len(self.sets), 'set')}: {first}those to which one member less gives "
                 "other freedoms"
             )
-        lines += [one.told() for one in self.transitions[:_LISTED]] or ["no transition of a class at this pose"]
+        lines += [one.line() for one in self.transitions[:_LISTED]] or ["no transition of a class at this pose"]
         if len(self.transitions) > _LISTED:
             lines.append(f"and {len(self.transitions) - _LISTED} more transitions")
         return [*lines, *([] if self.elastic is None else self.elastic.blocks())]

@@ -1,4 +1,4 @@
-"""What linkages do in the conformed position, as the command line asks: of sizes, of steps, or of a file.
+"""Behaviour of linkages in the conformed position: from sizes of links, from steps, or from a file.
 
 Theory: docs/theory/behaviour.md.
 """
@@ -288,7 +288,7 @@ class LinkageBehaviour(Printed):
         return "from {} to {}".format(*(plain(self.chain.joints[joint]) for joint in arc))
 
     def _verdict(self) -> str:
-        """Say in a line which way the linkage can go."""
+        """Return a line with the ways in which the linkage can move."""
         where = "any cone or cylinder" if self.surface is None else str(self.surface)
         motion = self.behaviour.motion
         freedoms = int(motion.freedoms)

@@ -337,6 +337,7 @@ def _matched(fits: npt.NDArray[np.bool_], rows: int, columns: int) -> bool:
         head, tail = 0, 1
         queue[0] = start
         free = -1
+        # breadth first along alternating paths; came[column] is the row that reached a column
         while head < tail and free < 0:
             row = queue[head]
             head += 1
@@ -351,7 +352,7 @@ def _matched(fits: npt.NDArray[np.bool_], rows: int, columns: int) -> bool:
                     tail += 1
         if free < 0:
             return False
-        column = free
+        column = free  # flip the path: each row on it takes the column that led on, back to the start
         while True:
             row = came[column]
             before = -1
@@ -432,7 +433,7 @@ def _follow(known: Signs, unknowns: Ints, sines: Ints, factors: Ints, sine_signs
     while changed:
         changed = False
         for r in range(len(unknowns)):
-            plus = minus = missing = 0
+            plus = minus = missing = 0  # the three terms add up to zero: two of one sign force the third
             where = sign_there = 0
             for k in range(3):
                 sign = factors[r, k]

@@ -32,7 +32,7 @@ from graphs.tolerances import DOUBLE
 __all__ = ["ConformedChain", "FirstOrder", "first_order"]
 
 NEARLY_DEGREES = 0.05
-"""The error of azimuths that is told of: what cutting a model brings."""
+"""The error of azimuths, in degrees, that cutting a model brings: within it a linkage is nearly mobile."""
 
 
 @dataclass(frozen=True, slots=True)

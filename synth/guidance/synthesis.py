@@ -162,6 +162,7 @@ def _six(conditions: Floats, kernel: Floats, forms: Floats) -> tuple[Complexes, 
         products = np.einsum("ki,kj->kij", fixed, moving).reshape(_SOLUTIONS, 9)
         overlap = np.abs(products.conj() @ products.T) - np.eye(_SOLUTIONS)
         closest = float(np.sqrt(max(0.0, 1.0 - overlap.max())))
+        # near a double solution the conditions lose rank: there two of the six may lie closer than the bound
         double = max(_condition(conditions, g, w) for g, w in solutions) > 0.01 / DOUBLE.same_configuration
         if worst < _SOLVED and (closest > DOUBLE.same_configuration or double):
             return fixed, moving

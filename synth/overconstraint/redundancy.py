@@ -79,7 +79,7 @@ def smallest_sets(linkage: PosedLinkage, order: FirstOrderClosure) -> list[tuple
                 return sets
             chosen = nearest[seed][:size]
             while (new := _new_stresses(order, chosen, known)).shape[1]:
-                for loop in chosen[::-1]:
+                for loop in chosen[::-1]:  # farthest first: the near ones are more likely to be the cause
                     fewer = [one for one in chosen if one != loop]
                     if fewer and (left := _new_stresses(order, fewer, known)).shape[1]:
                         chosen, new = fewer, left

@@ -256,7 +256,7 @@ def _is_straight(angle: float) -> bool:
 
 
 def _why_not(angles: Floats, flat: bool) -> str:
-    """Say why a loop has no cone."""
+    """Return why a loop has no cone."""
     if flat:
         return "the loop closes in a plane only, lambda = 0"
     if _is_straight(angles.max()):

@@ -261,7 +261,7 @@ def _nodes(weights: Floats, reach: Floats, changes: int) -> Floats:
         tower.append(_one_change_fewer(tower[-1], reach))
     end = reach[:, :1]
     nodes = np.concatenate([np.zeros_like(end), end], axis=1)
-    for level in range(changes - 1, -1, -1):
+    for level in range(changes - 1, -1, -1):  # back from the function without zeros to g itself
         nodes = _between_zeros(nodes, tower[level], reach, level)
     return nodes
 
@@ -415,7 +415,7 @@ def _sixteen_area_squared(a: Floats, b: Floats, c: Floats, d: Floats, mu: int) -
 
 
 def _nearly_zero(links: Floats, *, angular: bool) -> Flags:
-    """Tell whether links with signs, or angles less a turn, sum to less than their rounding."""
+    """Check whether links with signs, or angles less a turn, sum to less than their rounding."""
     turn = 2.0 * np.pi * np.eye(8)[0] if angular else np.zeros(8)  # the first pattern is that of all +
     sums = links @ sign_patterns(4).T - turn
     return np.asarray((np.abs(sums) <= rounding_of(links)[..., np.newaxis]).any(axis=-1))

@@ -25,7 +25,7 @@ from synth.surfaces.loop_sums import Base, LoopRoots, half_steps, loop_roots, lo
 __all__ = ["FamilyOfCircles", "MappedLoop"]
 
 _VAGUE = 1e-6
-"""A circle of which fewer digits than this can be told, relatively, has a caution."""
+"""A circle whose size is relatively less certain than this has a caution."""
 _NONE = np.zeros(0, dtype=np.intp)
 _HALVINGS = 200
 """The least part of the interval looked at round a circle is 2^-200: sizes are known less well than that."""
