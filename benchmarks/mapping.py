@@ -21,10 +21,9 @@ from graphs.mechanism.sc import SCGraph
 from synth.conformed.behaviours import behaviour
 from synth.conformed.rates import ConformedChain
 from synth.fourbar.closing import can_close
-from synth.surfaces.cone import cone_reach, link_angles
-from synth.surfaces.cyclic import circumradii, cone_angles
-from synth.surfaces.cylinder import cylinder_reach
-from synth.surfaces.loop_sums import loop_roots
+from synth.surfaces.circuit import link_angles
+from synth.surfaces.loop_maps import cone_reach, cylinder_reach
+from synth.surfaces.loop_sums import circumradii, cone_angles, loop_roots
 
 RUNS = 5
 WATT = SCGraph(

@@ -32,11 +32,10 @@ from synth.guidance.orientations import Orientations as Orientations
 from synth.guidance.synthesis import guiding_dyads as guiding_dyads
 from synth.moving.motion import move as move
 from synth.notebook import load_ipython_extension as load_ipython_extension
-from synth.overconstraint.explained import explain as explain
+from synth.overconstraint.explanation import explain as explain
 from synth.patterns.generated import generate as generate
 from synth.realisation.on_cone import realise_on_cone as realise_on_cone
 from synth.realisation.realised import realise as realise
-from synth.surfaces.cone import map_to_cones as map_to_cones
-from synth.surfaces.cylinder import map_to_cylinders as map_to_cylinders
 from synth.surfaces.linkages import map_linkage as map_linkage
+from synth.surfaces.loop_maps import map_to_cones as map_to_cones, map_to_cylinders as map_to_cylinders
 from synth.verdict.judged import mobility as mobility

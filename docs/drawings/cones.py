@@ -38,10 +38,9 @@ from synth.drawing.scene.shapes import (
     arc_points,
 )
 from synth.drawing.sums import draw_loop_sums
-from synth.surfaces.circuit import wrapped
-from synth.surfaces.cone import cone_reach, link_angles, map_to_cones
+from synth.surfaces.circuit import link_angles, loop_steps, wrapped
+from synth.surfaces.loop_maps import cone_reach, map_to_cones
 from synth.surfaces.loop_sums import loop_sum, sum_rounding
-from synth.surfaces.several_loops import loop_steps
 
 __all__ = ["DRAWINGS"]
 

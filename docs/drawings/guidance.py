@@ -20,7 +20,7 @@ from synth.drawing.space.panels import View, view_from
 from synth.drawing.sphere import draw_hoop, spread
 from synth.guidance.dyads import Dyad
 from synth.guidance.fourbars import GuidedFourBar
-from synth.guidance.hoop_method import hoop
+from synth.guidance.order import hoop
 from synth.guidance.orientations import Orientations, read_orientations
 
 __all__ = ["DRAWINGS"]

@@ -1,9 +1,8 @@
-"""What to lock, or which panels to crease, so that a mechanism has as many freedoms as are wanted.
+"""Joints to lock, or panels to crease, so that a mechanism has the required number of freedoms.
 
-`advise` answers. Below it: `general_pose` (where it is asked: the pose given if it is regular, else one on the way
-that the marks choose), `locks` (sets of joints, cheapest first), `diagonals` (diagonals of panels, and what each
-does to the closure equations), `search` (smallest sets of them), `advised` (both together). Theory:
-docs/theory/advice.md.
+`advise` answers (`advice`). Below it: `locks` (the configuration itself if it is regular, else one on the motion
+branch that the assignment chooses; sets of joints, cheapest first), `diagonals` (diagonals of panels, what each
+does to the closure equations, and the smallest sets of them). Theory: docs/theory/advice.md.
 """
 
 from __future__ import annotations

@@ -1,30 +1,36 @@
-"""Diagonals of panels: which there are, and what a crease along each does to the closure equations.
+"""Diagonals of panels, what a crease along each does to the closure equations, and the smallest sets to crease.
 
 A panel that is creased becomes two, and the loops that pass from one to the other get a joint more: the closure
 equations a column more, the axis of the diagonal in these loops. What the columns do to a rank is what they are on
-the self-stresses. Theory: docs/theory/advice.md.
+the self-stresses. A set brings as many rates as it has creases, less the rank of its columns on the self-stresses,
+and no more freedoms than that. So only sets of which enough columns depend on others are creased and folded.
+Theory: docs/theory/advice.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.creasing.edits import crease_sheet, lock_crease
 from graphs.errors import NumericalError
 from graphs.geometry import principal_axes, signed_area
 from graphs.ids import LinkId
 from graphs.mechanism.plane import in_space
-from graphs.mechanism.sheet import sides_of_face
+from graphs.mechanism.sheet import Sheet, sides_of_face
 from graphs.rank.spaces import split
 from graphs.tolerances import DOUBLE
-from synth.advice.general_pose import GeneralPose
+from synth.advice.locks import GeneralPose
+from synth.folding.configuration import configuration_of_sheet
 from synth.motion.linkage import PosedLinkage, PosedLoop
+from synth.motion.walk.allowance import Allowance
 
-__all__ = ["Diagonal", "diagonals_of", "loads_on_stresses"]
+__all__ = ["Diagonal"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,19 +54,13 @@ class Diagonal:
     ends: tuple[int, int]
 
     def crosses(self, other: Diagonal) -> bool:
-        """Tell whether two diagonals of a panel meet inside it.
-
-        Examples
-        --------
-        >>> Diagonal(0, 0, (0, 2), (4, 6)).crosses(Diagonal(0, 0, (1, 3), (5, 7)))
-        True
-        """
+        """Check whether two diagonals of a panel meet inside it."""
         (a, b), (c, d) = self.corners, other.corners
         return self.face == other.face and (a < c < b < d or c < a < d < b)
 
 
 def diagonals_of(pose: GeneralPose, protected: Collection[LinkId] = ()) -> list[Diagonal]:
-    """Return the diagonals of all panels that are one face, and are not protected.
+    """Return the diagonals of all unprotected panels that are one face.
 
     A diagonal joins two corners, inside the panel and past its other corners. Those that would part the pieces of
     a hinge are left out: they would make two joints of it.
@@ -68,7 +68,7 @@ def diagonals_of(pose: GeneralPose, protected: Collection[LinkId] = ()) -> list[
     if pose.sheet is None or pose.mechanism is None:
         return []
     points = _points(pose)
-    found = []
+    diagonals = []
     for panel, faces in enumerate(pose.mechanism.panels):
         if panel in protected or len(faces) != 1:
             continue
@@ -77,18 +77,17 @@ def diagonals_of(pose: GeneralPose, protected: Collection[LinkId] = ()) -> list[
         for pair in combinations(range(len(around)), 2):
             diagonal = Diagonal(panel, faces[0], pair, (around[pair[0]], around[pair[1]]))
             if _is_inside(corners, pair) and not _parts_a_hinge(pose, diagonal):
-                found.append(diagonal)
-    return found
+                diagonals.append(diagonal)
+    return diagonals
 
 
 def loads_on_stresses(pose: GeneralPose, diagonals: Sequence[Diagonal]) -> tuple[Floats, list[bool]]:
-    """Return what creases along diagonals do to each self-stress, and which of them are in no loop.
+    """Return what creases along diagonals do to each self-stress, float[s, D], and which of them are in no loop.
 
-    A set of creases brings as many rates as it has creases, less the rank of its columns. Returns the loads,
-    float[s, D], zero for a crease that brings a rate by itself, and for each diagonal whether its crease only cuts
-    a corner off, which hangs on it. All loops close by six equations here, so that no crease has to pass through a
-    centre. Raises `NumericalError` if the rank of the closure equations is not that of the equations about
-    centres.
+    A set of creases brings as many rates as it has creases, less the rank of its columns: a zero column is a
+    crease that brings a rate by itself. A crease in no loop only cuts a corner off, which hangs on it. All loops
+    close by six equations here, so that no crease has to pass through a centre. Raise `NumericalError` if the rank
+    of the closure equations is not that of the equations about centres.
     """
     linkage = pose.linkage
     matrix = np.zeros((6 * len(linkage.loops), len(linkage.angles)))
@@ -141,7 +140,7 @@ def _beyond(pose: GeneralPose, diagonal: Diagonal) -> set[int]:
 
 
 def _parts_a_hinge(pose: GeneralPose, diagonal: Diagonal) -> bool:
-    """Tell whether a joint has edges on both sides of a diagonal."""
+    """Check whether a joint has edges on both sides of a diagonal."""
     between, around = _sides(pose, diagonal)
     return not _joints_at(pose, between).isdisjoint(_joints_at(pose, around))
 
@@ -175,7 +174,7 @@ def _in_plane(points: Floats) -> Floats:
 
 
 def _is_inside(corners: Floats, pair: tuple[int, int]) -> bool:
-    """Tell whether the line between two corners of a polygon parts it in two."""
+    """Check whether the line between two corners of a polygon parts it in two."""
     first, last = pair
     parts = (corners[first : last + 1], np.concatenate([corners[last:], corners[: first + 1]]))
     if min(map(len, parts)) < 3:
@@ -194,7 +193,115 @@ def _is_inside(corners: Floats, pair: tuple[int, int]) -> bool:
 
 
 def _meet(a: Floats, b: Floats, c: Floats, d: Floats) -> bool:
-    """Tell whether two segments share a point."""
+    """Check whether two segments share a point."""
     over, under = signed_area([[(a, b, c), (a, b, d)], [(c, d, a), (c, d, b)]])
     near = DOUBLE.same_point
     return all(min(areas) <= near and max(areas) >= -near for areas in (over, under))
+
+
+MOST_FOLDED = 100
+"""Sheets with diagonals that are folded, of one size: a few seconds."""
+
+
+@dataclass(frozen=True, slots=True)
+class Candidates:
+    """Diagonals to choose from, what each does to the self-stresses (float[s, D]), and how many may be added."""
+
+    diagonals: Sequence[Diagonal]
+    loads: Floats
+    allowance: Allowance
+
+    def dependent(self, size: int, rates: int) -> Iterator[tuple[int, ...]]:
+        """Yield the sets of a size, no two crossing, that bring so many rates or more."""
+        yield from self._grown((), self.loads, size - rates, size)
+
+    def _grown(self, chosen: tuple[int, ...], loads: Floats, rank: int, size: int) -> Iterator[tuple[int, ...]]:
+        """Yield sets that begin with some; loads across theirs are left, and so much rank at most."""
+        if len(chosen) == size:
+            yield chosen
+            return
+        for place in range(chosen[-1] + 1 if chosen else 0, len(self.diagonals)):
+            if not self.allowance.take():
+                return
+            if any(self.diagonals[place].crosses(self.diagonals[other]) for other in chosen):
+                continue
+            load = loads[:, place]
+            length = float(np.linalg.norm(load))
+            if length <= DOUBLE.zero:
+                yield from self._grown((*chosen, place), loads, rank, size)
+            elif rank:
+                along = load / length
+                yield from self._grown((*chosen, place), loads - np.outer(along, along @ loads), rank - 1, size)
+
+
+class Bounds(NamedTuple):
+    """What is searched for: the freedoms and rates there are, the freedoms wanted, the largest size of a set."""
+
+    freedoms: int
+    rates: int
+    wanted: int
+    largest: int
+
+
+@dataclass(frozen=True, slots=True)
+class DiagonalSets:
+    """The smallest sets that have the freedoms when folded, and the largest size that was searched.
+
+    `more`: there may be more sets of that size, since a limit was reached; `refused` counts sets that have the
+    rates but, folded, not the freedoms; `used_up`: the search ended at its work limit.
+    """
+
+    sets: tuple[tuple[int, ...], ...]
+    searched: int
+    more: bool
+    refused: int
+    used_up: bool = False
+
+
+def smallest_sets(sheet: Sheet, candidates: Candidates, bounds: Bounds, limit: int) -> DiagonalSets:
+    """Return the smallest sets of diagonals, up to a limit, that give a sheet at a general pose its freedoms."""
+    refused = 0
+    for size in range(bounds.wanted - bounds.freedoms, bounds.largest + 1):
+        sets: list[tuple[int, ...]] = []
+        more = False
+        for folded, places in enumerate(candidates.dependent(size, bounds.wanted - bounds.rates)):
+            if len(sets) == limit or folded == MOST_FOLDED:
+                more = True
+                break
+            if freedoms_when_creased(sheet, [candidates.diagonals[place] for place in places]) == bounds.wanted:
+                sets.append(places)
+            else:
+                refused += 1
+        used_up = candidates.allowance.left < 0
+        if sets or more or used_up:
+            return DiagonalSets(tuple(sets), size, more or used_up, refused, used_up)
+    return DiagonalSets((), bounds.largest, False, refused)
+
+
+def freedoms_when_creased(sheet: Sheet, diagonals: Sequence[Diagonal]) -> int | None:
+    """Return the freedoms of a sheet with creases along diagonals, on its freest branch; None if unknown."""
+    for diagonal in diagonals:
+        sheet = crease_sheet(sheet, *diagonal.ends).sheet
+    return _freest(sheet)
+
+
+def freedoms_when_left_out(sheet: Sheet, joints: Sequence[int]) -> int | None:
+    """Return the freedoms of a sheet without some creases, on its freest branch; None if unknown."""
+    for joint in joints:
+        sheet = lock_crease(sheet, joint).sheet
+    return _freest(sheet)
+
+
+def _freest(sheet: Sheet) -> int | None:
+    pattern = configuration_of_sheet(sheet)
+    if not pattern.linkage.graph.joints:
+        return 0
+    branches = pattern.branches
+    if branches is None:
+        return None
+    known = [branch.freedoms for branch in branches.branches if branch.certainty != "not known"]
+    if any(freedoms is None for freedoms in known):
+        return None
+    return max(
+        (freedoms for freedoms in known if freedoms is not None), default=0 if branches.exhaustive else None
+    )

@@ -1,4 +1,7 @@
-"""Which joints to lock: sets that each take a freedom more, cheapest first.
+"""Which joints to lock, at a configuration where motions to first order are finite ones.
+
+At a singular configuration, such as a flat sheet, ranks say little of the motion. Advice is given at another then,
+on the motion branch that the user names, or that the assignment chooses (`general_pose`).
 
 Rates of M freedoms are the columns of a matrix with a row for each joint. To lock joints takes as many freedoms as
 the rank of their rows, so the sets that take one each are the independent sets of a matroid, the dual of that of
@@ -11,14 +14,115 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
+from math import degrees
 
 import numpy as np
 
 from graphs.arrays import Floats
+from graphs.convert.duality import SheetMechanism
+from graphs.errors import NumericalError, UnsolvableError, numbered
+from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE
+from synth.folding.configuration import SheetConfiguration
+from synth.motion.beginning import Wanted, beginning
+from synth.motion.branches import Branches
+from synth.motion.closure import ClosureEquations
+from synth.motion.configuration import Configuration
+from synth.motion.linkage import PosedLinkage, linkage_of_sheet
+from synth.motion.placement import moved
+from synth.motion.second_order import rates_at
 from synth.motion.walk.allowance import Allowance
+from synth.verdict.words import flaps_of
 
-__all__ = ["Cost", "cheapest_sets", "held"]
+__all__ = ["GeneralPose", "cheapest_sets"]
+
+
+@dataclass(frozen=True, slots=True)
+class GeneralPose:
+    """A linkage at a regular configuration.
+
+    Attributes
+    ----------
+    linkage : PosedLinkage
+        At this configuration.
+    rates : float[J, M]
+        Orthonormal columns span the rates of its motions.
+    branch : int or None
+        The motion branch that leads to it; None where the input configuration is regular.
+    sheet, mechanism : Sheet or None, SheetMechanism or None
+        The placed sheet, and its mechanism.
+    rigid : bool
+        Whether it is proved that nothing moves from the input configuration, whatever rates there are.
+    """
+
+    linkage: PosedLinkage
+    rates: Floats
+    branch: int | None
+    sheet: Sheet | None = None
+    mechanism: SheetMechanism | None = None
+    rigid: bool = False
+
+    @property
+    def freedoms(self) -> int:
+        """Finite ones, M."""
+        return 0 if self.rigid else int(self.rates.shape[1])
+
+    @property
+    def flaps(self) -> tuple[int, ...]:
+        """Places of the joints in no loop: of flaps, and of what hangs on them."""
+        loose = set(flaps_of(self.linkage.graph))
+        return tuple(place for place, joint in enumerate(self.linkage.graph.joints) if joint in loose)
+
+    def __repr__(self) -> str:
+        return f"<GeneralPose: {self.freedoms} freedoms of {self.linkage!r}>"
+
+
+def general_pose(configuration: Configuration, branch: int | str | None = None) -> GeneralPose:
+    """Return a mechanism at a regular configuration near its own, which may be singular.
+
+    The branch is a number or signs; by default the assignment chooses it. Raise `UnsolvableError` if no motion was
+    found though that is not proved, or if there are too many joints or none, `NumericalError` if the configuration
+    reached is singular too.
+    """
+    linkage, branches = configuration.linkage, configuration.branches
+    if not configuration.joints:
+        raise UnsolvableError("there is nothing to advise: no joints between links")
+    if branches is None:
+        raise UnsolvableError(
+            "advice requires the motion branches, and for so large a mechanism not all are looked for"
+        )
+    sheet = configuration if isinstance(configuration, SheetConfiguration) else None
+    here: tuple[Sheet | None, SheetMechanism | None] = (None, None)
+    if sheet is not None:
+        here = sheet.sheet, sheet.mechanism
+    if branches.no_motion == "proved":
+        rates = rates_at(configuration.closure, linkage.angles)
+        return GeneralPose(linkage, rates, None, sheet=here[0], mechanism=here[1], rigid=True)
+    number, _ = beginning(configuration, Wanted(branch))
+    if number is None:
+        return GeneralPose(linkage, _rates(linkage, branches, number), None, *here)
+    angles = branches.branches[number].sample
+    if sheet is None:
+        posed = moved(linkage, angles)
+    else:
+        here = (sheet.at(angles), sheet.mechanism)
+        posed = linkage_of_sheet(here[0], sheet.mechanism)
+    return GeneralPose(posed, _rates(posed, branches, number), number, *here)
+
+
+def _rates(linkage: PosedLinkage, branches: Branches, number: int | None) -> Floats:
+    """Return the rates at a pose, if there are as many as freedoms."""
+    rates = rates_at(ClosureEquations(linkage), linkage.angles)
+    freedoms = branches.branches[number or 0].freedoms
+    if freedoms != rates.shape[1]:
+        first = numbered(rates.shape[1], "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
+        finite = "an unknown number" if freedoms is None else str(freedoms)
+        raise NumericalError(
+            f"no regular configuration was branches: {first} beside {finite} of finite motion, "
+            f"at fold angles up to {degrees(float(np.abs(linkage.angles).max())):.3g}°"
+        )
+    return rates
+
 
 Cost = tuple[float, ...]
 """Weights, the first above all; compared as words are."""
@@ -38,10 +142,6 @@ def held(rates: Floats, joints: Collection[int]) -> int:
     """Return how many freedoms a set of joints (rows of the rates) takes when it is locked.
 
     The columns of the rates, float[J, M], are an orthonormal basis of all motions.
-
-    >>> rates = np.array([[0.6, 0.0], [0.8, 0.0], [0.0, 1.0]])
-    >>> held(rates, (0, 1)), held(rates, (1, 2))
-    (1, 2)
     """
     return len(_greedy(rates, (), sorted(joints), rates.shape[1]))
 
@@ -65,7 +165,7 @@ def cheapest_sets(
     allowed : collection of int
         Joints that may be locked.
     allowance : Allowance, optional
-        Joints that may be looked at for the sets after the first; the sets end where it is used up.
+        Work limit of the sets after the first, in joints.
 
     Examples
     --------
@@ -75,17 +175,17 @@ def cheapest_sets(
     """
     order = sorted(allowed, key=lambda joint: (costs[joint], joint))
     queue: list[tuple[Cost, tuple[int, ...], int, _Choices]] = []
-    made = 0
+    entered = 0
 
     def enter(kept: tuple[int, ...], left_out: frozenset[int], allowance: Allowance | None) -> None:
-        nonlocal made
+        nonlocal entered
         if len(order) - len(left_out) < size:
             return
         chosen = _greedy(rates, kept, [joint for joint in order if joint not in left_out], size, allowance)
         if len(chosen) == size:
             cost = tuple(map(sum, zip(*(costs[joint] for joint in chosen), strict=True)))
-            made += 1
-            heappush(queue, (cost, tuple(sorted(chosen)), made, _Choices(cost, chosen, kept, left_out)))
+            entered += 1
+            heappush(queue, (cost, tuple(sorted(chosen)), entered, _Choices(cost, chosen, kept, left_out)))
 
     enter((), frozenset(), None)
     while queue:
@@ -106,7 +206,7 @@ def _greedy(
 ) -> tuple[int, ...]:
     """Return joints that take a freedom each: those kept, then each in order that adds to them, up to a size.
 
-    Where the allowance is used up on the way there are fewer.
+    There are fewer at the work limit.
     """
     free, chosen = np.array(rates), list[int]()
     for joint in (*kept, *order):

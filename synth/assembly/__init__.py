@@ -1,8 +1,8 @@
 """All positions of a spherical or planar linkage at given inputs, and the circuits and branches they belong to.
 
-`positions` answers. Below it: `family` (linkages of a type with complex axes and inputs), `kernel` (compiled:
-closure equations, solutions followed along curves), `general` (all positions of a general member), `found` (of one
-member), `circuits`. Theory: docs/theory/positions.md.
+`positions` answers. Below it: `kernel` (compiled: closure equations, solutions followed along curves), `family`
+(linkages of a type with complex axes and inputs, and all positions of a general one), `modes` (those of one
+member, their circuits). Theory: docs/theory/positions.md.
 """
 
 from __future__ import annotations

@@ -1,3 +1,2 @@
-from synth.assembly.answer import Position as Position, Positions as Positions
-from synth.assembly.found import positions as positions
-from synth.assembly.general import general_positions as general_positions
+from synth.assembly.family import general_positions as general_positions
+from synth.assembly.modes import Position as Position, Positions as Positions, positions as positions

@@ -1,9 +1,12 @@
-"""A family of linkages: closure equations with the axes and the driven angles as complex parameters.
+"""A family of linkages with complex axes and inputs, and all positions of a general member of it.
 
 Joint angles, axes and inputs may be complex: then the number of positions is the same for all members but special
 ones, and can be followed from one to another. An axis through a finite centre has two angles, one across a plane
-its point there, so that everything is an entire function and no root has to choose a sign. Theory:
-docs/theory/positions.md.
+its point there, so that everything is an entire function and no root has to choose a sign.
+
+A curve of members that comes back to where it began takes each position to a position, perhaps a new one. Curves
+are walked until many in a row bring nothing new: with one position missing, each curve would bring it unless it
+takes all known ones to known ones. Theory: docs/theory/positions.md.
 """
 
 from __future__ import annotations
@@ -15,13 +18,15 @@ from math import atan2, hypot
 import numpy as np
 
 from graphs.arrays import Flags, Floats, Ints
-from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.errors import InvariantError, NumericalError, UnsolvableError, numbered, shown
 from graphs.geometry import frame_about, lines_meet
 from graphs.ids import JointId
 from graphs.loops.loop import Centre
+from graphs.rank.spaces import rank_of
 from graphs.tolerances import DOUBLE
 from synth.assembly.kernel import (
     ARRIVED,
+    CLOSED,
     DIRECTION,
     FAR,
     POINT,
@@ -34,7 +39,7 @@ from synth.assembly.kernel import (
 )
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
-__all__ = ["SMALL", "Curves", "Family", "Followed", "family_of"]
+__all__ = ["general_positions"]
 
 Curves = tuple[Complexes, Complexes, Complexes]
 SMALL = 3e-3
@@ -43,14 +48,14 @@ SMALL = 3e-3
 
 @dataclass(frozen=True, slots=True)
 class Family:
-    """Linkages of one type with joints driven.
+    """Linkages of one type with driven joints.
 
     Parameters of a member: two numbers for each axis, and the angle or length of each driven joint. Rows of
-    `loops`, int[L, K], are the axes of each loop in order, filled up with -1; `signs` says which way they are
-    passed, 1 or -1. `axes`, int[A, 2], has the joint of each axis and how its parameters give it: DIRECTION in
-    loops with a finite centre, POINT or SLIDE in those with parallel axes (`synth.assembly.kernel`). `joints` are
-    all that are in loops; `column` is the place of each among the unknown ones, and for a driven one -1 - (its
-    place among the driven).
+    `loops`, int[L, K], are the axes of each loop in order, filled up with -1; `signs` is 1 or -1 by the way they
+    are passed. `axes`, int[A, 2], has the joint of each axis and the meaning of its parameters: DIRECTION in loops
+    with a finite centre, POINT or SLIDE in those with parallel axes (`synth.assembly.kernel`). `joints` are all
+    that are in loops; `column` is the place of each among the unknown ones, and for a driven one -1 - (its place
+    among the driven).
     """
 
     loops: Ints
@@ -77,16 +82,16 @@ class Family:
         turning[slides[slides >= 0]] = False
         return turning
 
-    def followed(self, curves: Curves, values: Complexes, small: float = SMALL) -> Followed:
-        """Follow solutions from members of the family to others.
+    def followed(self, curves: Curves, values: Complexes, small: float = SMALL) -> TrackedPaths:
+        """Follow solutions, complex[P, U], from members of the family to others.
 
         Curves are three complex[P, parameters], start, end and bend of the parameters: at s, start + s (end -
-        start) + s (1 - s) bend. Values are the solutions at the starts, complex[P, U]. The smaller the corrections
-        that are allowed (`small`, radians), the less likely a path changes for another.
+        start) + s (1 - s) bend. The smaller the allowed corrections (`small`, radians), the less likely a path
+        changes for another.
         """
         solutions = values.astype(complex)
         ends = followed_all(self._type, curves, solutions, small)
-        return Followed(solutions, ends == ARRIVED, ends == FAR)
+        return TrackedPaths(solutions, ends == ARRIVED, ends == FAR)
 
     def corrected(self, parameters: Complexes, values: Complexes, steps: int) -> tuple[Complexes, Floats]:
         """Return solutions by Newton's method, complex[P, U], and by how much loops do not close, float[P]."""
@@ -110,11 +115,8 @@ class Family:
 
 
 @dataclass(frozen=True, slots=True)
-class Followed:
-    """Where paths came to: values, complex[P, U], and which arrived at the end or are far, gone to infinity.
-
-    The others stopped on their way.
-    """
+class TrackedPaths:
+    """Ends of paths: values, complex[P, U], and which arrived or are far, at infinity; the others stopped."""
 
     values: Complexes
     arrived: Flags
@@ -122,9 +124,9 @@ class Followed:
 
 
 def family_of(linkage: PosedLinkage, driven: Sequence[JointId]) -> tuple[Family, Floats]:
-    """Return the family of a linkage with joints driven, and the parameters of this member's axes: float[2 A].
+    """Return the family of a linkage with driven joints, and the parameters of this member's axes: float[2 A].
 
-    Joints in no loop are left out. Raises `UnsolvableError` if a loop is neither spherical nor planar, or if so
+    Joints in no loop are left out. Raise `UnsolvableError` if a loop is neither spherical nor planar, or if so
     many driven joints do not determine the others by count, `InvariantError` if a driven joint is in no loop, or
     named twice.
     """
@@ -155,13 +157,13 @@ def _joints_of_loops(linkage: PosedLinkage) -> tuple[JointId, ...]:
 def _check_driven(joints: Sequence[JointId], driven: Sequence[JointId], freedoms: int) -> None:
     for number, joint in enumerate(driven):
         if joint not in joints:
-            raise InvariantError("joint", f"{shown(joint)} is no joint of a loop", "joints of loops to be driven")
+            raise InvariantError("joint", f"{shown(joint)} is no joint of a loop", "a joint of a loop")
         if joint in driven[:number]:
             raise InvariantError("joint", f"joint {shown(joint)} is driven twice", "once")
     if len(driven) != freedoms:
         raise UnsolvableError(
-            f"{numbered(len(driven), 'joint')} driven, and M = {freedoms} by count: positions are counted where "
-            "as many joints are driven as there are degrees of freedom"
+            f"{numbered(len(driven), 'joint')} driven; expected as many as there are degrees of freedom, "
+            f"M = {freedoms} by count"
         )
 
 
@@ -188,10 +190,9 @@ class _Axes:
             return numbers, [1] * len(loop.joints)
         if centre is not Centre.INFINITE:
             names = list(self._linkage.graph.joints)
-            ids = shown([names[joint] for joint in loop.joints])
+            ids = ", ".join(shown(names[joint]) for joint in loop.joints)
             raise UnsolvableError(
-                "positions are found of loops whose axes meet in a point or are parallel, "
-                f"and those of loop {ids} do neither"
+                f"the axes of loop {ids} neither meet in a point nor are parallel, as positions require"
             )
         turning = [joint for joint in loop.joints if joint not in self._slides]
         plane, frame = self._plane(directions[turning])
@@ -242,3 +243,121 @@ class _Axes:
 def _tilt_and_turn(direction: Floats) -> tuple[float, float]:
     x, y, z = direction.tolist()
     return atan2(hypot(x, y), z), atan2(y, x)
+
+
+_STARTS, _STEPS = 64, 25
+_QUIET = 6
+"""Curves in a row that bring nothing new, before the positions are taken for all."""
+_MOST_CURVES = 60
+_WIDE = 0.7
+"""Imaginary parts of the angles of a general member's axes, at most, radians."""
+
+
+@dataclass(frozen=True, slots=True)
+class GeneralPositions:
+    """All positions (complex[N, U]) of a general member, and how many closed curves were walked to find them."""
+
+    parameters: Complexes
+    values: Complexes
+    curves: int
+
+
+def general_positions(family: Family, seed: int = 0) -> GeneralPositions:
+    """Return all positions of a random member of a family.
+
+    Parameters
+    ----------
+    family : Family
+    seed : int, optional
+        Random seed; another seed is another member, and other curves.
+
+    Raises
+    ------
+    UnsolvableError
+        If the driven joints do not determine the others.
+    NumericalError
+        If the curves go on to bring new positions.
+
+    Examples
+    --------
+    >>> ring, directions = np.array([[0, 1, 2, 3]]), np.array([[0, 0], [1, 0], [2, 0], [3, 0]])
+    >>> four_bar = Family(ring, np.ones((1, 4)), directions, (0, 1, 2, 3), np.array([-1, 0, 1, 2]))
+    >>> len(general_positions(four_bar).values)
+    2
+    """
+    random = np.random.default_rng(seed)
+    number, inputs = len(family.axes), family.driven
+    here = np.concatenate([_random_axes(random, number), np.zeros(inputs, dtype=complex)])
+    known = np.zeros((1, family.unknowns), dtype=complex)  # all joint angles are 0 where the axes were read
+    derivatives = family.derivatives(here, known[0])
+    parts = as_real(derivatives)
+    if rank_of(parts) < min(parts.shape):
+        raise UnsolvableError("the driven joints do not determine the others: drive joints that do")
+    known = apart(np.concatenate([known, _by_newton(family, here, random)]), family.turning)
+    quiet = 0
+    for curves in range(1, _MOST_CURVES + 1):
+        turn = np.concatenate([_random_axes(random, number), _random(random, inputs, np.pi, np.pi)])
+        # there and back on different curves: the closed curve permutes positions, and brings missing ones
+        there = _carried(family, (here, turn), known, random)
+        back = _carried(family, (turn, here), there, random)
+        more = apart(np.concatenate([known, back]), family.turning)
+        quiet = quiet + 1 if len(more) == len(known) else 0
+        known = more
+        if quiet == _QUIET:
+            return GeneralPositions(here, known, curves)
+    raise NumericalError(f"after {_MOST_CURVES} curves new positions still appear, {len(known)} so far")
+
+
+def apart(values: Complexes, turning: Flags) -> Complexes:
+    """Return solutions each once; angles, which `turning` (bool[U]) marks, are the same but for whole turns."""
+    kept: list[Complexes] = []
+    for solution in values:
+        if not same(np.array(kept).reshape(-1, len(turning)), solution, turning).any():
+            kept.append(solution)
+    return np.array(kept).reshape(-1, values.shape[1])
+
+
+def same(values: Complexes, solution: Complexes, turning: Flags) -> Flags:
+    """Return which of some solutions, complex[N, U], are one solution, complex[U]: bool[N]."""
+    return np.asarray(
+        np.abs(_unturned(values - solution, turning)).max(axis=1, initial=0.0) <= DOUBLE.same_configuration
+    )
+
+
+def as_real(matrix: Complexes) -> Floats:
+    """Return a complex matrix as a real one of twice its size, and twice its rank."""
+    return np.block([[matrix.real, -matrix.imag], [matrix.imag, matrix.real]])
+
+
+def _unturned(unknowns: Complexes, turning: Flags) -> Complexes:
+    """Return unknowns, angles without whole turns."""
+    return np.asarray(unknowns - 2 * np.pi * np.where(turning, np.rint(unknowns.real / (2 * np.pi)), 0.0))
+
+
+def _by_newton(family: Family, parameters: Complexes, random: np.random.Generator) -> Complexes:
+    """Return solutions that random starts come to."""
+    starts = _random(random, (_STARTS, family.unknowns), np.pi, 1.5)
+    many = np.tile(parameters, (_STARTS, 1))
+    values, error = family.corrected(many, starts, _STEPS)
+    return values[error <= CLOSED]
+
+
+def _carried(
+    family: Family, ends: tuple[Complexes, Complexes], values: Complexes, random: np.random.Generator
+) -> Complexes:
+    """Return solutions carried from one member to another along a random curve."""
+    bend = _random(random, len(ends[0]), 1.0, 1.0)
+    first, last, bent = (np.tile(one, (len(values), 1)) for one in (*ends, bend))
+    paths = family.followed((first, last, bent), values)
+    return paths.values[paths.arrived]
+
+
+def _random_axes(random: np.random.Generator, number: int) -> Complexes:
+    """Return complex angles of axes."""
+    tilts, turns = random.uniform(0.4, np.pi - 0.4, number), random.uniform(-np.pi, np.pi, number)
+    pairs = np.stack([tilts, turns], axis=1) + 1j * random.uniform(-_WIDE, _WIDE, (number, 2))
+    return np.asarray(pairs.ravel())
+
+
+def _random(random: np.random.Generator, shape: int | tuple[int, int], real: float, imaginary: float) -> Complexes:
+    return np.asarray(random.uniform(-real, real, shape) + 1j * random.uniform(-imaginary, imaginary, shape))

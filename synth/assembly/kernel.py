@@ -14,21 +14,6 @@ import numpy.typing as npt
 from enumerate.kernel.compiled import compiled
 from graphs.tolerances import DOUBLE
 
-__all__ = [
-    "ARRIVED",
-    "CLOSED",
-    "DIRECTION",
-    "FAR",
-    "POINT",
-    "SLIDE",
-    "STOPPED",
-    "Complexes",
-    "Type",
-    "corrected_all",
-    "evaluated",
-    "followed_all",
-]
-
 Complexes = npt.NDArray[np.complex128]
 Places = npt.NDArray[np.int64]
 Signs = npt.NDArray[np.float64]
@@ -82,10 +67,7 @@ def placed_axes(kind: Type, parameters: Complexes, unknowns: Complexes) -> tuple
 def evaluated(
     kind: Type, parameters: Complexes, unknowns: Complexes, residual: Complexes, jacobian: Complexes
 ) -> None:
-    """Write what does not close, complex[3 L], and its derivatives by the unknowns, complex[3 L, U].
-
-    Unknowns are the angles, or lengths of slides, of joints that are not driven.
-    """
+    """Write the closure residual, complex[3 L], and its derivatives by the unknowns, complex[3 L, U]."""
     loops, signs, axes_of, column = kind
     axes, quaternions = placed_axes(kind, parameters, unknowns)
     for row in range(len(jacobian)):
@@ -156,7 +138,7 @@ def solved(matrix: Complexes, right: Complexes) -> bool:
 
 @compiled
 def corrected(kind: Type, parameters: Complexes, unknowns: Complexes, steps: int) -> tuple[float, float]:
-    """Correct unknowns in place; return the length of the first step and by how much loops do not close."""
+    """Correct unknowns in place; return the length of the first step and the closure residual."""
     n = len(unknowns)
     residual, jacobian = np.empty(n, np.complex128), np.empty((n, n), np.complex128)
     first = 0.0
@@ -182,10 +164,10 @@ def corrected(kind: Type, parameters: Complexes, unknowns: Complexes, steps: int
 @compiled
 def parameters_at(start: Complexes, end: Complexes, bend: Complexes, s: float) -> Complexes:
     """Return the parameters at a place of a curve."""
-    made = np.empty(len(start), np.complex128)
+    parameters = np.empty(len(start), np.complex128)
     for i in range(len(start)):
-        made[i] = start[i] + s * (end[i] - start[i]) + s * (1.0 - s) * bend[i]
-    return made
+        parameters[i] = start[i] + s * (end[i] - start[i]) + s * (1.0 - s) * bend[i]
+    return parameters
 
 
 @compiled
@@ -196,7 +178,7 @@ def tangent(
     unknowns: Complexes,
     rates: Complexes,
 ) -> bool:
-    """Write how the unknowns go on along a curve; False if that is not known."""
+    """Write how the unknowns go on along a curve; False if that is not determined."""
     n = len(unknowns)
     beside, jacobian = np.empty(n, np.complex128), np.empty((n, n), np.complex128)
     ahead = parameters_at(curve[0], curve[1], curve[2], s + _NUDGE)
@@ -229,9 +211,9 @@ def followed(
     unknowns: Complexes,
     small: float,
 ) -> int:
-    """Follow a solution along a curve, in place; return what became of it.
+    """Follow a solution along a curve, in place; return STOPPED, ARRIVED or FAR.
 
-    The tangent foretells each step (Runge and Kutta, fourth order); it is halved where the first correction is not
+    The tangent predicts each step (Runge and Kutta, fourth order); it is halved where the first correction is not
     ``small``, radians.
     """
     n = len(unknowns)
@@ -274,7 +256,7 @@ def followed_all(
     values: Complexes,
     small: float,
 ) -> Places:
-    """Follow solutions along curves, each along its own, in place; return what became of them: int[P]."""
+    """Follow solutions along curves, each along its own, in place; return STOPPED, ARRIVED or FAR: int[P]."""
     ends = np.empty(len(values), np.int64)
     for path in range(len(values)):
         curve = (curves[0][path], curves[1][path], curves[2][path])
@@ -284,7 +266,7 @@ def followed_all(
 
 @compiled
 def corrected_all(kind: Type, parameters: Complexes, values: Complexes, steps: int) -> Signs:
-    """Correct solutions, in place; return by how much loops do not close: float[P]."""
+    """Correct solutions, in place; return their closure residuals: float[P]."""
     errors = np.empty(len(values))
     for path in range(len(values)):
         errors[path] = corrected(kind, parameters[path], values[path], steps)[1]

@@ -1,9 +1,8 @@
 """Compliance states: members that bend or rest, mobility with these rigid and those released; springs and masses.
 
-`states` answers. Below it: `members` (the linkage that is left), `freedoms` (of each set of active members),
-`springs` (energy on the closed poses), `equilibrium` (balance, load paths), `small_motions` (modes and
-frequencies), `stated`, `answer`. `limits` tells where ride-alongs go straight: `limited`, `limits_answer`.
-Theory: docs/theory/compliance.md, docs/theory/activating-constraints.md.
+`states` answers (`compliance_states`). Below it: `members` (the linkage that is left, and its freedoms), `springs`
+(energy on the closed poses, balance, load paths, modes and frequencies). `limits` finds where ride-alongs go
+straight (`joint_limits`). Theory: docs/theory/compliance.md, docs/theory/activating-constraints.md.
 """
 
 from __future__ import annotations

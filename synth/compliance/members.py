@@ -1,4 +1,4 @@
-"""Compliant members: the linkage that is left where those at rest are rigid and active ones are released.
+"""Compliant members: the linkage with those at rest rigid and active ones released, and its freedoms.
 
 Theory: docs/theory/compliance.md.
 """
@@ -8,21 +8,26 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from itertools import chain, combinations
+from typing import Any, Literal
 
 import networkx as nx
 import numpy as np
 
 from graphs.arrays import Ints
 from graphs.edit.named import known
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.ids import JointId, LinkId
 from graphs.loops.cycle_space import signed_cycle
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.closure import independent_cycles
+from graphs.rank.singular_values import spectrum
+from graphs.tolerances import DOUBLE
+from synth.motion.branches import MOST_JOINTS, Certainty, branches_of, search_for
+from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
-__all__ = ["NONE", "Members", "released"]
+__all__ = ["Members", "State"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,17 +60,11 @@ class Members:
         return {"joints": list(self.joints), "links": list(self.links)}
 
     def within(self, other: Members) -> bool:
-        """Tell whether all of these are among others."""
+        """Check whether all of these are among others."""
         return set(self.joints) <= set(other.joints) and set(self.links) <= set(other.links)
 
     def subsets(self) -> Iterator[Members]:
-        """Yield all sets of these members, smaller ones first.
-
-        Examples
-        --------
-        >>> [len(some) for some in Members((0, 1), ("a",)).subsets()]
-        [0, 1, 1, 1, 2, 2, 2, 3]
-        """
+        """Yield all sets of these members, smaller ones first."""
         each = [*((0, joint) for joint in self.joints), *((1, link) for link in self.links)]
         for some in chain.from_iterable(combinations(each, size) for size in range(len(each) + 1)):
             yield Members(
@@ -73,12 +72,7 @@ class Members:
             )
 
     def checked(self, graph: SCGraph) -> None:
-        """Refuse names that the graph has not, names given twice, and links that hang on one other.
-
-        Raises
-        ------
-        InvariantError
-        """
+        """Raise `InvariantError` for names not in the graph, repeated names, and links that hang on one other."""
         for kind, names, there in (("joint", self.joints, graph.joints), ("link", self.links, graph.nodes)):
             for place, name in enumerate(names):
                 if name not in there:
@@ -100,8 +94,8 @@ def released(linkage: PosedLinkage, compliant: Members, active: Members) -> Pose
     """Return the linkage at its pose in which resting members are rigid and active ones give way.
 
     A resting joint makes its two links one, a resting link stays as it is. An active joint turns; an active link
-    gives way in any manner, as if it and its joints were not there. The active ones are among the compliant. Loops
-    of the answer may pass a link twice; it may be in several parts, if active links were all between them.
+    gives way in any manner, as if it and its joints were absent. The active ones are among the compliant. Loops of
+    the answer may pass a link twice; it may be in several parts, if active links were all between them.
     """
     left = _without(linkage, active.links) if active.links else linkage
     held = {joint for joint in compliant.joints if joint in left.graph.joints} - set(active.joints)
@@ -129,10 +123,7 @@ def _without(linkage: PosedLinkage, gone: Collection[LinkId]) -> PosedLinkage:
 
 
 def _locked(linkage: PosedLinkage, held: Collection[JointId]) -> PosedLinkage:
-    """Return a linkage some of whose joints do not turn: their links are one.
-
-    A joint that so comes to join a link with itself is held too.
-    """
+    """Return a linkage with locked joints: their links are one; joints from a link to itself are locked too."""
     bodies = nx.utils.UnionFind(linkage.graph.nodes)
     for joint in held:
         bodies.union(*linkage.graph.joints[joint])
@@ -166,3 +157,95 @@ def _restricted(linkage: PosedLinkage, graph: SCGraph, loops: tuple[PosedLoop, .
         angles=linkage.angles[kept],
         loops=loops,
     )
+
+
+MOST_MEMBERS = 10
+"""Of more members not all sets are looked at: there are a thousand."""
+_OF_A_BODY = 6
+"""Freedoms of a part that hangs on active links only."""
+
+Kind = Literal["rigid immobile", "rigid mobile", "compliant immobile", "compliant mobile", "not known"]
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """A linkage with some of its compliant members active, the others at rest.
+
+    Attributes
+    ----------
+    active : Members
+    freedoms : int or None
+        Of finite motion, with resting members rigid and active ones released; on the freest branch. None if
+        unknown.
+    certainty : {"proved", "numerical", "not known"}
+        Proved: no rates close to first order, or the equations are independent; or as `synth.motion.branches_of`.
+
+    Examples
+    --------
+    >>> State(Members((0,)), 1, "proved").kind
+    'compliant mobile'
+    """
+
+    active: Members
+    freedoms: int | None
+    certainty: Certainty
+
+    @property
+    def kind(self) -> Kind:
+        """Rigid while all members are at rest, else compliant; mobile with a freedom or more."""
+        if self.freedoms is None:
+            return "not known"
+        if len(self.active):
+            return "compliant mobile" if self.freedoms else "compliant immobile"
+        return "rigid mobile" if self.freedoms else "rigid immobile"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {
+            "active": self.active.to_json(),
+            "freedoms": self.freedoms,
+            "kind": self.kind,
+            "certainty": self.certainty,
+        }
+
+
+def state_of(linkage: PosedLinkage, compliant: Members, active: Members) -> State:
+    """Return the state of a closed linkage with some of its compliant members active.
+
+    Raise `UnsolvableError` if equations depend on each other and there are too many joints to search for branches.
+    """
+    left = released(linkage, compliant, active)
+    apart = _OF_A_BODY * (nx.number_connected_components(left.graph) - 1)
+    freedoms, certainty = _freedoms(left)
+    return State(active, None if freedoms is None else freedoms + apart, certainty)
+
+
+def states_of_sets(linkage: PosedLinkage, compliant: Members) -> list[State]:
+    """Return the state for each set of active members, smaller sets first; too many are refused."""
+    if len(compliant) > MOST_MEMBERS:
+        members = numbered(len(compliant), "compliant member")
+        raise UnsolvableError(f"{members} have too many sets of active ones; expected {MOST_MEMBERS} at most")
+    return [state_of(linkage, compliant, active) for active in compliant.subsets()]
+
+
+def _freedoms(linkage: PosedLinkage) -> tuple[int | None, Certainty]:
+    """Return the finite freedoms from a pose, on the freest way."""
+    joints = len(linkage.angles)
+    closure = ClosureEquations(linkage)
+    rank = spectrum(closure.at(linkage.angles)[1].toarray(), DOUBLE.derivative).rank
+    if rank in (joints, closure.rows):
+        return joints - rank, "proved"
+    if joints > MOST_JOINTS:
+        raise UnsolvableError(
+            f"{joints} joints are too many to search for motion branches; expected {MOST_JOINTS} at most"
+        )
+    branches = branches_of(linkage, closure, search_for(joints, None))
+    if branches.no_motion == "proved":
+        return 0, "proved"
+    known = [
+        branch for branch in branches.branches if branch.freedoms is not None and branch.certainty != "not known"
+    ]
+    if not known:
+        return None, "not known"
+    freest = max(known, key=lambda branch: branch.freedoms or 0)
+    return freest.freedoms, freest.certainty

@@ -1,4 +1,4 @@
-"""Springs at the joints of a linkage and moments on them: energy, and how it bends on the closed poses.
+"""Springs and moments at the joints of a linkage: energy, equilibria, load paths, small motions with masses.
 
 Theory: docs/theory/compliance.md.
 """
@@ -7,29 +7,39 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import isfinite
+from math import isfinite, pi
 
 import numpy as np
+import numpy.typing as npt
+import scipy.linalg
 
 from graphs.arrays import Floats
+from graphs.canonical import leading
+from graphs.convert.duality import mechanism_of_sheet
 from graphs.edit.named import known
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, shown
-from graphs.ids import JointId
-from graphs.rank.spaces import split
+from graphs.geometry import unit
+from graphs.ids import JointId, LinkId
+from graphs.mechanism.plane import in_space
+from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.rank.spaces import inertia, null_space, split
 from graphs.tolerances import DOUBLE
 from synth.motion.branches import MOST_JOINTS, branches_of, search_for
 from synth.motion.closure import ClosureEquations
 from synth.motion.driving import check_closed
 from synth.motion.linkage import PosedLinkage
+from synth.motion.newton import corrected, exactly_held
+from synth.motion.path import driven_path
+from synth.motion.placement import joints_outwards, link_motions
 
-__all__ = ["Bent", "ElasticLinkage", "Springs", "Tangent"]
+__all__ = ["Mass", "Masses", "Springs", "sheet_masses"]
 
 _NUDGE = 1e-5
 
 
 @dataclass(frozen=True, slots=True)
 class Springs:
-    """Torsion springs and dead moments at joints, in one system of units: moment, moment a radian.
+    """Torsion springs and dead moments at joints, in one system of units: moment, moment per radian.
 
     Attributes
     ----------
@@ -42,8 +52,6 @@ class Springs:
 
     Examples
     --------
-    A spring at joint 0, at rest at 0.5 radians, and one at joint 2, at rest as it lies:
-
     >>> Springs({0: 2.0, 2: 1.0}, rest={0: 0.5}).moments
     {}
     """
@@ -53,19 +61,14 @@ class Springs:
     moments: Mapping[JointId, float] = field(default_factory=dict)
 
     def checked(self, joints: tuple[JointId, ...]) -> None:
-        """Refuse joints that are none, numbers that are none, and springs that push with less than nothing.
-
-        Raises
-        ------
-        InvariantError
-        """
+        """Raise `InvariantError` for joints that do not exist, infinite numbers, and negative stiffness."""
         for what in ("stiffness", "rest", "moments"):
             for joint, value in getattr(self, what).items():
                 if joint not in joints:
                     raise InvariantError("joint", f"{shown(joint)} is no joint", known(joints, str(joint)))
                 if not isfinite(value) or (what == "stiffness" and value < 0.0):
-                    wanted = "a number, 0 or more" if what == "stiffness" else "a number"
-                    raise InvariantError(what, f"joint {shown(joint)} has {value!r}", wanted)
+                    expected = "a number, 0 or more" if what == "stiffness" else "a number"
+                    raise InvariantError(what, f"joint {shown(joint)} has {value!r}", expected)
                 if what == "rest" and not self.stiffness.get(joint):
                     raise InvariantError("rest", f"joint {shown(joint)} has no spring", "a stiffness")
 
@@ -80,10 +83,7 @@ class Tangent:
 
 @dataclass(frozen=True, slots=True)
 class Bent:
-    """Energy on the closed poses beside one, to second order along n rates.
-
-    `held` are the moments that keep held joints where they are.
-    """
+    """Energy on the closed poses beside one, to second order along n rates; `held`: moments at held joints."""
 
     slope: Floats
     curvature: Floats
@@ -93,7 +93,7 @@ class Bent:
 class ElasticLinkage:
     """A linkage with springs, from a regular closed pose; `freedoms` are those of finite motion.
 
-    Raises `InvariantError` as :meth:`Springs.checked` does, `UnsolvableError` if loops are not closed, nothing
+    Raise `InvariantError` as :meth:`Springs.checked` does, `UnsolvableError` if loops are not closed, nothing
     moves, or the pose is singular.
     """
 
@@ -118,25 +118,24 @@ class ElasticLinkage:
         return np.asarray(self.stiffness * (angles - self.rest) - self.moments)
 
     def tangent(self, angles: Floats) -> Tangent:
-        """Return the closed poses beside one, to first order.
-
-        Raises `NumericalError` if there are more rates than freedoms: the pose is singular.
-        """
+        """Return the closed poses beside one, to first order; raise `NumericalError` at a singular pose."""
         jacobian = self.closure.at(angles)[1].toarray()
         if not len(jacobian):
             return Tangent(jacobian, np.eye(len(angles)))
         parts, rank = split(jacobian, DOUBLE.clear), len(angles) - self.freedoms
         if parts.rank < rank:
-            raise NumericalError("springs led to a singular pose, where it is open which way the linkage goes")
+            raise NumericalError(
+                "springs led to a singular configuration, where the motion branch is undetermined"
+            )
         return Tangent(jacobian, parts.right[rank:].T)
 
     def bent(self, angles: Floats, tangent: Tangent, along: Floats, held: tuple[int, ...]) -> Bent:
-        """Return how the energy bends on the closed poses along some rates.
+        """Return how the energy bends on the closed poses along orthonormal rates of the tangent, float[J, n].
 
         The closure equations pull with moments -J^T w that hold the slopes of the energy in balance; second
-        derivatives of w . (closure) by rates along which loops stay closed are those of w . J. Angles are those of
-        a closed pose, radians, the tangent is taken there; the rates float[J, n] are orthonormal and among those
-        of the tangent; joints at the places `held` do not move along them.
+        derivatives of w . (closure) by rates along which loops stay closed are those of w . J. Joints at the
+        places `held` do not move along the rates. Angles are those of a closed pose, radians, the tangent is taken
+        there.
         """
         slopes = self.slopes(angles)
         places = list(held)
@@ -154,13 +153,310 @@ class ElasticLinkage:
 def _freedoms_of_regular_pose(linkage: PosedLinkage, closure: ClosureEquations) -> int:
     joints = len(linkage.angles)
     if joints > MOST_JOINTS:
-        raise UnsolvableError(f"springs are not worked out at {joints} joints: expected {MOST_JOINTS} at most")
-    found = branches_of(linkage, closure, search_for(joints, None))
-    if found.no_motion == "proved" or not joints:
+        raise UnsolvableError(f"springs in a linkage of {joints} joints; expected {MOST_JOINTS} joints at most")
+    branches = branches_of(linkage, closure, search_for(joints, None))
+    if branches.no_motion == "proved" or not joints:
         raise UnsolvableError("springs have nothing to move: all links are rigid against each other")
-    if not found.regular or found.branches[0].freedoms is None:
+    if not branches.regular or branches.branches[0].freedoms is None:
         raise UnsolvableError(
-            "springs need a regular pose, and from this one there are several ways to move or none is known: "
-            "fold it a little first (synth fold)"
+            "springs require a regular configuration, and this one has several motion branches or none is known; "
+            "try to fold it a little first (synth fold)"
         )
-    return found.branches[0].freedoms
+    return branches.branches[0].freedoms
+
+
+_STEPS = 200
+_LONGEST = 0.2
+"""Of a step, in radians of all joints (root of summed squares)."""
+_BALANCED = 1e-11
+"""Slope of the energy at which it is in balance, as part of the largest moment at hand."""
+_SOFT = 1e-6
+"""Curvature below this part of the largest is taken for it: else steps are long where the energy is level."""
+_HALVINGS = 40
+_DOWN = 1e-4
+"""Part of the fall that the slope foretells which a step has to bring (Armijo)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Equilibrium:
+    """A pose (angles in radians) at which springs and moments are in balance, and their energy.
+
+    `held`, float[D], are the moments that keep driven joints at their angles. `least` is the least curvature of
+    the energy along motions that leave driven joints where they are, per squared radian; None without such
+    motions. `unbalanced` is the slope of the energy that is left, `error` the loop-closure residual.
+    """
+
+    angles: Floats
+    energy: float
+    held: Floats
+    least: float | None
+    unbalanced: float
+    error: float
+
+    @property
+    def stable(self) -> bool:
+        """Whether the energy rises along all motions that leave driven joints still."""
+        return self.least is None or self.least > 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class LoadPath:
+    """Equilibria while one joint, at place `driver`, is driven; the first is the start.
+
+    `stopped` says why the path ended before its goal; it is empty if it reached it.
+    """
+
+    driver: int
+    poses: tuple[Equilibrium, ...]
+    stopped: str
+
+    @property
+    def driven(self) -> Floats:
+        """Angles of the joint, radians: float[F]."""
+        return np.array([pose.angles[self.driver] for pose in self.poses])
+
+    @property
+    def moments(self) -> Floats:
+        """Moments that hold it there: float[F]."""
+        return np.array([float(pose.held[0]) for pose in self.poses])
+
+
+def equilibrium(elastic: ElasticLinkage, start: Floats | None = None, held: tuple[int, ...] = ()) -> Equilibrium:
+    """Return the equilibrium that the energy falls to from a closed pose.
+
+    Newton's method on the closed poses, with the curvature made positive, and steps halved until the energy falls
+    as its slope predicts. The start, radians, is by default the pose of the linkage; joints at the places `held`
+    keep their angles. Raise `NumericalError` if a singular pose is met, or balance is not reached.
+    """
+    angles = elastic.linkage.angles if start is None else start
+    values = angles[list(held)]
+    for _ in range(_STEPS):
+        along, bent = _beside(elastic, angles, held)
+        off = float(np.abs(bent.slope).max(initial=0.0))
+        moments = np.abs([elastic.slopes(angles), elastic.moments])
+        if off <= _BALANCED * max(float(moments.max(initial=0.0)), float(elastic.stiffness.max(initial=0.0))):
+            least = float(np.linalg.eigvalsh(bent.curvature)[0]) if along.shape[1] else None
+            error = elastic.closure.error(angles)
+            return Equilibrium(angles, elastic.energy(angles), bent.held, least, off, error)
+        angles = _lower(elastic, angles, along @ _downhill(bent), (held, values), along @ bent.slope)
+    raise NumericalError(f"springs found no balance in {_STEPS} steps: moments of {off:.1e} are left")
+
+
+def load_path(elastic: ElasticLinkage, start: Floats, driver: int, values: npt.ArrayLike) -> LoadPath:
+    """Return the equilibria while the joint at place `driver` is driven from a closed pose to angles, radians.
+
+    Raise `NumericalError` as :func:`equilibrium` does.
+    """
+    poses, stopped = [equilibrium(elastic, start, (driver,))], ""
+    for value in np.asarray(values, dtype=float).tolist():
+        path = driven_path(elastic.closure, poses[-1].angles, [driver], [[value]])
+        if path.stopped:
+            stopped = path.stopped
+            break
+        poses.append(equilibrium(elastic, path.angles[-1], (driver,)))
+    return LoadPath(driver, tuple(poses), stopped)
+
+
+def _beside(elastic: ElasticLinkage, angles: Floats, held: tuple[int, ...]) -> tuple[Floats, Bent]:
+    """Return the rates that leave held joints still, float[J, n], and how the energy bends along them."""
+    tangent = elastic.tangent(angles)
+    along = tangent.rates @ null_space(tangent.rates[list(held)]) if held else tangent.rates
+    return along, elastic.bent(angles, tangent, along, held)
+
+
+def _downhill(bent: Bent) -> Floats:
+    """Return Newton's step with the signs of all curvatures made positive, no longer than may be: float[n]."""
+    values, vectors = np.linalg.eigh(bent.curvature)
+    sizes = np.abs(values)
+    sizes = np.maximum(sizes, _SOFT * max(float(sizes.max()), float(np.abs(bent.slope).max())))
+    step = -vectors @ ((vectors.T @ bent.slope) / sizes)
+    return np.asarray(step * min(1.0, _LONGEST / float(np.linalg.norm(step))))
+
+
+def _lower(
+    elastic: ElasticLinkage, angles: Floats, step: Floats, held: tuple[tuple[int, ...], Floats], slope: Floats
+) -> Floats:
+    """Return a closed pose along a step at which the energy is lower, held joints at their angles."""
+    places, values = held
+    before = elastic.energy(angles)
+    rounding = 1e-14 * (abs(before) + float(elastic.stiffness.max(initial=0.0)))
+    for halving in range(_HALVINGS):
+        part = 0.5**halving
+        pose = corrected(elastic.closure, angles + part * step, places)
+        if places:
+            pose = exactly_held(elastic.closure, pose, places, values)
+        if pose.error > DOUBLE.closed or np.abs(pose.angles - angles).max() > 2.0 * _LONGEST:
+            continue
+        if elastic.energy(pose.angles) <= before + _DOWN * part * float(slope @ step) + rounding:
+            return pose.angles
+    raise NumericalError("springs found no balance: the energy falls along no step that keeps loops closed")
+
+
+@dataclass(frozen=True, slots=True)
+class Mass:
+    """A point mass on a link. Several on a link are a body: any inertia can be made of them.
+
+    Attributes
+    ----------
+    link : link id
+    mass : float
+        Less than 0 for what a body lacks; not of a link in all.
+    point : (float, float, float)
+        Its place at the input configuration, in the coordinates of the file.
+
+    Examples
+    --------
+    >>> Mass("door", 1.5, (0.4, 0.0, 1.0)).mass
+    1.5
+    """
+
+    link: LinkId
+    mass: float
+    point: tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Masses:
+    """Masses on the links, and the link that stays.
+
+    Attributes
+    ----------
+    points : tuple of Mass
+    ground : link id or None
+        None: the ground of the graph, else its first link.
+
+    Examples
+    --------
+    >>> len(Masses((Mass("door", 1.5, (0.4, 0.0, 1.0)),), ground="wall").points)
+    1
+    """
+
+    points: tuple[Mass, ...]
+    ground: LinkId | None = None
+
+    def checked(self, linkage: PosedLinkage) -> None:
+        """Raise `InvariantError` for links that do not exist, infinite numbers, and links without mass."""
+        links = list(linkage.graph.nodes)
+        for link in [*(one.link for one in self.points), *([] if self.ground is None else [self.ground])]:
+            if link not in linkage.graph:
+                raise InvariantError("link", f"{shown(link)} is no link", known(links, str(link)))
+        sums: dict[LinkId, float] = {}
+        for one in self.points:
+            if not isfinite(one.mass) or not all(map(isfinite, one.point)):
+                offender = f"link {shown(one.link)} has {one.mass!r} at {shown(list(one.point))}"
+                raise InvariantError("mass", offender, "a number and three coordinates")
+            sums[one.link] = sums.get(one.link, 0.0) + one.mass
+        for link, total in sums.items():
+            if total <= 0.0:
+                raise InvariantError("mass", f"link {shown(link)} has {total:g} in all", "more than 0")
+
+
+@dataclass(frozen=True, slots=True)
+class SmallMotion:
+    """A mode of small motions: rates of the joints, the largest 1, and cycles per unit of time.
+
+    Where the equilibrium is unstable along it, the frequency is None and `growth` the rate at which the motion
+    grows.
+    """
+
+    frequency: float | None
+    growth: float | None
+    rates: Floats
+
+
+def small_motions(elastic: ElasticLinkage, at: Equilibrium, masses: Masses) -> list[SmallMotion]:
+    """Return the modes of small motions about an equilibrium without driven joints, slowest first.
+
+    Raise `InvariantError` as :meth:`Masses.checked` does, `UnsolvableError` if some motion moves no mass.
+    """
+    masses.checked(elastic.linkage)
+    tangent = elastic.tangent(at.angles)
+    mass = tangent.rates.T @ mass_matrix(elastic.linkage, at.angles, masses) @ tangent.rates
+    if not (inertia(mass, DOUBLE.clear**2).signs > 0).all():  # squares of speeds
+        raise UnsolvableError("some motion moves no mass; expected masses on the moving links")
+    curvature = elastic.bent(at.angles, tangent, tangent.rates, ()).curvature
+    squares, vectors = scipy.linalg.eigh(curvature, mass)
+    return [
+        _mode(square, tangent.rates @ vector) for square, vector in zip(squares.tolist(), vectors.T, strict=True)
+    ]
+
+
+def mass_matrix(linkage: PosedLinkage, angles: Floats, masses: Masses) -> Floats:
+    """Return the inertia of a linkage at closed joint angles, radians: float[J, J].
+
+    In mass times squared coordinate unit; half of r^T M r is the kinetic energy at joint rates r along which loops
+    stay closed.
+    """
+    motions = link_motions(linkage, angles[None])
+    ground = linkage.graph.ground if masses.ground is None else masses.ground
+    twists = {link: np.zeros((6, len(angles))) for link in linkage.graph.nodes}
+    for near, far, place, sign in joints_outwards(linkage, ground):
+        rotation, shift = (each[0] for each in motions[near])  # an axis goes with both of its links
+        axis = sign * (rotation @ linkage.directions[place])
+        point = rotation @ linkage.points[place] + shift
+        twists[far] = twists[near].copy()
+        twists[far][:, place] += np.concatenate([axis, np.cross(point, axis)])
+    matrix = np.zeros((len(angles), len(angles)))
+    for one in masses.points:
+        rotation, shift = (each[0] for each in motions[one.link])
+        place_now = rotation @ ((np.array(one.point) - linkage.middle) / linkage.extent) + shift
+        turning, sliding = twists[one.link][:3], twists[one.link][3:]
+        velocity = (np.cross(turning.T, place_now) + sliding.T) * linkage.extent
+        matrix += one.mass * velocity @ velocity.T
+    return matrix
+
+
+def sheet_masses(sheet: Sheet, density: float) -> tuple[Mass, ...]:
+    """Return the masses of the panels of a sheet, thin and all of one stuff.
+
+    A triangle with a third of its mass at the middle of each side has its centre and its inertia.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        With coordinates; of one with several frames the first that has them.
+    density : float
+        Mass of a unit of area.
+
+    Raises
+    ------
+    UnsolvableError
+        If it has no coordinates.
+
+    Examples
+    --------
+    >>> square = Sheet(4, (), "", ((0, 1, 2, 3),), ((0, 0), (2, 0), (2, 2), (0, 2)))
+    >>> round(sum(one.mass for one in sheet_masses(square, 0.5)), 12)
+    2.0
+    """
+    if sheet.frames is not None:
+        sheet = sheet.frames.first_placed()
+    if sheet.coordinates is None:
+        raise UnsolvableError("masses of panels require coordinates, and the sheet has none")
+    corners = in_space(sheet.coordinates)
+    whole = with_all_edges(sheet)
+    masses = []
+    for link, faces in enumerate(mechanism_of_sheet(whole).panels):
+        for face in faces:
+            masses += _lamina(link, corners[list(whole.faces[face])], density)
+    return tuple(masses)
+
+
+def _lamina(link: int, corners: Floats, density: float) -> list[Mass]:
+    """Return the masses of a plane panel, a fan of triangles from a corner; those turned back count as less."""
+    doubled = np.cross(corners[1:-1] - corners[0], corners[2:] - corners[0])
+    areas = doubled @ unit(doubled.sum(axis=0)) / 2.0
+    masses = []
+    for area, one, other in zip(areas.tolist(), corners[1:-1], corners[2:], strict=True):
+        for a, b in ((corners[0], one), (one, other), (other, corners[0])):
+            x, y, z = ((a + b) / 2.0).tolist()
+            masses.append(Mass(link, density * area / 3.0, (x, y, z)))
+    return masses
+
+
+def _mode(square: float, rates: Floats) -> SmallMotion:
+    largest = rates[leading(rates)]
+    rate = abs(square) ** 0.5
+    if square < 0.0:
+        return SmallMotion(None, rate, rates / largest)
+    return SmallMotion(rate / (2.0 * pi), None, rates / largest)

@@ -1,23 +1,23 @@
 from synth.conformed.all_angles import (
     Allowed as Allowed,
+    LinksInLayers as LinksInLayers,
     OverAngles as OverAngles,
+    links_in_layers as links_in_layers,
     never_singular as never_singular,
     over_angles as over_angles,
 )
 from synth.conformed.behaviours import (
     Behaviour as Behaviour,
+    TableRow as TableRow,
     Way as Way,
     behaviour as behaviour,
     behaviour_of_motion as behaviour_of_motion,
     icrl as icrl,
     instant_centres as instant_centres,
     link_arcs as link_arcs,
+    table4 as table4,
+    table_row as table_row,
 )
-from synth.conformed.four_bar_poses import (
-    FourBarPoses as FourBarPoses,
-    poses_from_conformed as poses_from_conformed,
-)
-from synth.conformed.layers import LinksInLayers as LinksInLayers, links_in_layers as links_in_layers
 from synth.conformed.linkages import (
     ArcChoice as ArcChoice,
     LinkageBehaviour as LinkageBehaviour,
@@ -33,15 +33,16 @@ from synth.conformed.outward import (
     outward_rates as outward_rates,
 )
 from synth.conformed.pose import (
+    FourBarPoses as FourBarPoses,
     PoseCheck as PoseCheck,
     check_pose as check_pose,
     dihedral_angles as dihedral_angles,
     joint_axes as joint_axes,
     measured_dihedral_angles as measured_dihedral_angles,
+    poses_from_conformed as poses_from_conformed,
 )
 from synth.conformed.rates import (
     ConformedChain as ConformedChain,
     FirstOrder as FirstOrder,
     first_order as first_order,
 )
-from synth.conformed.twelve_cases import TableRow as TableRow, table4 as table4, table_row as table_row

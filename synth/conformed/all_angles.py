@@ -2,41 +2,34 @@
 
 An order *with opposites* says how the joints and the points opposite to them follow each other round the circle;
 a cyclic order of J joints is that of 2^(J-1) of them. It fixes which of its two arcs a binary link takes, so the
-sign of every step and how often loops wind, and the layers. Ways of links follow from the signs of outward rates
-(`synth.conformed.outward`): certain where the terms of a formula agree, or are smaller than others
-(`synth.conformed.chords`), or other signs refute the opposite (`synth.conformed.sign_reasoning`); else both are
-looked for by samples.
+sign of every step, how often loops wind, and how many layers of links there are. Ways of links follow from the
+signs of outward rates (`synth.conformed.outward`): certain where the terms of a formula agree, or are smaller than
+others, or other signs refute the opposite; else both are looked for by samples.
 
 Theory: docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from functools import cache
 from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from enumerate.conical.layers import fewest_layers, layers_of_links
 from graphs.arrays import Flags, Floats, Ints, Signs
-from graphs.errors import NumericalError
+from graphs.errors import NumericalError, UnsolvableError
 from graphs.tolerances import DOUBLE
-from synth.conformed.outward import OutwardRate, joint_rates, outward_rates
+from synth.conformed.outward import OutwardRate, SignRelations, joint_rates, outward_rates
 from synth.conformed.rates import ConformedChain
-from synth.conformed.sign_reasoning import SignRelations
+from synth.surfaces.circuit import HALF_TURN
 
-__all__ = [
-    "Allowed",
-    "OverAngles",
-    "RateFormulas",
-    "never_singular",
-    "orders_with_opposites",
-    "over_angles",
-    "sampled",
-]
+__all__ = ["Allowed", "LinksInLayers", "OverAngles", "links_in_layers", "never_singular", "over_angles"]
 
 _SAMPLES = 64
 _ROWS = 500
@@ -50,14 +43,11 @@ class Allowed(IntEnum):
 
     Attributes
     ----------
-    BOTH
-        Both ways, whatever the angles: exclusively transmobile.
-    ONE
-        One way, whatever the angles: intra- or extramobile, by the sense of the motion.
-    ANGLES
-        Either, by the angles; there are examples of both.
-    UNKNOWN
-        One of these; nothing else was met in samples, and nothing proves it.
+    BOTH, ONE
+        Both ways, whatever the angles (transmobile); or one way (intra- or extramobile, by the sense of the
+        motion).
+    ANGLES, UNKNOWN
+        Either, by the angles, with examples of both; or one of these that samples did not contradict, not proved.
     """
 
     BOTH = 0
@@ -82,7 +72,7 @@ class RateFormulas:
 
     @classmethod
     def of(cls, chain: ConformedChain) -> RateFormulas:
-        """Prepare a chain; raises `UnsolvableError` if it has not one freedom by its count."""
+        """Prepare a chain; raise `UnsolvableError` if it has not one freedom by its count."""
         formulas = outward_rates(chain)
         moving = tuple(tuple(joint for joint in joints if formulas[joint]) for joints in chain.joints_of)
         return cls(chain, formulas, joint_rates(chain), SignRelations.of(chain), moving)
@@ -94,10 +84,9 @@ class OverAngles:
 
     Attributes
     ----------
-    links : int8[..., N]
-        `Allowed` for each link, in the order of the chain's links; the ground link is `Allowed.ONE`.
-    linkage : int8[...]
-        For the whole: whether all moving links can go the same way.
+    links, linkage : int8[..., N], int8[...]
+        `Allowed` for each link of the chain (the ground link is ONE), and for the whole: whether all moving links
+        can go the same way.
     signs : int8[..., J]
         Certain signs of the outward rates of joints, for one sense of the motion; 0 if not certain, or of the
         ground.
@@ -112,9 +101,6 @@ def orders_with_opposites(order: npt.ArrayLike) -> Ints:
     """Return all orders with opposites of cyclic orders, as places on 2 J slots: int64[..., 2^(J - 1), J].
 
     An order is the place of each joint in the cycle, 0 to J - 1; the joint at place 0 stays there.
-
-    >>> orders_with_opposites([0, 1, 2]).tolist()
-    [[0, 1, 2], [0, 1, 5], [0, 2, 4], [0, 4, 5]]
     """
     places = np.asarray(order, dtype=np.int64)
     return np.moveaxis(np.take(_sorted_places(places.shape[-1]), places, axis=1), 0, -2)
@@ -129,10 +115,9 @@ def _sorted_places(joints: int) -> Ints:
 
 
 def sampled(places: npt.ArrayLike, samples: int = _SAMPLES, seed: int = 0) -> Floats:
-    """Return azimuths at random that follow each other as orders with opposites, on 2 J slots, say.
+    """Return random azimuths in orders with opposites, on 2 J slots: radians in [0, 2 pi), float[..., samples, J].
 
-    Radians between 0 and 2 pi, float[..., samples, J]; the same random gaps for all orders, some even, some very
-    uneven.
+    The random gaps are the same for all orders, some even, some very uneven.
     """
     slots = np.asarray(places, dtype=np.int64)
     joints = slots.shape[-1]
@@ -157,7 +142,7 @@ def over_angles(
     places : int64[..., J]
         Orders with opposites: places on 2 J slots.
     samples : int, optional
-        Sets of angles looked at where signs are not certain; sixteen times as many where these are alike.
+        Sets of angles for signs that are not certain; sixteen times as many where these are alike.
 
     Raises
     ------
@@ -170,35 +155,36 @@ def over_angles(
 
     >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))))
-    >>> over = over_angles(chain, [[1, 2, 3, 0], [0, 1, 2, 3]])
-    >>> [Allowed(allowed).name for allowed in over.linkage]
+    >>> [Allowed(allowed).name for allowed in over_angles(chain, [[1, 2, 3, 0], [0, 1, 2, 3]]).linkage]
     ['ONE', 'BOTH']
     """
     slots = np.asarray(places, dtype=np.int64)
     shape = slots.shape[:-1]
-    given = chain if isinstance(chain, RateFormulas) else RateFormulas.of(chain)
-    made = _over_angles(given, slots.reshape(-1, slots.shape[-1]), samples)
+    formulas = chain if isinstance(chain, RateFormulas) else RateFormulas.of(chain)
+    answer = _over_angles(formulas, slots.reshape(-1, slots.shape[-1]), samples)
     return OverAngles(
-        made.links.reshape(*shape, -1), made.linkage.reshape(shape), made.signs.reshape(*shape, slots.shape[-1])
+        answer.links.reshape(*shape, -1),
+        answer.linkage.reshape(shape),
+        answer.signs.reshape(*shape, slots.shape[-1]),
     )
 
 
-def _over_angles(given: RateFormulas, slots: Ints, samples: int) -> OverAngles:
+def _over_angles(formulas: RateFormulas, slots: Ints, samples: int) -> OverAngles:
     """Return what orders with opposites int64[r, J] allow: by signs that are certain, by refuting, by samples."""
-    relations, moving = given.relations, given.moving
+    relations, moving = formulas.relations, formulas.moving
     middle = slots * (np.pi / slots.shape[-1])
     sines = np.sign(np.sin(middle[:, :, np.newaxis] - middle[:, np.newaxis, :]).round(9)).astype(np.int8)
     known = relations.start(len(slots))
     for joint in range(slots.shape[-1]):
-        known[:, relations.rate(joint)] = _certain(given.rates[joint], slots)
-        if given.formulas[joint]:
-            sign = _certain(given.formulas[joint], slots)
+        known[:, relations.rate(joint)] = _certain(formulas.rates[joint], slots)
+        if formulas.formulas[joint]:
+            sign = _certain(formulas.formulas[joint], slots)
             for number in range(1, len(moving)):
                 if joint in moving[number]:
                     known[:, relations.rho(number, joint)] = sign
     if relations.follow(known, sines).any():
         raise NumericalError("signs of outward rates contradict each other")
-    round_ = _goes_round(given.chain, slots)
+    round_ = _goes_round(formulas.chain, slots)
     links = np.full((len(slots), len(moving)), Allowed.ONE, np.int8)
     for number in range(1, len(moving)):
         parts = [relations.rho(number, joint) for joint in moving[number]]
@@ -210,7 +196,7 @@ def _over_angles(given: RateFormulas, slots: Ints, samples: int) -> OverAngles:
         open_ = np.flatnonzero((links == Allowed.UNKNOWN).any(axis=1) | (linkage == Allowed.UNKNOWN))
         for begin in range(0, len(open_), _ROWS):
             mine = open_[begin : begin + _ROWS]
-            links[mine], linkage[mine] = _looked_for(given, slots[mine], links[mine], linkage[mine], number)
+            links[mine], linkage[mine] = _looked_for(formulas, slots[mine], links[mine], linkage[mine], number)
     signs = np.zeros(slots.shape, np.int8)
     for joint, number in owner.items():
         signs[:, joint] = known[:, relations.rho(number, joint)]
@@ -220,10 +206,7 @@ def _over_angles(given: RateFormulas, slots: Ints, samples: int) -> OverAngles:
 def _by_reason(
     relations: SignRelations, known: Signs, sines: Signs, parts: list[int], both: Flags
 ) -> npt.NDArray[np.int8]:
-    """Return what is allowed to what has these outward rates, as far as it is certain; else UNKNOWN.
-
-    Where the known signs do not tell, each thinkable set of signs is tried, and left out if it contradicts itself.
-    """
+    """Return what certain outward rates allow, else UNKNOWN; sets of signs that are refuted do not count."""
     allowed = _from_signs(known[:, parts], both)
     left = np.flatnonzero(allowed == Allowed.UNKNOWN)
     if not len(left):
@@ -234,7 +217,7 @@ def _by_reason(
 
 
 def _possible(relations: SignRelations, known: Signs, sines: Signs, parts: list[int]) -> tuple[Flags, Flags]:
-    """Tell whether all of some rates can have one sign, and whether two of them can have different ones."""
+    """Check whether all of some rates can have one sign, and whether two of them can have different ones."""
 
     def refuted(assumed: dict[int, int]) -> Flags:
         trial = known.copy()
@@ -252,16 +235,16 @@ def _possible(relations: SignRelations, known: Signs, sines: Signs, parts: list[
 
 
 def never_singular(chain: ConformedChain | RateFormulas, places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-    """Tell of which cyclic orders it is certain that the rank at the conformed position is full for all angles.
+    """Check which cyclic orders certainly have full rank at the conformed position for all angles: bool[...].
 
-    It is where some minor of the closure equations has terms of one sign only. False: not certain.
+    Some minor of the closure equations has terms of one sign only there. False: not certain.
 
     Parameters
     ----------
     chain : ConformedChain or RateFormulas
         Of one freedom.
     places : float[..., J]
-        Azimuths between 0 and 2 pi in the order asked for.
+        Azimuths between 0 and 2 pi in these orders.
 
     Examples
     --------
@@ -282,7 +265,7 @@ def never_singular(chain: ConformedChain | RateFormulas, places: npt.ArrayLike) 
 
 
 def _certain(formulas: tuple[OutwardRate, ...], slots: Ints) -> npt.NDArray[np.int8]:
-    """Return the sign of a joint's outward rate where one of its formulas tells."""
+    """Return the sign of a joint's outward rate where one of its formulas decides, else 0."""
     middle = slots * (np.pi / slots.shape[-1])
     signs = np.zeros(len(slots), np.int8)
     for formula in formulas:
@@ -299,7 +282,7 @@ def _certain(formulas: tuple[OutwardRate, ...], slots: Ints) -> npt.NDArray[np.i
 
 
 def _goes_round(chain: ConformedChain, slots: Ints) -> Flags:
-    """Tell which links have joints on no half of the circle: bool[..., N]."""
+    """Check which links have joints on no half of the circle: bool[..., N]."""
     half = slots.shape[-1]
     goes_round = []
     for joints in chain.joints_of:
@@ -319,14 +302,14 @@ def _from_signs(signs: npt.NDArray[np.int8], goes_round: Flags) -> npt.NDArray[n
 
 
 def _looked_for(
-    given: RateFormulas, slots: Ints, links: npt.NDArray[np.int8], linkage: npt.NDArray[np.int8], samples: int
+    formulas: RateFormulas, slots: Ints, links: npt.NDArray[np.int8], linkage: npt.NDArray[np.int8], samples: int
 ) -> tuple[npt.NDArray[np.int8], npt.NDArray[np.int8]]:
     """Look for angles with which links of unknown ways go one way, and others with which they go both."""
     t = sampled(slots, samples)
     rates = np.zeros(t.shape)
-    every = sorted({joint for joints in given.moving for joint in joints})
+    every = sorted({joint for joints in formulas.moving for joint in joints})
     for joint in every:
-        rates[..., joint] = given.formulas[joint][0].values(t)
+        rates[..., joint] = formulas.formulas[joint][0].values(t)
 
     def seen(joints: Sequence[int], before: npt.NDArray[np.int8]) -> npt.NDArray[np.int8]:
         mine = rates[..., list(joints)]
@@ -337,5 +320,104 @@ def _looked_for(
 
     links_seen = links.copy()
     for number in range(1, links.shape[1]):
-        links_seen[:, number] = seen(given.moving[number], links[:, number])
+        links_seen[:, number] = seen(formulas.moving[number], links[:, number])
     return links_seen, seen(every, linkage)
+
+
+_MOST_JOINTS = 62
+"""Gaps that the bits of a mask have room for."""
+
+
+class LinksInLayers(NamedTuple):
+    """Links of one linkage as arcs in layers.
+
+    Attributes
+    ----------
+    arcs : float[N, 2]
+        Start and length of the arc of each link, radians.
+    layers : int64[N]
+        The layer of each link, from 0 on.
+    """
+
+    arcs: Floats
+    layers: Ints
+
+
+def arc_choices(chain: ConformedChain, places: npt.ArrayLike) -> Ints:
+    """Return the arcs that links can take, as masks of the gaps between neighbouring joints: int64[r, N, o].
+
+    A link takes all the circle but one gap between its joints: the one that is half the circle or wider, either of
+    two halves, or, where none is so wide, any. Azimuths, float[r, J], are between 0 and 2 pi, all different. Bit i
+    is the gap after the joint that comes i-th from azimuth 0 on; a mask is 0 where a link has fewer choices.
+
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> chain = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> arc_choices(chain, np.radians([[0, 40, 90, 140]]))[0].max(axis=-1).tolist()
+    [7, 1, 2, 4]
+    """
+    t = np.asarray(places, dtype=float)
+    joints = t.shape[-1]
+    rank = t.argsort(axis=-1).argsort(axis=-1)
+    every = (1 << joints) - 1
+    most = max(map(len, chain.joints_of))
+    masks = np.zeros((len(t), len(chain.joints_of), most), np.int64)
+    for number, mine in enumerate(chain.joints_of):
+        ranks = np.sort(rank[:, list(mine)], axis=-1)
+        ends = np.sort(t[:, list(mine)], axis=-1)
+        widths = np.roll(ends, -1, axis=-1) - ends
+        widths[:, -1] += 2 * np.pi
+        after = np.roll(ranks, -1, axis=-1)
+        gaps = (1 << after) - (1 << ranks)  # bits from one rank to below the next
+        gaps[:, -1] += every  # the last goes past azimuth 0
+        wide = widths >= HALF_TURN
+        allowed = wide | ~wide.any(axis=-1, keepdims=True)
+        masks[:, number, : len(mine)] = np.where(allowed, every ^ gaps, 0)
+    return masks
+
+
+def layers(chain: ConformedChain, places: npt.ArrayLike) -> Ints:
+    """Return the fewest layers in which no two links overlap, at azimuths float[r, J]: int64[r]."""
+    t = np.remainder(np.asarray(places, dtype=float), 2 * np.pi)
+    return fewest_layers(arc_choices(chain, t))
+
+
+def links_in_layers(
+    chain: ConformedChain, places: npt.ArrayLike, begins: Mapping[int, int] | None = None
+) -> LinksInLayers:
+    """Put the links of a linkage into the fewest layers in which none overlaps another.
+
+    Parameters
+    ----------
+    chain : ConformedChain
+    places : float[J]
+        Azimuths, radians.
+    begins : mapping of int to int, optional
+        Number of a link that spans half a turn to the number of the joint at which its arc begins.
+
+    Raises
+    ------
+    UnsolvableError
+        If there are more than 62 joints.
+
+    Examples
+    --------
+    >>> from graphs.mechanism.sc import SCGraph
+    >>> chain = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
+    >>> links_in_layers(chain, np.radians([0, 40, 90, 140])).layers.tolist()
+    [0, 1, 1, 1]
+    """
+    t = np.remainder(np.asarray(places, dtype=float), 2 * np.pi)
+    if len(t) > _MOST_JOINTS:
+        raise UnsolvableError(f"{len(t)} joints; expected {_MOST_JOINTS} at most to put links in layers")
+    choices = arc_choices(chain, t[np.newaxis])[0]
+    for number, joint in (begins or {}).items():
+        mine = sorted(chain.joints_of[number], key=lambda one: float(t[one]))
+        left_out = (mine.index(joint) - 1) % len(mine)
+        choices[number, [gap for gap in range(choices.shape[1]) if gap != left_out]] = 0
+    chosen, layer_of = layers_of_links(choices)
+    arcs = np.empty((len(chain.joints_of), 2))
+    for number, (joints, left_out) in enumerate(zip(chain.joints_of, chosen.tolist(), strict=True)):
+        ends = np.sort(t[list(joints)])
+        start = ends[(left_out + 1) % len(ends)]
+        arcs[number] = start, np.remainder(ends[left_out] - start, 2 * np.pi)
+    return LinksInLayers(arcs, layer_of)

@@ -1,10 +1,16 @@
 """Behaviour: which links leave the surface outward, inward, or both ways.
 
 A link that keeps to the inside of the reference surface is intramobile, to the outside extramobile, one that
-does both transmobile; a linkage is what all its moving links are for one sense of its motion. Three ways to
-tell, Hyatt et al. 2020, section 4, and 2021, section 5: by velocities; by the ICRL, the line through the centre
-of the circle and the link's instant centre, which parts what moves in from what moves out; by the shadow of the
-side links. Theory: docs/theory/behaviour.md.
+does both transmobile; a linkage is what all its moving links are for one sense of its motion. Three methods,
+Hyatt et al. 2020, section 4, and 2021, section 5: velocities; the ICRL, the line through the centre of the circle
+and the link's instant centre, which parts inward from outward motion; the shadow of the side links.
+
+Table 4 of Hyatt et al. 2021 gives the behaviour of four-bars by where their joints lie. P1 to P4 follow each other
+round the circle. Case 1: the centre is outside their polygon, P4 P1 is the longest chord. Case 2: the centre is
+inside; the labels are such that it lies in the sector of side 23 or 41 cut by the two diagonals. The links are the
+sides (open), or two opposite sides and the diagonals: crossed 1 has sides 12 and 34, crossed 2 has 23 and 41.
+Column A or B: which pair of opposite links is ground and coupler. Which picture the paper calls A or B, 1 or 2 is
+in its figure only; these names make the printed table true. Theory: docs/theory/behaviour.md.
 """
 
 from __future__ import annotations
@@ -24,15 +30,15 @@ from synth.surfaces.circuit import HALF_TURN
 
 __all__ = [
     "Behaviour",
+    "TableRow",
     "Way",
     "behaviour",
     "behaviour_of_motion",
-    "half_turn_arcs",
     "icrl",
     "instant_centres",
     "link_arcs",
-    "shadow_allows",
-    "ways_over",
+    "table4",
+    "table_row",
 ]
 
 
@@ -41,19 +47,13 @@ class Way(IntEnum):
 
     Attributes
     ----------
-    INWARD, OUTWARD
-        All of it that moves moves towards the axis, or away from it.
-    STILL
-        Not at all to first order: the ground link, or one that turns about the axis.
-    BOTH
-        Some of it in, some out: transmobile.
-    UNKNOWN
-        The linkage has no freedom, or more than one.
+    INWARD, OUTWARD, BOTH
+        All of it that moves moves towards the axis, or away from it; or some in, some out (transmobile).
+    STILL, UNKNOWN
+        Immobile to first order (the ground link, or one that turns about the axis); not one freedom in all.
 
     Examples
     --------
-    The other sense of the motion:
-
     >>> Way(-Way.OUTWARD).name
     'INWARD'
     """
@@ -72,14 +72,13 @@ class Behaviour:
     Attributes
     ----------
     ways : int8[..., N]
-        `Way` of each link, in the order of the chain's links, for the sense of motion in which the first link
-        that moves one way moves outward. The other sense has INWARD and OUTWARD exchanged.
+        `Way` of each link of the chain, in the sense in which the first link that moves one way moves outward. The
+        other sense has INWARD and OUTWARD exchanged.
     one_way : bool[...]
-        Whether all moving links move the same way: the linkage can be intramobile and extramobile, by the sense
-        of its motion. Else it is transmobile.
+        Whether all moving links move the same way: intramobile or extramobile, by the sense; else transmobile.
     tangent : bool[..., J]
-        Joints that move, but along the surface to first order: what they do follows from second order. A joint
-        half a turn away from a fixed joint of its link goes outward, in both senses.
+        Joints that move along the surface to first order. A joint half a turn away from a fixed joint of its link
+        goes outward to second order, in both senses.
     ranges : float[..., N, 2]
         Least and greatest outward rate over each link, per unit distance from the apex or axis.
     motion : FirstOrder
@@ -96,26 +95,19 @@ class Behaviour:
 def behaviour(chain: ConformedChain, places: npt.ArrayLike, arcs: npt.ArrayLike | None = None) -> Behaviour:
     """Return the first-order behaviour of every link of linkages at their conformed position, by velocities.
 
+    The cone angle does not matter, and a cylinder behaves alike (`synth.conformed.rates`).
+
     Parameters
     ----------
     chain : ConformedChain
     places : float[..., J]
         Azimuths of the joints, radians.
     arcs : float[..., N, 2], optional
-        Where each link lies: start and length of its arc, radians. By default the shortest arc over its joints.
-
-    Returns
-    -------
-    Behaviour
-
-    Notes
-    -----
-    The cone angle does not matter, and a cylinder behaves alike (`synth.conformed.rates`).
+        Start and length of each link's arc, radians. By default the shortest arc over its joints.
 
     Examples
     --------
-    Hyatt et al. 2021, Table 4, case 1: an open four-bar on less than half the circle, a link next to the longest
-    as ground.
+    Hyatt et al. 2021, Table 4, case 1: an open four-bar on less than half the circle.
 
     >>> from graphs.mechanism.sc import SCGraph
     >>> chain = SCGraph(4, {"O": (0, 1), "A": (1, 2), "B": (2, 3), "C": (3, 0)})
@@ -131,7 +123,7 @@ def behaviour(chain: ConformedChain, places: npt.ArrayLike, arcs: npt.ArrayLike 
 def behaviour_of_motion(
     chain: ConformedChain, places: npt.ArrayLike, motion: FirstOrder, arcs: npt.ArrayLike
 ) -> Behaviour:
-    """Return the behaviour that a motion gives to links that lie on given arcs.
+    """Return the behaviour that a motion gives to links on known arcs.
 
     Parameters
     ----------
@@ -139,28 +131,21 @@ def behaviour_of_motion(
     places : float[..., J]
         Azimuths of the joints, radians.
     motion : FirstOrder
-        Of these places.
+        At these places.
     arcs : float[..., N, 2]
-        Where each link lies: start and length of its arc, radians.
-
-    Returns
-    -------
-    Behaviour
+        Start and length of each link's arc, radians.
 
     Examples
     --------
-    What a link does depends on where its material lies: the longest of this open four-bar moves outward over its
-    joints, and both ways if it goes all round the cone.
+    The longest link of this four-bar moves outward over its joints, and both ways if it goes all round the cone.
 
     >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, {"O": (0, 1), "A": (1, 2), "B": (2, 3), "C": (3, 0)}))
     >>> places = np.radians([40, 90, 140, 0])
-    >>> motion, arcs = first_order(chain, places), link_arcs(chain, places)
-    >>> Way(behaviour_of_motion(chain, places, motion, arcs).ways[3]).name
-    'OUTWARD'
-    >>> arcs[3] = 0, 2 * np.pi
-    >>> Way(behaviour_of_motion(chain, places, motion, arcs).ways[3]).name
-    'BOTH'
+    >>> arcs = np.stack([link_arcs(chain, places)] * 2)
+    >>> arcs[1, 3] = 0, 2 * np.pi
+    >>> [Way(behaviour_of_motion(chain, places, first_order(chain, places), arc).ways[3]).name for arc in arcs]
+    ['OUTWARD', 'BOTH']
     """
     t = np.asarray(places, dtype=float)
     ways, ranges, small = _ways_and_ranges(motion.motions, np.asarray(arcs, dtype=float))
@@ -182,7 +167,7 @@ def ways_over(motions: Floats, arcs: npt.ArrayLike) -> npt.NDArray[np.int8]:
 
 
 def _ways_and_ranges(motions: Floats, arcs: Floats) -> tuple[npt.NDArray[np.int8], Floats, Floats]:
-    """Return ways, outward rates at least and at most, and how small a rate is none."""
+    """Return ways, least and greatest outward rates, and the rate below which a link is still."""
     ranges = _outward_ranges(motions, arcs)
     scale = np.abs(motions[..., ::2]).max(axis=(-2, -1))
     small = (DOUBLE.zero_rate * np.where(np.isfinite(scale), scale, 0.0))[..., np.newaxis]
@@ -205,7 +190,7 @@ def _outward_ranges(motions: Floats, arcs: Floats) -> Floats:
 
 
 def _tangent(chain: ConformedChain, t: Floats, motion: FirstOrder, small: Floats) -> npt.NDArray[np.bool_]:
-    """Tell which joints move along the surface."""
+    """Find the joints that move along the surface."""
     tangent = np.zeros(t.shape, dtype=bool)
     for joint in range(len(chain.joints)):
         link = next(n for n, joints in enumerate(chain.joints_of) if joint in joints)
@@ -220,26 +205,22 @@ def _tangent(chain: ConformedChain, t: Floats, motion: FirstOrder, small: Floats
 def link_arcs(chain: ConformedChain, places: npt.ArrayLike, begins: Mapping[int, int] | None = None) -> Floats:
     """Return the shortest arc over the joints of each link: all the circle but the largest gap between them.
 
+    Start and length in radians, float[..., N, 2]. A binary link has its minor arc; of two halves, either
+    (`half_turn_arcs`).
+
     Parameters
     ----------
     chain : ConformedChain
     places : float[..., J]
     begins : mapping of int to int, optional
-        Number of a link to the number of the joint at which its arc begins: of one that spans half a turn.
-
-    Returns
-    -------
-    float[..., N, 2]
-        Start and length, radians. A binary link's arc is its minor arc; of two halves, either (`half_turn_arcs`).
+        Number of a link that spans half a turn to the number of the joint at which its arc begins.
 
     Examples
     --------
     >>> from graphs.mechanism.sc import SCGraph
     >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
-    >>> np.degrees(link_arcs(four_bar, np.radians([0, 40, 90, 140]))).round(9).tolist()
-    [[0.0, 140.0], [0.0, 40.0], [40.0, 50.0], [90.0, 50.0]]
-    >>> np.degrees(link_arcs(four_bar, np.radians([0, 40, 90, 180]), {0: 3})[0]).round(9).tolist()
-    [180.0, 180.0]
+    >>> np.degrees(link_arcs(four_bar, np.radians([0, 40, 90, 180]), {0: 3})).round(9).tolist()
+    [[180.0, 180.0], [0.0, 40.0], [40.0, 50.0], [90.0, 90.0]]
     """
     t = np.asarray(places, dtype=float)
     arcs = []
@@ -259,9 +240,9 @@ def link_arcs(chain: ConformedChain, places: npt.ArrayLike, begins: Mapping[int,
 def half_turn_arcs(
     chain: ConformedChain, places: npt.ArrayLike
 ) -> dict[int, tuple[tuple[int, int], tuple[int, int]]]:
-    """Return the links that span half a turn, which may curve either way: each with its two arcs.
+    """Return the links that span half a turn and may curve either way, at places float[J]: each with its two arcs.
 
-    An arc is told by the numbers of the joints at which it begins and ends, azimuths growing. Places are float[J].
+    An arc is the numbers of the joints at which it begins and ends, azimuths growing.
 
     >>> from graphs.mechanism.sc import SCGraph
     >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
@@ -269,7 +250,7 @@ def half_turn_arcs(
     {0: ((0, 3), (3, 0))}
     """
     t = np.remainder(np.asarray(places, dtype=float), 2 * np.pi)
-    found = {}
+    halves = {}
     for number, joints in enumerate(chain.joints_of):
         mine = sorted(joints, key=lambda joint: float(t[joint]))
         gaps = np.diff(t[mine], append=t[mine[0]] + 2 * np.pi) if mine else np.zeros(0)
@@ -277,24 +258,20 @@ def half_turn_arcs(
         if len(wide) == 2:
             # an arc that leaves out a gap begins where the gap ends
             ends = [(mine[(gap + 1) % len(mine)], mine[gap]) for gap in wide]
-            found[number] = (ends[1], ends[0])
-    return found
+            halves[number] = (ends[1], ends[0])
+    return halves
 
 
 def icrl(motions: npt.ArrayLike) -> Floats:
-    """Return the direction of the ICRL of links: the line through the centre of the circle and the instant centre.
+    """Return the azimuth of the ICRL of links, the line through circle centre and instant centre: float[..., N].
+
+    In (-pi, pi]. Right of it (azimuths up to half a turn larger) the link moves outward. On a cone the line is the
+    projection of the pole axis. nan where the link does not move, or turns about the centre.
 
     Parameters
     ----------
     motions : float[..., N, 3]
         w of each link.
-
-    Returns
-    -------
-    float[..., N]
-        Azimuth of the line, radians, in (-pi, pi]. Right of it (azimuths up to half a turn larger) the link
-        moves outward. On a cone the line is the projection of the pole axis. nan where the link does not move,
-        or turns about the centre.
 
     Examples
     --------
@@ -308,18 +285,14 @@ def icrl(motions: npt.ArrayLike) -> Floats:
 
 
 def instant_centres(motions: npt.ArrayLike) -> Floats:
-    """Return the instant centres of links with respect to the ground: where pole axes meet the circle's plane.
+    """Return the instant centres of links with respect to the ground, in radii: float[..., N, 2].
+
+    Pole axes meet the circle's plane there; the point at azimuth t is (sin t, cos t). Infinite without rotation.
 
     Parameters
     ----------
     motions : float[..., N, 3]
         w; differences of two give relative centres.
-
-    Returns
-    -------
-    float[..., N, 2]
-        In radii, in the plane of the circle: the point at azimuth t is (sin t, cos t). Infinite where a link
-        does not turn.
 
     Examples
     --------
@@ -335,12 +308,11 @@ def instant_centres(motions: npt.ArrayLike) -> Floats:
 
 
 def shadow_allows(places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-    """Tell by the shadow method whether four-bars can be intra- or extramobile (Hyatt et al. 2021, section 5).
+    """Check by the shadow method whether four-bars can be intra- or extramobile (Hyatt et al. 2021, section 5).
 
     The lines of the two side links, O A and B C, cut the plane into two double wedges. If the centre of the circle
     lies in the one that holds ground and coupler, the linkage is transmobile; else it is not. Azimuths, float[...,
-    4], are those of O, A, B, C; the ground link is C O, the coupler A B. Raises `InvariantError` unless there are
-    four.
+    4], are those of O, A, B, C; the ground link is C O, the coupler A B.
     """
     t = np.asarray(places, dtype=float)
     if t.shape[-1:] != (4,):
@@ -357,3 +329,154 @@ def shadow_allows(places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
     # the coupler lies in one double wedge, and the ground link in the same one
     coupler = side(o, a, b) * side(b, c, a)
     return np.asarray(side(o, a, centre) * side(b, c, centre) * coupler < 0)
+
+
+ROWS: dict[tuple[int, str, str], tuple[str, str]] = {
+    (1, "open", "A"): ("Y*", "Y"),
+    (1, "open", "B"): ("N", "N"),
+    (1, "crossed 1", "A"): ("Y", "Y"),
+    (1, "crossed 1", "B"): ("N", "N"),
+    (1, "crossed 2", "A"): ("N", "N"),
+    (1, "crossed 2", "B"): ("Y*", "Y"),
+    (2, "open", "A"): ("N", "N"),
+    (2, "open", "B"): ("N", "N"),
+    (2, "crossed 1", "A"): ("Y*", "Y"),
+    (2, "crossed 1", "B"): ("N", "N"),
+    (2, "crossed 2", "A"): ("N", "N*"),
+    (2, "crossed 2", "B"): ("N", "N"),
+}
+"""(case, configuration, column) to intra- and extramobility; *: the other way where a chord is a diameter."""
+
+COLUMNS: dict[tuple[str, str], frozenset[frozenset[int]]] = {
+    key: frozenset(map(frozenset, pair))
+    for key, pair in {
+        ("open", "A"): ((1, 2), (3, 4)),
+        ("open", "B"): ((2, 3), (4, 1)),
+        ("crossed 1", "A"): ((1, 2), (3, 4)),
+        ("crossed 1", "B"): ((1, 3), (2, 4)),
+        ("crossed 2", "A"): ((2, 3), (4, 1)),
+        ("crossed 2", "B"): ((1, 3), (2, 4)),
+    }.items()
+}
+"""(configuration, column) to ground and coupler, each as the labels of its two joints."""
+
+_SIDES = {
+    "open": ((1, 2), (2, 3), (3, 4), (4, 1)),
+    "crossed 1": ((1, 2), (2, 4), (4, 3), (3, 1)),
+    "crossed 2": ((1, 3), (3, 2), (2, 4), (4, 1)),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class TableRow:
+    """A four-bar's row of Table 4.
+
+    Attributes
+    ----------
+    case : {1, 2}
+    configuration : {"open", "crossed 1", "crossed 2"}
+    column : {"A", "B"}
+    labels : tuple of int
+        Label (1 to 4) of each joint O, A, B, C.
+    intramobile, extramobile : bool
+        Whether the linkage can move so that all its links stay inside, or outside.
+    special : bool
+        Whether a chord is a diameter and the starred entries hold the other way.
+    """
+
+    case: int
+    configuration: str
+    column: str
+    labels: tuple[int, ...]
+    intramobile: bool
+    extramobile: bool
+    special: bool
+
+
+def table4(case: int, configuration: str, column: str, *, diameter: bool = False) -> tuple[bool, bool]:
+    """Return an entry of Table 4: intramobility and extramobility.
+
+    Parameters
+    ----------
+    case : {1, 2}
+    configuration : {"open", "crossed 1", "crossed 2"}
+    column : {"A", "B"}
+    diameter : bool, optional
+        Whether P4 P1 (case 1) or a diagonal (case 2) is a diameter. A joint half a turn from the fixed joint of
+        its link then moves outward to second order: intramobility is lost, or extramobility gained.
+
+    Raises
+    ------
+    InvariantError
+        If there is no such entry.
+
+    Examples
+    --------
+    >>> table4(1, "open", "A"), table4(1, "open", "A", diameter=True)
+    ((True, True), (False, True))
+    """
+    if (case, configuration, column) not in ROWS:
+        raise InvariantError("Table 4", f"no entry {case}, {configuration!r}, {column!r}", "one of the twelve")
+    intra, extra = (
+        entry.startswith("Y") != (diameter and entry.endswith("*")) for entry in ROWS[case, configuration, column]
+    )
+    return intra, extra
+
+
+def table_row(places: npt.ArrayLike) -> TableRow:
+    """Return a four-bar's row of Table 4.
+
+    Parameters
+    ----------
+    places : float[4]
+        Azimuths of O, A, B, C, radians; the ground link is C O, the coupler A B.
+
+    Raises
+    ------
+    InvariantError
+        Unless there are four different azimuths.
+
+    Examples
+    --------
+    >>> row = table_row(np.radians([40, 90, 140, 0]))
+    >>> row.case, row.configuration, row.column, row.intramobile
+    (1, 'open', 'A', True)
+    """
+    t = np.asarray(places, dtype=float)
+    if t.shape != (4,):
+        raise InvariantError("azimuths", f"{t.size} azimuths", "four, of O, A, B, C")
+    round_ = np.remainder(t, 2 * np.pi)
+    order = np.argsort(round_)
+    sorted_places = round_[order]
+    gaps = np.remainder(np.roll(sorted_places, -1) - sorted_places, 2 * np.pi)
+    if gaps.min() <= DOUBLE.parallel:
+        raise InvariantError("azimuths", "two joints lie on one ruling line", "four different azimuths")
+    widest = int(gaps.argmax())
+    case = 1 if gaps[widest] >= np.pi - DOUBLE.parallel else 2
+    first = (widest + 1) % 4 if case == 1 else _first_of_case_2(sorted_places)
+    rank = np.empty(4, dtype=int)
+    rank[order] = (np.arange(4) - first) % 4 + 1
+    labels = tuple(rank.tolist())
+    o, a, b, c = labels
+    sides = frozenset(map(frozenset, ((o, a), (a, b), (b, c), (c, o))))
+    configuration = next(name for name, links in _SIDES.items() if frozenset(map(frozenset, links)) == sides)
+    pair = frozenset((frozenset((c, o)), frozenset((a, b))))
+    column = "A" if COLUMNS[configuration, "A"] == pair else "B"
+    if case == 1:
+        special = bool(abs(gaps[widest] - np.pi) <= DOUBLE.parallel)
+    else:
+        across = sorted_places[2:] - sorted_places[:2]
+        special = bool((np.abs(across - np.pi) <= DOUBLE.parallel).any())
+    intra, extra = table4(case, configuration, column, diameter=special)
+    return TableRow(case, configuration, column, labels, intra, extra, special)
+
+
+def _first_of_case_2(places: Floats) -> int:
+    """Return which joint is P1 where the centre is inside: it is in the sector of side 23 or 41 of the diagonals.
+
+    The centre is on the left of the diagonal from i to i + 2 if that one spans less than half a turn. With P1
+    first, it is in the sector of 41 or 23 if it is right of one of 13 and 24 and left of the other.
+    """
+    left_13 = places[2] - places[0] < np.pi
+    left_24 = places[3] - places[1] < np.pi
+    return 0 if left_13 == left_24 else 1

@@ -1,4 +1,4 @@
-"""What linkages do in the conformed position, as the command line asks: of sizes, of steps, or of a file.
+"""Behaviour of linkages in the conformed position: from sizes of links, from steps, or from a file.
 
 Theory: docs/theory/behaviour.md.
 """
@@ -23,20 +23,20 @@ from graphs.mechanism.surfaces import Cone, Cylinder, Surface, surface_json
 from graphs.printing import Block, Printed, TableBlock, plain
 from synth.conformed.behaviours import (
     Behaviour,
+    TableRow,
     Way,
     behaviour,
     half_turn_arcs,
     icrl,
     instant_centres,
     link_arcs,
+    table_row,
     ways_over,
 )
 from synth.conformed.rates import ConformedChain
-from synth.conformed.twelve_cases import TableRow, table_row
 from synth.surfaces.circuit import HALF_TURN, azimuths, closing_step, wrapped
-from synth.surfaces.cone import map_to_cones
-from synth.surfaces.cylinder import map_to_cylinders
 from synth.surfaces.linkages import map_linkage
+from synth.surfaces.loop_maps import map_to_cones, map_to_cylinders
 from synth.surfaces.mapping import in_degrees, joints_text
 
 __all__ = [
@@ -47,7 +47,6 @@ __all__ = [
     "loop_of_steps",
     "loop_on_cones",
     "loop_on_cylinders",
-    "surface_of_number",
 ]
 
 _FAR = 1e12
@@ -65,7 +64,7 @@ class OnSurface:
     surface : Cone, Cylinder or None
         None: any.
     arcs : mapping of link to joint
-        Of links that span half a turn, and may curve either way: the joint at which the arc begins, azimuths
+        For links that span half a turn, and may curve either way: the joint at which the arc begins, azimuths
         growing.
 
     Examples
@@ -85,11 +84,11 @@ class OnSurface:
         return self.surface.angle if isinstance(self.surface, Cone) else None
 
     def linkage(self) -> SurfaceLinkage:
-        """Return the linkage as it lies here, by steps and its surface, as it can be written."""
+        """Return the linkage by its steps and its surface, in the form that can be written to a file."""
         return SurfaceLinkage.placed(self.chain, self.places, self.surface)
 
     def curved(self, arcs: Mapping[str, str]) -> OnSurface:
-        """Return the linkage with the arcs of links that span half a turn chosen, by names.
+        """Return the linkage with arcs chosen for links that span half a turn, by names.
 
         Parameters
         ----------
@@ -100,25 +99,17 @@ class OnSurface:
         ------
         InvariantError
             If there is no such link or joint, or the link does not span half a turn.
-
-        Examples
-        --------
-        Only one of the two arcs of link 4 lets all links move outward:
-
-        >>> either = loop_of_steps(np.radians([40, 50, 90]))
-        >>> [either.curved({"4": joint}).behaviour().mobile() for joint in "14"]
-        [(False, True), (False, False)]
         """
         chosen = {link_named(self.chain, link): joint_named(self.chain, joint) for link, joint in arcs.items()}
-        made = replace(self, arcs={**self.arcs, **chosen})
-        made.begins(ConformedChain.of(self.chain))
-        return made
+        curved = replace(self, arcs={**self.arcs, **chosen})
+        curved.begins(ConformedChain.of(self.chain))
+        return curved
 
     def begins(self, chain: ConformedChain) -> dict[int, int]:
         """Return the arcs that are chosen by the numbers of links and joints."""
         halves = half_turn_arcs(chain, self.places)
-        found = {chain.links.index(link): chain.joints.index(joint) for link, joint in self.arcs.items()}
-        for number, joint in found.items():
+        begins = {chain.links.index(link): chain.joints.index(joint) for link, joint in self.arcs.items()}
+        for number, joint in begins.items():
             link = shown(chain.links[number])
             if number not in halves:
                 raise InvariantError(
@@ -126,9 +117,9 @@ class OnSurface:
                 )
             if joint not in dict(halves[number]):
                 first, second = (shown(chain.joints[begin]) for begin, _ in halves[number])
-                told = f"the arc of link {link} from joint {shown(chain.joints[joint])}"
-                raise InvariantError("arc", told, f"one from joint {first} or {second}")
-        return found
+                offender = f"link {link} has no arc from joint {shown(chain.joints[joint])}"
+                raise InvariantError("arc", offender, f"one from joint {first} or {second}")
+        return begins
 
     def behaviour(self, ground: LinkId | None = None) -> LinkageBehaviour:
         """Return what the linkage does, one link fixed: its own ground link, or the first, if none is named."""
@@ -152,7 +143,7 @@ class ArcChoice:
 
     Examples
     --------
-    >>> [one.extramobile for one in loop_of_steps(np.radians([40, 50, 90])).behaviour().choices()]
+    >>> [choice.extramobile for choice in loop_of_steps(np.radians([40, 50, 90])).behaviour().choices()]
     [True, False]
     """
 
@@ -211,16 +202,16 @@ class LinkageBehaviour(Printed):
             return (
                 ArcChoice({}, inward, both) if row is None else ArcChoice({}, row.intramobile, row.extramobile),
             )
-        found = []
+        choices = []
         for arcs in product(*halves.values()):
             chosen = dict(zip(halves, arcs, strict=True))
             ways = self._ways_with(chosen)
             both = self.behaviour.motion.freedoms == 1 and len(ways) == 1 and ways <= {Way.INWARD, Way.OUTWARD}
-            found.append(ArcChoice(chosen, both and not outward, both))
-        return tuple(found)
+            choices.append(ArcChoice(chosen, both and not outward, both))
+        return tuple(choices)
 
     def _goes_outward(self) -> bool:
-        """Tell whether a joint moves along the surface, half a turn from a fixed joint of its link: outward."""
+        """Check whether a joint moves along the surface, half a turn from a fixed joint of its link: outward."""
         fixed, t = set(self.chain.joints_of[0]), self.places
         return any(
             abs(float(wrapped(t[joint] - t[centre]))) >= HALF_TURN
@@ -266,7 +257,7 @@ class LinkageBehaviour(Printed):
         return Way(int(self.behaviour.ways[link])).name.lower()
 
     def blocks(self) -> list[Block]:
-        """Return the lines and the table that are printed."""
+        """Return the printed lines and table."""
         row, chain = self.table_row(), self.chain
         blocks: list[Block] = [self._verdict()]
         if row is not None:
@@ -297,7 +288,7 @@ class LinkageBehaviour(Printed):
         return "from {} to {}".format(*(plain(self.chain.joints[joint]) for joint in arc))
 
     def _verdict(self) -> str:
-        """Say in a line which way the linkage can go."""
+        """Return a line with the ways in which the linkage can move."""
         where = "any cone or cylinder" if self.surface is None else str(self.surface)
         motion = self.behaviour.motion
         freedoms = int(motion.freedoms)
@@ -306,17 +297,18 @@ class LinkageBehaviour(Printed):
         elif freedoms == 1:
             verdict = "; ".join(map(self._told, self.choices()))
         else:
-            verdict = f"{freedoms} infinitesimal freedoms: no one way"
+            verdict = f"{freedoms} infinitesimal degrees of freedom: no single direction of motion"
         if motion.nearly:
-            verdict += f"; nearly mobile: {int(motion.nearly)} more freedom(s) but for small errors"
+            more = numbered(int(motion.nearly), "more degree of freedom", "more degrees of freedom")
+            verdict += f"; nearly mobile: {more} but for small errors"
         return f"{where}, link {plain(self.chain.links[0])} fixed: {verdict}"
 
     def _told(self, choice: ArcChoice) -> str:
         both = (("intramobile", choice.intramobile), ("extramobile", choice.extramobile))
         words = [word for word, so in both if so]
-        told = "can be " + " or ".join(words) if words else "transmobile"
+        verdict = "can be " + " or ".join(words) if words else "transmobile"
         arcs = [f"link {plain(self.chain.links[link])} {self._names(arc)}" for link, arc in choice.arcs.items()]
-        return told + (f" with {' and '.join(arcs)}" if arcs else "")
+        return verdict + (f" with {' and '.join(arcs)}" if arcs else "")
 
     def to_json(self) -> dict[str, Any]:
         """Return the behaviour as plain data, with the keys that scripts rely on (docs/command-json.md)."""
@@ -379,7 +371,7 @@ def _centre(motion: Floats) -> list[float] | None:
 def linkage_on_surfaces(
     linkage: SurfaceLinkage, surface: Surface | None = None, *, tolerance: float = 1e-7
 ) -> list[OnSurface]:
-    """Return a linkage on each of its surfaces, from link angles or lengths, or from steps.
+    """Return a linkage on each of its surfaces: from link angles or lengths, or from steps (then one).
 
     Parameters
     ----------
@@ -387,37 +379,26 @@ def linkage_on_surfaces(
     surface : Cone or Cylinder, optional
         For steps; by default that of the linkage, or any.
     tolerance : float, optional
-        How well loops of given sizes must close together, radians.
-
-    Returns
-    -------
-    list of OnSurface
-        One, if the linkage is given by steps.
+        How well loops of known sizes must close together, radians.
 
     Raises
     ------
     UnsolvableError
-        If a surface is named for link angles or lengths, which tell it themselves.
+        If a surface is named for link angles or lengths, which determine it themselves.
 
     Examples
     --------
-    Steps close on any cone; link angles tell on which:
-
     >>> from graphs.loops.loop import Loop
     >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> pairs = [(0, 1), (1, 2), (2, 3), (3, 0)]
-    >>> [one] = linkage_on_surfaces(SurfaceLinkage(chain, steps=dict.fromkeys(pairs[:3], np.pi / 2)))
-    >>> np.degrees(one.places).round(9).tolist(), one.surface
-    ([0.0, 90.0, 180.0, 270.0], None)
-    >>> angles = dict(zip(pairs, np.radians([120, 95, 45, 85])))
-    >>> [str(one.surface) for one in linkage_on_surfaces(SurfaceLinkage(chain, angles=angles))]
+    >>> angles = dict(zip([(0, 1), (1, 2), (2, 3), (3, 0)], np.radians([120, 95, 45, 85])))
+    >>> [str(loop.surface) for loop in linkage_on_surfaces(SurfaceLinkage(chain, angles=angles))]
     ['lambda 13.99835668 degrees', 'lambda 29.04446943 degrees']
     """
     if linkage.steps is not None:
         return [OnSurface(linkage.chain, linkage.places(), surface or linkage.surface)]
     if surface is not None:
         option, sizes = ("lambda", "link angles") if linkage.kind == "cone" else ("radius", "lengths")
-        raise UnsolvableError(f"{sizes} tell the {linkage.kind} themselves: leave --{option} out")
+        raise UnsolvableError(f"{sizes} determine the {linkage.kind}: remove --{option}")
     return [
         OnSurface(linkage.chain, [one.places[joint] for joint in linkage.chain.joints], one.surface)
         for one in map_linkage(linkage, tolerance).surfaces
@@ -425,38 +406,30 @@ def linkage_on_surfaces(
 
 
 def surface_of_number(surfaces: Sequence[OnSurface], number: int | None, kind: str = "cone") -> OnSurface:
-    """Return the surface of a number, from 1, of those of a linkage; it is needed where there are several.
+    """Return the surface with a number, from 1, of those of a linkage; required where there are several.
 
-    Raises `UnsolvableError` if there is none of the kind, or several and no number, or none of this number.
-
-    >>> surface_of_number([], None, "cylinder")
-    Traceback (most recent call last):
-    ...
-    graphs.errors.UnsolvableError: the linkage lies on no cylinder
+    Raise `UnsolvableError` if there is none of the kind, or several and no number, or none of this number.
     """
     if not surfaces:
         raise UnsolvableError(f"the linkage lies on no {kind}")
     if number is None and len(surfaces) > 1:
-        told = ", ".join(str(one.surface) for one in surfaces)
-        raise UnsolvableError(f"the linkage lies on {len(surfaces)} {kind}s, of {told}: expected --{kind}")
+        choices = ", ".join(str(loop.surface) for loop in surfaces)
+        raise UnsolvableError(f"the linkage lies on {len(surfaces)} {kind}s, {choices}: --{kind} is required")
     if number is not None and number > len(surfaces):
         raise UnsolvableError(
-            f"the linkage lies on {numbered(len(surfaces), kind)}: there is none of number {number}"
+            f"the linkage lies on {numbered(len(surfaces), kind)}: "
+            f"expected --{kind} of {len(surfaces)} at most, got {number}"
         )
     return surfaces[(number or 1) - 1]
 
 
 def loop_on_cones(angles: Sequence[float]) -> list[OnSurface]:
-    """Return a loop of link angles (radians) on each of its cones.
+    """Return a loop of link angles on each of its cones.
 
     Parameters
     ----------
     angles : float[n]
-        Link angles, radians.
-
-    Returns
-    -------
-    list of OnSurface
+        Radians, in loop order.
 
     Examples
     --------
@@ -477,10 +450,6 @@ def loop_on_cylinders(lengths: Sequence[float]) -> list[OnSurface]:
     lengths : float[n]
         In loop order, any one unit.
 
-    Returns
-    -------
-    list of OnSurface
-
     Examples
     --------
     >>> [str(loop.surface) for loop in loop_on_cylinders([4, 3, 5, 1])]
@@ -499,38 +468,31 @@ def loop_of_steps(steps: Sequence[float], surface: Surface | None = None) -> OnS
     Parameters
     ----------
     steps : float[n]
-        Signed, radians, in [-pi, pi], none 0. A step of half a turn says by its sign which way its link curves.
+        In [-pi, pi], none 0. The sign of a step of half a turn is the way in which its link curves.
     surface : Cone or Cylinder, optional
-        Any without it.
-
-    Returns
-    -------
-    OnSurface
+        Any by default.
 
     Raises
     ------
     InvariantError
-        If a step is none, or there are too few.
+        If a step is out of range, or there are too few.
 
     Examples
     --------
-    >>> loop = loop_of_steps(np.radians([120, 95, 45]))
-    >>> np.degrees(loop.places).round(9).tolist()
+    >>> np.degrees(loop_of_steps(np.radians([120, 95, 45])).places).round(9).tolist()
     [0.0, 120.0, 215.0, 260.0]
-    >>> [dict(loop_of_steps(np.radians([40, 50, 90, half])).arcs) for half in (180, -180)]
-    [{4: '4'}, {4: '1'}]
     """
-    given = list(steps)
-    for place, step in enumerate(given):
+    closed_steps = list(steps)
+    for place, step in enumerate(closed_steps):
         if not 0.0 < abs(step) <= pi + 1e-12:
-            told = f"step {place + 1} is {degrees(step):.12g} degrees"
-            raise InvariantError("step", told, "between -180 and 180, and not 0")
-    last = float(closing_step(given))
+            offender = f"step {place + 1} is {degrees(step):.12g} degrees"
+            raise InvariantError("step", offender, "between -180 and 180, and not 0")
+    last = float(closing_step(closed_steps))
     if abs(last) > 1e-9:
-        given.append(last)
-    if len(given) < 3:
-        raise InvariantError("step", f"{len(given)} steps", "three or more")
-    chain = ring(len(given))
+        closed_steps.append(last)
+    if len(closed_steps) < 3:
+        raise InvariantError("step", f"{len(closed_steps)} steps", "three or more")
+    chain = ring(len(closed_steps))
     joints = list(chain.joints)
     arcs: dict[LinkId, JointId] = {
         place + 1: joints[place if step > 0 else (place + 1) % len(joints)]
@@ -539,4 +501,4 @@ def loop_of_steps(steps: Sequence[float], surface: Surface | None = None) -> OnS
     }
     if isinstance(surface, Cylinder):
         chain = as_planar(chain)
-    return OnSurface(chain, azimuths(given).tolist(), surface, arcs)
+    return OnSurface(chain, azimuths(closed_steps).tolist(), surface, arcs)

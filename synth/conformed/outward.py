@@ -12,7 +12,22 @@ so that joint j of a link moves outward at the rate
 i running along a path from the ground to the link. The sign of a bracket follows from the cyclic order of its
 joints, that of the sine from the order of joint j, joint i and the point opposite to i. Where all terms have one
 sign, so has rho_j, whatever the angles. There is a formula for every choice of independent loops and of the path;
-one whose terms agree is enough. Theory: docs/theory/conical-candidates.md.
+one whose terms agree is enough.
+
+Chords. The J joints and the points opposite to them cut the circle into 2 J fine gaps, opposite ones equal; an
+arc shorter than half the circle is a set of the J sizes. Half its chord is sin(arc / 2), and grows with the arc;
+so does a product of chords if each arc lies, as a set of sizes, within one of another product. sin(x) is
+2 sin(x / 2) sin((pi - x) / 2), and pi - x is the other sizes: every term is a product of chords. A sum has the
+sign of its positive terms if each negative term has a larger positive one of its own.
+
+Relations (`SignRelations`). The rate rho(n, x) that link n, thought of as all round the circle, has at the
+azimuth of joint x, and the rates q_i of the joints obey
+
+    rho(n, x) sin(y - z) + rho(n, y) sin(z - x) + rho(n, z) sin(x - y) = 0     for any joints x, y, z,
+    rho(n, x) - rho(m, x) = +-q_i sin(x - i)                                  for links m, n that joint i joins,
+
+and an order with opposites knows the sign of every sine. Where two terms of such a sum have one sign the third
+has the other. Theory: docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
@@ -24,14 +39,13 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats, Ints
+from enumerate.kernel.compiled import compiled
+from graphs.arrays import Floats, Ints, Signs
 from graphs.errors import UnsolvableError
 from graphs.rank.spaces import rank_of
-from synth.conformed.chords import arc_sets, sign_of_sum
-from synth.conformed.cycles import signed_cycles
-from synth.conformed.rates import ConformedChain
+from synth.conformed.rates import ConformedChain, signed_cycles
 
-__all__ = ["OutwardRate", "brackets", "joint_rates", "outward_rates"]
+__all__ = ["OutwardRate", "joint_rates", "outward_rates"]
 
 _BASES = 12
 _PATHS = 12
@@ -68,17 +82,7 @@ class OutwardRate:
         return zip(self.factors.tolist(), sines, self.triples, strict=True)
 
     def values(self, places: npt.ArrayLike) -> Floats:
-        """Return the rates of linkages.
-
-        Parameters
-        ----------
-        places : float[..., J]
-            Azimuths, radians.
-
-        Returns
-        -------
-        float[...]
-        """
+        """Return the rates of linkages with azimuths float[..., J], radians: float[...]."""
         t = np.asarray(places, dtype=float)
         total = np.zeros(t.shape[:-1])
         for factor, i, triples in self._terms:
@@ -90,30 +94,16 @@ class OutwardRate:
         return total
 
     def signs(self, places: npt.ArrayLike) -> npt.NDArray[np.int8]:
-        """Return the sign that all terms have, 0 where they differ; it is that of all linkages of the same order.
+        """Return the sign of all terms, 0 where they differ, at azimuths float[..., J] in [0, 2 pi): int8[...].
 
-        Parameters
-        ----------
-        places : float[..., J]
-            Azimuths between 0 and 2 pi in the order of joints and opposite points that is asked for.
-
-        Returns
-        -------
-        int8[...]
+        It is that of all linkages with the same order of joints and opposite points.
         """
         return _common_sign(self._term_signs(np.asarray(places, dtype=float)))
 
     def signs_by_chords(self, slots: Ints) -> npt.NDArray[np.int8]:
-        """Return the sign of the rate where each term has a larger one of the other sign, else 0.
+        """Return the sign of the rate where each term has a larger one of the other sign, else 0: int8[r].
 
-        Parameters
-        ----------
-        slots : int64[r, J]
-            Orders with opposites, on 2 J slots.
-
-        Returns
-        -------
-        int8[r]
+        Slots, int64[r, J], are orders with opposites, on 2 J slots.
         """
         t = slots * (np.pi / slots.shape[-1])
         arcs, every = arc_sets(slots), (1 << slots.shape[-1]) - 1
@@ -128,7 +118,7 @@ class OutwardRate:
 
     def _term_signs(self, t: Floats) -> list[npt.NDArray[np.int8]]:
         return [
-            _sign(factor, triples, t)
+            _sign_of_brackets(factor, triples, t)
             * (np.int8(1) if i is None else np.sign(np.sin(t[..., self.joint] - t[..., i])).astype(np.int8))
             for factor, i, triples in self._terms
         ]
@@ -144,20 +134,12 @@ class OutwardRate:
 
 
 def brackets(places: npt.ArrayLike) -> Floats:
-    """Return det(e_a, e_b, e_c) of three joints: twice the area of their triangle, + if they are in order.
-
-    Places, float[..., 3], are azimuths, radians.
-
-    >>> from synth.conformed.rates import ring_axes
-    >>> places = np.array([0.3, 2.0, 4.5])
-    >>> bool(np.isclose(brackets(places), np.linalg.det(ring_axes(places))))
-    True
-    """
+    """Return det(e_a, e_b, e_c) of joints at azimuths float[..., 3]: twice their triangle's area, + in order."""
     a, b, c = np.moveaxis(np.asarray(places, dtype=float) / 2.0, -1, 0)
     return np.asarray(4.0 * np.sin(b - a) * np.sin(c - b) * np.sin(c - a))
 
 
-def _sign(factor: int, triples: Iterable[Iterable[int]], t: Floats) -> npt.NDArray[np.int8]:
+def _sign_of_brackets(factor: int, triples: Iterable[Iterable[int]], t: Floats) -> npt.NDArray[np.int8]:
     """Return the sign of a product of brackets: it follows from the cyclic order."""
     sign = np.full(t.shape[:-1], factor, np.int8)
     for a, b, c in triples:
@@ -214,7 +196,8 @@ def _checked(chain: ConformedChain) -> ConformedChain:
     loops, joints = len(chain.loops), len(chain.joints)
     if joints != 3 * loops + 1:
         raise UnsolvableError(
-            f"{joints} joints and {loops} independent loops have not one freedom: expected {3 * loops + 1} joints"
+            f"{joints} joints and {loops} independent loops do not have 1 degree of freedom; "
+            f"expected {3 * loops + 1} joints"
         )
     return chain
 
@@ -226,11 +209,6 @@ def outward_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     ----------
     chain : ConformedChain
         Of one freedom: J = 3 L + 1.
-
-    Returns
-    -------
-    tuple of tuples of OutwardRate
-        For each joint.
 
     Raises
     ------
@@ -346,3 +324,228 @@ def _minor(basis: Ints, left_out: int) -> Iterator[_Term]:
                 yield sign * factor, ((triple[0], triple[1], triple[2]), *more)
 
     return expanded(0, columns)
+
+
+@compiled
+def _matched(fits: npt.NDArray[np.bool_], rows: int, columns: int) -> bool:
+    """Check whether every row can have a column of its own that fits (augmenting paths)."""
+    owner = np.full(columns, -1, np.int64)
+    came = np.empty(columns, np.int64)
+    queue = np.empty(rows + 1, np.int64)
+    for start in range(rows):
+        seen = np.zeros(columns, np.bool_)
+        head, tail = 0, 1
+        queue[0] = start
+        free = -1
+        # breadth first along alternating paths; came[column] is the row that reached a column
+        while head < tail and free < 0:
+            row = queue[head]
+            head += 1
+            for column in range(columns):
+                if fits[row, column] and not seen[column]:
+                    seen[column] = True
+                    came[column] = row
+                    if owner[column] < 0:
+                        free = column
+                        break
+                    queue[tail] = owner[column]
+                    tail += 1
+        if free < 0:
+            return False
+        column = free  # flip the path: each row on it takes the column that led on, back to the start
+        while True:
+            row = came[column]
+            before = -1
+            for other in range(columns):
+                if owner[other] == row:
+                    before = other
+            owner[column] = row
+            if row == start:
+                break
+            column = before
+    return True
+
+
+@compiled
+def _all_dominated(signs: Signs, sets: Ints, less: int) -> bool:
+    """Check whether each term of sign ``less`` has a larger term of the other sign of its own."""
+    terms, factors = sets.shape
+    fits = np.zeros((terms, terms), np.bool_)
+    within = np.zeros((factors, factors), np.bool_)
+    rows = 0
+    for a in range(terms):
+        if signs[a] != less:
+            continue
+        columns = 0
+        for b in range(terms):
+            if signs[b] == less:
+                continue
+            for i in range(factors):
+                for j in range(factors):
+                    within[i, j] = sets[a, i] & ~sets[b, j] == 0
+            fits[rows, columns] = _matched(within, factors, factors)
+            columns += 1
+        rows += 1
+    return _matched(fits, rows, terms - rows)
+
+
+@compiled
+def _signs(signs: Signs, sets: Ints) -> Signs:
+    of_sums = np.zeros(len(signs), np.int8)
+    for i in range(len(signs)):
+        if _all_dominated(signs[i], sets[i], -1):
+            of_sums[i] = 1
+        elif _all_dominated(signs[i], sets[i], 1):
+            of_sums[i] = -1
+    return of_sums
+
+
+def arc_sets(slots: Ints) -> Ints:
+    """Return the sizes of fine gaps that the shorter arc between two joints covers, as masks int64[r, J, J].
+
+    Slots are orders with opposites, on 2 J slots; bit g is the gap after a slot that is g modulo J.
+    """
+    joints = slots.shape[-1]
+    first, second = slots[:, :, np.newaxis], slots[:, np.newaxis, :]
+    ahead = np.remainder(second - first, 2 * joints)
+    start = np.where(ahead < joints, first, second) % joints
+    length = np.minimum(ahead, 2 * joints - ahead)
+    run = ((1 << length) - 1) << start
+    return np.asarray((run | run >> joints) & ((1 << joints) - 1))
+
+
+def sign_of_sum(signs: Signs, sets: Ints) -> Signs:
+    """Return the signs of sums of products of chords, 0 where this does not decide.
+
+    Signs, int8[r, T], are those of the terms, sets, int64[r, T, F], the arcs of each term's chords.
+    """
+    return np.asarray(_signs(np.ascontiguousarray(signs), np.ascontiguousarray(sets)))
+
+
+_ZERO = 2
+"""Stands for the sign of what is always zero."""
+
+
+@compiled
+def _follow(known: Signs, unknowns: Ints, sines: Ints, factors: Ints, sine_signs: Signs) -> bool:
+    """Add what follows to the known signs of one linkage; return whether they contradict each other."""
+    changed = True
+    while changed:
+        changed = False
+        for r in range(len(unknowns)):
+            plus = minus = missing = 0  # the three terms add up to zero: two of one sign force the third
+            where = sign_there = 0
+            for k in range(3):
+                sign = factors[r, k]
+                if sines[r, k, 0] >= 0:
+                    sign *= sine_signs[sines[r, k, 0], sines[r, k, 1]]
+                value = known[unknowns[r, k]]
+                if sign == 0 or value == 2:
+                    continue
+                if value == 0:
+                    missing += 1
+                    where, sign_there = unknowns[r, k], sign
+                elif value * sign > 0:
+                    plus += 1
+                else:
+                    minus += 1
+            if missing == 0 and (plus > 0) != (minus > 0):
+                return True
+            if missing == 1 and (plus > 0) != (minus > 0):
+                known[where] = -sign_there if plus else sign_there
+                changed = True
+    return False
+
+
+@compiled
+def _follow_all(
+    known: Signs, unknowns: Ints, sines: Ints, factors: Ints, sine_signs: Signs
+) -> npt.NDArray[np.bool_]:
+    wrong = np.zeros(len(known), np.bool_)
+    for i in range(len(known)):
+        wrong[i] = _follow(known[i], unknowns, sines, factors, sine_signs[i])
+    return wrong
+
+
+@dataclass(frozen=True, slots=True)
+class SignRelations:
+    """What the rates of a chain obey: R relations of three unknowns each.
+
+    An unknown is multiplied by a factor and the sine of two joints, none where these are -1. `zero` marks unknowns
+    that are always zero; rho(n, x) has number n J + x, q_i has N J + i.
+    """
+
+    links: int
+    joints: int
+    zero: npt.NDArray[np.bool_]
+    unknowns: Ints
+    sines: Ints
+    factors: Ints
+
+    @classmethod
+    def of(cls, chain: ConformedChain) -> SignRelations:
+        """Set up the relations of a chain."""
+        links, joints = len(chain.links), len(chain.joints)
+        zero = np.zeros(links * joints + joints, bool)
+        zero[:joints] = True
+        for n in range(1, links):
+            for i in set(chain.joints_of[n]) & set(chain.joints_of[0]):
+                zero[n * joints + i] = True
+        unknowns, sines, factors = [], [], []
+        for n in range(links):
+            for x, y, z in combinations(range(joints), 3):
+                unknowns.append([n * joints + x, n * joints + y, n * joints + z])
+                sines.append([[y, z], [z, x], [x, y]])
+                factors.append([1, 1, 1])
+        for i in range(joints):
+            m, n = (link for link in range(links) if i in chain.joints_of[link])
+            # w of n less w of m is +-q_i e_i, by the direction of the joint: as paths and loops have it
+            sign = _direction(chain, i, m, n)
+            for x in range(joints):
+                if x == i:
+                    continue
+                unknowns.append([n * joints + x, m * joints + x, links * joints + i])
+                sines.append([[-1, -1], [-1, -1], [x, i]])
+                factors.append([1, -1, -sign])
+            unknowns.append([n * joints + i, m * joints + i, m * joints + i])
+            sines.append([[-1, -1]] * 3)
+            factors.append([1, -1, 0])
+        kept = [k for k in range(len(unknowns)) if not zero[unknowns[k]].all()]
+        return cls(
+            links,
+            joints,
+            zero,
+            np.array(unknowns, np.int64)[kept],
+            np.array(sines, np.int64)[kept],
+            np.array(factors, np.int64)[kept],
+        )
+
+    def start(self, count: int) -> Signs:
+        """Return signs of which none is known but that of zeros: int8[count, N J + J]."""
+        known = np.zeros((count, len(self.zero)), np.int8)
+        known[:, self.zero] = _ZERO
+        return known
+
+    def rho(self, link: int, joint: int) -> int:
+        """Return the number of an outward rate."""
+        return link * self.joints + joint
+
+    def rate(self, joint: int) -> int:
+        """Return the number of the rate of a joint."""
+        return self.links * self.joints + joint
+
+    def follow(self, known: Signs, sine_signs: Signs) -> npt.NDArray[np.bool_]:
+        """Add all that follows to known signs, int8[r, N J + J]; return which sets contradict themselves, bool[r].
+
+        The signs of sin(t_x - t_y) are int8[r, J, J].
+        """
+        return np.asarray(_follow_all(known, self.unknowns, self.sines, self.factors, sine_signs))
+
+
+def _direction(chain: ConformedChain, joint: int, m: int, n: int) -> int:
+    """Return the sign of q_i e_i in w of link n less w of link m, from their paths, closed by loops."""
+    step = chain.paths[n] - chain.paths[m]
+    step[joint] -= 1
+    # +1 if the rest is a sum of loops, that is, rates that close leave nothing over
+    basis = chain.loops
+    return 1 if rank_of(np.vstack([basis, step])) == len(basis) else -1

@@ -1,9 +1,8 @@
-"""The conformed pose in space: joint axes, dihedral angles, points of links, and a check of it all in 3-D.
+"""The conformed pose in space: joint axes, dihedral angles, a check in 3-D; poses of four-bars away from it.
 
 Frame of Hyatt et al. 2020: apex at the origin, the y axis along the cone's axis, away from the cone. The joint
-at azimuth t has the axis R_y(t) O with O = (0, -sin lambda, cos lambda) (Eq. 17), outward from the apex. At this
-pose Eqs. 17 to 24 need no more; what happens away from it is in `synth.fourbar.position`. Theory:
-docs/theory/conformed.md.
+at azimuth t has the axis R_y(t) O with O = (0, -sin lambda, cos lambda) (Eq. 17), outward from the apex. Theory:
+docs/theory/conformed.md, docs/theory/four-bars.md.
 """
 
 from __future__ import annotations
@@ -14,16 +13,20 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
-from graphs.geometry import across, sectors, unit
+from graphs.errors import InvariantError
+from graphs.geometry import across, rotated, sectors, unit
 from graphs.mechanism.surfaces import checked_cone_angle, joint_axes
-from synth.surfaces.circuit import azimuths
+from synth.fourbar.position import output_spherical
+from synth.surfaces.circuit import azimuths, link_angles
 
 __all__ = [
+    "FourBarPoses",
     "PoseCheck",
     "check_pose",
     "dihedral_angles",
     "joint_axes",
     "measured_dihedral_angles",
+    "poses_from_conformed",
 ]
 
 
@@ -34,7 +37,7 @@ class PoseCheck:
     Attributes
     ----------
     link_angles : float[...]
-        Largest difference between a link angle measured between axes and the one asked for.
+        Largest difference between a link angle measured between axes and the required one.
     on_cone : float[...]
         Largest difference between an axis' angle with the plane across the cone's axis and lambda.
     """
@@ -44,7 +47,10 @@ class PoseCheck:
 
 
 def dihedral_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
-    """Return the dihedral angle at each joint of loops (Hyatt et al. 2020, Eqs. 13, 14 and Table 2, put right).
+    """Return the dihedral angle at each joint of loops: float[..., n].
+
+    Hyatt et al. 2020, Eqs. 13, 14 and Table 2, put right. Right-handed about the outward joint axis, from the
+    plane of link i - 1 to that of link i, in (-pi, pi].
 
     Parameters
     ----------
@@ -52,17 +58,12 @@ def dihedral_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
         Signed projected angles in loop order, radians; joint i lies between steps i - 1 and i.
     cone_angle : float[...]
 
-    Returns
-    -------
-    float[..., n]
-        Right-handed about the outward joint axis, from the plane of link i - 1 to that of link i, in (-pi, pi].
-
     Notes
     -----
-    With a and b the two steps, cos(theta) = (cos e - cos f1 cos f2) / (sin f1 sin f2), e being the link angle of
-    a + b, and the sign is that of a b (a + b) (docs/misprints.md 000-3, 000-4). sin(theta) is here the volume of
-    the three axes, 4 sin(lambda) cos(lambda)^2 sin(a/2) sin(b/2) sin((a + b)/2), by the same denominator; so no
-    digits are lost.
+    With a and b the two steps, cos(theta) = (cos e - cos f1 cos f2) / (sin f1 sin f2), e being the link angle of a
+    + b, and the sign is that of a b (a + b) (docs/misprints.md 000-3, 000-4). sin(theta) is here the volume of the
+    three axes, 4 sin(lambda) cos(lambda)^2 sin(a/2) sin(b/2) sin((a + b)/2), by the same denominator; so no digits
+    are lost.
 
     Examples
     --------
@@ -82,22 +83,16 @@ def dihedral_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
 
 
 def measured_dihedral_angles(axes: npt.ArrayLike) -> Floats:
-    """Return the dihedral angles of closed loops of axes in space, measured.
+    """Return the measured dihedral angles of closed loops of axes in space, as `dihedral_angles`: float[..., n].
 
     Parameters
     ----------
     axes : float[..., n, 3]
         Joint axes in loop order, in any pose.
 
-    Returns
-    -------
-    float[..., n]
-        As in `dihedral_angles`.
-
     Examples
     --------
-    >>> corner = np.eye(3)
-    >>> np.degrees(measured_dihedral_angles(corner)).tolist()
+    >>> np.degrees(measured_dihedral_angles(np.eye(3))).tolist()
     [-90.0, -90.0, -90.0]
     """
     e = np.asarray(axes, dtype=float)
@@ -111,19 +106,18 @@ def check_pose(angles: npt.ArrayLike, steps: npt.ArrayLike, cone_angle: npt.Arra
     Parameters
     ----------
     angles : float[..., n]
-        Link angles that are asked for, radians.
+        Required link angles, radians.
     steps : float[..., n]
         Signed projected angles.
     cone_angle : float[...]
 
     Examples
     --------
-    >>> from synth.surfaces.cone import map_to_cones
+    >>> from synth.surfaces import map_to_cones
     >>> angles = np.radians([120, 95, 45, 85])
-    >>> (first, _) = map_to_cones(angles).cones
-    >>> check = check_pose(angles, first.steps, first.size)
-    >>> bool(check.link_angles < 1e-12), bool(check.on_cone < 1e-15)
-    (True, True)
+    >>> cone = map_to_cones(angles).cones[0]
+    >>> bool(check_pose(angles, cone.steps, cone.size).link_angles < 1e-12)
+    True
     """
     axes = joint_axes(azimuths(steps), cone_angle)
     measured = sectors(axes)
@@ -132,3 +126,87 @@ def check_pose(angles: npt.ArrayLike, steps: npt.ArrayLike, cone_angle: npt.Arra
     return PoseCheck(
         np.abs(measured - np.asarray(angles, dtype=float)).max(axis=-1), np.abs(tilt - lam).max(axis=-1)
     )
+
+
+@dataclass(frozen=True, slots=True)
+class FourBarPoses:
+    """Poses of a conical four-bar about its conformed one; nan where it does not reach.
+
+    Attributes
+    ----------
+    theta, psi, xi : float[M]
+        Angles at O, C and A (xi = theta_{alpha, eta}), radians.
+    conformed : (float, float, float)
+        theta, psi and xi at the conformed pose.
+    axes : float[M, 4, 3]
+        O, A, B, C. B is reached from the input (Eq. 21).
+    residual : float[M]
+        Distance of that B from the one reached from the output (Eq. 23).
+    """
+
+    theta: Floats
+    psi: Floats
+    xi: Floats
+    conformed: tuple[float, float, float]
+    axes: Floats
+    residual: Floats
+
+
+def poses_from_conformed(steps: npt.ArrayLike, cone_angle: float, turns: npt.ArrayLike) -> FourBarPoses:
+    """Turn the input of a conical four-bar from its conformed pose (Hyatt et al. 2020, Eqs. 15 to 24).
+
+    Parameters
+    ----------
+    steps : float[4]
+        Projected angles in loop order alpha_0 (O to A), eta_0, beta_0, gamma_0 (C to O), radians; their sum is a
+        multiple of 2 pi.
+    cone_angle : float
+        lambda > 0.
+    turns : float[M]
+        Input angles from the conformed pose, radians.
+
+    Raises
+    ------
+    InvariantError
+        If the steps do not close, or lambda is 0, where the linkage is at a dead point.
+
+    Notes
+    -----
+    Eqs. 22 and 23 take gamma_0 and beta_0 the other way round; in one loop direction C = R_y(-gamma_0) O
+    (docs/misprints.md 000-2). The branch is that of the conformed pose.
+
+    Examples
+    --------
+    >>> poses = poses_from_conformed(np.radians([50, 110, 80, 120]), np.radians(20), np.radians([-30, 30]))
+    >>> np.degrees(poses.psi - poses.conformed[1]).round(4).tolist()
+    [-11.1118, 34.9421]
+    """
+    signed = np.asarray(steps, dtype=float)
+    lam = float(checked_cone_angle(cone_angle))
+    total = signed.sum()
+    if signed.shape != (4,) or abs(total - 2 * np.pi * np.rint(total / (2 * np.pi))) > 1e-9:
+        raise InvariantError("closed loop", "the steps do not close", "four that sum to a multiple of 360 degrees")
+    if lam == 0.0:
+        raise InvariantError("cone angle", "at lambda = 0 the linkage is at a dead point", "a cone angle above 0")
+    start = joint_axes(azimuths(signed), lam)
+    o, a0, b0, c = start
+    dihedral = dihedral_angles(signed, lam)
+    theta0, xi0, psi0 = float(dihedral[0]), float(dihedral[1]), float(np.pi - dihedral[3])
+    links = link_angles(np.roll(signed, 1), lam)
+    both = np.array([output_spherical(links, theta0, branch) for branch in (1, -1)])
+    branch = 1 if abs(_turned(both[0] - psi0)) <= abs(_turned(both[1] - psi0)) else -1
+    theta = theta0 + np.asarray(turns, dtype=float)
+    psi = psi0 + _turned(output_spherical(links, theta, branch) - psi0)
+    a = rotated(a0, o, theta - theta0)
+    b_by_output = rotated(b0, c, psi - psi0)
+    loop = np.stack(np.broadcast_arrays(o, a, b_by_output, c), axis=-2)
+    xi = xi0 + _turned(measured_dihedral_angles(loop)[..., 1] - xi0)
+    b = rotated(rotated(b0, o, theta - theta0), a, xi - xi0)
+    axes = np.stack(np.broadcast_arrays(o, a, b, c), axis=-2)
+    axes = np.where(np.isnan(psi)[..., np.newaxis, np.newaxis], np.nan, axes)
+    residual = np.linalg.norm(b - b_by_output, axis=-1)
+    return FourBarPoses(theta, psi, xi, (theta0, psi0, xi0), axes, residual)
+
+
+def _turned(angle: npt.ArrayLike) -> Floats:
+    return np.asarray(np.remainder(np.asarray(angle) + np.pi, 2 * np.pi) - np.pi)

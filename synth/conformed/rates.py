@@ -16,21 +16,23 @@ Hyatt et al. 2021, section 5. Theory: docs/theory/behaviour.md.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
-from graphs.errors import InvariantError
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.ids import JointId, LinkId
+from graphs.loops.loop import Loop, cyclic_order
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.singular_values import spectra
 from graphs.tolerances import DOUBLE
 
-__all__ = ["ConformedChain", "FirstOrder", "first_order", "pole_axes", "ring_axes"]
+__all__ = ["ConformedChain", "FirstOrder", "first_order"]
 
 NEARLY_DEGREES = 0.05
-"""The error of azimuths that is told of: what cutting a model brings."""
+"""The error of azimuths, in degrees, that cutting a model brings: within it a linkage is nearly mobile."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,10 +45,10 @@ class ConformedChain:
         The ground link first.
     joints : tuple of joint ids
     joints_of : tuple of tuples of int
-        Which joints each link carries.
+        The joints of each link.
     loops : int[L, J]
-        Independent loops: +1 or -1 where one passes a joint, by its direction, else 0. Rates with matrix product
-        0 close.
+        Independent loops: +1 or -1 where one passes a joint, by its direction, else 0. Rates with matrix product 0
+        close.
     paths : int[N, J]
         Likewise a path from the ground to each link.
     """
@@ -66,23 +68,17 @@ class ConformedChain:
         chain : SCGraph
             Its loops' centres do not matter: all axes are ruling lines of one surface.
         ground : link id, optional
-            By default the one the chain names, or its first.
+            By default that of the chain, or its first link.
 
         Raises
         ------
         InvariantError
             If the ground is no link, or the chain is not connected.
-
-        Examples
-        --------
-        >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
-        >>> four_bar.loops.tolist()
-        [[1, 1, 1, 1]]
         """
         if ground is None:
             ground = chain.ground if chain.ground is not None else next(iter(chain.nodes), None)
         if ground not in chain:
-            raise InvariantError("ground is a link", f"ground {ground!r} is no link", "one of the links")
+            raise InvariantError("ground is a link", f"the ground {shown(ground)} is no link", "one of the links")
         joints = tuple(chain.joints)
         pairs = list(chain.joints.values())
         paths: dict[LinkId, npt.NDArray[np.int64]] = {ground: np.zeros(len(joints), dtype=np.int64)}
@@ -124,8 +120,8 @@ class FirstOrder:
     freedoms : int[...]
         Infinitesimal freedoms: joints less rank.
     undecided, nearly : int[...]
-        Singular values that may be noise and may be not: where there are any, freedoms are the most that there can
-        be, and no rates are told. And those that an error of a thousandth would explain.
+        Singular values that may be noise or not: then freedoms are at most these, and rates are unknown. And those
+        that an error of a thousandth would explain.
     singular_values : float[..., min(3 L, J)]
         Of the closure equations (with unit columns up to sqrt(2)), falling.
     gap : float[...]
@@ -151,11 +147,7 @@ class FirstOrder:
 
 
 def ring_axes(places: npt.ArrayLike) -> Floats:
-    """Return (sin t, 1, cos t) of joints: their axes but for two scales that lambda sets.
-
-    >>> ring_axes([0.0]).tolist()
-    [[0.0, 1.0, 1.0]]
-    """
+    """Return (sin t, 1, cos t) of joints: their axes but for two scales that lambda sets."""
     t = np.asarray(places, dtype=float)
     return np.stack([np.sin(t), np.ones_like(t), np.cos(t)], axis=-1)
 
@@ -170,10 +162,6 @@ def first_order(chain: ConformedChain, places: npt.ArrayLike, error: float = DOU
         Azimuths of the joints, radians, in the order of the chain's joints.
     error : float, optional
         Of the azimuths, radians: singular values are judged by it (`graphs.rank.singular_values`).
-
-    Returns
-    -------
-    FirstOrder
 
     Raises
     ------
@@ -193,7 +181,7 @@ def first_order(chain: ConformedChain, places: npt.ArrayLike, error: float = DOU
     count = len(chain.joints)
     if t.shape[-1:] != (count,):
         raise InvariantError(
-            "azimuths", f"azimuths of {t.shape[-1] if t.ndim else 0} joints", f"those of the {count} joints"
+            "azimuths", numbered(t.shape[-1] if t.ndim else 0, "azimuth"), f"{count}, one per joint"
         )
     axes = ring_axes(t)
     closure = np.einsum("lj,...jc->...lcj", chain.loops, axes).reshape(*t.shape[:-1], -1, count)
@@ -205,16 +193,16 @@ def first_order(chain: ConformedChain, places: npt.ArrayLike, error: float = DOU
             np.full(t.shape, np.nan), np.full((*shape, len(chain.links), 3), np.nan),
         )  # fmt: skip
     # A joint is in two loops at most of a basis of a planar chain, in few of any: two entries of its column move.
-    found = spectra(closure, np.sqrt(2) * error, np.sqrt(2) * np.radians(NEARLY_DEGREES))
-    judged = found.verdict
+    spectrum = spectra(closure, np.sqrt(2) * error, np.sqrt(2) * np.radians(NEARLY_DEGREES))
+    judged = spectrum.verdict
     counted = ~judged.noise & ~judged.undecided
     freedoms = count - counted.sum(axis=-1)
     undecided = judged.undecided.sum(axis=-1)
-    told = (freedoms == 1) & (undecided == 0)
-    rates = np.where(told[..., np.newaxis], found.rows[..., -1, :], np.nan)
+    decided = (freedoms == 1) & (undecided == 0)
+    rates = np.where(decided[..., np.newaxis], spectrum.rows[..., -1, :], np.nan)
     motions = np.einsum("nj,...j,...jc->...nc", chain.paths, rates, axes)
-    gap = _gap(found.parts, counted, found.floors)
-    return FirstOrder(freedoms, undecided, judged.nearly.sum(axis=-1), found.values, gap, rates, motions)
+    gap = _gap(spectrum.parts, counted, spectrum.floors)
+    return FirstOrder(freedoms, undecided, judged.nearly.sum(axis=-1), spectrum.values, gap, rates, motions)
 
 
 def _gap(parts: Floats, counted: npt.NDArray[np.bool_], floors: Floats) -> Floats:
@@ -225,12 +213,63 @@ def _gap(parts: Floats, counted: npt.NDArray[np.bool_], floors: Floats) -> Float
 
 
 def pole_axes(motions: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
-    """Return the angular velocities of links on cones, along their pole axes (Hyatt et al. 2020, section 4).
-
-    Motions are w, float[..., N, 3]; differences of two give relative pole axes.
-    """
+    """Return the angular velocities of links on cones, along their pole axes, from motions w, float[..., N, 3]."""
     lam = np.asarray(cone_angle, dtype=float)[..., np.newaxis, np.newaxis]
     w = np.asarray(motions, dtype=float)
     return np.concatenate(
         [np.cos(lam) * w[..., :1], -np.sin(lam) * w[..., 1:2], np.cos(lam) * w[..., 2:]], axis=-1
+    )
+
+
+_MOST_LOOPS = 8
+"""More independent loops have too many cycles to look at them all."""
+
+
+def signed_cycles(chain: ConformedChain) -> npt.NDArray[np.int64]:
+    """Return all simple cycles of a chain, short ones first, each one way round: int64[C, J].
+
+    Rows are +1 or -1 where a cycle passes a joint, as in `ConformedChain.loops`, else 0. Raise `UnsolvableError`
+    if there are more than eight independent loops.
+    """
+    independent = chain.loops
+    if len(independent) > _MOST_LOOPS:
+        raise UnsolvableError(
+            f"the chain has {len(independent)} independent loops; expected {_MOST_LOOPS} at most"
+        )
+    cycles: dict[tuple[int, ...], npt.NDArray[np.int64]] = {}
+    for factors in product((0, 1, -1), repeat=len(independent)):
+        if next((factor for factor in factors if factor), -1) < 0:  # each cycle one way round
+            continue
+        row = np.array(factors) @ independent
+        if np.abs(row).max() == 1 and _is_simple(chain, row):
+            cycles[tuple(np.flatnonzero(row))] = row
+    return np.array([cycles[key] for key in sorted(cycles, key=lambda key: (len(key), key))], np.int64).reshape(
+        -1, len(chain.joints)
+    )
+
+
+def _is_simple(chain: ConformedChain, row: npt.NDArray[np.int64]) -> bool:
+    """Check whether joints with weights that sum to 0 at every link are one cycle: each link has two or none."""
+    passed = [[joint for joint in joints if row[joint]] for joints in chain.joints_of]
+    if any(len(joints) not in (0, 2) for joints in passed):
+        return False
+    pairs = [tuple(joints) for joints in passed if joints]
+    reached, todo = {pairs[0][0]}, [pairs[0][0]]
+    while todo:
+        joint = todo.pop()
+        for pair in pairs:
+            if joint in pair:
+                other = sum(pair) - joint
+                if other not in reached:
+                    reached.add(other)
+                    todo.append(other)
+    return len(reached) == int(np.abs(row).sum())
+
+
+def loops_of_chain(chain: SCGraph) -> tuple[tuple[JointId, ...], ...]:
+    """Return the joints of every loop of a chain, in loop order, short loops first."""
+    joints = tuple(chain.joints)
+    rows = signed_cycles(ConformedChain.of(chain))
+    return tuple(
+        cyclic_order(Loop(tuple(joints[i] for i in np.flatnonzero(row).tolist())), chain.joints) for row in rows
     )

@@ -4,14 +4,13 @@ from synth.fourbar.closing import (
     checked_link_angles as checked_link_angles,
     checked_link_lengths as checked_link_lengths,
     grashof_class as grashof_class,
+    in_a_hemisphere as in_a_hemisphere,
     kind_of_planar as kind_of_planar,
     kind_of_spherical as kind_of_spherical,
-    planar_differences as planar_differences,
-    spherical_differences as spherical_differences,
-)
-from synth.fourbar.joint_lines import (
-    in_a_hemisphere as in_a_hemisphere,
     minimal_supplementary as minimal_supplementary,
+    planar_differences as planar_differences,
+    rounding_of as rounding_of,
+    spherical_differences as spherical_differences,
     supplementary as supplementary,
 )
 from synth.fourbar.position import (
@@ -22,4 +21,3 @@ from synth.fourbar.position import (
     transmission_planar as transmission_planar,
     transmission_spherical as transmission_spherical,
 )
-from synth.fourbar.rounding import rounding_of as rounding_of

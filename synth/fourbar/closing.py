@@ -1,14 +1,20 @@
-"""Four-bars, planar and spherical: types, Grashof's condition, which links close.
+"""Four-bars, planar and spherical: types, Grashof's condition, which links close, supplementary linkages.
 
 Links come in loop order from the fixed one: ground, input, coupler, output, (g, a, h, b) in the plane and
 (gamma, alpha, eta, beta) on the sphere. All functions take many linkages at a time. Sources: Hyatt et al. 2020,
-Eqs. 1 to 4; Hyatt et al. 2021, Table 1, Eqs. 1 to 3; the types are those of McCarthy, *Geometric Design of
-Linkages*. Theory: docs/theory/four-bars.md.
+section 2.3, Eqs. 1 to 4; Hyatt et al. 2021, Table 1, Eqs. 1 to 3; the types are those of McCarthy, *Geometric
+Design of Linkages*. Theory: docs/theory/four-bars.md.
+
+Link angles and lengths are known to the last digit that a float holds, so a sum of them with signs is known to
+some last digits of the sum of their sizes, however small it comes out itself (`rounding_of`). There is no other
+zero: a bound that does not shrink with the links takes small linkages for folding ones. Theory:
+docs/theory/rounding.md.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 from math import degrees, floor, fsum, log10
 from typing import Any
 
@@ -18,7 +24,6 @@ import numpy.typing as npt
 from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.tolerances import DOUBLE
-from synth.fourbar.rounding import ILL_CONDITIONED, rounding_of
 
 __all__ = [
     "FourBarKind",
@@ -26,11 +31,40 @@ __all__ = [
     "checked_link_angles",
     "checked_link_lengths",
     "grashof_class",
+    "in_a_hemisphere",
     "kind_of_planar",
     "kind_of_spherical",
+    "minimal_supplementary",
     "planar_differences",
+    "rounding_of",
     "spherical_differences",
+    "supplementary",
 ]
+
+ILL_CONDITIONED = "ill-conditioned"
+"""What a caution begins with where figures within rounding of zero decide."""
+
+
+def rounding_of(terms: npt.ArrayLike) -> Floats:
+    """Return how far rounding may take sums of terms, whatever their signs: float[...].
+
+    (n + 4) eps of the sum of absolute values: a last digit for each term, three for what was computed of it, and
+    one for each addition.
+
+    Parameters
+    ----------
+    terms : float[..., n]
+        Any one unit.
+
+    Examples
+    --------
+    >>> sides = np.array([0.3, 0.1, 0.1, 0.1])
+    >>> bool(abs(sides @ [1, -1, -1, -1]) <= rounding_of(sides))
+    True
+    """
+    sizes = np.abs(np.asarray(terms, dtype=float))
+    return np.asarray((sizes.shape[-1] + 4) * np.finfo(float).eps * sizes.sum(axis=-1))
+
 
 _SIGNS = np.array([[1, -1, 1, -1], [1, -1, -1, 1], [-1, -1, 1, 1]])
 """Of g, a, h, b in T1, T2, T3."""
@@ -75,13 +109,13 @@ class FourBarKind:
     def to_json(self, *, angular: bool) -> dict[str, Any]:
         """Return the kind as plain data; the differences of angles in degrees."""
         return {
-            "T_deg" if angular else "T": self.told_differences(angular=angular),
+            "T_deg" if angular else "T": self.rounded_differences(angular=angular),
             "grashof": self.grashof,
             "type": self.name,
             "type_caution": self.caution or None,
         }
 
-    def told_differences(self, *, angular: bool) -> list[float]:
+    def rounded_differences(self, *, angular: bool) -> list[float]:
         """Return the differences, angles in degrees, without the digits that rounding spoils."""
         unit = degrees(1.0) if angular else 1.0
         places = -floor(log10(self.rounding * unit)) - 1
@@ -89,22 +123,15 @@ class FourBarKind:
 
 
 def planar_differences(lengths: npt.ArrayLike) -> Floats:
-    """Return T1, T2, T3 of planar four-bars (Hyatt et al. 2021, Eqs. 1 to 3).
+    """Return T1, T2, T3 of planar four-bars: g - a + h - b, g - a - h + b, h + b - g - a, float[..., 3].
+
+    Hyatt et al. 2021, Eqs. 1 to 3. Their Table 1 names the sides of a quadrilateral a, b, c, d in any order; its
+    T1, T2, T3 are these but for order and, in pairs, sign.
 
     Parameters
     ----------
     lengths : float[..., 4]
         g, a, h, b.
-
-    Returns
-    -------
-    float[..., 3]
-        g - a + h - b, g - a - h + b, h + b - g - a.
-
-    Notes
-    -----
-    Table 1 names the sides of a quadrilateral a, b, c, d in any order; its T1, T2, T3 are these but for order
-    and, in pairs, sign.
 
     Examples
     --------
@@ -116,22 +143,17 @@ def planar_differences(lengths: npt.ArrayLike) -> Floats:
 
 
 def spherical_differences(angles: npt.ArrayLike) -> Floats:
-    """Return T1 to T4 of spherical four-bars, radians (Hyatt et al. 2020, Eqs. 1 to 4).
+    """Return T1 to T4 of spherical four-bars, radians (Hyatt et al. 2020, Eqs. 1 to 4): float[..., 4].
+
+    The planar three, and 2 pi less the sum.
 
     Parameters
     ----------
     angles : float[..., 4]
         gamma, alpha, eta, beta, between 0 and pi.
 
-    Returns
-    -------
-    float[..., 4]
-        The planar three, and 2 pi less the sum.
-
     Examples
     --------
-    Fig. 10(a):
-
     >>> np.degrees(spherical_differences(np.radians([85, 120, 95, 45]))).round(9).tolist()
     [15.0, -85.0, -65.0, 15.0]
     """
@@ -147,7 +169,7 @@ def grashof_class(differences: npt.ArrayLike, scale: float = 2.0 * np.pi) -> npt
     ----------
     differences : float[..., 3 or 4]
     scale : float, optional
-        Sum of the links: what rounding may leave of it is zero. The default is for link angles made of azimuths,
+        Sum of the links, for what rounding may leave of a zero. The default is for link angles made of azimuths,
         which are known to the last digits of a turn.
 
     Examples
@@ -205,8 +227,8 @@ def kind_of_spherical(angles: npt.ArrayLike) -> FourBarKind:
     >>> kind.grashof, kind.name
     ('Grashof', 'rocker-crank')
     """
-    given = checked_link_angles(angles, 4)
-    return _kind(given, spherical_differences(given))
+    links = checked_link_angles(angles, 4)
+    return _kind(links, spherical_differences(links))
 
 
 def _kind(links: Floats, differences: Floats) -> FourBarKind:
@@ -235,11 +257,11 @@ def _kind(links: Floats, differences: Floats) -> FourBarKind:
 def _caution(links: Floats, zeros: npt.NDArray[np.bool_]) -> str:
     """Name the differences that are taken for zero, and are not zero when no digit is lost on the way."""
     terms = [*(signs * links for signs in _SIGNS), [2.0 * np.pi, *-links]]
-    told = [f"T{i + 1}" for i in np.flatnonzero(zeros) if fsum(terms[i]) != 0.0]
-    if not told:
+    names = [f"T{i + 1}" for i in np.flatnonzero(zeros) if fsum(terms[i]) != 0.0]
+    if not names:
         return ""
-    are = "is" if len(told) == 1 else "are"
-    return f"{ILL_CONDITIONED}: {', '.join(told)} {are} within the rounding of the links, and taken as 0"
+    are = "is" if len(names) == 1 else "are"
+    return f"{ILL_CONDITIONED}: {', '.join(names)} {are} within the rounding of the links, and taken as 0"
 
 
 def _named(input_: str, output: str) -> str:
@@ -262,9 +284,6 @@ def _swing(passes_zero: bool, passes_pi: bool) -> str:
     return "pi-rocker" if passes_pi else "rocker"
 
 
-# ---- what is given ----------------------------------------------------------------------------------------
-
-
 def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Floats:
     """Return link angles, those over pi replaced by the other way round; refuse what no closed loop has.
 
@@ -273,7 +292,7 @@ def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Floa
     angles : float[n]
         Radians, between 0 and 2 pi. A link of more than pi has the joint axes of one of 2 pi less its angle.
     links : int, optional
-        How many there must be.
+        Required number of links.
 
     Raises
     ------
@@ -282,44 +301,38 @@ def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Floa
 
     Examples
     --------
-    >>> checked_link_angles(np.radians([10, 20, 30, 100]))  # doctest: +ELLIPSIS
-    Traceback (most recent call last):
-    ...
-    graphs.errors.InvariantError: the link angles 10, 20, 30, 100 cannot close: ...
+    >>> np.degrees(checked_link_angles(np.radians([10, 20, 340]))).round(9).tolist()
+    [10.0, 20.0, 20.0]
     """
-    given = _listed(angles, "link angles", links)
-    for place, angle in enumerate(given):
+    values = _listed(angles, "link angles", links)
+    for place, angle in enumerate(values):
         if not 0.0 < angle < 2.0 * np.pi:
-            told = f"link angle {place + 1} is {_degrees(angle)} degrees"
+            listed = f"link angle {place + 1} is {_degrees(angle)} degrees"
             hint = f"; {angle:g} looks like degrees: angles are radians" if 4 * np.pi < angle <= 360 else ""
-            raise InvariantError("link angle", told + hint, "between 0 and 360", ("angles", place))
+            raise InvariantError("link angle", listed + hint, "between 0 and 360", ("angles", place))
         if min(angle, 2.0 * np.pi - angle) < DOUBLE.same_point:
-            told = f"link angle {place + 1} is {np.degrees(angle):.12g} degrees"
-            raise InvariantError("link angle", told, "one that can be told from 0 and 360", ("angles", place))
-    made = np.where(given > np.pi, 2.0 * np.pi - given, given)
-    if not can_close(made):
-        longest = made.max() > made.sum() - made.max()
+            listed = f"link angle {place + 1} is {np.degrees(angle):.12g} degrees"
+            raise InvariantError("link angle", listed, "one that can be told from 0 and 360", ("angles", place))
+    least = np.where(values > np.pi, 2.0 * np.pi - values, values)
+    if not can_close(least):
+        longest = least.max() > least.sum() - least.max()
         why = "the longest is longer than the others together" if longest else "they are too long for the sphere"
-        told = ", ".join(_degrees(angle) for angle in given[:20])
+        listed = ", ".join(_degrees(angle) for angle in values[:20])
         raise InvariantError(
-            "closed loop", f"the link angles {told} cannot close: {why}", "angles of a closed loop"
+            "closed loop", f"the link angles {listed} cannot close: {why}", "angles of a closed loop"
         )
-    return made
+    return least
 
 
 def checked_link_lengths(lengths: npt.ArrayLike, links: int | None = None) -> Floats:
-    """Return link lengths; refuse what no closed loop has.
+    """Return link lengths, float[n]; refuse what no closed loop has.
 
     Parameters
     ----------
     lengths : float[n]
         Any unit.
     links : int, optional
-        How many there must be.
-
-    Returns
-    -------
-    float[n]
+        Required number of links.
 
     Raises
     ------
@@ -328,45 +341,40 @@ def checked_link_lengths(lengths: npt.ArrayLike, links: int | None = None) -> Fl
 
     Examples
     --------
-    >>> checked_link_lengths([1, 2, 4])
-    Traceback (most recent call last):
-    ...
-    graphs.errors.InvariantError: the lengths 1, 2, 4 cannot close: the longest is longer than the others \
-together; expected lengths of a closed loop [closed loop]
+    >>> checked_link_lengths([1, 2, 2]).tolist()
+    [1.0, 2.0, 2.0]
     """
-    given = _listed(lengths, "lengths", links)
-    for place, length in enumerate(given):
+    values = _listed(lengths, "lengths", links)
+    for place, length in enumerate(values):
         if not length > 0.0:
             raise InvariantError(
                 "link length", f"length {place + 1} is {length:.12g}", "a length above 0", ("lengths", place)
             )
-        if length < DOUBLE.same_point * given.max():
-            told = f"length {place + 1} is {length:.12g}, the longest {given.max():.12g}"
-            raise InvariantError("link length", told, "lengths within a factor of 1e9", ("lengths", place))
-    longest = given.max()
-    if longest - (given.sum() - longest) > rounding_of(given):
-        told = ", ".join(f"{length:.12g}" for length in given[:20])
+        if length < DOUBLE.same_point * values.max():
+            listed = f"length {place + 1} is {length:.12g}, the longest {values.max():.12g}"
+            raise InvariantError("link length", listed, "lengths within a factor of 1e9", ("lengths", place))
+    longest = values.max()
+    if longest - (values.sum() - longest) > rounding_of(values):
+        listed = ", ".join(f"{length:.12g}" for length in values[:20])
         raise InvariantError(
             "closed loop",
-            f"the lengths {told} cannot close: the longest is longer than the others together",
+            f"the lengths {listed} cannot close: the longest is longer than the others together",
             "lengths of a closed loop",
         )
-    return given
+    return values
 
 
 def can_close(angles: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-    """Tell whether links of these angles close on the sphere, in some position.
+    """Check whether links of these angles close on the sphere, in some position: bool[...].
+
+    They do unless, with the supplements taken of an odd number of them, the sum is less than pi. The least such
+    sum takes the supplements of those over pi / 2, and of one more or one less if these are an even number: then
+    pi falls out, and small links are compared with small links.
 
     Parameters
     ----------
     angles : float[..., n]
         Radians, between 0 and pi.
-
-    Notes
-    -----
-    They do unless, with the supplements taken of an odd number of them, the sum is less than pi. The least such
-    sum takes the supplements of those over pi / 2, and of one more or one less if these are an even number: then
-    pi falls out, and small links are compared with small links.
 
     Examples
     --------
@@ -381,13 +389,87 @@ def can_close(angles: npt.ArrayLike) -> npt.NDArray[np.bool_]:
 
 
 def _listed(values: npt.ArrayLike, what: str, links: int | None) -> Floats:
-    given = np.asarray(values, dtype=float)
-    if given.ndim != 1 or len(given) < 3 or (links is not None and len(given) != links):
-        raise InvariantError("loop", f"{given.size} {what}", f"{links or 'three or more'} in loop order")
-    if not np.isfinite(given).all():
+    numbers = np.asarray(values, dtype=float)
+    if numbers.ndim != 1 or len(numbers) < 3 or (links is not None and len(numbers) != links):
+        raise InvariantError("loop", f"{numbers.size} {what}", f"{links or 'three or more'} in loop order")
+    if not np.isfinite(numbers).all():
         raise InvariantError("loop", f"the {what} are not all numbers", "finite numbers")
-    return given
+    return numbers
 
 
 def _degrees(angle: float) -> str:
     return f"{round(float(np.degrees(angle)), 9):.12g}"
+
+
+def supplementary(angles: npt.ArrayLike) -> Floats:
+    """Return the 16 linkages that have the same joint lines, the linkage itself first: float[..., 16, 4].
+
+    A joint line has two ends. To take the other end of a joint changes the two links there to their supplements.
+    Taking the other end of all four changes no angle, so there are eight different ones at most; their T4 are plus
+    and minus T1 to T4, and the product T1 T2 T3 T4 is the same for all (Hyatt et al. 2020, section 2.3).
+
+    Parameters
+    ----------
+    angles : float[..., 4]
+        Link angles in loop order, radians, between 0 and pi. Joint j is between links j - 1 and j.
+
+    Examples
+    --------
+    >>> linkages = np.degrees(supplementary(np.radians([85, 120, 95, 45]))).round(9)
+    >>> len(np.unique(linkages, axis=0)), linkages[1].tolist()
+    (8, [85.0, 120.0, 85.0, 135.0])
+    """
+    angles = np.asarray(angles, dtype=float)
+    ends = np.array(list(product((0, 1), repeat=4)))
+    turned = (ends + np.roll(ends, -1, axis=1)) % 2  # link i lies between joints i and i + 1
+    angles = angles[..., np.newaxis, :]
+    return np.where(turned == 1, np.pi - angles, angles)
+
+
+def minimal_supplementary(angles: npt.ArrayLike) -> Floats:
+    """Return the supplementary linkage with the smallest sum of angles and largest T4: float[..., 4].
+
+    Parameters
+    ----------
+    angles : float[..., 4]
+
+    Examples
+    --------
+    >>> np.degrees(minimal_supplementary(np.radians([170, 160, 150, 140]))).round(9).tolist()
+    [10.0, 20.0, 30.0, 40.0]
+    """
+    every = supplementary(angles)
+    sums = every.sum(axis=-1)
+    least = (sums <= sums.min(axis=-1, keepdims=True) + rounding_of(every)).argmax(
+        axis=-1
+    )  # the first of equal ones
+    return np.take_along_axis(every, least[..., np.newaxis, np.newaxis], axis=-2)[..., 0, :]
+
+
+def in_a_hemisphere(axes: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+    """Check whether the joint axes of spherical four-bars point into one hemisphere (Hyatt et al. 2020, 2.3).
+
+    Four vectors lie in an open hemisphere unless a combination of them with weights >= 0 vanishes. In space the
+    weights are the 3 x 3 minors with alternating sign, unique up to a factor where the vectors span space. Where
+    they do not, in a linkage that lies flat, the answer is no.
+
+    Parameters
+    ----------
+    axes : float[..., 4, 3]
+        Directions, of any length.
+
+    Examples
+    --------
+    >>> corner = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    >>> in_a_hemisphere([[*corner, [-1, -1, -1]], [*corner, [1, 1, 1]]]).tolist()
+    [False, True]
+    """
+    vectors = np.asarray(axes, dtype=float)
+    minors = np.stack(
+        [(-1) ** i * np.linalg.det(np.delete(vectors, i, axis=-2)) for i in range(4)],
+        axis=-1,
+    )
+    size = np.abs(minors).max(axis=-1, keepdims=True)
+    noise = 1e-12 * np.maximum(size, np.linalg.norm(vectors, axis=-1).prod(axis=-1)[..., np.newaxis])
+    some = (minors > noise).any(axis=-1), (minors < -noise).any(axis=-1)
+    return np.asarray(some[0] & some[1])

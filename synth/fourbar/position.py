@@ -31,7 +31,7 @@ Branch = Literal[1, -1]
 
 
 def output_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.ArrayLike = 1) -> Floats:
-    """Return the output angle of planar four-bars.
+    """Return the output angle of planar four-bars: psi in (-pi, pi], float[...]; nan out of reach.
 
     Parameters
     ----------
@@ -41,11 +41,6 @@ def output_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.Arra
         Input angle, radians.
     branch : {1, -1} [...]
         Which of the two positions.
-
-    Returns
-    -------
-    float[...]
-        psi in (-pi, pi]; nan where the input does not reach.
 
     Examples
     --------
@@ -61,7 +56,7 @@ def output_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.Arra
 
 
 def output_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.ArrayLike = 1) -> Floats:
-    """Return the output angle of spherical four-bars (Hyatt et al. 2020, section 6).
+    """Return the output angle of spherical four-bars (Hyatt et al. 2020, section 6), as `output_planar` does.
 
     Parameters
     ----------
@@ -69,11 +64,6 @@ def output_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.Ar
         gamma, alpha, eta, beta, radians.
     theta : float[...]
     branch : {1, -1} [...]
-
-    Returns
-    -------
-    float[...]
-        psi in (-pi, pi]; nan where the input does not reach.
 
     Examples
     --------
@@ -100,15 +90,12 @@ def _two_branches(x: Floats, y: Floats, c: Floats, branch: npt.ArrayLike) -> Flo
 def input_limits_planar(lengths: npt.ArrayLike) -> Floats:
     """Return where the input of planar four-bars ends: with coupler and output folded, and stretched.
 
+    float[..., 2], theta_min and theta_max in [0, pi]: theta and -theta are reached from theta_min to theta_max;
+    nan where there is no such end, and the input passes 0 or pi.
+
     Parameters
     ----------
     lengths : float[..., 4]
-
-    Returns
-    -------
-    float[..., 2]
-        theta_min and theta_max in [0, pi]: theta and -theta are reached from theta_min to theta_max; nan where
-        there is no such end, and the input passes 0 or pi.
 
     Examples
     --------
@@ -122,16 +109,12 @@ def input_limits_planar(lengths: npt.ArrayLike) -> Floats:
 
 
 def input_limits_spherical(angles: npt.ArrayLike) -> Floats:
-    """Return where the input of spherical four-bars ends, as `input_limits_planar` does.
+    """Return where the input of spherical four-bars ends, as `input_limits_planar` does: float[..., 2].
 
     Parameters
     ----------
     angles : float[..., 4]
         Radians.
-
-    Returns
-    -------
-    float[..., 2]
 
     Examples
     --------
@@ -151,17 +134,14 @@ def _ends(cosines: list[Floats]) -> Floats:
 
 
 def transmission_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike) -> Floats:
-    """Return the angle between coupler and output of planar four-bars.
+    """Return the angle between coupler and output of planar four-bars, in [0, pi], float[...]; nan out of reach.
+
+    Force is passed on best at pi / 2, not at all at 0 and pi.
 
     Parameters
     ----------
     lengths : float[..., 4]
     theta : float[...]
-
-    Returns
-    -------
-    float[...]
-        In [0, pi]; nan where the input does not reach. Force is passed on best at pi / 2, not at all at 0 and pi.
 
     Examples
     --------
@@ -174,18 +154,13 @@ def transmission_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike) -> Floats:
 
 
 def transmission_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike) -> Floats:
-    """Return the dihedral angle between coupler and output of spherical four-bars.
+    """Return the dihedral angle between coupler and output of spherical four-bars, as `transmission_planar` does.
 
     Parameters
     ----------
     angles : float[..., 4]
         Radians.
     theta : float[...]
-
-    Returns
-    -------
-    float[...]
-        In [0, pi]; nan where the input does not reach.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """A body guided through orientations: the order a crank takes them in, dyads, and four-bars of two dyads.
 
-Of three orientations any axis has its dyad (`dyads`), four leave a curve (`four`), five at most six dyads
-(`five`), more are met by least squares (`many`).
+Of three orientations any axis has its dyad, four leave a curve (`dyads`), five at most six dyads, more are met by
+least squares (`synthesis`).
 """
 
 from __future__ import annotations

@@ -1,20 +1,27 @@
-from synth.guidance.dyads import Dyad as Dyad, dyad_of as dyad_of, dyads_of_three as dyads_of_three
-from synth.guidance.five import DyadsOfFive as DyadsOfFive, dyads_of_five as dyads_of_five
-from synth.guidance.four import AxisCurve as AxisCurve, centre_axes as centre_axes, dyads_of_four as dyads_of_four
+from synth.guidance.dyads import (
+    AxisCurve as AxisCurve,
+    Dyad as Dyad,
+    centre_axes as centre_axes,
+    dyad_of as dyad_of,
+    dyads_of_four as dyads_of_four,
+    dyads_of_three as dyads_of_three,
+)
 from synth.guidance.fourbars import (
     BodyMotion as BodyMotion,
+    ConicalForm as ConicalForm,
     GuidedFourBar as GuidedFourBar,
+    conical_forms as conical_forms,
     four_bar_of as four_bar_of,
     four_bars as four_bars,
     motion_of as motion_of,
 )
-from synth.guidance.hoop_method import Crossing as Crossing, Hoop as Hoop, hoop as hoop
-from synth.guidance.many import dyads_by_least_squares as dyads_by_least_squares
-from synth.guidance.on_cones import ConicalForm as ConicalForm, conical_forms as conical_forms
 from synth.guidance.order import (
+    Hoop as Hoop,
+    HoopCrossing as HoopCrossing,
     OrderAnalysis as OrderAnalysis,
     analyse_order as analyse_order,
     crank_angles as crank_angles,
+    hoop as hoop,
 )
 from synth.guidance.orientations import (
     Orientations as Orientations,
@@ -22,4 +29,10 @@ from synth.guidance.orientations import (
     unit_vector as unit_vector,
     write_orientations as write_orientations,
 )
-from synth.guidance.synthesis import GuidingDyads as GuidingDyads, guiding_dyads as guiding_dyads
+from synth.guidance.synthesis import (
+    DyadsOfFive as DyadsOfFive,
+    GuidingDyads as GuidingDyads,
+    dyads_by_least_squares as dyads_by_least_squares,
+    dyads_of_five as dyads_of_five,
+    guiding_dyads as guiding_dyads,
+)

@@ -1,8 +1,12 @@
-"""Four-bars that guide a body through orientations: two dyads joined, their defects, and the motion between.
+"""Four-bars that guide a body through orientations: two dyads joined, their defects, their motion, their cones.
 
 One dyad is driven (link alpha, fixed axis G_1, moving axis W_1), the other follows (beta, G_2, W_2); the ground is
 gamma, the body is the coupler eta. The angle theta of the driver is counted about G_1 from the plane of G_1 and
-G_2. Where the driver ends and where the follower is, `synth.fourbar.position` says; circuits and branches follow.
+G_2. `synth.fourbar.position` gives the ends of the driver's range and the follower; circuits and branches follow.
+
+A dyad fixes the lines of its two axes, not which end of an axis a link reaches. With the other end of an axis the
+two links there have the supplements of their angles: up to eight linkages with the same joint lines, and the same
+motion of the body (Hyatt et al. 2020, section 2.3). Each is mapped to cones apart.
 Theory: docs/theory/guidance.md.
 """
 
@@ -22,14 +26,15 @@ from graphs.canonical import canonical_order
 from graphs.errors import UnsolvableError
 from graphs.geometry import across, angles_between, rotated, unit
 from graphs.tolerances import DOUBLE
-from synth.fourbar.closing import FourBarKind, kind_of_spherical
+from synth.fourbar.closing import FourBarKind, kind_of_spherical, supplementary
 from synth.fourbar.position import input_limits_spherical, output_spherical, transmission_spherical
 from synth.guidance.dyads import Dyad
-from synth.guidance.hoop_method import DIRECTIONS, Direction
-from synth.guidance.order import order_by_crank_angles
+from synth.guidance.order import DIRECTIONS, Direction, order_by_crank_angles
 from synth.guidance.orientations import Orientations
+from synth.surfaces.loop_maps import map_to_cones
+from synth.surfaces.mapping import FamilyOfCircles, MappedLoop
 
-__all__ = ["BodyMotion", "GuidedFourBar", "four_bar_of", "four_bars", "motion_of"]
+__all__ = ["BodyMotion", "ConicalForm", "GuidedFourBar", "conical_forms", "four_bar_of", "four_bars", "motion_of"]
 
 _TURN = 2.0 * np.pi
 
@@ -47,15 +52,14 @@ class GuidedFourBar:
         Grashof's class and the type.
     angles : float[n]
         theta at each orientation, radians in [0, 2 pi).
-    circuits : tuple of int
-        The circuit that each orientation lies on, 0 or 1.
-    branches : tuple of int
-        The branch: within one the driver can take the linkage along. 0 to 3.
+    circuits, branches : tuple of int
+        The circuit of each orientation, 0 or 1, and its branch, 0 to 3: within one the driver can take the linkage
+        along.
     direction : "ccw" or "cw" or None
         How the driver turns to take the orientations in their order within its range, if it can.
     in_order_on_circuit : bool
         Whether the linkage, moved along its circuit one way, takes the orientations in their order, if need be
-        past dead points of the driver, which something else must then help over.
+        past dead points of the driver.
     transmission : float
         Least angle, radians, at W_2 between coupler and follower or its supplement: from orientation 1 to n if
         there is no defect, else at the orientations only.
@@ -90,8 +94,8 @@ class GuidedFourBar:
     @property
     def defects(self) -> tuple[str, ...]:
         """Names of its defects: ``circuit``, ``branch``, ``order``."""
-        found = {"circuit": self.circuit_defect, "branch": self.branch_defect, "order": self.order_defect}
-        return tuple(name for name, here in found.items() if here)
+        defects = {"circuit": self.circuit_defect, "branch": self.branch_defect, "order": self.order_defect}
+        return tuple(name for name, here in defects.items() if here)
 
     def to_json(self) -> dict[str, Any]:
         """Return the four-bar as plain data, with the keys that scripts rely on (docs/command-json.md)."""
@@ -122,7 +126,7 @@ class BodyMotion:
     quaternions : float[m, 4]
         Orientations of the body, scalar first; successive ones do not change sign.
     keys : tuple of int
-        Which of them are the orientations asked for.
+        Places of the required orientations among them.
     """
 
     angles: Floats
@@ -153,28 +157,21 @@ def four_bars(orientations: Orientations, dyads: Iterable[Dyad]) -> tuple[Guided
     dyads : iterable of Dyad
         Of these orientations.
 
-    Returns
-    -------
-    tuple of GuidedFourBar
-
     Examples
     --------
-    >>> from synth.guidance.five import dyads_of_five
-    >>> from scipy.spatial.transform import Rotation
-    >>> angles = [(0, 0), (40, 10), (70, 60), (120, 100), (200, 170)]
-    >>> orientations = Orientations.from_rotation(Rotation.from_euler("ZX", angles, degrees=True))
-    >>> dyads = dyads_of_five(orientations).dyads
-    >>> found = four_bars(orientations, dyads)
-    >>> len(found) == len(dyads) * (len(dyads) - 1)
-    True
+    >>> from synth.guidance import dyads_of_three
+    >>> orientations = Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7])
+    >>> dyads = dyads_of_three(orientations, [(3, 1, 2), (-1, 2, 3)])
+    >>> [four_bar.defects for four_bar in four_bars(orientations, dyads)]
+    [(), ('branch', 'order')]
     """
-    made = []
+    linkages = []
     for driver, follower in permutations(tuple(dyads), 2):
         links = _link_angles(driver, follower)
         if np.minimum(links, np.pi - links).min() > DOUBLE.same_configuration:
-            made.append(four_bar_of(orientations, driver, follower))
-    order = canonical_order([np.array([len(one.defects), -one.transmission]) for one in made])
-    return tuple(made[place] for place in order)
+            linkages.append(four_bar_of(orientations, driver, follower))
+    order = canonical_order([np.array([len(one.defects), -one.transmission]) for one in linkages])
+    return tuple(linkages[place] for place in order)
 
 
 def four_bar_of(orientations: Orientations, driver: Dyad, follower: Dyad) -> GuidedFourBar:
@@ -185,10 +182,6 @@ def four_bar_of(orientations: Orientations, driver: Dyad, follower: Dyad) -> Gui
     orientations : Orientations
     driver, follower : Dyad
 
-    Returns
-    -------
-    GuidedFourBar
-
     Raises
     ------
     UnsolvableError
@@ -196,7 +189,7 @@ def four_bar_of(orientations: Orientations, driver: Dyad, follower: Dyad) -> Gui
 
     Examples
     --------
-    >>> from synth.guidance.dyads import dyads_of_three
+    >>> from synth.guidance import dyads_of_three
     >>> orientations = Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7])
     >>> four_bar = four_bar_of(orientations, *dyads_of_three(orientations, [(3, 1, 2), (-1, 2, 3)]))
     >>> np.degrees(four_bar.link_angles).round(2).tolist(), four_bar.kind.name, four_bar.defects
@@ -230,7 +223,7 @@ def four_bar_of(orientations: Orientations, driver: Dyad, follower: Dyad) -> Gui
 
 
 def motion_of(orientations: Orientations, four_bar: GuidedFourBar, steps: int = 20) -> BodyMotion:
-    """Return the motion of the body through its orientations.
+    """Return the motion of the body through its orientations; steps between two are equal in the driver's angle.
 
     Parameters
     ----------
@@ -239,10 +232,6 @@ def motion_of(orientations: Orientations, four_bar: GuidedFourBar, steps: int = 
     steps : int, optional
         Steps between two orientations.
 
-    Returns
-    -------
-    BodyMotion
-
     Raises
     ------
     UnsolvableError
@@ -250,17 +239,12 @@ def motion_of(orientations: Orientations, four_bar: GuidedFourBar, steps: int = 
 
     Examples
     --------
-    It passes each orientation; the steps between two are equal in the driver's angle:
-
-    >>> from synth.guidance.dyads import dyads_of_three
+    >>> from synth.guidance import dyads_of_three
     >>> orientations = Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7])
     >>> four_bar = four_bar_of(orientations, *dyads_of_three(orientations, [(3, 1, 2), (-1, 2, 3)]))
     >>> motion = motion_of(orientations, four_bar, 4)
     >>> motion.quaternions.shape, motion.keys
     ((9, 4), (0, 4, 8))
-    >>> products = (motion.quaternions[list(motion.keys)] * orientations.quaternions).sum(axis=1)
-    >>> bool(np.allclose(abs(products), 1.0))
-    True
     """
     if four_bar.defects or four_bar.direction is None:
         raise UnsolvableError(
@@ -284,7 +268,7 @@ def _link_angles(driver: Dyad, follower: Dyad) -> Floats:
 
 
 def _azimuths(axis: Floats, zero: Floats, vectors: Floats) -> Floats:
-    """Return the angles of vectors about an axis from the plane through a given direction, in [0, 2 pi)."""
+    """Return the angles of vectors about an axis from the plane through a direction, in [0, 2 pi)."""
     beside = np.cross(axis, zero)
     along = np.cross(beside, axis)
     return np.asarray(np.mod(np.arctan2(vectors @ beside, vectors @ along), _TURN))
@@ -355,12 +339,12 @@ def _passed(angles: Floats, direction: Direction) -> Floats:
 
 def _least_transmission(links: Floats, angles: Floats) -> float:
     """Return the transmission angle furthest from a right angle, or its supplement; 0 where it does not close."""
-    found = transmission_spherical(links, angles)
-    return float(np.where(np.isnan(found), 0.0, np.minimum(found, np.pi - found)).min())
+    transmission = transmission_spherical(links, angles)
+    return float(np.where(np.isnan(transmission), 0.0, np.minimum(transmission, np.pi - transmission)).min())
 
 
 def _body_at(orientations: Orientations, four_bar: GuidedFourBar, angles: Floats) -> Floats:
-    """Return rotation matrices of the body where the driver is at given angles, on the branch of orientation 1."""
+    """Return rotation matrices of the body at driver angles, on the branch of orientation 1."""
     driver, follower = four_bar.driver, four_bar.follower
     first = orientations.matrices[0]
     driven = rotated(first @ driver.moving, driver.fixed, angles - four_bar.angles[0])
@@ -386,3 +370,76 @@ def _frame(a: Floats, b: Floats) -> Floats:
     """Return right-handed frames, as columns: the first axis along a, the second in the plane of a and b."""
     normal = unit(np.cross(a, b))
     return np.stack([a, np.cross(normal, a), normal], axis=2)
+
+
+@dataclass(frozen=True, slots=True)
+class ConicalForm:
+    """A linkage with the joint lines of a four-bar, and the cones that its four axes are rulings of.
+
+    Attributes
+    ----------
+    link_angles : tuple of float
+        gamma, alpha, eta, beta, radians.
+    cones, families : tuple of MappedLoop, tuple of FamilyOfCircles
+        With lambda, circuit, signs of the projected angles; and intervals of cones.
+    """
+
+    link_angles: tuple[float, ...]
+    cones: tuple[MappedLoop, ...]
+    families: tuple[FamilyOfCircles, ...]
+
+    def cones_json(self) -> list[dict[str, Any]]:
+        """Return the cones as plain data."""
+        links = [degrees(angle) for angle in self.link_angles]
+        return [
+            {
+                "link_angles_deg": links,
+                "lambda_deg": degrees(cone.size),
+                "circuit": cone.circuit,
+                "signs": list(cone.signs),
+                "k": cone.turns,
+                **({"caution": cone.caution} if cone.caution else {}),
+            }
+            for cone in self.cones
+        ]
+
+    def families_json(self) -> list[dict[str, Any]]:
+        """Return the intervals of cones as plain data."""
+        links = [degrees(angle) for angle in self.link_angles]
+        return [
+            {
+                "link_angles_deg": links,
+                "interval_deg": [degrees(end) for end in family.interval],
+                "circuit": family.circuit,
+                "signs": list(family.signs),
+                **({"caution": family.caution} if family.caution else {}),
+            }
+            for family in self.families
+        ]
+
+
+def conical_forms(four_bar: GuidedFourBar) -> tuple[ConicalForm, ...]:
+    """Return the linkages on the joint lines of a four-bar that lie on a cone; none if it is not developable.
+
+    Those with the least sum of link angles come first.
+
+    Parameters
+    ----------
+    four_bar : GuidedFourBar
+
+    Examples
+    --------
+    >>> from synth.guidance import dyads_of_three
+    >>> orientations = Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7])
+    >>> four_bar = four_bar_of(orientations, *dyads_of_three(orientations, [(3, 1, 2), (-1, 2, 3)]))
+    >>> all(form.cones or form.families for form in conical_forms(four_bar))
+    True
+    """
+    every = supplementary(four_bar.link_angles)
+    _, first = np.unique(every.round(9), axis=0, return_index=True)
+    forms = []
+    for angles in sorted((every[k] for k in first), key=lambda one: float(one.sum())):
+        cone_map = map_to_cones(angles)
+        if cone_map.cones or cone_map.families:
+            forms.append(ConicalForm(cone_map.angles, cone_map.cones, cone_map.families))
+    return tuple(forms)

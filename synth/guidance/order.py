@@ -1,44 +1,196 @@
-"""The order of orientations checked in three ways: by the hoop, by inequalities, by crank angles.
+"""The order of orientations: the hoop method, and two more checks, by inequalities and by crank angles.
 
-The three share no step but the orientations. The crank angles are those of a dyad, so they need its moving axis;
-hoop and inequalities need the fixed axis only. Source: Tipparthi and Larochelle 2011, Theorem 1, Eqs. 1 and 2.
-Theory: docs/theory/order.md.
+A *hoop* is half a great circle through the ends of the fixed axis G. It starts at the relative axis S_12 and turns
+about G by 180 degrees; on its way it crosses every other relative axis S_ij once. The crank of any dyad about G
+takes the orientations 1, 2, ..., n in this order, turning as the hoop turns, if and only if the hoop crosses
+S_13, S_14, ..., S_1n, S_2n in this order (Tipparthi and Larochelle 2011, Theorem 1, Eqs. 1 and 2).
+
+The three checks share no step but the orientations. The crank angles are those of a dyad, so they need its moving
+axis; hoop and inequalities need the fixed axis only. Theory: docs/theory/order.md.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cmp_to_key
 from math import degrees, radians
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
-from graphs.errors import InvariantError
+from graphs.canonical import canonical_order
+from graphs.errors import InvariantError, UnsolvableError
 from graphs.geometry import across, best_plane
 from graphs.printing import Block, Printed, TableBlock
-from graphs.tolerances import EPSILON
-from synth.guidance.hoop_method import (
-    DIRECTIONS,
-    Direction,
-    Hoop,
-    direction_words,
-    hoop,
-    pair_name,
-    required_sequence,
-)
-from synth.guidance.orientations import Orientations, unit_vector
+from graphs.tolerances import DOUBLE, EPSILON
+from synth.guidance.orientations import Orientations, Pair, unit_vector
 
-__all__ = [
-    "OrderAnalysis",
-    "analyse_order",
-    "crank_angles",
-    "nearest_moving_axis",
-    "order_by_crank_angles",
-    "order_by_inequalities",
-    "order_verdicts",
-]
+__all__ = ["Hoop", "HoopCrossing", "OrderAnalysis", "analyse_order", "crank_angles", "hoop"]
+
+Direction: TypeAlias = Literal["ccw", "cw"]
+"""Counter-clockwise or clockwise, seen from the tip of the fixed axis."""
+
+DIRECTIONS: tuple[Direction, Direction] = ("ccw", "cw")
+
+
+@dataclass(frozen=True, slots=True)
+class HoopCrossing:
+    """The hoop crosses a relative axis.
+
+    Attributes
+    ----------
+    pair : (int, int)
+        Which one: S_ij.
+    angle : float
+        Rotation of the hoop from S_12, radians from 0 to pi.
+    """
+
+    pair: Pair
+    angle: float
+
+
+@dataclass(frozen=True, slots=True)
+class Hoop:
+    """What a hoop crosses, and what that says of the order.
+
+    Attributes
+    ----------
+    direction : "ccw" or "cw"
+        How the hoop turns about the fixed axis.
+    crossings : tuple of HoopCrossing
+        All relative axes but S_12, in the order of crossing.
+    required : tuple of (int, int)
+        The axes that must be crossed in this order: S_13, ..., S_1n, S_2n.
+    in_order : bool
+        Whether they are.
+
+    Examples
+    --------
+    >>> from scipy.spatial.transform import Rotation
+    >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
+    >>> hoop(Orientations.from_rotation(body), (0, 0, 1)).required
+    ((1, 3), (2, 3))
+    """
+
+    direction: Direction
+    crossings: tuple[HoopCrossing, ...]
+    required: tuple[Pair, ...]
+    in_order: bool
+
+    @property
+    def sequence(self) -> tuple[Pair, ...]:
+        """All pairs in the order of their crossings."""
+        return tuple(crossing.pair for crossing in self.crossings)
+
+    @property
+    def breaks_at(self) -> tuple[Pair, Pair] | None:
+        """Where the order breaks: the axis that was due and the one crossed instead; None if it is kept."""
+        needed = set(self.required)
+        met = [pair for pair in self.sequence if pair in needed]
+        return next(((due, here) for due, here in zip(self.required, met, strict=True) if due != here), None)
+
+    @property
+    def margin(self) -> float:
+        """Least angle between required crossings (S_12 included), radians: by how much the verdict holds."""
+        angles = sorted(c.angle for c in self.crossings if c.pair in set(self.required))
+        return float(np.diff([0.0, *angles, np.pi]).min())
+
+
+def required_sequence(n: int) -> tuple[Pair, ...]:
+    """Return the axes whose crossings decide: S_13, ..., S_1n, S_2n."""
+    return (*((1, j) for j in range(3, n + 1)), (2, n))
+
+
+def pair_name(pair: Pair) -> str:
+    """Return S23 for (2, 3), and S2,13 where the numbers would run together."""
+    i, j = pair
+    return f"S{i}{j}" if j < 10 else f"S{i},{j}"
+
+
+def direction_words(direction: Direction | None) -> str:
+    """Return a direction in words: clockwise, counter-clockwise, or neither way."""
+    return "neither way" if direction is None else {"ccw": "counter-clockwise", "cw": "clockwise"}[direction]
+
+
+def hoop(orientations: Orientations, axis: npt.ArrayLike, direction: Direction = "ccw") -> Hoop:
+    """Turn the hoop about a fixed axis: the analytic form, by angles.
+
+    Parameters
+    ----------
+    orientations : Orientations
+    axis : float[3]
+        The fixed axis G in the fixed frame, any length.
+    direction : "ccw" or "cw", optional
+        Seen from the tip of the axis: -axis and the other direction give the same.
+
+    Raises
+    ------
+    InvariantError
+        If the axis has no direction.
+    UnsolvableError
+        If it lies on a relative axis, which the hoop then holds all the way.
+
+    Examples
+    --------
+    A crank about z turns to 90 and 200 degrees, while the body turns about x, the moving axis, too:
+
+    >>> from scipy.spatial.transform import Rotation
+    >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
+    >>> turned = hoop(Orientations.from_rotation(body), (0, 0, 1))
+    >>> [(pair_name(c.pair), round(float(np.degrees(c.angle)), 6)) for c in turned.crossings], turned.in_order
+    ([('S13', 55.0), ('S23', 100.0)], True)
+    """
+    g = unit_vector(axis, "fixed axis")
+    lines = _lines_off_axis(orientations, g)
+    start = across(lines[1, 2], g)
+    beside = np.cross(g, start) * (1.0 if direction == "ccw" else -1.0)
+    angles = {
+        pair: float(np.arctan2(s @ beside, s @ start)) % np.pi for pair, s in lines.items() if pair != (1, 2)
+    }
+    pairs = list(angles)
+    order = canonical_order([np.array([angles[pair]]) for pair in pairs])
+    crossings = tuple(HoopCrossing(pairs[place], angles[pairs[place]]) for place in order)
+    required = required_sequence(len(orientations))
+    turned = [0.0, *(angles[pair] for pair in required)]
+    return Hoop(direction, crossings, required, bool(np.all(np.diff(turned) > 0.0)))
+
+
+def hoop_sequence(
+    orientations: Orientations, axis: npt.ArrayLike, direction: Direction = "ccw"
+) -> tuple[Pair, ...]:
+    """Return all relative axes but S_12 in the order of crossing: the geometric form, without angles.
+
+    The end of each axis line that lies ahead of the plane of the hoop at its start is the one that the hoop meets;
+    of two such ends that one is met first from which the other lies ahead. Both are signs of triple products.
+    """
+    g = unit_vector(axis, "fixed axis") * (1.0 if direction == "ccw" else -1.0)
+    lines = _lines_off_axis(orientations, g)
+    start = lines.pop((1, 2))
+    met = {pair: s * np.copysign(1.0, _ahead(g, start, s)) for pair, s in lines.items()}
+
+    def later(a: Pair, b: Pair) -> int:
+        return int(-np.sign(_ahead(g, met[a], met[b])))
+
+    return tuple(sorted(met, key=cmp_to_key(later)))
+
+
+def _ahead(g: Floats, here: Floats, there: Floats) -> float:
+    """Return [G, here, there], positive if a turn about G by less than 180 degrees leads there."""
+    return float(g @ np.cross(here, there))
+
+
+def _lines_off_axis(orientations: Orientations, g: Floats) -> dict[Pair, Floats]:
+    lines = orientations.relative_axes()
+    on: Sequence[Pair] = [pair for pair, s in lines.items() if np.linalg.norm(np.cross(g, s)) < DOUBLE.parallel]
+    if on:
+        raise UnsolvableError(
+            f"the fixed axis lies on the relative axis {pair_name(on[0])}: the hoop holds it at every angle, "
+            "and no order follows; move the axis off it"
+        )
+    return lines
 
 
 _BLOCK = 1 << 15
@@ -54,9 +206,9 @@ class OrderAnalysis(Printed):
     Attributes
     ----------
     axis : tuple of float
-        The fixed axis as it was given.
+        The fixed axis as the user wrote it.
     hoop : Hoop
-        The hoop turned in the direction asked for; its verdict is ``in_order``.
+        The hoop turned in the required direction; its verdict is ``in_order``.
     kept : "ccw", "cw" or None
         The direction in which the order is kept, if there is one, by the hoop.
     by_inequalities, by_crank_angles : "ccw", "cw" or None
@@ -73,9 +225,8 @@ class OrderAnalysis(Printed):
     --------
     >>> from scipy.spatial.transform import Rotation
     >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
-    >>> found = analyse_order(Orientations.from_rotation(body), (0, 0, 1))
-    >>> found.kept, found.by_inequalities, found.by_crank_angles
-    ('ccw', 'ccw', 'ccw')
+    >>> analyse_order(Orientations.from_rotation(body), (0, 0, 1)).kept
+    'ccw'
     """
 
     axis: tuple[float, ...]
@@ -89,7 +240,7 @@ class OrderAnalysis(Printed):
 
     @property
     def in_order(self) -> bool:
-        """Whether the order is kept in the direction asked for."""
+        """Whether the order is kept in the required direction."""
         return self.hoop.in_order
 
     @property
@@ -127,8 +278,8 @@ class OrderAnalysis(Printed):
 
     def _checks(self) -> str:
         verdicts = (("hoop", self.kept), ("inequalities", self.by_inequalities), ("crank", self.by_crank_angles))
-        told = ", ".join(f"{name} {direction_words(kept)}" for name, kept in verdicts)
-        return f"kept by: {told}{'' if self.agree else '   (they do not agree)'}"
+        checks = ", ".join(f"{name} {direction_words(kept)}" for name, kept in verdicts)
+        return f"kept by: {checks}{'' if self.agree else '   (they do not agree)'}"
 
     def __repr__(self) -> str:
         order = "kept" if self.in_order else "not kept"
@@ -181,8 +332,8 @@ def analyse_order(orientations: Orientations, axis: npt.ArrayLike, direction: Di
     --------
     >>> from scipy.spatial.transform import Rotation
     >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
-    >>> found = analyse_order(Orientations.from_rotation(body), (0, 0, 1))
-    >>> found.in_order, found.agree, np.degrees(found.crank_angles).round(6).tolist()
+    >>> analysis = analyse_order(Orientations.from_rotation(body), (0, 0, 1))
+    >>> analysis.in_order, analysis.agree, np.degrees(analysis.crank_angles).round(6).tolist()
     (True, True, [0.0, 90.0, 200.0])
     """
     g = unit_vector(axis, "fixed axis")
@@ -218,8 +369,7 @@ def order_verdicts(orientations: Orientations, axes: npt.ArrayLike) -> npt.NDArr
     """Check many fixed axes, float[m, 3] of any length, at once by the inequalities; return int8[m].
 
     It is 1 where a counter-clockwise crank keeps the order, -1 where a clockwise one does, 0 where neither does or
-    the axis lies on a relative axis that decides. Raise InvariantError if the axes are not m by 3, or one has no
-    direction.
+    the axis lies on a relative axis that decides.
     """
     g = np.asarray(axes, dtype=float)
     if g.ndim != 2 or g.shape[1] != 3:
@@ -237,8 +387,7 @@ def nearest_moving_axis(orientations: Orientations, axis: npt.ArrayLike) -> Floa
     """Return the axis W of the body whose angle with a fixed axis changes least: float[3].
 
     With three orientations there is one that keeps its angle; with more, where the fixed axis is that of a dyad. W
-    is in the frame of the body: at orientation i it points along M_i W. Raise InvariantError if the fixed axis has
-    no direction.
+    is in the frame of the body: at orientation i it points along M_i W.
     """
     seen = orientations.matrices.transpose(0, 2, 1) @ unit_vector(axis, "fixed axis")
     return best_plane(seen).direction
@@ -250,10 +399,8 @@ def crank_angles(orientations: Orientations, fixed: npt.ArrayLike, moving: npt.A
     Parameters
     ----------
     orientations : Orientations
-    fixed : float[3]
-        G, in the fixed frame; angles are counter-clockwise seen from its tip.
-    moving : float[3]
-        W, in the body.
+    fixed, moving : float[3]
+        G, in the fixed frame, and W, in the body; angles are counter-clockwise seen from the tip of G.
 
     Examples
     --------
@@ -270,10 +417,7 @@ def crank_angles(orientations: Orientations, fixed: npt.ArrayLike, moving: npt.A
 
 
 def order_by_crank_angles(angles: npt.ArrayLike) -> Direction | None:
-    """Return the direction in which crank angles grow in their order: 0 < b_12 < ... < b_1n < 2 pi (Eq. 1).
-
-    Angles are counter-clockwise from any start, in radians.
-    """
+    """Return the direction in which crank angles (radians) grow: 0 < b_12 < ... < b_1n < 2 pi (Eq. 1)."""
     turned = np.asarray(angles, dtype=float)
     for way, sign in zip(DIRECTIONS, (1.0, -1.0), strict=True):
         if np.all(np.diff(np.mod(sign * (turned - turned[0]), 2.0 * np.pi)) > 0.0):

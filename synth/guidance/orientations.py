@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
-from graphs.errors import FileError, InvariantError, UnsolvableError
+from graphs.errors import FileError, InvariantError, UnsolvableError, numbered
 from graphs.files.atomic import write_text
 from graphs.files.native.orientations import orientation_rows, orientations_document
 from graphs.files.text import json_text
@@ -26,14 +26,7 @@ from graphs.tolerances import DOUBLE
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
 
-__all__ = [
-    "Floats",
-    "Orientations",
-    "Pair",
-    "read_orientations",
-    "unit_vector",
-    "write_orientations",
-]
+__all__ = ["Orientations", "read_orientations", "unit_vector", "write_orientations"]
 
 
 Pair: TypeAlias = tuple[int, int]
@@ -66,8 +59,6 @@ class Orientations:
     >>> quarter_turns = Orientations.from_axis_angles([(0, 0, 1)] * 3, [0, np.pi / 2, np.pi])
     >>> quarter_turns.matrices[1].round(6).tolist()
     [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
-    >>> len(quarter_turns)
-    3
     """
 
     quaternions: Floats
@@ -77,7 +68,9 @@ class Orientations:
         if q.ndim != 2 or q.shape[1] != 4 or not np.isfinite(q).all():
             raise InvariantError("quaternions", f"an array of shape {q.shape}", "finite numbers, n by 4")
         if len(q) < _FEWEST:
-            raise InvariantError("orientations", f"{len(q)} orientation(s)", f"{_FEWEST} or more", ("whole", 0))
+            raise InvariantError(
+                "orientations", numbered(len(q), "orientation"), f"{_FEWEST} or more", ("whole", 0)
+            )
         with np.errstate(over="ignore"):
             norms = np.linalg.norm(q, axis=1)
         for i in np.flatnonzero(np.abs(norms - 1.0) > _NORM_TOLERANCE):
@@ -116,17 +109,7 @@ class Orientations:
         Parameters
         ----------
         matrices : float[n, 3, 3]
-            Each orthogonal to within 1e-3; the nearest rotation is taken.
-
-        Raises
-        ------
-        InvariantError
-
-        Examples
-        --------
-        >>> turned = [np.eye(3), np.diag([1.0, -1, -1]), np.diag([-1.0, -1, 1])]
-        >>> Orientations.from_matrices(turned).quaternions[1].tolist()
-        [0.0, 1.0, 0.0, 0.0]
+            Each orthogonal to within 1e-3, else `InvariantError`; the nearest rotation is taken.
         """
         from scipy.spatial.transform import Rotation
 
@@ -151,15 +134,8 @@ class Orientations:
 
         Parameters
         ----------
-        axes : float[n, 3]
-            Any length but zero.
-        angles : float[n]
-            Radians.
-
-        Raises
-        ------
-        InvariantError
-            If an axis has no direction, too.
+        axes, angles : float[n, 3], float[n]
+            Axes of any length but zero, else `InvariantError`; radians.
         """
         unit = np.array([unit_vector(axis) for axis in np.asarray(axes, dtype=float)]).reshape(-1, 3)
         half = np.asarray(angles, dtype=float)[:, None] / 2.0
@@ -171,15 +147,7 @@ class Orientations:
         return cls(np.atleast_2d(rotation.as_quat(scalar_first=True)))
 
     def to_rotation(self) -> Rotation:
-        """Return them as a stack of scipy rotations.
-
-        Examples
-        --------
-        >>> tilted = Orientations.from_axis_angles(np.eye(3), [0.1, 0.2, 0.3])
-        >>> again = Orientations.from_rotation(tilted.to_rotation())
-        >>> bool(np.allclose(again.quaternions, tilted.quaternions))
-        True
-        """
+        """Return the orientations as a stack of scipy rotations."""
         from scipy.spatial.transform import Rotation
 
         return Rotation.from_quat(self.quaternions, scalar_first=True)
@@ -196,10 +164,7 @@ class Orientations:
         return np.moveaxis(np.array(rows), 2, 0)
 
     def axis_angles(self) -> tuple[Floats, Floats]:
-        """Return axes, float[n, 3], and angles, float[n], from 0 to pi.
-
-        The axis of no rotation is z.
-        """
+        """Return axes, float[n, 3], and angles, float[n], from 0 to pi; the axis of no rotation is z."""
         q = np.where(self.quaternions[:, :1] < 0, -self.quaternions, self.quaternions)
         sines = np.linalg.norm(q[:, 1:], axis=1)
         turned = sines > 0.0
@@ -214,35 +179,23 @@ class Orientations:
     def relative_axis(self, i: int, j: int) -> Floats:
         """Return S_ij, the axis in the fixed frame of the rotation M_j M_i^-1 from orientation i to j: float[3].
 
-        Its sign says nothing: a rotation by a about S is one by -a about -S. Tipparthi and Larochelle 2011; the
+        Its sign has no meaning: a rotation by a about S is one by -a about -S. Tipparthi and Larochelle 2011; the
         convention reproduces their case studies (docs/misprints.md, 002-3).
-
-        Examples
-        --------
-        >>> tilted = Orientations.from_axis_angles(np.eye(3), [0.0, 0.2, 0.3])
-        >>> tilted.relative_axis(1, 2).tolist()
-        [0.0, 1.0, 0.0]
         """
         return unit(_between(self.quaternions[i - 1], self.quaternions[j - 1])[1:])
 
     def relative_axes(self) -> dict[Pair, Floats]:
-        """Return the relative rotation axes S_ij of all pairs.
-
-        Raises
-        ------
-        UnsolvableError
-            If there are more than 2000 orientations: two million pairs.
-        """
+        """Return the relative axes S_ij of all pairs; `UnsolvableError` for more than 2000 orientations."""
         if len(self) > _MOST_IN_PAIRS:
             raise UnsolvableError(
-                f"{len(self)} orientations have too many pairs; at most {_MOST_IN_PAIRS} will do"
+                f"{len(self)} orientations have too many pairs; expected {_MOST_IN_PAIRS} at most"
             )
         i, j = np.triu_indices(len(self), 1)
         axes = unit(_between(self.quaternions[i], self.quaternions[j])[:, 1:])
         return dict(zip(zip((i + 1).tolist(), (j + 1).tolist(), strict=True), axes, strict=True))
 
     def subset(self, numbers: Sequence[int]) -> Orientations:
-        """Return some of the orientations, numbered from 1, in the order asked for."""
+        """Return some of the orientations, numbered from 1, in the order of the numbers."""
         return Orientations(self.quaternions[[number - 1 for number in numbers]])
 
 
@@ -254,11 +207,7 @@ def unit_vector(vector: npt.ArrayLike, name: str = "axis") -> Floats:
     vector : float[3]
         Of any length but zero.
     name : str, optional
-        What it is, for the message.
-
-    Returns
-    -------
-    float[3]
+        Its name in messages.
 
     Raises
     ------
@@ -286,10 +235,6 @@ def read_orientations(path: str | Path) -> Orientations:
     Parameters
     ----------
     path : str or Path
-
-    Returns
-    -------
-    Orientations
 
     Raises
     ------
@@ -324,21 +269,18 @@ def write_orientations(quaternions: Floats, path: str | Path, *, force: bool = F
         Unit quaternions, scalar first.
     path : str or Path
     force : bool, optional
-        Replace a file that is there.
+        Overwrite an existing file.
 
     Raises
     ------
     FileError
-        If it cannot be written, or is there already.
+        If it cannot be written, or exists already.
 
     Examples
     --------
     >>> from tempfile import TemporaryDirectory
-    >>> turned = Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7])
     >>> with TemporaryDirectory() as folder:
-    ...     write_orientations(turned.quaternions, Path(folder, "turned.json"))
-    ...     bool((read_orientations(Path(folder, "turned.json")).quaternions == turned.quaternions).all())
-    True
+    ...     write_orientations(np.eye(4)[:3], Path(folder, "turned.json"))
     """
     write_text(Path(path), json_text(orientations_document(quaternions.tolist())), force=force)
 

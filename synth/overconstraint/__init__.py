@@ -1,7 +1,7 @@
-"""Why mechanisms move although counts say no: idle equations, the geometry behind them, errors that lock.
+"""Why mechanisms move although counts say no: redundant equations, the geometry behind them, errors that lock.
 
-`explain` answers. Below it: `idle` (smallest sets of loops with idle equations, first and second order), `reasons`
-(special geometry by name), `tolerances`. Theory: docs/theory/overconstraint.md.
+`explain` answers (`explanation`). Below it: `redundancy` (smallest sets of loops with redundant equations, first
+and second order, errors of axes), `reasons` (special geometry by name). Theory: docs/theory/overconstraint.md.
 """
 
 from __future__ import annotations

@@ -1,3 +1,2 @@
-from synth.overconstraint.answer import Explanation as Explanation, IdleSet as IdleSet
-from synth.overconstraint.explained import explain as explain
-from synth.overconstraint.tolerances import Tolerance as Tolerance
+from synth.overconstraint.explanation import Explanation as Explanation, IdleSet as IdleSet, explain as explain
+from synth.overconstraint.redundancy import Tolerance as Tolerance

@@ -1,7 +1,7 @@
-"""Special geometry that makes equations idle, where it can be told: which, by its name.
+"""Special geometry that makes closure equations redundant, where it is recognised, by its name.
 
-Each reason is a property of the axes of some loops, tested to a part of the extent. Theory:
-docs/theory/overconstraint.md.
+Each reason is a property of the axes of some loops, tested to a part of the extent; or the directions of axes
+alone decide, where self-stresses are couples. Theory: docs/theory/overconstraint.md.
 """
 
 from __future__ import annotations
@@ -12,17 +12,20 @@ from math import pi
 import numpy as np
 
 from graphs.arrays import Flags, Floats, Ints
-from graphs.geometry import lines_meet, rigid_motion, sectors
+from graphs.geometry import lines_meet, rigid_motion, sectors, unit
+from graphs.joints.kinds import JointKind
+from graphs.joints.linkage import JointedLinkage, Leg, legs, plain_vector
+from graphs.joints.recognising import recognised
 from graphs.loops.loop import Centre
-from graphs.rank.spaces import singular_values
+from graphs.mechanism.solids import HingedSolids
+from graphs.rank.spaces import null_space, singular_values
 from graphs.tolerances import DOUBLE, Tolerances
 from synth.motion.linkage import PosedLinkage, PosedLoop, axis_lengths
-
-__all__ = ["reasons_of"]
+from synth.overconstraint.redundancy import FirstOrderClosure
 
 
 def reasons_of(linkage: PosedLinkage, loops: tuple[int, ...], tolerances: Tolerances = DOUBLE) -> list[str]:
-    """Return which special geometry a set of loops has; none where no reason that is known here fits."""
+    """Return the special geometry of a set of loops, by name; none where no reason known here fits."""
     chosen = [linkage.loops[loop] for loop in loops]
     turned = tolerances.parallel / axis_lengths(linkage)
     near = [float(turned[list(loop.joints)].sum()) for loop in chosen]  # what rounding of all its axes comes to
@@ -86,7 +89,7 @@ def _of_symmetry(points: Floats, axes: Floats, near: float) -> Iterator[str]:
 
 
 def _is_symmetry(points: Floats, axes: Floats, image: Ints, near: float, *, half_turn: bool) -> bool:
-    """Tell whether half a turn about a line, or a mirror, takes each axis to its image.
+    """Check whether half a turn about a line, or a mirror, takes each axis to its image.
 
     Points of lines: the two feet on the axes of the links beside, which a symmetry takes to each other.
     """
@@ -147,6 +150,64 @@ def _foot(points: Floats, axes: Floats, others: Floats, directions: Floats, near
     return np.asarray(points + np.where(parallel, level, along / np.where(parallel, 1.0, sines)) * axes)
 
 
-def _parallel(one: Floats, other: Floats, near: float) -> Flags:
-    """Tell which axes are parallel, whichever way they run."""
-    return np.asarray(np.linalg.norm(np.cross(one, other), axis=-1) <= near)
+def _parallel(axes: Floats, other: Floats, near: float) -> Flags:
+    """Check which axes are parallel, whichever way they run."""
+    return np.asarray(np.linalg.norm(np.cross(axes, other), axis=-1) <= near)
+
+
+_SCREW = 6
+
+
+def turning_reasons(
+    linkage: PosedLinkage, order: FirstOrderClosure, loops: tuple[int, ...], tolerances: Tolerances = DOUBLE
+) -> Iterator[str]:
+    """Yield why equations of turning in a set of spatial loops depend on each other, if only these do."""
+    if any(linkage.loops[loop].centre is not Centre.NONE for loop in loops):
+        return
+    if not _couples_only(order, loops):
+        return
+    near = float(tolerances.parallel / axis_lengths(linkage).min()) * len(linkage.directions)
+    if _legs_are_parallel(linkage, near):
+        yield (
+            "axes parallel in each leg: each leg rotates its end about one direction, "
+            "together they prevent every rotation"
+        )
+    else:
+        yield "directions of axes alone: the rotational closure equations are dependent"
+
+
+def _couples_only(order: FirstOrderClosure, loops: tuple[int, ...]) -> bool:
+    """Check whether self-stresses of some loops hold no forces, in loops that have none by themselves."""
+    rows = np.flatnonzero(np.isin(order.loop_of, loops))
+    stresses = null_space(order.matrix[rows].T, DOUBLE.singular)
+    shared = [loop for loop in loops if len(loops) == 1 or not _stressed(order, loop)]
+    forces = [stresses[order.loop_of[rows] == loop][_SCREW // 2 :] for loop in shared]
+    if not shared or not stresses.size:
+        return False
+    return bool(np.abs(np.concatenate(forces)).max() <= DOUBLE.singular)
+
+
+def _stressed(order: FirstOrderClosure, loop: int) -> bool:
+    """Check whether a loop has a self-stress of its own."""
+    return bool(null_space(order.matrix[order.loop_of == loop].T, DOUBLE.singular).size)
+
+
+def _legs_are_parallel(linkage: PosedLinkage, near: float) -> bool:
+    """Check whether each row of joints between binary links turns about one direction, however it slides."""
+    axes = {
+        joint: (plain_vector(point), plain_vector(axis))
+        for joint, point, axis in zip(linkage.graph.joints, linkage.points, linkage.directions, strict=True)
+    }
+    seen = recognised(HingedSolids(linkage.graph, axes))
+    rows = [leg for leg in legs(seen.chain) if len(leg.joints) > 1]
+    return len(rows) > 1 and all(_turns_about_one(seen, row, near) for row in rows)
+
+
+def _turns_about_one(seen: JointedLinkage, row: Leg, near: float) -> bool:
+    """Check whether all axes of rotation in a leg have one direction."""
+    kinds = [seen.kinds[joint] for joint in row.joints]
+    if JointKind.SPHERICAL in kinds:
+        return False
+    turning = [joint for joint in row.joints if seen.kinds[joint] is not JointKind.PRISMATIC]
+    directions: Floats = unit([axis for joint in turning for axis in seen.places[joint].axes])
+    return bool(np.linalg.norm(np.cross(directions, directions[0]), axis=1).max() <= near) if turning else False

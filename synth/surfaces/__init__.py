@@ -1,7 +1,7 @@
 """Linkages mapped to right cones and cylinders, all joint axes being ruling lines.
 
-A loop is told by its steps: projected angles round the axis (`circuit`). Which cones there are, `cone` says for
-one loop, `linkage_cones` for several, and `cyclic` in closed form for a million four-bars at a time.
+A loop is described by its steps: projected angles round the axis (`circuit`). `loop_maps` finds the cones and
+cylinders of one loop, `linkages` those of several; `loop_sums` has closed forms for a million four-bars at a time.
 """
 
 from __future__ import annotations

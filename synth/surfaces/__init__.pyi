@@ -1,33 +1,38 @@
 from synth.surfaces.circuit import (
     Circuits as Circuits,
+    LoopSteps as LoopSteps,
     azimuths as azimuths,
     circuits as circuits,
     closing_step as closing_step,
+    link_angles as link_angles,
+    link_pairs as link_pairs,
+    loop_steps as loop_steps,
     table1 as table1,
     wrapped as wrapped,
 )
-from synth.surfaces.common import (
+from synth.surfaces.linkages import (
     CommonFamily as CommonFamily,
     CommonSurface as CommonSurface,
-    common_surfaces as common_surfaces,
-)
-from synth.surfaces.cone import (
-    ConeMap as ConeMap,
-    link_angles as link_angles,
-    map_to_cones as map_to_cones,
-    projected_angles as projected_angles,
-)
-from synth.surfaces.cyclic import circumradii as circumradii, cone_angles as cone_angles
-from synth.surfaces.cylinder import (
-    CylinderMap as CylinderMap,
-    central_angles as central_angles,
-    map_to_cylinders as map_to_cylinders,
-)
-from synth.surfaces.linkages import LinkageMap as LinkageMap, by_sizes as by_sizes, map_linkage as map_linkage
-from synth.surfaces.loop_sums import LoopRoots as LoopRoots, loop_roots as loop_roots, loop_sum as loop_sum
-from synth.surfaces.mapping import FamilyOfCircles as FamilyOfCircles, MappedLoop as MappedLoop
-from synth.surfaces.several_loops import LoopSteps as LoopSteps, link_pairs as link_pairs, loop_steps as loop_steps
-from synth.surfaces.supplementary import (
+    LinkageMap as LinkageMap,
     SupplementaryLinkages as SupplementaryLinkages,
+    by_sizes as by_sizes,
+    common_surfaces as common_surfaces,
+    map_linkage as map_linkage,
     supplementary_linkages as supplementary_linkages,
 )
+from synth.surfaces.loop_maps import (
+    ConeMap as ConeMap,
+    CylinderMap as CylinderMap,
+    central_angles as central_angles,
+    map_to_cones as map_to_cones,
+    map_to_cylinders as map_to_cylinders,
+    projected_angles as projected_angles,
+)
+from synth.surfaces.loop_sums import (
+    LoopRoots as LoopRoots,
+    circumradii as circumradii,
+    cone_angles as cone_angles,
+    loop_roots as loop_roots,
+    loop_sum as loop_sum,
+)
+from synth.surfaces.mapping import FamilyOfCircles as FamilyOfCircles, MappedLoop as MappedLoop

@@ -1,21 +1,39 @@
-"""Circuits: how the joints of a loop follow each other round the circle.
+"""Circuits: how the joints of loops follow each other round the circle.
 
-A loop is given by its signed steps, the projected angles between successive joint axes. Sources: Hyatt et al.
-2020, Table 1 (printed with every row inverted, docs/misprints.md 000-1). Theory:
-docs/theory/conformed.md.
+A loop has signed steps, the projected angles between successive joint axes. Projected angles always fit: put the
+joints of a linkage anywhere round a cone, and every loop closes, since its steps lead back to where they began.
+Sources: Hyatt et al. 2020, Table 1 (printed with every row inverted, docs/misprints.md 000-1), section 7. Theory:
+docs/theory/conformed.md, docs/theory/multiloop.md.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 import numpy.typing as npt
 
 from graphs.arrays import Floats
+from graphs.errors import InvariantError, numbered
+from graphs.ids import JointId
+from graphs.mechanism.on_surface import Pair
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.surfaces import checked_cone_angle
 from graphs.tolerances import DOUBLE
 
-__all__ = ["HALF_TURN", "Circuits", "azimuths", "circuits", "closing_step", "table1", "wrapped"]
+__all__ = [
+    "Circuits",
+    "LoopSteps",
+    "azimuths",
+    "circuits",
+    "closing_step",
+    "link_angles",
+    "link_pairs",
+    "loop_steps",
+    "table1",
+    "wrapped",
+]
 
 HALF_TURN = np.pi - DOUBLE.parallel
 """Steps between azimuths that are this wide (radians) are half a turn, and have no sign."""
@@ -28,20 +46,19 @@ class Circuits:
     Attributes
     ----------
     open : bool[...]
-        Whether the joints follow each other once round the circle: the polygon of the links is convex. Else it
-        is crossed.
+        Whether the joints follow each other once round the circle: a convex polygon of links. Else it is crossed.
     turns : int[...]
         k: the steps sum to 360 k degrees, so the links wind k times round the axis.
     density : int[...]
-        How often the polygon winds when every step is taken the same way round, the shorter of both ways: 1 if
-        it is open.
+        How often the polygon winds when every step is taken the same way round, the shorter of both; 1 if it is
+        open.
     residual : float[...]
         Sum of the steps less 2 pi k, radians.
 
     Examples
     --------
-    >>> found = circuits(np.radians([90, 90, 90, 90]))
-    >>> bool(found.open), int(found.turns)
+    >>> square = circuits(np.radians([90, 90, 90, 90]))
+    >>> bool(square.open), int(square.turns)
     (True, 1)
     """
 
@@ -61,15 +78,14 @@ def circuits(steps: npt.ArrayLike) -> Circuits:
     Parameters
     ----------
     steps : float[..., n]
-        Projected angles in loop order, radians, in [-pi, pi]. Their sum is taken as a multiple of 2 pi; see the
-        residual.
+        Projected angles in loop order, radians, in [-pi, pi]; they sum to a multiple of 2 pi but for the residual.
 
     Examples
     --------
     A pentagon, and the star on its five corners:
 
-    >>> found = circuits(np.radians([[72, 72, 72, 72, 72], [144, 144, 144, 144, 144]]))
-    >>> found.names().tolist(), found.turns.tolist(), found.density.tolist()
+    >>> loops = circuits(np.radians([[72, 72, 72, 72, 72], [144, 144, 144, 144, 144]]))
+    >>> loops.names().tolist(), loops.turns.tolist(), loops.density.tolist()
     (['open', 'crossed'], [1, 2], [1, 2])
     """
     steps = np.asarray(steps, dtype=float)
@@ -82,9 +98,9 @@ def circuits(steps: npt.ArrayLike) -> Circuits:
 
 
 def table1(steps: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-    """Tell whether four-bars are open, by signs and sum of their steps (Hyatt et al. 2020, Table 1, put right).
+    """Check whether four-bars are open, by signs and sum of their steps (Hyatt et al. 2020, Table 1).
 
-    Open: all signs multiply to + and the sum is +-360 degrees, or to - and it is 0.
+    Open (the table put right): all signs multiply to + and the sum is +-360 degrees, or to - and it is 0.
 
     Parameters
     ----------
@@ -92,9 +108,8 @@ def table1(steps: npt.ArrayLike) -> npt.NDArray[np.bool_]:
 
     Examples
     --------
-    >>> steps = [[90, 80, 100, 90], [50, 40, 30, -120], [100, -50, 100, -150], [170, 170, 170, -150]]
-    >>> table1(np.radians(steps)).tolist()
-    [True, True, False, False]
+    >>> table1(np.radians([[90, 80, 100, 90], [50, 40, 30, -120], [100, -50, 100, -150]])).tolist()
+    [True, True, False]
     """
     steps = np.asarray(steps, dtype=float)
     even = np.sign(steps).prod(axis=-1) > 0
@@ -102,16 +117,12 @@ def table1(steps: npt.ArrayLike) -> npt.NDArray[np.bool_]:
 
 
 def wrapped(angles: npt.ArrayLike) -> Floats:
-    """Return angles in (-pi, pi].
+    """Return angles in (-pi, pi]: float[...].
 
     Parameters
     ----------
     angles : float[...]
         Radians.
-
-    Returns
-    -------
-    float[...]
 
     Examples
     --------
@@ -124,23 +135,14 @@ def wrapped(angles: npt.ArrayLike) -> Floats:
 
 
 def azimuths(steps: npt.ArrayLike, first: float = 0.0) -> Floats:
-    """Return the azimuths of the joints of loops; the last step leads back to the first joint.
+    """Return the azimuths of the joints of loops, not wrapped: float[..., n]; the last step leads to the first.
 
     Parameters
     ----------
     steps : float[..., n]
+        A small closure error is left to the longest step of each loop, whose link angle feels it least.
     first : float, optional
         Azimuth of the first joint, radians.
-
-    Returns
-    -------
-    float[..., n]
-        Not wrapped.
-
-    Notes
-    -----
-    Steps found numerically close with a small error. It is left to the longest step of each loop, whose link angle
-    feels it least.
 
     Examples
     --------
@@ -157,16 +159,11 @@ def azimuths(steps: npt.ArrayLike, first: float = 0.0) -> Floats:
 
 
 def closing_step(steps: npt.ArrayLike) -> Floats:
-    """Return the step that closes loops: lambda and all projected angles but one describe a linkage (Eq. 14).
+    """Return the step that closes loops: float[...] in (-pi, pi] (Eq. 14).
 
     Parameters
     ----------
     steps : float[..., n - 1]
-
-    Returns
-    -------
-    float[...]
-        In (-pi, pi].
 
     Examples
     --------
@@ -176,3 +173,110 @@ def closing_step(steps: npt.ArrayLike) -> Floats:
     115.0
     """
     return wrapped(-np.asarray(steps, dtype=float).sum(axis=-1))
+
+
+@dataclass(frozen=True, slots=True)
+class LoopSteps:
+    """One loop of many linkages of one chain.
+
+    Attributes
+    ----------
+    joints : tuple of joint ids
+        In loop order; step i leads from joint i to the next.
+    steps : float[..., n]
+        Projected angles, radians, in (-pi, pi].
+    circuits : Circuits
+    """
+
+    joints: tuple[JointId, ...]
+    steps: Floats
+    circuits: Circuits
+
+    @property
+    def half_turns(self) -> npt.NDArray[np.bool_]:
+        """Whether steps are half a turn and have no sign, though they are listed as +: bool[..., n]."""
+        return np.asarray(np.abs(self.steps) > HALF_TURN)
+
+    def angles(self, cone_angle: npt.ArrayLike) -> Floats:
+        """Return the link angles on cones of angles float[...], radians: float[..., n] (Eq. 5)."""
+        return link_angles(self.steps, np.asarray(cone_angle, dtype=float)[..., np.newaxis])
+
+
+def link_pairs(chain: SCGraph) -> dict[Pair, object]:
+    """Return all pairs of joints that share a link, and the link.
+
+    Parameters
+    ----------
+    chain : SCGraph
+
+    Examples
+    --------
+    >>> len(link_pairs(SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)])))  # Watt: 4 + 2 * 3
+    10
+    """
+    at_link: dict[object, list[JointId]] = {link: [] for link in chain}
+    for joint, ends in chain.joints.items():
+        for link in ends:
+            at_link[link].append(joint)
+    return {pair: link for link, joints in at_link.items() for pair in combinations(joints, 2)}
+
+
+def loop_steps(chain: SCGraph, places: npt.ArrayLike) -> tuple[LoopSteps, ...]:
+    """Return the steps and circuits of every declared loop of a chain, from the azimuths of its joints.
+
+    Parameters
+    ----------
+    chain : SCGraph
+    places : float[..., J]
+        Azimuths in the order of the chain's joints, radians, for many linkages at a time.
+
+    Raises
+    ------
+    InvariantError
+        If the number of azimuths is not that of the joints.
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Loop
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> (loop,) = loop_steps(four_bar, np.radians([[0, 90, 180, 270], [0, 180, 90, 270]]))
+    >>> loop.circuits.names().tolist(), np.degrees(loop.angles(np.radians(30))[0]).round(4).tolist()
+    (['open', 'crossed'], [75.5225, 75.5225, 75.5225, 75.5225])
+    """
+    t = np.asarray(places, dtype=float)
+    number = {joint: i for i, joint in enumerate(chain.joints)}
+    if t.shape[-1:] != (len(number),):
+        raise InvariantError(
+            "azimuths", numbered(t.shape[-1] if t.ndim else 0, "azimuth"), f"{len(number)}, one per joint"
+        )
+    loops = []
+    for loop in chain.loops:
+        mine = t[..., [number[joint] for joint in loop.joints]]
+        steps = wrapped(np.roll(mine, -1, axis=-1) - mine)
+        loops.append(LoopSteps(loop.joints, steps, circuits(steps)))
+    return tuple(loops)
+
+
+def link_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
+    """Return the link angles of projected angles (Hyatt et al. 2020, Eq. 5): phi in [0, pi], float[...].
+
+    cos(phi) = sin(lambda)^2 + cos(lambda)^2 cos(phi_0).
+
+    Parameters
+    ----------
+    steps, cone_angle : float[...]
+        Projected angles phi_0 and lambda, radians, broadcast against each other.
+
+    Raises
+    ------
+    InvariantError
+        If the cone angle is out of range.
+
+    Examples
+    --------
+    >>> np.degrees(link_angles(np.radians([40, -40, 120]), np.radians([20, 20, 35]))).round(4).tolist()
+    [37.4945, 37.4945, 90.3733]
+    """
+    lam, half = checked_cone_angle(cone_angle), np.asarray(steps, dtype=float) / 2.0
+    flat, rest = np.cos(lam) * np.sin(half), np.hypot(np.sin(lam) * np.sin(half), np.cos(half))
+    return np.asarray(2.0 * np.arctan2(np.abs(flat), rest))

@@ -14,34 +14,35 @@ No root is missed. With the reaches in rising order, multiply g by (C_j - z)^(1/
 between s_j and the next, and differentiate: the result has the sign of sum s_i (C_j - C_i) (C_i - z)^(-3/2), one
 sign change fewer. After as many steps as there are sign changes no zero is left; going back, each function is
 monotone (up to a positive factor) between the zeros of the one after it. So g has at most as many zeros as there
-are sign changes, and a loop sum at most one root more, all found by bisection. What a loop sum is told by is its
+are sign changes, and a loop sum at most one root more, all found by bisection. A loop sum is compared with its
 own rounding (`sum_rounding`), nothing absolute. Theory: docs/theory/loop-sums.md, docs/theory/rounding.md.
+
+Four links have closed forms. They fit on two circles at most: one with the quadrilateral open (convex), one with
+it crossed (Hyatt et al. 2021, Eqs. 4, 5 and 12). On a cylinder the sides are the links; on a cone they are the
+chords 2 sin(angle / 2) of the unit sphere, and R = cos(lambda) (Eqs. 13, 14). The circle does not depend on the
+order of the links. Near lambda = 0 a cosine has few digits. With half angles x_i, their sum S and T_j the three
+differences of pairs of them,
+
+    open     16 K^2 (1 - R^2) = 256 cos(S/2) prod sin(S/2 - x_i) prod cos(T_j / 2)
+    crossed  16 K^2 (1 - R^2) = 256 sin(S/2) prod cos(S/2 - x_i) prod sin(T_j / 2)
+
+which loses no digits: tan(lambda)^2 is this by the numerator of Eq. 12. Theory: docs/theory/mapping.md.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
+from graphs.arrays import Flags, Floats
 from graphs.errors import UnsolvableError
-from synth.fourbar.rounding import rounding_of
+from synth.fourbar.closing import rounding_of
 
-__all__ = [
-    "MOST_LINKS",
-    "Base",
-    "LoopRoots",
-    "half_steps",
-    "loop_roots",
-    "loop_sum",
-    "put_together",
-    "sign_patterns",
-    "sum_rounding",
-]
+__all__ = ["LoopRoots", "circumradii", "cone_angles", "loop_roots", "loop_sum"]
 
 Base = Literal[0, 1]
 
@@ -59,12 +60,10 @@ class LoopRoots:
 
     Attributes
     ----------
-    loop : int[M]
-        Which loop.
+    loop, turns : int[M]
+        Which loop, and k: the steps sum to 2 pi k.
     signs : int8[M, n]
         Signs of its steps; the first is +.
-    turns : int[M]
-        k: the steps sum to 2 pi k.
     size : float[M]
         z, with z = tan(lambda)^2 on a cone and 1 / (2 R)^2 on a cylinder.
     residual : float[M]
@@ -92,20 +91,14 @@ class LoopRoots:
 def half_steps(size: npt.ArrayLike, reach: npt.ArrayLike, base: Base) -> Floats:
     """Return half of the steps that links span, in [0, pi/2], on a cylinder (base 0) or a cone (base 1).
 
-    `size` is z, at most the reach C, against which it is broadcast (more is taken as equal, for rounding). A link
-    of 60 degrees on the flat cone, lambda = 0, and at the largest lambda, where it spans half the circle:
-
-    A link of 60 degrees on the flat cone, lambda = 0, and at the largest lambda, where it spans half the circle:
-
-    >>> np.degrees(2 * half_steps([0, 3], 3.0, 1)).round(9)
-    array([ 60., 180.])
+    `size` is z, at most the reach C, against which it is broadcast (more is taken as equal, for rounding).
     """
     z, c = np.asarray(size, dtype=float), np.asarray(reach, dtype=float)
     return np.asarray(np.arctan2(np.sqrt(base + z), np.sqrt(np.maximum(c - z, 0.0))))
 
 
 def loop_sum(size: npt.ArrayLike, reach: npt.ArrayLike, signs: npt.ArrayLike, base: Base) -> Floats:
-    """Return the sum of signed steps, radians (Hyatt et al. 2020, Eq. 12; 2021, Eq. 20).
+    """Return the sum of signed steps, radians, float[...] (Hyatt et al. 2020, Eq. 12; 2021, Eq. 20).
 
     Parameters
     ----------
@@ -130,13 +123,7 @@ def sum_rounding(size: npt.ArrayLike, reach: npt.ArrayLike, weights: npt.ArrayLi
     is to half a turn: by tan(half a step), up to the root of a last digit. The longest link is half a turn where
     the interval ends, whatever its last digit. Reach and weights are float[..., n]; weights are the signs, those
     of equal reaches added up or not. A small linkage has a small rounding, and the end of the interval a large one
-    for its second longest link:
-
-    A small linkage has a small rounding, and the end of the interval a large one for its second longest link:
-
-    >>> small, large = (np.tan(np.array([1.0, 0.9, 0.8]) * part / 2) ** -2 for part in (1e-3, 1.0))
-    >>> [float(f"{sum_rounding(0.0, reach, [1, 1, -1], 1):.1g}") for reach in (small, large)]
-    [4e-18, 4e-15]
+    for its second longest link.
     """
     z = np.asarray(size, dtype=float)[..., np.newaxis]
     c = np.asarray(reach, dtype=float)
@@ -158,11 +145,7 @@ def put_together(signs: npt.ArrayLike, reach: npt.ArrayLike) -> tuple[Floats, Fl
 
 
 def sign_patterns(links: int) -> npt.NDArray[np.int8]:
-    """Return all sign patterns with first sign +: int8[2^(links - 1), links], the pattern of all + first.
-
-    >>> sign_patterns(3).tolist()
-    [[1, 1, 1], [1, 1, -1], [1, -1, 1], [1, -1, -1]]
-    """
+    """Return all sign patterns with first sign +: int8[2^(links - 1), links], the pattern of all + first."""
     bits = np.arange(2 ** (links - 1))[:, np.newaxis] >> np.arange(links - 1)[::-1] & 1
     return np.concatenate([np.ones((len(bits), 1), np.int8), (1 - 2 * bits).astype(np.int8)], axis=1)
 
@@ -176,10 +159,6 @@ def loop_roots(reach: npt.ArrayLike, base: Base) -> LoopRoots:
         Reaches of the links of each loop, in loop order.
     base : {0, 1}
         0 on a cylinder (z = 0, an infinite radius, is no root), 1 on a cone (z = 0 is the flat one and is a root).
-
-    Returns
-    -------
-    LoopRoots
 
     Raises
     ------
@@ -225,10 +204,7 @@ def loop_roots(reach: npt.ArrayLike, base: Base) -> LoopRoots:
 def _roots_of_chunk(
     reaches: Floats, patterns: npt.NDArray[np.int8], first_loop: int, base: Base
 ) -> tuple[npt.NDArray[np.generic], ...]:
-    """Return columns loop, pattern, turns, size, residual, double; and loop, pattern, exact of families.
-
-    Families are exact where all weights are 0.
-    """
+    """Return columns loop, pattern, turns, size, residual, double; loop, pattern, exact of families."""
     loops, n = reaches.shape
     order = np.argsort(reaches, axis=1)
     sorted_reach = np.take_along_axis(reaches, order, axis=1)
@@ -242,7 +218,7 @@ def _roots_of_chunk(
     weights = _merged(signs.astype(float), reach)
     vanishing = ~weights.any(axis=1)
     changes = _sign_changes(weights)
-    found: list[tuple[npt.NDArray[np.generic], ...]] = []
+    roots: list[tuple[npt.NDArray[np.generic], ...]] = []
     families = [np.column_stack([of[vanishing], np.ones(vanishing.sum(), np.intp)])]
     for count in range(n):
         rows = np.flatnonzero((changes == count) & ~vanishing)
@@ -253,8 +229,8 @@ def _roots_of_chunk(
             families.append(np.column_stack([nowhere_else, np.zeros(len(nowhere_else), np.intp)]))
             for turns, row, size, residual, double in _crossings(sums, base):
                 whole = np.full(len(row), turns)
-                found.append((*of[rows[row]].T, whole, size, residual, double))
-    columns = [np.concatenate([part[i] for part in found]) if found else np.zeros(0) for i in range(6)]
+                roots.append((*of[rows[row]].T, whole, size, residual, double))
+    columns = [np.concatenate([part[i] for part in roots]) if roots else np.zeros(0) for i in range(6)]
     return (*columns, np.concatenate(families))
 
 
@@ -279,16 +255,13 @@ def _sign_changes(weights: Floats) -> npt.NDArray[np.int64]:
 
 
 def _nodes(weights: Floats, reach: Floats, changes: int) -> Floats:
-    """Return 0, the zeros of g and the least reach of each row, in rising order: float[rows, changes + 2].
-
-    Where g has fewer zeros than sign changes, the last node is repeated.
-    """
+    """Return 0, the zeros of g, and the least reach (repeated if zeros lack) of rows: float[rows, changes + 2]."""
     tower = [weights]
     for _ in range(changes):
         tower.append(_one_change_fewer(tower[-1], reach))
     end = reach[:, :1]
     nodes = np.concatenate([np.zeros_like(end), end], axis=1)
-    for level in range(changes - 1, -1, -1):
+    for level in range(changes - 1, -1, -1):  # back from the function without zeros to g itself
         nodes = _between_zeros(nodes, tower[level], reach, level)
     return nodes
 
@@ -305,8 +278,8 @@ def _one_change_fewer(weights: Floats, reach: Floats) -> Floats:
         open_ &= ~here
         before[column != 0] = i
         last = np.where(column != 0, column, last)
-    made = weights * (np.take_along_axis(reach, place[:, np.newaxis], axis=1) - reach)
-    return np.asarray(made / np.abs(made).max(axis=1, keepdims=True))
+    fewer = weights * (np.take_along_axis(reach, place[:, np.newaxis], axis=1) - reach)
+    return np.asarray(fewer / np.abs(fewer).max(axis=1, keepdims=True))
 
 
 def _between_zeros(nodes: Floats, weights: Floats, reach: Floats, level: int) -> Floats:
@@ -395,3 +368,134 @@ def _bisected(value: object, low: Floats, high: Floats, number: npt.NDArray[np.i
     from scipy.optimize import elementwise
 
     return np.asarray(elementwise.find_root(value, (low, high), args=(number.astype(float),)).x)
+
+
+@dataclass(frozen=True, slots=True)
+class CyclicQuadrilaterals:
+    """Circumradii, float[...], of open and crossed quadrilaterals with sides float[..., 4]; or nan."""
+
+    open: Floats
+    crossed: Floats
+    sides: Floats
+
+    @property
+    def ill_conditioned(self) -> Flags:
+        """Whether a sum of sides with signs is within their rounding of zero, and so decides: bool[...]."""
+        return _nearly_zero(self.sides, angular=False)
+
+
+@dataclass(frozen=True, slots=True)
+class ConicalQuadrilaterals:
+    """Cone angles, float[...] in [0, pi/2), of open and crossed four-bars with angles float[..., 4]; or nan."""
+
+    open: Floats
+    crossed: Floats
+    angles: Floats
+
+    @property
+    def ill_conditioned(self) -> Flags:
+        """Whether a sum of angles with signs, or all less a turn, is within rounding of zero: bool[...]."""
+        return _nearly_zero(self.angles, angular=True)
+
+
+def _sides(values: npt.ArrayLike) -> tuple[Floats, Floats, Floats, Floats]:
+    a, b, c, d = np.moveaxis(np.asarray(values, dtype=float), -1, 0)
+    return a, b, c, d
+
+
+def _numerator(a: Floats, b: Floats, c: Floats, d: Floats, mu: int) -> Floats:
+    """Return (ab + mu cd)(ac + mu bd)(bc + mu ad), the numerator of Eq. 12."""
+    return np.asarray((a * b + mu * c * d) * (a * c + mu * b * d) * (b * c + mu * a * d))
+
+
+def _sixteen_area_squared(a: Floats, b: Floats, c: Floats, d: Floats, mu: int) -> Floats:
+    """Return 16 K^2, the product of the sums of sides with one subtracted (Brahmagupta; Eq. 11)."""
+    d = mu * d
+    return np.asarray((b + c + d - a) * (a + c + d - b) * (a + b + d - c) * (a + b + c - d))
+
+
+def _nearly_zero(links: Floats, *, angular: bool) -> Flags:
+    """Check whether links with signs, or angles less a turn, sum to less than their rounding."""
+    turn = 2.0 * np.pi * np.eye(8)[0] if angular else np.zeros(8)  # the first pattern is that of all +
+    sums = links @ sign_patterns(4).T - turn
+    return np.asarray((np.abs(sums) <= rounding_of(links)[..., np.newaxis]).any(axis=-1))
+
+
+def circumradii(sides: npt.ArrayLike) -> CyclicQuadrilaterals:
+    """Return the circles of planar quadrilaterals (Hyatt et al. 2021, Eq. 12; Eqs. 4 and 5).
+
+    Parameters
+    ----------
+    sides : float[..., 4]
+        Positive lengths; their order does not matter.
+
+    Notes
+    -----
+    Eq. 12 with mu = -1 also gives real radii where numerator and denominator are both negative; no quadrilateral
+    has them. Where both vanish (two pairs of equal sides) there are infinitely many crossed circles: nan.
+
+    Examples
+    --------
+    >>> circles = circumradii([4, 3, 5, 1])
+    >>> float(circles.open.round(4)), float(circles.crossed.round(4))
+    (2.5361, 2.5909)
+    """
+    lengths = np.asarray(sides, dtype=float)
+    a, b, c, d = _sides(lengths)
+    radii = []
+    for mu in (1, -1):
+        numerator, denominator = _numerator(a, b, c, d, mu), _sixteen_area_squared(a, b, c, d, mu)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            there = (numerator > 0) & (denominator > 0)
+            radii.append(np.where(there, np.sqrt(numerator / denominator), np.nan))
+    return CyclicQuadrilaterals(radii[0], radii[1], lengths)
+
+
+def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
+    """Return the cones on which spherical four-bars lie (Hyatt et al. 2021, Eqs. 12 to 14).
+
+    lambda = 0 where a crossed linkage folds flat; nan where two pairs of angles are equal and there are infinitely
+    many crossed cones.
+
+    Parameters
+    ----------
+    angles : float[..., 4]
+        Link angles, radians, between 0 and pi; their order does not matter.
+
+    Examples
+    --------
+    Hyatt et al. 2020, Fig. 10(a) and (b):
+
+    >>> cones = cone_angles(np.radians([[120, 95, 45, 85], [155, 50, 65, 80]]))
+    >>> np.degrees(cones.open).round(3), np.degrees(cones.crossed).round(3)
+    (array([13.998,  8.864]), array([29.044,    nan]))
+    """
+    links = np.asarray(angles, dtype=float)
+    half = [angle / 2.0 for angle in _sides(links)]
+    x, y, z, w = half
+    chords = [2.0 * np.sin(angle) for angle in half]
+    middle = (x + y + z + w) / 2.0
+    pairs = [(x + y - z - w) / 2.0, (x + z - y - w) / 2.0, (y + z - x - w) / 2.0]
+    less = [middle - angle for angle in half]
+    convex: Any = np.cos(middle)
+    crossed: Any = np.sin(middle)
+    for angle in less:
+        convex, crossed = convex * np.sin(angle), crossed * np.cos(angle)
+    for angle in pairs:
+        convex, crossed = convex * np.cos(angle), crossed * np.sin(angle)
+    cones = []
+    for mu, product in ((1, convex), (-1, crossed)):
+        numerator = _numerator(chords[0], chords[1], chords[2], chords[3], mu)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            there = (numerator > 0) & (product >= 0)
+            cones.append(np.where(there, np.arctan(np.sqrt(256.0 * product / numerator)), np.nan))
+    return ConicalQuadrilaterals(cones[0], cones[1], links)
+
+
+def crossed_area(sides: npt.ArrayLike) -> Floats:
+    """Return the area, float[...], of crossed cyclic quadrilaterals with sides float[..., 4] (Eq. 11); or nan.
+
+    Triangles of opposite sense are subtracted.
+    """
+    with np.errstate(invalid="ignore"):
+        return np.asarray(np.sqrt(_sixteen_area_squared(*_sides(sides), -1)) / 4.0)

@@ -1,8 +1,7 @@
 """What mapping a loop to a cone or a cylinder gives: one circle after the other, and families of them.
 
-Both surfaces share this: `synth.surfaces.cone` and `synth.surfaces.cylinder` say what the circles mean. Where
-rounding decides whether there is a circle, or leaves few digits of it, the circle says so.
-Theory: docs/theory/rounding.md.
+Cones and cylinders share this (`synth.surfaces.loop_maps`). Where rounding decides whether there is a circle, or
+leaves few digits of it, the circle says so. Theory: docs/theory/rounding.md.
 """
 
 from __future__ import annotations
@@ -19,26 +18,14 @@ import numpy.typing as npt
 from graphs.arrays import Floats
 from graphs.ids import JointId
 from graphs.printing import Block, TableBlock, plain
-from synth.fourbar.closing import FourBarKind
-from synth.fourbar.rounding import ILL_CONDITIONED
+from synth.fourbar.closing import ILL_CONDITIONED, FourBarKind
 from synth.surfaces.circuit import circuits
 from synth.surfaces.loop_sums import Base, LoopRoots, half_steps, loop_roots, loop_sum, put_together, sum_rounding
 
-__all__ = [
-    "FamilyOfCircles",
-    "MappedLoop",
-    "SizedLinks",
-    "cautions_of",
-    "circles_table",
-    "in_degrees",
-    "joints_text",
-    "kind_line",
-    "mapped_loop",
-    "signs_text",
-]
+__all__ = ["FamilyOfCircles", "MappedLoop"]
 
 _VAGUE = 1e-6
-"""A circle of which fewer digits than this can be told, relatively, has a caution."""
+"""A circle whose size is relatively less certain than this has a caution."""
 _NONE = np.zeros(0, dtype=np.intp)
 _HALVINGS = 200
 """The least part of the interval looked at round a circle is 2^-200: sizes are known less well than that."""
@@ -55,10 +42,8 @@ class MappedLoop:
     circuit : {"open", "crossed"}
     signs : tuple of int
         Of the steps, in loop order; the first is +.
-    turns : int
-        k: the steps sum to 360 k degrees.
-    density : int
-        How often the polygon winds; 1 if it is open.
+    turns, density : int
+        k: the steps sum to 360 k degrees; how often the polygon winds, 1 if it is open.
     steps : tuple of float
         Projected angles, radians.
     residual : float
@@ -68,15 +53,14 @@ class MappedLoop:
     half_turns : tuple of int
         Links that span half the circle: their steps have no sign and are listed as +.
     bounds : (float, float)
-        Between these sizes the loop closes with these signs within the rounding of its links (to a factor of two):
-        so well is the size known.
+        Between these sizes the loop closes with these signs within the rounding of its links (to a factor of two).
     caution : str
         Where rounding decides whether there is a circle, or leaves few digits of its size; else empty.
 
     Examples
     --------
-    >>> from synth.surfaces.cylinder import map_to_cylinders
-    >>> [(one.circuit, one.signs, one.turns) for one in map_to_cylinders([4, 3, 5, 1]).cylinders]
+    >>> from synth.surfaces import map_to_cylinders
+    >>> [(loop.circuit, loop.signs, loop.turns) for loop in map_to_cylinders([4, 3, 5, 1]).cylinders]
     [('open', (1, 1, 1, 1), 1), ('crossed', (1, 1, -1, -1), 0)]
     """
 
@@ -127,9 +111,9 @@ class FamilyOfCircles:
     --------
     A parallelogram lies crossed, in two ways, on every cylinder that its longest link can span:
 
-    >>> from synth.surfaces.cylinder import map_to_cylinders
-    >>> [(float(one.interval[0]), one.interval[1], one.signs) for one in map_to_cylinders([2, 1, 2, 1]).families]
-    [(1.0, inf, (1, 1, -1, -1)), (1.0, inf, (1, -1, -1, 1))]
+    >>> from synth.surfaces import map_to_cylinders
+    >>> [(float(family.interval[0]), family.signs) for family in map_to_cylinders([2, 1, 2, 1]).families]
+    [(1.0, (1, 1, -1, -1)), (1.0, (1, -1, -1, 1))]
     """
 
     interval: tuple[float, float]
@@ -152,30 +136,22 @@ def cautions_of(
     kind: FourBarKind | None, circles: Iterable[MappedLoop], families: Iterable[FamilyOfCircles], *more: str
 ) -> tuple[str, ...]:
     """Return the cautions of a map, each once."""
-    told = [
+    cautions = [
         "" if kind is None else kind.caution,
         *(one.caution for one in circles),
         *(one.caution for one in families),
         *more,
     ]
-    return tuple(dict.fromkeys(filter(None, told)))
+    return tuple(dict.fromkeys(filter(None, cautions)))
 
 
 def in_degrees(values: Iterable[float]) -> list[float]:
-    """Return degrees without the last digits that conversion from and to radians spoils, and without -0.
-
-    >>> in_degrees([np.radians(40.1), -0.0])
-    [40.1, 0.0]
-    """
+    """Return degrees without the last digits that conversion from and to radians spoils, and without -0."""
     return [round(degrees(value), 12) + 0.0 for value in values]
 
 
 def signs_text(signs: Sequence[int]) -> str:
-    """Return signs as text.
-
-    >>> signs_text((1, -1, 1))
-    '+-+'
-    """
+    """Return signs as text, such as ``+-+``."""
     return "".join("+" if sign > 0 else "-" for sign in signs)
 
 
@@ -185,9 +161,9 @@ def joints_text(joints: Sequence[JointId]) -> str:
 
 
 def kind_line(kind: FourBarKind, *, angular: bool) -> str:
-    """Say in a line what a four-bar is."""
+    """Return a line with class, type and differences of a four-bar."""
     unit = "°" if angular else ""
-    shown = kind.told_differences(angular=angular)
+    shown = kind.rounded_differences(angular=angular)
     differences = ", ".join(f"T{i} = {t:.6g}{unit}" for i, t in enumerate(shown, start=1))
     return f"{kind.grashof}, {kind.name}   ({differences})"
 
@@ -199,10 +175,6 @@ def circles_table(
 
     `flat` are the loops that lie in a plane: no cone. `angular`: sizes are angles of cones, in radians and printed
     as degrees; otherwise they are lengths, of cylinders.
-
-    >>> from synth.surfaces.cylinder import map_to_cylinders
-    >>> circles_table(map_to_cylinders([4, 3, 5, 1]).cylinders, (), flat=(), angular=False)[0].rows[0][1:4]
-    ('open', '++++', '1')
     """
     size = "lambda (deg)" if angular else "radius"
 
@@ -239,21 +211,21 @@ def mapped_loop(
     """Return all circles of one loop, and the families, on a cylinder (base 0) or a cone (base 1).
 
     `reach` is float[n], as in `synth.surfaces.loop_sums`. For cones, `flat_steps` are the unsigned steps of the
-    links where the circle has size 0: the given link angles, of which the reach is rounded. A step of half a turn
-    has no sign: sign patterns that differ in such steps only are one linkage, listed with +; where it ends a
+    links where the circle has size 0: the link angles themselves, of which the reach is rounded. A step of half a
+    turn has no sign: sign patterns that differ in such steps only are one linkage, listed with +; where it ends a
     family it is not listed.
     """
     roots = loop_roots(reach, base)
     families = _families(roots, reach, base)
     vanishing = {family.signs for family in families}
     links = SizedLinks(reach, base, flat_steps)
-    found: dict[tuple[tuple[int, ...], float], MappedLoop] = {}
+    loops: dict[tuple[tuple[int, ...], float], MappedLoop] = {}
     for signs, turns, z, double in zip(roots.signs, roots.turns, roots.size, roots.double, strict=True):
         root = _as_listed(_Root(float(z), signs, int(turns), bool(double), _NONE), links)
         key = tuple(root.signs.tolist()), root.size
-        if key not in found and not _ends_a_family(root.signs, root.half, vanishing):
-            found[key] = _on_its_circle(root, links)
-    return tuple(sorted(found.values(), key=lambda one: one.size)), families
+        if key not in loops and not _ends_a_family(root.signs, root.half, vanishing):
+            loops[key] = _on_its_circle(root, links)
+    return tuple(sorted(loops.values(), key=lambda one: one.size)), families
 
 
 def _families(roots: LoopRoots, reach: Floats, base: Base) -> tuple[FamilyOfCircles, ...]:
@@ -285,7 +257,7 @@ class _Root(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class SizedLinks:
-    """The links of loops, as loop sums know them: reach, and base 1 for link angles on cones, 0 for lengths.
+    """The links of loops in loop sums: reach, and base 1 for link angles on cones, 0 for lengths.
 
     For cones, `flat_steps` are the unsigned steps where the circle has size 0.
     """
@@ -295,18 +267,18 @@ class SizedLinks:
     flat_steps: Floats | None = None
 
     def spans(self, size: float) -> Floats:
-        """Return what the links span, without sign."""
+        """Return the unsigned steps that the links span, radians."""
         if size == 0.0 and self.flat_steps is not None:
             return self.flat_steps
         return 2.0 * half_steps(size, self.reach, self.base)
 
     def half_turns(self, size: float) -> npt.NDArray[np.intp]:
-        """Return which links span half of the circle that ends the interval, as far as rounding can tell."""
+        """Return which links span half of the circle that ends the interval, within rounding."""
         each = np.eye(len(self.reach))
         return np.flatnonzero(np.pi - self.spans(size) <= sum_rounding(size, self.reach, each, self.base))
 
     def sharp(self, half: npt.NDArray[np.intp]) -> bool:
-        """Tell whether links of half a turn are as long as the longest, to the last digit."""
+        """Check whether links of half a turn are as long as the longest, to the last digit."""
         return bool((self.reach[half] == self.reach.min()).all())
 
 
@@ -387,7 +359,7 @@ def _whole_turns(steps: Floats) -> int:
 def _ends_a_family(
     signs: npt.NDArray[np.int8], half: npt.NDArray[np.intp], families: set[tuple[int, ...]]
 ) -> bool:
-    """Tell whether other signs of half turns make a pattern, or its mirror image, whose sum vanishes."""
+    """Check whether other signs of half turns make a pattern, or its mirror image, whose sum vanishes."""
     for family in families:
         for mirrored in (1, -1):
             differ = np.flatnonzero(signs * mirrored != np.array(family))

@@ -25,7 +25,7 @@ from graphs.errors import SynthedraError
 from graphs.mechanism.sheet import Sheet
 from graphs.types import JointId
 from synth.cli.main import main
-from synth.compliance.limited import limits
+from synth.compliance.joint_limits import limits
 from synth.moving.made import sheet_of
 from synth.templates.template import panels_of_thing, template_of
 from synth.viewer.shown import Shown, shown_of

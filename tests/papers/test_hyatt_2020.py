@@ -17,16 +17,12 @@ from graphs.files.formats import read, read_linkage
 from graphs.geometry import rotated
 from graphs.mechanism.surfaces import Cone
 from synth.candidates.job import CandidateJob
-from synth.conformed.four_bar_poses import poses_from_conformed
-from synth.conformed.pose import dihedral_angles, joint_axes
+from synth.conformed.pose import dihedral_angles, joint_axes, poses_from_conformed
 from synth.conformed.rates import ConformedChain, first_order, pole_axes
-from synth.fourbar.closing import grashof_class, kind_of_spherical, spherical_differences
-from synth.fourbar.joint_lines import supplementary
-from synth.surfaces.circuit import azimuths, circuits, table1
-from synth.surfaces.cone import largest_cone_angle, link_angles, map_to_cones, projected_angles
-from synth.surfaces.cyclic import circumradii, cone_angles
-from synth.surfaces.loop_sums import loop_roots
-from synth.surfaces.several_loops import link_pairs, loop_steps
+from synth.fourbar.closing import grashof_class, kind_of_spherical, spherical_differences, supplementary
+from synth.surfaces.circuit import azimuths, circuits, link_angles, link_pairs, loop_steps, table1
+from synth.surfaces.loop_maps import largest_cone_angle, map_to_cones, projected_angles
+from synth.surfaces.loop_sums import circumradii, cone_angles, loop_roots
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 PAPER = golden_numbers()["000"]

@@ -14,15 +14,21 @@ from graphs.count.report import mobility_report
 from graphs.edit.analogues import planar_analogue
 from graphs.files.formats import read
 from synth.candidates.job import CandidateJob
-from synth.conformed.behaviours import behaviour, shadow_allows
+from synth.conformed.behaviours import COLUMNS, ROWS, behaviour, shadow_allows, table4, table_row
 from synth.conformed.rates import ConformedChain
-from synth.conformed.twelve_cases import COLUMNS, ROWS, table4, table_row
 from synth.fourbar.closing import grashof_class, kind_of_spherical, planar_differences, spherical_differences
 from synth.fourbar.position import output_planar
-from synth.surfaces.cone import cone_reach, largest_cone_angle, link_angles, map_to_cones, projected_angles
-from synth.surfaces.cyclic import circumradii, cone_angles, crossed_area
-from synth.surfaces.cylinder import central_angles, chords, map_to_cylinders
-from synth.surfaces.loop_sums import loop_roots
+from synth.surfaces.circuit import link_angles
+from synth.surfaces.loop_maps import (
+    central_angles,
+    chords,
+    cone_reach,
+    largest_cone_angle,
+    map_to_cones,
+    map_to_cylinders,
+    projected_angles,
+)
+from synth.surfaces.loop_sums import circumradii, cone_angles, crossed_area, loop_roots
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 PAPER = golden_numbers()["001"]

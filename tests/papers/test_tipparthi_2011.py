@@ -8,10 +8,9 @@ import pytest
 from graphs.count.report import mobility_report
 from graphs.files.formats import read
 from graphs.reduce.ride_alongs import reduce
-from synth.guidance.five import dyads_of_five
-from synth.guidance.hoop_method import hoop, hoop_sequence, pair_name
-from synth.guidance.order import analyse_order
+from synth.guidance.order import analyse_order, hoop, hoop_sequence, pair_name
 from synth.guidance.orientations import read_orientations
+from synth.guidance.synthesis import dyads_of_five
 
 DATA = Path(__file__).resolve().parents[2] / "data" / "tipparthi"
 

@@ -70,7 +70,7 @@ ROWS = [
     Row(
         "Eq. 7",
         "largest cone angle of links 120, 155, 100 degrees",
-        "np.degrees(synth.surfaces.cone.largest_cone_angle(np.radians([120, 155, 100])))",
+        "np.degrees(synth.surfaces.loop_maps.largest_cone_angle(np.radians([120, 155, 100])))",
         misprint="000-10",
         words="any lambda from 0 to 90 degrees",
         right=[30.0, 12.5, 40.0],

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from graphs.mechanism.sheet import Sheet
-from synth.advice.advised import advise
-from synth.advice.diagonals import Diagonal
+from synth.advice.advice import advise
+from synth.advice.diagonals import Bounds, Candidates, Diagonal, smallest_sets
 from synth.advice.locks import cheapest_sets
 from synth.advice.search import Bounds, Candidates, smallest_sets
 from synth.motion.walk.step import Allowance

@@ -11,10 +11,9 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.pose import pose_mobility
-from synth.advice.advised import advise
-from synth.advice.diagonals import diagonals_of, loads_on_stresses
-from synth.advice.general_pose import general_pose
-from synth.advice.search import freedoms_when_creased
+from synth.advice.advice import advise
+from synth.advice.diagonals import diagonals_of, freedoms_when_creased, loads_on_stresses
+from synth.advice.locks import general_pose
 from synth.moving.made import configuration_of
 from synth.patterns.generated import generate
 

@@ -15,8 +15,8 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.exact import independent_cycles
 from graphs.rank.pose import pose_mobility
-from synth.advice.advised import advise
-from synth.advice.general_pose import general_pose
+from synth.advice.advice import advise
+from synth.advice.locks import general_pose
 from synth.moving.made import configuration_of
 from synth.patterns.generated import generate
 

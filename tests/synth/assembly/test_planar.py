@@ -13,7 +13,7 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from synth.assembly import general_positions, positions
 from synth.assembly.family import family_of
-from synth.assembly.found import solutions
+from synth.assembly.modes import solutions
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_axes
 from synth.moving.made import configuration_of
@@ -234,7 +234,7 @@ def test_loops_are_judged_by_their_axes():
     points = np.array([[0, 0], [0.3, 1], [2, 1.5], [2.2, 0]])
     assert len(positions(planar(FOUR_BAR, points), {0: 0.3}).positions) == 2
     skew = HingedSolids(FOUR_BAR, {j: ((*points[j].tolist(), 0.0), (0.1 * j * j, 0.3 * j, 1.0)) for j in range(4)})
-    with pytest.raises(UnsolvableError, match="meet in a point or are parallel"):
+    with pytest.raises(UnsolvableError, match="neither meet in a point nor are parallel"):
         positions(skew, {0: 0.3})
 
 

@@ -28,12 +28,10 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import Cone, Cylinder
 from synth.candidates.job import CandidateJob, Filter
 from synth.conformed.behaviours import link_arcs
-from synth.conformed.cycles import loops_of_chain
 from synth.conformed.pose import joint_axes
-from synth.conformed.rates import ConformedChain
-from synth.surfaces.common import common_surfaces
-from synth.surfaces.cone import link_angles
-from synth.surfaces.several_loops import link_pairs, loop_steps
+from synth.conformed.rates import ConformedChain, loops_of_chain
+from synth.surfaces.circuit import link_angles, link_pairs, loop_steps
+from synth.surfaces.linkages import common_surfaces
 
 
 def eight_bars():

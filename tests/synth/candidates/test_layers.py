@@ -9,7 +9,7 @@ from conical import WATT
 from enumerate.runner.job import row_as_dict
 from synth.candidates.job import CandidateJob
 from synth.candidates.pictures import picture_of_row, title_of_picture
-from synth.conformed.layers import layers, links_in_layers
+from synth.conformed.all_angles import layers, links_in_layers
 from synth.conformed.rates import ConformedChain
 
 WATT_BINARY = 1

@@ -73,7 +73,7 @@ def test_dyads_of_five(corrected, tmp_path):
     assert told["complex"] == 0
     assert max(dyad["residual"] for dyad in told["dyads"]) < 1e-14
     out = run("dyads", "--orientations", corrected, "-o", tmp_path / "map.svg").stdout
-    assert "5 orientations: 6 dyad(s)" in out
+    assert "5 orientations: 6 dyads" in out
     assert "all six solutions found, 0 of them complex" in out
     assert (tmp_path / "map.svg").read_text().startswith("<svg")
 

@@ -22,4 +22,4 @@ def test_out_of_reach_and_bad_words(data, tmp_path):
     assert "'3' is not JOINT=DEGREES" in run("positions", ring, "--drive", "3", code=2).stderr
     lines = run("positions", data / "linkages" / "bennett.json", "--drive", "0=3", code=2).stderr.splitlines()
     assert len(lines) == 1
-    assert "meet in a point or are parallel" in lines[0]
+    assert "neither meet in a point nor are parallel" in lines[0]

@@ -155,7 +155,7 @@ def test_behaviour_of_several_loops():
     assert (one["freedoms"], one["rank"], one["ground"], len(one["links"])) == (1, 6, 2, 6)
     assert one["table4"] is None
     assert "link 2 fixed: transmobile" in run("cone", "behaviour", FIG_11, "--ground", 2).stdout
-    assert "3 infinitesimal freedoms" in run("cone", "behaviour", "--steps", "60,60,60,60,60,60").stdout
+    assert "3 infinitesimal degrees of freedom" in run("cone", "behaviour", "--steps", "60,60,60,60,60,60").stdout
 
 
 @pytest.mark.parametrize("words", [
@@ -197,7 +197,7 @@ def test_a_loop_is_written_by_its_angles_or_on_a_cone(tmp_path):
     ("words", "message"),
     [
         (["200,100,70,60"], "link angle 1 is 200 degrees; expected the angle between two axes, between 0 and 180"),
-        (["120,95,45,85", "--cone", 3], "the linkage lies on 2 cones: there is none of number 3"),
+        (["120,95,45,85", "--cone", 3], "the linkage lies on 2 cones: expected --cone of 2 at most, got 3"),
         (["170,160,150,145", "--cone", 1], "the linkage lies on no cone"),
     ],
 )

@@ -13,7 +13,7 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from synth.compliance import limits
-from synth.compliance.limited import Corner, angles_left
+from synth.compliance.joint_limits import RideAlongCorner, angles_left
 from synth.patterns import generate
 
 
@@ -36,7 +36,7 @@ def test_the_range_is_where_the_ride_along_reaches(parallel):
     seen = set()
     for _ in range(60):
         numbers = random.uniform(0.2, 1.4, 4) if parallel else random.uniform(0.2, 2.9, 4)
-        corner = Corner(tuple(numbers[:2]), tuple(numbers[2:]), parallel)
+        corner = RideAlongCorner(tuple(numbers[:2]), tuple(numbers[2:]), parallel)
         all_round = np.linspace(0.0, 2 * pi, 91)[:-1] + 0.003
         closed = [angle for angle in all_round if closes(corner, angle)]
         if not closed:

@@ -13,10 +13,8 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from synth.compliance import Drive, Mass, Masses, Springs, sheet_masses
-from synth.compliance.equilibrium import equilibrium, load_path
-from synth.compliance.small_motions import mass_matrix, small_motions
-from synth.compliance.springs import ElasticLinkage
+from synth.compliance import DrivenJoint, Mass, Masses, Springs, sheet_masses
+from synth.compliance.springs import ElasticLinkage, equilibrium, load_path, mass_matrix, small_motions
 from synth.motion.linkage import linkage_of_axes
 from synth.moving.made import configuration_of
 from synth.patterns import generate
@@ -122,12 +120,14 @@ def test_a_joint_that_is_not_the_crank_is_driven_as_well():
 
 def test_a_joint_at_rest_in_two_poses_makes_it_rigid_in_both():
     """The angle between coupler and rocker is that of the distance from A to D: the same at opposite crank angles."""
-    asked = Drive(0, -2.0 * START, 3)  # an odd number: the crank does not stop half-way, where it is a dead point
+    asked = DrivenJoint(
+        0, -2.0 * START, 3
+    )  # an odd number: the crank does not stop half-way, where it is a dead point
     found = synth.states(four_bar(), springs=Springs({2: 1.0}), drive=asked).elastic
     kinds = [one.state.kind for one in found.path]
     assert kinds == ["rigid immobile", *2 * ["compliant mobile"], "rigid immobile"]
     assert [(one.joint, one.driven) for one in found.passed] == [(2, pytest.approx(-2.0 * START))]
-    beyond = synth.states(four_bar(), springs=Springs({2: 1.0}), drive=Drive(0, -2.05 * START, 2)).elastic
+    beyond = synth.states(four_bar(), springs=Springs({2: 1.0}), drive=DrivenJoint(0, -2.05 * START, 2)).elastic
     assert [one.driven for one in beyond.passed] == [pytest.approx(-2.0 * START, abs=1e-5)]
     assert beyond.path[-1].state.kind == "compliant mobile"
 
@@ -234,8 +234,8 @@ def test_what_springs_refuse():
     flat = configuration_of(generate("miura", rows=2, columns=2).mechanism).linkage
     with pytest.raises(UnsolvableError, match="fold it a little first"):
         ElasticLinkage(flat, Springs({next(iter(flat.graph.joints)): 1.0}))
-    with pytest.raises(UnsolvableError, match="need springs"):
-        synth.states(four_bar(), [0], drive=Drive(0, 1.0))
+    with pytest.raises(UnsolvableError, match="require springs"):
+        synth.states(four_bar(), [0], drive=DrivenJoint(0, 1.0))
     rigid = replace(linkage, directions=np.array([[0.0, 0, 1], [0, 1, 0], [1, 0, 0], [0, 0.6, 0.8]]))
     with pytest.raises(UnsolvableError, match="nothing to move"):
         ElasticLinkage(rigid, Springs({0: 1.0}))

@@ -150,7 +150,7 @@ def test_the_command(tmp_path):
     ).stdout
     assert "load path of joint 0" in out
     assert "small motions about it" in out
-    assert "expected joints or links that are" in run("states", file, code=2).stderr
+    assert "expected one or more compliant joints or links" in run("states", file, code=2).stderr
     assert "'1=1' is not LINK=M@X,Y,Z" in run("states", file, "--stiffness", "1=2", "--mass", "1=1", code=2).stderr
     assert (
         "joint 1 has -2.0; expected a number, 0 or more"

@@ -14,11 +14,8 @@ from synth.candidates.job import CandidateJob
 from synth.candidates.rows import loop_circuits
 from synth.conformed.all_angles import Allowed, never_singular, orders_with_opposites, over_angles, sampled
 from synth.conformed.behaviours import link_arcs
-from synth.conformed.chords import arc_sets, sign_of_sum
-from synth.conformed.cycles import loops_of_chain, signed_cycles
-from synth.conformed.layers import layers
-from synth.conformed.outward import joint_rates, outward_rates
-from synth.conformed.rates import ConformedChain, first_order
+from synth.conformed.outward import arc_sets, joint_rates, outward_rates, sign_of_sum
+from synth.conformed.rates import ConformedChain, first_order, loops_of_chain, signed_cycles
 
 CHAINS = {"four-bar": FOUR_BAR, "watt": WATT, "stephenson": STEPHENSON}
 

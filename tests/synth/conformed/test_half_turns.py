@@ -10,9 +10,8 @@ from graphs.errors import InvariantError
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import Cylinder
-from synth.conformed.behaviours import Way
+from synth.conformed.behaviours import Way, table_row
 from synth.conformed.linkages import OnSurface, loop_of_steps
-from synth.conformed.twelve_cases import table_row
 from synth.moving.on_surface import move_on_surface
 
 STEPS = {

@@ -9,8 +9,7 @@ from commands import run
 
 from synth.drawing.scene.shapes import Disc, Line
 from synth.drawing.sums import draw_loop_sums
-from synth.surfaces.cone import map_to_cones
-from synth.surfaces.cylinder import map_to_cylinders
+from synth.surfaces.loop_maps import map_to_cones, map_to_cylinders
 
 MAPS = {
     "spherical": map_to_cones(np.radians([70, 80, 120, 40])),

@@ -8,10 +8,16 @@ from conical import random_lengths, random_link_angles, random_linkages
 
 from graphs.errors import InvariantError
 from graphs.geometry import angles_between
-from synth.conformed.four_bar_poses import poses_from_conformed
-from synth.conformed.pose import dihedral_angles, joint_axes, measured_dihedral_angles
-from synth.fourbar.closing import kind_of_planar, kind_of_spherical, planar_differences, spherical_differences
-from synth.fourbar.joint_lines import in_a_hemisphere, minimal_supplementary, supplementary
+from synth.conformed.pose import dihedral_angles, joint_axes, measured_dihedral_angles, poses_from_conformed
+from synth.fourbar.closing import (
+    in_a_hemisphere,
+    kind_of_planar,
+    kind_of_spherical,
+    minimal_supplementary,
+    planar_differences,
+    spherical_differences,
+    supplementary,
+)
 from synth.fourbar.position import (
     input_limits_planar,
     input_limits_spherical,
@@ -20,7 +26,7 @@ from synth.fourbar.position import (
     transmission_planar,
     transmission_spherical,
 )
-from synth.surfaces.cyclic import cone_angles
+from synth.surfaces.loop_sums import cone_angles
 
 THETA = np.radians(np.arange(-180, 180, 0.5) + 0.25)
 

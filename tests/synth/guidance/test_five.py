@@ -6,10 +6,9 @@ from cranks import lines_apart, problem, random_orientations
 from scipy.spatial.transform import Rotation
 
 from graphs.errors import UnsolvableError
-from synth.guidance.five import dyads_of_five
-from synth.guidance.four import centre_axes
-from synth.guidance.many import dyads_by_least_squares
+from synth.guidance.dyads import centre_axes
 from synth.guidance.orientations import Orientations
+from synth.guidance.synthesis import dyads_by_least_squares, dyads_of_five
 
 
 def distance(dyad, fixed, moving):
@@ -193,5 +192,5 @@ def test_turns_about_one_axis_have_dyads_without_number():
 
 @pytest.mark.parametrize("n", [3, 4, 6])
 def test_five_are_needed(n):
-    with pytest.raises(UnsolvableError, match=f"{n} orientations do not have six dyads; 5 do"):
+    with pytest.raises(UnsolvableError, match=f"{n} orientations; six dyads require 5"):
         dyads_of_five(random_orientations(n, np.random.default_rng(1)))

@@ -7,9 +7,9 @@ from scipy.spatial.transform import Rotation
 
 from graphs.errors import UnsolvableError
 from synth.guidance.dyads import dyad_of, dyads_of_three
-from synth.guidance.five import dyads_of_five
 from synth.guidance.fourbars import four_bar_of, four_bars, motion_of
 from synth.guidance.orientations import Orientations, read_orientations
+from synth.guidance.synthesis import dyads_of_five
 
 STEPS = 2000
 

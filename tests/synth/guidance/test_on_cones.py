@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 from cranks import lines_apart, random_orientations
 
-from synth.guidance.five import dyads_of_five
-from synth.guidance.fourbars import four_bars
-from synth.guidance.on_cones import conical_forms
+from synth.guidance.fourbars import conical_forms, four_bars
 from synth.guidance.orientations import read_orientations
+from synth.guidance.synthesis import dyads_of_five
 
 
 def rebuilt(cone):

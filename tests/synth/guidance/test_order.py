@@ -5,14 +5,17 @@ import pytest
 from cranks import direction, lines_apart, order_of, problem, random_orientations
 
 from graphs.errors import InvariantError, UnsolvableError
-from synth.guidance.hoop_method import DIRECTIONS, hoop, hoop_sequence, required_sequence
 from synth.guidance.order import (
+    DIRECTIONS,
     analyse_order,
     crank_angles,
+    hoop,
+    hoop_sequence,
     nearest_moving_axis,
     order_by_crank_angles,
     order_by_inequalities,
     order_verdicts,
+    required_sequence,
 )
 from synth.guidance.orientations import Orientations
 

@@ -11,9 +11,8 @@ from graphs.files.formats import read
 from graphs.geometry import rotated
 from graphs.mechanism.surfaces import Cone
 from synth.conformed.behaviours import Way, behaviour
-from synth.conformed.four_bar_poses import poses_from_conformed
 from synth.conformed.linkages import linkage_on_surfaces, loop_of_steps, loop_on_cones, loop_on_cylinders
-from synth.conformed.pose import joint_axes
+from synth.conformed.pose import joint_axes, poses_from_conformed
 from synth.fourbar.position import input_limits_spherical
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import link_motions

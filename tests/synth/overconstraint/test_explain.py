@@ -17,9 +17,8 @@ from graphs.mechanism.solids import HingedSolids
 from synth.motion.closure import ClosureEquations
 from synth.moving.made import configuration_of
 from synth.overconstraint import explain
-from synth.overconstraint.idle import first_order
 from synth.overconstraint.reasons import reasons_of
-from synth.overconstraint.tolerances import growths
+from synth.overconstraint.redundancy import first_order_closure, growths
 from synth.patterns import generate
 
 RINGS = {
@@ -105,7 +104,7 @@ def test_what_was_idle_grows_with_errors_as_foretold(name):
     """By the singular values of linkages built with the error: none beyond, the worst of many ways near it."""
     solids = generate(name).mechanism
     linkage = configuration_of(solids).linkage
-    order = first_order(linkage)
+    order = first_order_closure(linkage)
     allowed = {one.joint: one for one in explain(solids).tolerances}
     rank = len(order.matrix[0]) - order.rates.shape[1]
     error = 1e-5
@@ -133,7 +132,7 @@ def first_order_matrix(solids, like):
 
 
 def test_growth_is_that_of_rates_for_each_axis():
-    order = first_order(linkage := configuration_of(generate("bennett").mechanism).linkage)
+    order = first_order_closure(linkage := configuration_of(generate("bennett").mechanism).linkage)
     assert growths(linkage, order).shape == (3, 24)
 
 

@@ -79,7 +79,7 @@ def test_a_short_arc_does_not_tell_the_radius(rng):
     lengths = lengths_of(WATT, 1e-4 * rng.uniform(-np.pi, np.pi, 7), 3.0)
     found, _ = common_surfaces(WATT, lengths, lengths=True)
     assert found
-    assert all("tells no radius" in one.caution for one in found)
+    assert all("radius is undetermined" in one.caution for one in found)
 
 
 def test_parallelograms_lie_on_every_cylinder_from_one_on():

@@ -15,11 +15,26 @@ from scipy.optimize import brentq, minimize_scalar
 from graphs.errors import InvariantError, UnsolvableError
 from synth.conformed.pose import check_pose
 from synth.fourbar.closing import can_close, planar_differences, spherical_differences
-from synth.surfaces.circuit import circuits
-from synth.surfaces.cone import cone_reach, link_angles, map_to_cones, projected_angles, solution_class
-from synth.surfaces.cyclic import circumradii, cone_angles
-from synth.surfaces.cylinder import central_angles, chords, cylinder_reach, map_to_cylinders
-from synth.surfaces.loop_sums import MOST_LINKS, half_steps, loop_roots, loop_sum, sign_patterns
+from synth.surfaces.circuit import circuits, link_angles
+from synth.surfaces.loop_maps import (
+    central_angles,
+    chords,
+    cone_reach,
+    cylinder_reach,
+    map_to_cones,
+    map_to_cylinders,
+    projected_angles,
+    solution_class,
+)
+from synth.surfaces.loop_sums import (
+    MOST_LINKS,
+    circumradii,
+    cone_angles,
+    half_steps,
+    loop_roots,
+    loop_sum,
+    sign_patterns,
+)
 
 COUNT = 10_000
 

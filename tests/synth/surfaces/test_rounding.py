@@ -11,12 +11,10 @@ from conical import WATT
 from many_digits import DIGITS, at_most, crossed_cone, loop_on_a_cone, over, root, signed_sums
 
 from synth.fourbar.closing import can_close, kind_of_planar, kind_of_spherical
-from synth.surfaces.common import common_surfaces
-from synth.surfaces.cone import link_angles, map_to_cones
-from synth.surfaces.cyclic import circumradii, cone_angles
-from synth.surfaces.cylinder import map_to_cylinders
-from synth.surfaces.loop_sums import loop_roots
-from synth.surfaces.several_loops import link_pairs
+from synth.surfaces.circuit import link_angles, link_pairs
+from synth.surfaces.linkages import common_surfaces
+from synth.surfaces.loop_maps import map_to_cones, map_to_cylinders
+from synth.surfaces.loop_sums import circumradii, cone_angles, loop_roots
 
 EPS = np.finfo(float).eps
 SMALL = np.radians([0.05300576331063594, 0.028607593438264384, 0.028193704947699714, 0.052591874821408154])
@@ -220,7 +218,7 @@ def test_small_linkages_of_several_loops():
     angles = {(a, b): float(link_angles(at[b] - at[a], 0.7)) for a, b in link_pairs(WATT)}
     cones, families = common_surfaces(WATT, angles)
     assert cones
-    assert all("tells no lambda" in one.caution for one in cones)
+    assert all("lambda is undetermined" in one.caution for one in cones)
 
 
 def test_a_family_of_several_loops_within_rounding_says_so():

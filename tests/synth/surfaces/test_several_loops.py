@@ -18,9 +18,9 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import SurfaceLinkage, places_of_steps
 from synth.conformed.pose import joint_axes
-from synth.surfaces.common import common_surfaces
-from synth.surfaces.cone import link_angles, map_to_cones
-from synth.surfaces.several_loops import link_pairs, loop_steps
+from synth.surfaces.circuit import link_angles, link_pairs, loop_steps
+from synth.surfaces.linkages import common_surfaces
+from synth.surfaces.loop_maps import map_to_cones
 
 ROOT = Path(__file__).resolve().parents[3]
 FIG_11 = ROOT / "data" / "surfaces" / "fig11-stephenson.json"
@@ -127,7 +127,7 @@ def test_families_of_several_loops():
     ("change", "message"),
     [
         (lambda x: {**x, (0, 5): 1.0}, "no link carries both"),
-        (lambda x: {**x, (1, 0): 1.0}, "is given twice"),
+        (lambda x: {**x, (1, 0): 1.0}, "occurs twice"),
         (lambda x: {**x, (0, 1): -1.0}, "is -57.2957795131 degrees; expected between 0 and 180"),
         (lambda x: {k: v for k, v in x.items() if k != (0, 1)}, "no angle between joints 0 and 1"),
     ],
@@ -169,7 +169,7 @@ def test_half_turns_are_marked():
 
 
 def test_azimuths_must_be_those_of_the_joints():
-    with pytest.raises(InvariantError, match="azimuths of 3 joints; expected those of the 4"):
+    with pytest.raises(InvariantError, match="3 azimuths; expected 4, one per joint"):
         loop_steps(FOUR_BAR, [0.0, 1.0, 2.0])
 
 

@@ -1,4 +1,4 @@
-"""Why a mechanism moves, as data and in print. Theory: docs/theory/overconstraint.md."""
+"""Why a mechanism moves although counts say no. Theory: docs/theory/overconstraint.md."""
 
 from __future__ import annotations
 
@@ -7,13 +7,25 @@ from math import degrees, isfinite
 from typing import Any
 
 from graphs.answer.report import power_of_ten
+from graphs.convert.table import Mechanism
 from graphs.errors import numbered, shown
+from graphs.given import check_given
 from graphs.ids import JointId
 from graphs.printing import Block, Printed, TableBlock, plain
+from graphs.tolerances import Tolerances
 from synth.motion.configuration import Configuration
-from synth.overconstraint.tolerances import Tolerance
+from synth.motion.linkage import PosedLinkage
+from synth.moving.made import Movable, configuration_of
+from synth.overconstraint.reasons import reasons_of, turning_reasons
+from synth.overconstraint.redundancy import (
+    Tolerance,
+    active_at_second_order,
+    axis_tolerances,
+    first_order_closure,
+    smallest_sets,
+)
 
-__all__ = ["Explanation", "IdleSet"]
+__all__ = ["Explanation", "IdleSet", "explain"]
 
 _LISTED = 12
 """Axes of which tolerances are printed; data has all."""
@@ -25,7 +37,7 @@ _OTHER_QUESTION = (
 
 @dataclass(frozen=True, slots=True)
 class IdleSet:
-    """Loops that together hold idle equations; without any of them they hold fewer.
+    """Loops that together hold redundant equations; without any of them they hold fewer.
 
     Attributes
     ----------
@@ -33,7 +45,7 @@ class IdleSet:
     idle : int
         Equations that follow from the others of these loops.
     reasons : tuple of str
-        The special geometry that was recognised; empty where none was.
+        The special geometry that was recognised; may be empty.
     """
 
     loops: tuple[tuple[JointId, ...], ...]
@@ -47,25 +59,21 @@ class IdleSet:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Explanation(Printed):
-    """Why a mechanism at a pose has more freedoms than equations allow. It prints as ``synth explain`` does.
+    """Why a mechanism has more freedoms than equations allow. It prints as ``synth explain`` does.
 
     Attributes
     ----------
     configuration : Configuration
-        Where it was asked.
-    freedoms : int
-        Of first order, at the pose.
-    count : int
-        M: joints less equations.
-    idle : int
-        Equations that follow from others, h = freedoms - M.
-    active : int
-        Of them those that ask something of the motions at second order.
+        The input.
+    freedoms, count : int
+        Degrees of freedom to first order, and M: joints less equations.
+    idle, active : int
+        Redundant equations, h = freedoms - M, and those of them that constrain the motions at second order.
     sets : tuple of IdleSet
     tolerances : tuple of Tolerance
-        How far axes may err, least first; none where nothing is idle, or second order decides.
+        Errors of axes, least first; none where nothing is redundant, or second order decides.
     smallest, gap : float
-        The smallest singular value that counts, and it over the largest that does not.
+        The smallest singular value that counts, and its ratio to the largest that does not.
     """
 
     configuration: Configuration
@@ -152,3 +160,56 @@ def _angle(value: float) -> str:
 
 def _length(value: float) -> str:
     return f"{value:.3g}" if isfinite(value) else "any"
+
+
+def explain(thing: Mechanism | PosedLinkage, *, precision: float | None = None) -> Explanation:
+    """Find the loops of a mechanism with redundant equations, the reasons, and how far its axes may err.
+
+    Parameters
+    ----------
+    thing : Mechanism or PosedLinkage
+        With coordinates; of a sheet with several frames the first that has them.
+    precision : float, optional
+        The error that a coordinate may have, in their unit; by default by their digits, or as the geometry shows.
+
+    Raises
+    ------
+    UnsolvableError
+        If it has no coordinates.
+    NumericalError
+        If singular values do not decide the rank.
+
+    Examples
+    --------
+    >>> from synth.patterns import generate
+    >>> answer = explain(generate("bennett").mechanism)
+    >>> answer.freedoms, answer.count, answer.idle, answer.sets[0].reasons[0]
+    (1, -2, 3, 'opposite links equal, lengths proportional to the sines of the twists (Bennett)')
+    """
+    check_given("explain", thing, Movable)
+    at = configuration_of(thing, precision=precision)
+    linkage = at.linkage
+    order = first_order_closure(linkage, at.tolerances)
+    meant = Tolerances.of(at.precision.size)  # mended coordinates move, but are not all that they were meant to be
+    names = list(linkage.graph.joints)
+    active = active_at_second_order(linkage, order)
+    sets = tuple(
+        IdleSet(
+            tuple(tuple(names[joint] for joint in linkage.loops[loop].joints) for loop in loops),
+            number,
+            tuple(reasons_of(linkage, loops, meant) or turning_reasons(linkage, order, loops, meant)),
+        )
+        for loops, number in smallest_sets(linkage, order)
+    )
+    freedoms, idle = order.rates.shape[1], order.stresses.shape[1]
+    return Explanation(
+        configuration=at,
+        freedoms=freedoms,
+        count=len(names) - len(order.loop_of),
+        idle=idle,
+        active=active,
+        sets=sets,
+        tolerances=tuple(axis_tolerances(linkage, order)) if idle and freedoms and not active else (),
+        smallest=order.smallest,
+        gap=order.gap,
+    )

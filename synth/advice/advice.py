@@ -1,0 +1,502 @@
+"""Joints to lock or panels to crease for a number of freedoms. Theory: docs/theory/advice.md."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import islice
+from math import inf, isfinite
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.edit.named import known
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.given import check_given
+from graphs.ids import JointId, LinkId
+from graphs.mechanism.plane import lies_flat
+from graphs.mechanism.sheet import Sheet
+from graphs.printing import Block, Printed, TableBlock
+from graphs.rank.singular_values import spectrum
+from graphs.rank.spaces import split
+from graphs.tolerances import DOUBLE
+from synth.advice.diagonals import (
+    Bounds,
+    Candidates,
+    Diagonal,
+    diagonals_of,
+    freedoms_when_left_out,
+    loads_on_stresses,
+    smallest_sets,
+)
+from synth.advice.locks import Cost, GeneralPose, cheapest_sets, general_pose, held
+from synth.folding.configuration import SheetConfiguration
+from synth.motion.branches import Branch
+from synth.motion.closure import ClosureEquations
+from synth.motion.configuration import Configuration
+from synth.motion.walk.allowance import Allowance
+from synth.moving.made import Movable, configuration_of
+
+__all__ = ["Advice", "Creased", "Locked", "advise"]
+
+_USED_UP = "; the search ended at its work limit"
+_LOOSE = 1e4
+"""Amplification of play is printed up to this factor, above as more."""
+
+
+@dataclass(frozen=True, slots=True)
+class Locked:
+    """Joints to lock.
+
+    Attributes
+    ----------
+    joints : tuple of joint ids
+    weight : float
+        Sum of their weights.
+    flaps, still : tuple of joint ids
+        Those of them that are in no loop: they stop a flap, and nothing else; and other joints that are immobile
+        then.
+    play : float
+        The largest factor by which play in the locked joints is amplified in the others (root of summed squares).
+    freedoms : int or None
+        By the rank of the closure equations without these joints; None where singular values do not decide.
+    left_out : int or None
+        Of the flat sheet without these creases, on its freest branch; None if not asked for, or unknown.
+    """
+
+    joints: tuple[JointId, ...]
+    weight: float
+    flaps: tuple[JointId, ...]
+    still: tuple[JointId, ...]
+    play: float
+    freedoms: int | None
+    left_out: int | None = None
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {
+            "joints": list(self.joints),
+            "weight": self.weight,
+            "flaps": list(self.flaps),
+            "still": list(self.still),
+            "play": self.play,
+            "freedoms": self.freedoms,
+            "left_out": self.left_out,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Creased:
+    """Diagonals of panels to crease.
+
+    Attributes
+    ----------
+    diagonals : tuple of Diagonal
+    flaps, freedoms : int
+        How many only cut a corner off, which hangs on them; degrees of freedom of the sheet with them, folded.
+    """
+
+    diagonals: tuple[Diagonal, ...]
+    flaps: int
+    freedoms: int
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        diagonals = [{"panel": one.panel, "face": one.face, "vertices": list(one.ends)} for one in self.diagonals]
+        return {"diagonals": diagonals, "flaps": self.flaps, "freedoms": self.freedoms}
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Advice(Printed):
+    """What to lock or to crease. It prints as ``synth advise`` does.
+
+    Attributes
+    ----------
+    configuration : Configuration
+        The input.
+    freedoms, wanted : int
+        Degrees of freedom M of the mechanism, and K that are required.
+    branch : int or None
+        The motion branch on which that holds; None where the input configuration is regular.
+    flaps : tuple of joint ids
+        Joints in no loop: each a freedom by itself.
+    locks : tuple of Locked
+        Where there are too many freedoms: sets of M - K joints, cheapest first, of equal weight those with fewest
+        flaps, then those whose joints move most.
+    creases : tuple of Creased
+        Where there are too few: the smallest sets of diagonals.
+    more, used_up : bool
+        Whether there are, or may be, more sets as small; whether the search ended at its work limit.
+    searched, refused : int or None, int
+        The largest number of diagonals in the search; sets of diagonals that have the rates and, folded, not the
+        freedoms.
+    """
+
+    configuration: Configuration
+    freedoms: int
+    wanted: int
+    branch: int | None
+    flaps: tuple[JointId, ...] = ()
+    locks: tuple[Locked, ...] = ()
+    creases: tuple[Creased, ...] = ()
+    more: bool = False
+    used_up: bool = False
+    searched: int | None = None
+    refused: int = 0
+
+    @property
+    def taken(self) -> Branch | None:
+        """The motion branch on which that holds; None where nothing moves."""
+        return self.configuration.branch(self.branch or 0)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
+        return {
+            "configuration": self.configuration.to_json(self.taken),
+            "freedoms": self.freedoms,
+            "wanted": self.wanted,
+            "branch": self.branch,
+            "flaps": list(self.flaps),
+            "locks": [one.to_json() for one in self.locks],
+            "creases": [one.to_json() for one in self.creases],
+            "more": self.more,
+            "used_up": self.used_up,
+            "searched": self.searched,
+            "refused": self.refused,
+            "mended": list(self.configuration.mended),
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        where = (
+            "at this configuration" if self.branch is None else f"near this configuration, on branch {self.branch}"
+        )
+        freedoms = numbered(self.freedoms, "degree of freedom", "degrees of freedom")
+        lines: list[Block] = [f"{freedoms} {where}; required: {self.wanted}"]
+        if self.wanted < self.freedoms:
+            lines += self._locking()
+        else:
+            lines += self._creasing() if self.wanted > self.freedoms else ["nothing to change"]
+        if self.flaps:
+            joints = ", ".join(map(shown, self.flaps))
+            lines.append(f"flap joints (in no loop, 1 degree of freedom each): {joints}")
+        return [*lines, *(f"repaired: {repair}" for repair in self.configuration.mended)]
+
+    def _locking(self) -> list[Block]:
+        size = numbered(self.freedoms - self.wanted, "joint")
+        rows: list[tuple[str, ...]] = [
+            (
+                _names(one.joints),
+                f"{one.weight:g}",
+                _names(one.flaps),
+                _names(one.still),
+                _play(one.play),
+                _number(one.freedoms),
+                _number(one.left_out),
+            )
+            for one in self.locks
+        ]
+        columns: tuple[str, ...] = ("lock", "weight", "flaps", "then immobile", "play", "DOF", "DOF if left out")
+        if all(one.left_out is None for one in self.locks):
+            columns, rows = columns[:-1], [row[:-1] for row in rows]
+        heading = f"lock {size}: " + self._how_many(len(self.locks))
+        return [heading, TableBlock(columns, rows, ["weight", "play", "DOF", "DOF if left out"])]
+
+    def _creasing(self) -> list[Block]:
+        lines: list[Block] = []
+        if self.refused:
+            rejected = f"rejected {numbered(self.refused, 'set')} of diagonals"
+            lines.append(f"{rejected}: enough DOF to first order, too few when folded")
+        if not self.creases:
+            ended = "all were checked"
+            if self.more:
+                ended = "the search ended at a limit" + (_USED_UP if self.used_up else "")
+            return [f"no set of {numbered(self.searched or 0, 'diagonal')} or fewer was found: {ended}", *lines]
+        size = numbered(len(self.creases[0].diagonals), "diagonal")
+        rows = [
+            (
+                ", ".join(f"{one.ends[0]}-{one.ends[1]} (panel {one.panel})" for one in creased.diagonals),
+                str(creased.flaps),
+                str(creased.freedoms),
+            )
+            for creased in self.creases
+        ]
+        heading = f"crease {size}: " + self._how_many(len(self.creases))
+        return [heading, TableBlock(("from vertex to vertex", "flaps", "DOF"), rows, ["flaps", "DOF"]), *lines]
+
+    def _how_many(self, listed: int) -> str:
+        ended = _USED_UP if self.used_up else ""
+        if self.more:
+            return ("the first set" if listed == 1 else f"the first {listed} sets") + ended
+        return f"{numbered(listed, 'set')}, all there are"
+
+    def __repr__(self) -> str:
+        return f"<Advice: {self.freedoms} to {self.wanted} freedoms, {len(self.locks) + len(self.creases)} sets>"
+
+
+def _names(joints: tuple[JointId, ...]) -> str:
+    return " ".join(map(shown, joints)) or "-"
+
+
+def _number(number: int | None) -> str:
+    return "?" if number is None else str(number)
+
+
+def _play(play: float) -> str:
+    return f"> {_LOOSE:.0f}" if play > _LOOSE else f"{play:.3g}"
+
+
+_LIMIT = 20
+_WORK = 2_000_000_000
+"""Numbers of matrices that a search goes through, be they few large or many small ones: some seconds."""
+_STEPS = 300_000
+"""Steps of a search, however small the matrices."""
+_ONE_MORE = 1
+"""Diagonals beyond the fewest that are looked for if nothing is said."""
+_DIGITS = 6
+"""Of how much joints move: what moves alike is told apart by its place."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Protected:
+    """What the user protects from change, and weights of joints."""
+
+    joints: Collection[JointId] = ()
+    links: Collection[LinkId] = ()
+    flaps: bool = False
+    weights: Mapping[JointId, float] = field(default_factory=dict)
+
+
+class _Locks(NamedTuple):
+    """Sets of joints to lock, whether there are or may be more, and whether the search was ended."""
+
+    sets: tuple[Locked, ...]
+    more: bool
+    used_up: bool
+
+
+def advise(
+    thing: Movable,
+    freedoms: int,
+    *,
+    branch: int | str | None = None,
+    weights: Mapping[JointId, float] | None = None,
+    joints: Collection[JointId] = (),
+    links: Collection[LinkId] = (),
+    flaps: bool = True,
+    limit: int = _LIMIT,
+    size: int | None = None,
+    leave_out: bool = False,
+) -> Advice:
+    """Find joints to lock, or panels to crease, for a number of freedoms.
+
+    Parameters
+    ----------
+    thing : Mechanism
+        With coordinates. Only panels of a sheet can be creased.
+    freedoms : int
+        Required degrees of freedom, K. Of M that there are, M - K joints are locked, or K - M diagonals and more
+        are creased.
+    branch : int or str, optional
+        From a singular configuration, above all a flat sheet: the motion branch, by its number or signs. By
+        default the assignment chooses it.
+    weights : mapping of joint id to float, optional
+        Cost of locking a joint, 0 or more; by default 1.
+    joints, links : collection of ids, optional
+        Protected: the joints, and all joints of the links, are not locked; the links are not creased.
+    flaps : bool, optional
+        Whether joints in no loop may be locked, and corners be cut off to hang as flaps.
+    limit : int, optional
+        Largest number of sets in the answer.
+    size : int, optional
+        Size of the largest set of diagonals in the search; by default one more than K - M.
+    leave_out : bool, optional
+        Find for each set to lock the freedoms of a flat sheet without these creases, too: left out they stay at 0,
+        which is a special angle.
+
+    Raises
+    ------
+    InvariantError
+        If a number is out of range, or there is no such joint, link or branch.
+    UnsolvableError
+        If there are no coordinates, nothing moves, protection leaves too few joints, or there are no panels to
+        crease.
+    NumericalError
+        If no regular configuration is found.
+
+    Examples
+    --------
+    A vertex of six creases has three freedoms; three creases are locked, not the expensive one:
+
+    >>> from math import cos, pi, sin
+    >>> around = [(cos(k * pi / 3 + 0.1 * (k % 2)), sin(k * pi / 3 + 0.1 * (k % 2))) for k in range(6)]
+    >>> faces = tuple((0, 1 + k, 1 + (k + 1) % 6) for k in range(6))
+    >>> sheet = Sheet(7, tuple((0, k) for k in range(1, 7)), "MVVMVV", faces, ((0.0, 0.0), *around))
+    >>> advice = advise(sheet, 0, weights={0: 5.0}, limit=1)
+    >>> advice.locks[0].joints, advice.locks[0].weight
+    ((1, 3, 4), 3.0)
+    """
+    check_given("advise", thing, Movable)
+    protected = _Protected(frozenset(joints), frozenset(links), not flaps, dict(weights or {}))
+    _check_number("freedoms", freedoms, 0)
+    _check_number("limit", limit, 1)
+    at = configuration_of(thing)
+    sheet = at.drawn if isinstance(at, SheetConfiguration) else None
+    pose = general_pose(at, branch)
+    _check_names(pose, protected)
+    every = list(pose.linkage.graph.joints)
+    flapping = tuple(every[place] for place in pose.flaps)
+    if freedoms <= pose.freedoms:
+        answer = _locks(pose, pose.freedoms - freedoms, protected, limit)
+        locks = tuple(_with_left_out(lock, sheet) for lock in answer.sets) if leave_out else answer.sets
+        return Advice(
+            at,
+            pose.freedoms,
+            freedoms,
+            pose.branch,
+            flapping,
+            locks,
+            more=answer.more,
+            used_up=answer.used_up,
+        )
+    largest = freedoms - pose.freedoms + _ONE_MORE if size is None else size
+    _check_number("size", largest, freedoms - pose.freedoms)
+    return _creased(at, pose, freedoms, protected, (largest, limit))
+
+
+def _locks(pose: GeneralPose, size: int, protected: _Protected, limit: int) -> _Locks:
+    """Return the cheapest sets of joints to lock."""
+    if not size:
+        return _Locks((), False, False)
+    allowed = _free_joints(pose, protected)
+    most = held(pose.rates, allowed)
+    if most < size:
+        least = pose.freedoms - most
+        raise UnsolvableError(
+            f"at least {least} of {numbered(pose.freedoms, 'degree of freedom', 'degrees of freedom')} remain: "
+            f"locking all joints that are not protected removes {most}, and {size} are to be removed"
+        )
+    flaps = set(pose.flaps)
+    moves = np.round((pose.rates**2).sum(axis=1), _DIGITS)
+    costs: list[Cost] = [
+        (protected.weights.get(joint, 1.0), float(place in flaps), -float(moves[place]))
+        for place, joint in enumerate(pose.linkage.graph.joints)
+    ]
+    allowance = _allowance(pose.rates)
+    first = list(islice(cheapest_sets(pose.rates, size, costs, allowed, allowance), limit + 1))
+    more = len(first) > limit or allowance.left < 0
+    return _Locks(tuple(_locked(pose, places, costs) for places in first[:limit]), more, allowance.left < 0)
+
+
+def _allowance(matrix: Floats) -> Allowance:
+    """Return the steps that a search may take, each of which goes through a matrix."""
+    return Allowance(min(_STEPS, _WORK // max(matrix.size, 1)))
+
+
+def _with_left_out(lock: Locked, sheet: Sheet | None) -> Locked:
+    """Return a set with what a flat sheet has without its creases."""
+    if sheet is None or not lies_flat(sheet):
+        raise UnsolvableError("creases are left out of flat sheets only; those of a folded one can be locked")
+    joints = [joint for joint in lock.joints if isinstance(joint, int)]  # numbers of edges
+    return replace(lock, left_out=freedoms_when_left_out(sheet, joints))
+
+
+def _free_joints(pose: GeneralPose, protected: _Protected) -> list[int]:
+    """Return the places of the joints that may be locked."""
+    flaps = set(pose.flaps) if protected.flaps else set()
+    return [
+        place
+        for place, (joint, ends) in enumerate(pose.linkage.graph.joints.items())
+        if joint not in protected.joints and place not in flaps and not set(ends) & set(protected.links)
+    ]
+
+
+def _locked(pose: GeneralPose, places: tuple[int, ...], costs: Sequence[Cost]) -> Locked:
+    """Return a set of joints with what comes of locking them, its freedoms by a rank."""
+    every = list(pose.linkage.graph.joints)
+    chosen = set(places)
+    parts = split(pose.rates[list(places)])
+    still = np.abs(pose.rates @ parts.right[len(places) :].T).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
+    flaps = set(pose.flaps)
+    return Locked(
+        tuple(every[place] for place in places),
+        sum(costs[place][0] for place in places),
+        tuple(every[place] for place in places if place in flaps),
+        tuple(joint for place, joint in enumerate(every) if place not in chosen and still[place]),
+        float(1.0 / parts.values[-1]) if parts.values[-1] else inf,
+        _freedoms_without(pose, places),
+    )
+
+
+def _freedoms_without(pose: GeneralPose, places: tuple[int, ...]) -> int | None:
+    """Return the freedoms with joints locked: those left, less the rank of their closure equations."""
+    matrix: Floats = ClosureEquations(pose.linkage).at(pose.linkage.angles)[1].toarray()
+    others = np.delete(matrix, list(places), axis=1)
+    rank = spectrum(others, DOUBLE.derivative).rank
+    return None if rank is None else others.shape[1] - rank
+
+
+def _creased(
+    at: Configuration, pose: GeneralPose, freedoms: int, protected: _Protected, most: tuple[int, int]
+) -> Advice:
+    """Return the smallest sets of diagonals that bring the freedoms wanted."""
+    if pose.sheet is None or not isinstance(at, SheetConfiguration):
+        raise UnsolvableError(
+            f"{numbered(pose.freedoms, 'degree of freedom', 'degrees of freedom')}, and {freedoms} required: "
+            "only panels of a sheet can be creased"
+        )
+    largest, limit = most
+    diagonals = diagonals_of(pose, protected.links)
+    loads, flaps = loads_on_stresses(pose, diagonals)
+    chosen = [place for place, flap in enumerate(flaps) if not (flap and protected.flaps)]
+    candidates = Candidates([diagonals[place] for place in chosen], loads[:, chosen], _allowance(loads))
+    bounds = Bounds(pose.freedoms, pose.rates.shape[1], freedoms, largest)
+    search = smallest_sets(pose.sheet, candidates, bounds, limit)
+    creases = tuple(
+        Creased(
+            tuple(_as_given(candidates.diagonals[place], at.drawn) for place in places),
+            sum(flaps[chosen[place]] for place in places),
+            freedoms,
+        )
+        for places in search.sets
+    )
+    every = list(pose.linkage.graph.joints)
+    return Advice(
+        at,
+        pose.freedoms,
+        freedoms,
+        pose.branch,
+        tuple(every[place] for place in pose.flaps),
+        creases=creases,
+        more=search.more,
+        used_up=search.used_up,
+        searched=search.searched,
+        refused=search.refused,
+    )
+
+
+def _as_given(diagonal: Diagonal, sheet: Sheet) -> Diagonal:
+    """Return a diagonal with the vertices that the sheet had before it was opened along its cuts."""
+    around = sheet.faces[diagonal.face]
+    first, last = diagonal.corners
+    return Diagonal(diagonal.panel, diagonal.face, diagonal.corners, (around[first], around[last]))
+
+
+def _check_number(what: str, number: int, least: int) -> None:
+    if number < least:
+        raise InvariantError(what, f"{what}: {number}", f"{least} or more")
+
+
+def _check_names(pose: GeneralPose, protected: _Protected) -> None:
+    """Refuse joints and links that are not there, and weights that are none."""
+    graph = pose.linkage.graph
+    for joint in (*protected.joints, *protected.weights):
+        if joint not in graph.joints:
+            raise InvariantError("joint", f"{shown(joint)} is no joint", known(graph.joints, str(joint)))
+    for link in protected.links:
+        if link not in graph:
+            raise InvariantError("link", f"{shown(link)} is no link", known(graph.nodes, str(link)))
+    for joint, weight in protected.weights.items():
+        if not isfinite(weight) or weight < 0.0:
+            raise InvariantError("weight", f"the weight of joint {shown(joint)} is {weight:g}", "0 or more")

@@ -1,0 +1,458 @@
+"""The compliance states of a mechanism, and what springs do to it. Theory: docs/theory/compliance.md."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import degrees
+from sys import float_info
+from typing import Any
+
+import numpy as np
+from scipy.optimize import brentq
+
+from graphs.arrays import Floats
+from graphs.canonical import canonical_order
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.given import check_given
+from graphs.ids import JointId, LinkId
+from graphs.printing import Block, Printed, TableBlock
+from graphs.tolerances import DOUBLE
+from synth.compliance.members import Members, State, state_of, states_of_sets
+from synth.compliance.springs import (
+    ElasticLinkage,
+    Equilibrium,
+    LoadPath,
+    Masses,
+    SmallMotion,
+    Springs,
+    equilibrium,
+    load_path,
+    small_motions,
+)
+from synth.motion.configuration import Configuration
+from synth.motion.driving import goals_of
+from synth.motion.linkage import PosedLinkage
+from synth.motion.placement import moved
+from synth.moving.made import Movable, configuration_of
+
+__all__ = ["DrivenJoint", "States", "states"]
+
+_LISTED = 20
+"""Sets, transitions, poses and modes that are printed; data has all."""
+
+_OTHER_QUESTION = "states reports the degrees of freedom of each set of active members, on the freest branch"
+
+
+@dataclass(frozen=True, slots=True)
+class Transition:
+    """A change of state that makes a mechanism one of a class, by the class's name."""
+
+    name: str
+    before: State
+    after: State
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {"class": self.name, "before": self.before.to_json(), "after": self.after.to_json()}
+
+    def line(self) -> str:
+        """Return the transition as a line."""
+        return f"{self.name}: {_told(self.before)} to {_told(self.after)}"
+
+
+@dataclass(frozen=True, slots=True)
+class PathPose:
+    """A pose of the load path, and the state of the mechanism there."""
+
+    pose: Equilibrium
+    state: State
+
+
+@dataclass(frozen=True, slots=True)
+class RestPassed:
+    """A compliant joint that comes to rest on the load path, where the driver is at `driven`, radians."""
+
+    joint: JointId
+    driven: float
+
+
+@dataclass(frozen=True, slots=True)
+class Elastic:
+    """What springs do: the pose at which they and moments are in balance, and a path that begins there.
+
+    `joints` are the columns of angles and rates; `path` holds the poses while the driver is driven, `stopped` says
+    why they end before the goal. `modes` are those about the equilibrium; None without masses.
+    """
+
+    joints: tuple[JointId, ...]
+    pose: Equilibrium
+    driver: JointId | None = None
+    path: tuple[PathPose, ...] = ()
+    passed: tuple[RestPassed, ...] = ()
+    stopped: str = ""
+    modes: tuple[SmallMotion, ...] | None = None
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        modes = [
+            {"frequency": one.frequency, "growth": one.growth, "rates": self._named(one.rates)}
+            for one in self.modes or ()
+        ]
+        return {
+            "equilibrium": self._pose(self.pose),
+            "driver": self.driver,
+            "path": [
+                {
+                    "driven_deg": degrees(float(one.pose.angles[self._column])),
+                    "moment": float(one.pose.held[0]),
+                    **self._pose(one.pose),
+                    "state": one.state.to_json(),
+                }
+                for one in self.path
+            ],
+            "rest_passed": [{"joint": one.joint, "driven_deg": degrees(one.driven)} for one in self.passed],
+            "stopped": self.stopped or None,
+            "modes": None if self.modes is None else modes,
+        }
+
+    @property
+    def _column(self) -> int:
+        assert self.driver is not None
+        return self.joints.index(self.driver)
+
+    def _named(self, values: Floats) -> dict[str, float]:
+        return {str(joint): value for joint, value in zip(self.joints, values.tolist(), strict=True)}
+
+    def _pose(self, pose: Equilibrium) -> dict[str, Any]:
+        return {
+            "angles_deg": self._named(np.degrees(pose.angles)),
+            "energy": pose.energy,
+            "stable": pose.stable,
+            "least_curvature": pose.least,
+            "unbalanced": pose.unbalanced,
+            "closure": pose.error,
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and tables that are printed."""
+        how = "stable" if self.pose.stable else "not stable"
+        ends = ", ".join(
+            f"{shown(joint)} at {degrees(angle):.6g}"
+            for joint, angle in zip(self.joints, self.pose.angles.tolist(), strict=True)
+        )
+        summary = f"springs in balance, {how}, energy {self.pose.energy:.6g}"
+        evidence = f"moments of {self.pose.unbalanced:.0e} left, loops close to {self.pose.error:.0e}"
+        return [f"{summary}   ({evidence})", f"joints: {ends}", *self._load_path(), *self._small_motions()]
+
+    def _load_path(self) -> list[Block]:
+        if self.driver is None:
+            return []
+        level = DOUBLE.zero * max(abs(float(one.pose.held[0])) for one in self.path)
+        step = -(-len(self.path) // _LISTED)
+        shown_poses = [*self.path[:-1:step], self.path[-1]]
+        rows = [self._row(one, level) for one in shown_poses]
+        columns = ("driven, degrees", "moment", "energy", "stable", "freedoms", "state")
+        lines: list[Block] = [
+            f"load path of joint {shown(self.driver)}:",
+            TableBlock(columns, rows, ("driven, degrees", "moment", "energy", "freedoms")),
+        ]
+        if len(rows) < len(self.path):
+            lines.append(f"{len(rows)} of {len(self.path)} poses")
+        lines += [
+            f"joint {shown(one.joint)} comes to rest at {degrees(one.driven):.6g} degrees of the driven joint"
+            for one in self.passed
+        ]
+        return [*lines, *([f"stopped: {self.stopped}"] if self.stopped else [])]
+
+    def _row(self, point: PathPose, level: float) -> tuple[str, ...]:
+        moment = float(point.pose.held[0])
+        return (
+            f"{degrees(float(point.pose.angles[self._column])):.6g}",
+            f"{moment:.6g}" if abs(moment) > level else "0",
+            f"{point.pose.energy:.6g}",
+            "yes" if point.pose.stable else "no",
+            _number(point.state.freedoms),
+            point.state.kind,
+        )
+
+    def _small_motions(self) -> list[Block]:
+        if self.modes is None:
+            return []
+        rows = []
+        for mode in self.modes[:_LISTED]:
+            rate = f"{mode.frequency:.6g}" if mode.frequency is not None else f"grows at {mode.growth:.6g}"
+            largest = canonical_order(list(-np.abs(mode.rates)[:, None]))[:6]
+            moves = ", ".join(f"{shown(self.joints[place])}: {mode.rates[place]:.3g}" for place in largest)
+            rows.append((rate, moves))
+        table = TableBlock(("frequency", "joints that move most"), rows, ("frequency",))
+        more = len(self.modes) - len(rows)
+        return ["small motions about it:", table, *([f"and {more} faster ones"] if more else [])]
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class States(Printed):
+    """The compliance states of a mechanism at its configuration. It prints as ``synth states`` does.
+
+    Attributes
+    ----------
+    configuration : Configuration
+        The input.
+    compliant : Members
+    now : State
+        Members are active whose springs are not at rest.
+    sets : tuple of State
+        For each set of active members, smaller ones first.
+    transitions : tuple of Transition
+        The smallest that make it a mechanism of each class.
+    elastic : Elastic or None
+        What springs do, where there are any.
+
+    Examples
+    --------
+    >>> from synth.patterns import generate
+    >>> states(generate("four-bar").mechanism, [0])
+    <States: rigid immobile; compliant mechanism>
+    """
+
+    configuration: Configuration
+    compliant: Members
+    now: State
+    sets: tuple[State, ...]
+    transitions: tuple[Transition, ...]
+    elastic: Elastic | None = None
+
+    @property
+    def classes(self) -> tuple[str, ...]:
+        """The classes that transitions at this pose make it one of."""
+        return tuple(dict.fromkeys(one.name for one in self.transitions))
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
+        return {
+            "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
+            "compliant": self.compliant.to_json(),
+            "state": self.now.to_json(),
+            "sets": [one.to_json() for one in self.sets],
+            "classes": list(self.classes),
+            "transitions": [one.to_json() for one in self.transitions],
+            "elastic": None if self.elastic is None else self.elastic.to_json(),
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and tables that are printed."""
+        lines: list[Block] = [
+            f"compliant: {self.compliant}",
+            f"now {_told(self.now)}   ({self.now.certainty})",
+        ]
+        chosen = _telling(self.sets)
+        rows = [(str(one.active), _number(one.freedoms), one.kind, one.certainty) for one in chosen[:_LISTED]]
+        lines.append(TableBlock(("active", "freedoms", "state", "how known"), rows, ("freedoms",)))
+        if len(self.sets) > len(rows):
+            first = "" if len(rows) == len(chosen) else "the first of "
+            lines.append(
+                f"{len(rows)} of {numbered(len(self.sets), 'set')}: {first}those to which one member less gives "
+                "other freedoms"
+            )
+        lines += [one.line() for one in self.transitions[:_LISTED]] or ["no transition of a class at this pose"]
+        if len(self.transitions) > _LISTED:
+            lines.append(f"and {len(self.transitions) - _LISTED} more transitions")
+        return [*lines, *([] if self.elastic is None else self.elastic.blocks())]
+
+    def __repr__(self) -> str:
+        return f"<States: {self.now.kind}; {', '.join(self.classes) or 'no class'}>"
+
+
+def _telling(sets: Sequence[State]) -> list[State]:
+    """Return the states whose freedoms every set with a member less has not."""
+    return [
+        one
+        for one in sets
+        if not len(one.active)
+        or all(
+            other.freedoms != one.freedoms
+            for other in sets
+            if len(other.active) == len(one.active) - 1 and other.active.within(one.active)
+        )
+    ]
+
+
+def _told(state: State) -> str:
+    active = f", active: {state.active}" if len(state.active) else ""
+    freedoms = "degrees of freedom unknown" if state.freedoms is None else numbered(state.freedoms, "freedom")
+    return f"{state.kind} ({freedoms}{active})"
+
+
+def _number(number: int | None) -> str:
+    return "?" if number is None else str(number)
+
+
+_FRAMES = 20
+
+
+@dataclass(frozen=True, slots=True)
+class DrivenJoint:
+    """A driven joint.
+
+    Attributes
+    ----------
+    joint : joint id
+    to : float
+        Radians, from the zero of the joint.
+    frames : int
+        Poses after the first.
+
+    Examples
+    --------
+    >>> DrivenJoint(0, 0.5).frames
+    20
+    """
+
+    joint: JointId
+    to: float
+    frames: int = _FRAMES
+
+
+def states(
+    thing: Movable,
+    joints: Collection[JointId] = (),
+    links: Collection[LinkId] = (),
+    *,
+    springs: Springs | None = None,
+    drive: DrivenJoint | None = None,
+    masses: Masses | None = None,
+) -> States:
+    """Find the compliance states of a mechanism, and what its springs do.
+
+    Parameters
+    ----------
+    thing : Mechanism or PosedLinkage
+        With coordinates; of a sheet with several frames the first that has them.
+    joints, links : collection of ids
+        Compliant members. Joints with a stiffness are compliant too.
+    springs : Springs, optional
+        At joints, with moments. The search for the equilibrium starts at the input configuration.
+    drive : DrivenJoint, optional
+        A joint whose load path is followed from the equilibrium.
+    masses : Masses, optional
+        For modes and frequencies of small motions about the equilibrium.
+
+    Raises
+    ------
+    InvariantError
+        If there is no such joint or link, or a number is out of range.
+    UnsolvableError
+        If it has no coordinates, nothing is compliant, there are too many members, or springs have nothing to
+        move.
+    NumericalError
+        If springs come to no balance.
+
+    Examples
+    --------
+    >>> from synth.patterns import generate
+    >>> answer = states(generate("four-bar").mechanism, [0])
+    >>> answer.classes, [(len(state.active), state.freedoms) for state in answer.sets]
+    (('compliant mechanism',), [(0, 0), (1, 1)])
+    """
+    check_given("states", thing, Movable)
+    at = configuration_of(thing)
+    linkage = at.linkage
+    stiff = () if springs is None else tuple(one for one, value in springs.stiffness.items() if value)
+    compliant = Members(tuple(dict.fromkeys((*joints, *stiff))), tuple(dict.fromkeys(links)))
+    compliant.checked(linkage.graph)
+    if not len(compliant):
+        raise UnsolvableError("nothing is compliant; expected one or more compliant joints or links")
+    if springs is None and (drive is not None or masses is not None):
+        raise UnsolvableError("a load path and frequencies require springs; expected the stiffness of a joint")
+    sets = tuple(states_of_sets(linkage, compliant))
+    analysis = _SpringAnalysis(linkage, compliant, springs or Springs())
+    active = analysis.active(linkage.angles)
+    now = next(one for one in sets if one.active.within(active) and active.within(one.active))
+    elastic = None if springs is None else analysis.elastic(drive, masses)
+    return States(at, compliant, now, sets, tuple(_transitions(sets)), elastic)
+
+
+@dataclass(frozen=True, slots=True)
+class _SpringAnalysis:
+    """A linkage, its compliant members, and the springs at its joints."""
+
+    linkage: PosedLinkage
+    compliant: Members
+    springs: Springs
+
+    def off_rest(self, joint: JointId, angles: Floats) -> float:
+        """Return how far a compliant joint is from rest, radians; without a spring it rests at the input."""
+        place = list(self.linkage.graph.joints).index(joint)
+        return float(angles[place]) - self.springs.rest.get(joint, float(self.linkage.angles[place]))
+
+    def active(self, angles: Floats) -> Members:
+        """Return the members that are not at rest. Links have no springs, and count as at rest."""
+        return Members(tuple(one for one in self.compliant.joints if not _is_rest(self.off_rest(one, angles))))
+
+    def elastic(self, drive: DrivenJoint | None, masses: Masses | None) -> Elastic:
+        """Return what springs do."""
+        if self.compliant.links and drive is not None:
+            raise UnsolvableError("a load path cannot have compliant links; expected compliant joints only")
+        bending = ElasticLinkage(self.linkage, self.springs)
+        pose = equilibrium(bending)
+        modes = None if masses is None else tuple(small_motions(bending, pose, masses))
+        joints = tuple(self.linkage.graph.joints)
+        if drive is None:
+            return Elastic(joints, pose, modes=modes)
+        if drive.frames < 1:
+            raise InvariantError("frames", f"a path of {drive.frames} frames", "1 or more")
+        [driver], goal = goals_of(joints, {drive.joint: drive.to}, float_info.max)
+        values = np.linspace(pose.angles[driver], goal[0], drive.frames + 1)[1:]
+        path = load_path(bending, pose.angles, driver, values)
+        poses = tuple(self.path_poses(path))
+        passed = tuple(self.passed(bending, path))
+        return Elastic(joints, pose, drive.joint, poses, passed, path.stopped, modes)
+
+    def path_poses(self, path: LoadPath) -> Iterator[PathPose]:
+        """Yield the poses of a load path with their states."""
+        for pose in path.poses:
+            here = moved(self.linkage, pose.angles)
+            yield PathPose(pose, state_of(here, self.compliant, self.active(pose.angles)))
+
+    def passed(self, bending: ElasticLinkage, path: LoadPath) -> Iterator[RestPassed]:
+        """Yield where compliant joints come to rest after the beginning."""
+        for before, after in pairwise(path.poses):
+            ends = [float(pose.angles[path.driver]) for pose in (before, after)]
+            for joint in self.compliant.joints:
+                was, now = (self.off_rest(joint, pose.angles) for pose in (before, after))
+                if _is_rest(was) or (was * now > 0.0 and not _is_rest(now)):
+                    continue
+
+                def off(driven: float, joint: JointId = joint, start: Floats = before.angles) -> float:
+                    between = load_path(bending, start, path.driver, [driven])
+                    return self.off_rest(joint, between.poses[-1].angles)
+
+                passed = ends[1] if _is_rest(now) else brentq(off, *ends, xtol=DOUBLE.same_configuration)
+                yield RestPassed(joint, passed)
+
+
+def _is_rest(off: float) -> bool:
+    """Check whether a joint that is so far from the angle of its spring, in radians, is at rest."""
+    return abs(off) <= DOUBLE.same_configuration
+
+
+def _transitions(sets: Sequence[State]) -> Iterator[Transition]:
+    """Yield the transitions of each class: those to the smallest sets, or between sets that differ by a member."""
+    rest = sets[0]
+    moving = [one for one in sets[1:] if one.freedoms is not None and one.freedoms > (rest.freedoms or 0)]
+    if rest.freedoms is not None and moving:
+        name = "variable mobility" if rest.freedoms else "compliant mechanism"
+        fewest = len(moving[0].active)
+        yield from (Transition(name, rest, one) for one in moving if len(one.active) == fewest)
+    locking = [
+        Transition("compliant locking", before, after)
+        for before in sets
+        if before.freedoms
+        for after in sets[1:]
+        if after.freedoms == 0
+        and len(after.active) == len(before.active) - 1
+        and after.active.within(before.active)
+    ]
+    fewest = min((len(one.before.active) for one in locking), default=0)
+    yield from (one for one in locking if len(one.before.active) == fewest)

@@ -1,0 +1,316 @@
+"""The joint limits that ride-alongs impose where they go straight, and the truss that remains.
+
+Theory: docs/theory/activating-constraints.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass
+from math import acos, atan2, degrees, inf, pi, tau
+from typing import Any, Literal
+
+import numpy as np
+
+from graphs.arrays import Floats
+from graphs.errors import UnsolvableError, numbered, shown
+from graphs.geometry import angles_between, lines_meet
+from graphs.ids import JointId, LinkId
+from graphs.printing import Block, Printed, TableBlock
+from graphs.rank.singular_values import spectrum
+from graphs.reduce.ride_alongs import ReductionStep, reduce
+from graphs.tolerances import DOUBLE, Tolerances
+from synth.compliance.members import NONE, Members, released, state_of
+from synth.motion.closure import ClosureEquations
+from synth.motion.configuration import Configuration
+from synth.motion.linkage import PosedLinkage
+from synth.moving.made import Movable, configuration_of
+
+__all__ = ["Limits", "limits"]
+
+_LISTED = 40
+
+_OTHER_QUESTION = "limits looks at ride-alongs, each with the links that it sits on, and at no branch"
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """An end of a range of angles, radians: a ride-along is in line, "stretched" or "folded" onto itself."""
+
+    angle: float
+    how: Literal["stretched", "folded"]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {"at_deg": degrees(self.angle), "how": self.how}
+
+
+@dataclass(frozen=True, slots=True)
+class RideAlong:
+    """A ride-along, and the range of angles that it leaves to the joint it sits on.
+
+    The second of its own `joints` is between its links. `angle`, radians, is that of `joint` at the pose; `lower`
+    and `upper` end the range of this that holds the pose, None where it may turn round. `freedoms` are those of
+    the mechanism with the ride-along rigid; None where they are unknown.
+    """
+
+    joints: tuple[JointId, JointId, JointId]
+    joint: JointId
+    angle: float
+    lower: End | None
+    upper: End | None
+    freedoms: int | None
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {
+            "joints": list(self.joints),
+            "joint": self.joint,
+            "angle_deg": degrees(self.angle),
+            "lower": None if self.lower is None else self.lower.to_json(),
+            "upper": None if self.upper is None else self.upper.to_json(),
+            "freedoms": self.freedoms,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Truss:
+    """What remains with all ride-alongs rigid: `locked` are the joints between their links.
+
+    Rank is that of the closure equations at the pose, `redundant` counts those that follow from others, `freedoms`
+    are those of finite motion; None where they are unknown.
+    """
+
+    locked: tuple[JointId, ...]
+    links: int
+    joints: int
+    rank: int | None
+    redundant: int | None
+    freedoms: int | None
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {
+            "locked": list(self.locked),
+            "links": self.links,
+            "joints": self.joints,
+            "rank": self.rank,
+            "redundant": self.redundant,
+            "freedoms": self.freedoms,
+        }
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Limits(Printed):
+    """The joint limits that the ride-alongs of a mechanism impose. It prints as ``synth limits`` does.
+
+    Attributes
+    ----------
+    configuration : Configuration
+        The input.
+    ride_alongs : tuple of RideAlong
+        Those that sit on others come before these.
+    truss : Truss
+
+    Examples
+    --------
+    >>> from synth.patterns import generate
+    >>> limits(generate("deployable-cylinder", pleats=3).mechanism)
+    <Limits: 6 ride-alongs>
+    """
+
+    configuration: Configuration
+    ride_alongs: tuple[RideAlong, ...]
+    truss: Truss
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
+        return {
+            "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
+            "ride_alongs": [one.to_json() for one in self.ride_alongs],
+            "truss": self.truss.to_json(),
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        rows = [
+            (
+                shown(one.joint),
+                " ".join(map(shown, one.joints)),
+                _told(one.lower),
+                f"{degrees(one.angle):.6g}",
+                _told(one.upper),
+                _number(one.freedoms),
+            )
+            for one in self.ride_alongs[:_LISTED]
+        ]
+        columns = ("on joint", "joints", "from, degrees", "now", "to, degrees", "freedoms when rigid")
+        lines: list[Block] = [
+            numbered(len(self.ride_alongs), "ride-along"),
+            TableBlock(columns, rows, ("now", "freedoms when rigid")),
+        ]
+        if len(rows) < len(self.ride_alongs):
+            lines.append(f"and {len(self.ride_alongs) - len(rows)} more")
+        truss = self.truss
+        freedoms = "degrees of freedom unknown" if truss.freedoms is None else numbered(truss.freedoms, "freedom")
+        parts = f"{numbered(truss.links, 'link')}, {numbered(truss.joints, 'joint')}"
+        evidence = f"rank {_number(truss.rank)}, {_number(truss.redundant)} redundant"
+        return [*lines, f"with all of them rigid at this pose: {freedoms} ({parts}; {evidence})"]
+
+    def __repr__(self) -> str:
+        return f"<Limits: {numbered(len(self.ride_alongs), 'ride-along')}>"
+
+
+def _told(end: End | None) -> str:
+    return "any" if end is None else f"{degrees(end.angle):.6g}, {end.how}"
+
+
+def _number(number: int | None) -> str:
+    return "?" if number is None else str(number)
+
+
+@dataclass(frozen=True, slots=True)
+class RideAlongCorner:
+    """The two links of a joint and the ride-along on it, seen from where their four axes meet.
+
+    `base` is from the joint to the axis of the ride-along on the first and on the second link, `links` from these
+    axes to the middle one: lengths if the axes are `parallel`, else angles, radians.
+    """
+
+    base: tuple[float, float]
+    links: tuple[float, float]
+    parallel: bool = False
+
+    def cosines(self) -> tuple[float, float]:
+        """Return the cosines of the angle between the base links with the ride-along stretched and folded.
+
+        By the law of cosines; a value outside -1 to 1 is not reached.
+        """
+        (a, b), (c, d) = self.base, self.links
+        if self.parallel:
+            apart = ((c + d) ** 2, (c - d) ** 2)
+            over = 2.0 * a * b
+            ends = [a * a + b * b - square for square in apart]
+        else:
+            over = float(np.sin(a) * np.sin(b))
+            ends = [float(np.cos(far) - np.cos(a) * np.cos(b)) for far in (c + d, c - d)]
+        stretched, folded = (end / over if over else inf * end for end in ends)
+        return stretched, folded
+
+
+def angles_left(corner: RideAlongCorner, angle: float) -> tuple[End | None, End | None]:
+    """Return the lower and upper end of the range of the angle between two links that a ride-along on them leaves.
+
+    The angle is the present one between the base links, radians from 0 to 2 pi: from the first axis to the second
+    about the joint. The ends are less than a turn from it; None where a full turn is left.
+    """
+    low, high = corner.cosines()
+    if low <= -1.0 + DOUBLE.parallel and high >= 1.0 - DOUBLE.parallel:
+        return None, None
+    widest = pi if low <= -1.0 + DOUBLE.parallel else acos(min(low, 1.0))
+    narrowest = 0.0 if high >= 1.0 - DOUBLE.parallel else acos(max(high, -1.0))
+    mirrored = angle > pi
+    if narrowest == 0.0:
+        turn = tau if mirrored else 0.0
+        return End(turn - widest, "stretched"), End(turn + widest, "stretched")
+    if widest == pi:
+        return End(narrowest, "folded"), End(tau - narrowest, "folded")
+    if mirrored:
+        return End(tau - widest, "stretched"), End(tau - narrowest, "folded")
+    return End(narrowest, "folded"), End(widest, "stretched")
+
+
+def limits(thing: Movable, keep: Collection[LinkId] = ()) -> Limits:
+    """Find the joint limits that ride-alongs impose, and the truss that remains where they are straight.
+
+    Parameters
+    ----------
+    thing : Mechanism or PosedLinkage
+        With coordinates; of a sheet with several frames the first that has them.
+    keep : collection of link ids, optional
+        Links that are no ride-along's: of two four-bars with a joint in common either may be.
+
+    Raises
+    ------
+    InvariantError
+        If a link to keep does not exist.
+    UnsolvableError
+        If it has no coordinates, its loops are not closed, or it has no ride-alongs.
+
+    Examples
+    --------
+    >>> from synth.patterns import generate
+    >>> limits(generate("deployable-cylinder", pleats=3).mechanism).truss.freedoms
+    0
+    """
+    at = configuration_of(thing)
+    linkage = at.linkage
+    steps = [step for step in reduce(linkage.graph, keep=keep).steps if step.joint is not None]
+    if not steps:
+        raise UnsolvableError("there are no ride-alongs; expected two binary links on two adjacent ones")
+    middles = Members(tuple(step.joints[1] for step in steps))
+    tolerances = Tolerances.of(at.precision.size)
+    return Limits(at, tuple(_ride_alongs(linkage, steps, tolerances)), _truss(linkage, middles))
+
+
+def _ride_alongs(linkage: PosedLinkage, steps: list[ReductionStep], tolerances: Tolerances) -> Iterator[RideAlong]:
+    place = {joint: number for number, joint in enumerate(linkage.graph.joints)}
+    for step in steps:
+        assert step.joint is not None
+        joint = place[step.joint]
+        first, middle, last = (place[one] for one in step.joints)
+        forwards = linkage.graph.joints[step.joint][0] == step.onto[0]
+        corner, angle = _corner(linkage, (joint, first, middle, last), tolerances)
+        now = float(linkage.angles[joint])
+        ends = angles_left(corner, angle)
+        turned = [None if end is None else _at_joint(end, now, angle, forwards=forwards) for end in ends]
+        lower, upper = turned if forwards else turned[::-1]
+        state = state_of(linkage, Members((step.joints[1],)), NONE)
+        yield RideAlong(step.joints, step.joint, now, lower, upper, state.freedoms)
+
+
+def _at_joint(end: End, now: float, angle: float, *, forwards: bool) -> End:
+    """Return an end of the range of the angle between links as one of the joint's angle."""
+    way = 1.0 if forwards else -1.0
+    return End(now + way * (end.angle - angle), end.how)
+
+
+def _corner(
+    linkage: PosedLinkage, places: tuple[int, int, int, int], tolerances: Tolerances
+) -> tuple[RideAlongCorner, float]:
+    """Return the corner of a joint and the three of a ride-along, and the angle of its base links, 0 to 2 pi."""
+    points, axes = linkage.points[list(places)], linkage.directions[list(places)]
+    parallel = float(np.abs(np.cross(axes, axes[0])).max()) <= tolerances.parallel
+    rays = points - points[0] if parallel else _rays(points, axes, tolerances.same_point)
+    along = axes[0]
+    if parallel:
+        rays = rays - np.outer(rays @ along, along)
+        corner = RideAlongCorner(*_pairs(rays, lambda a, b: float(np.linalg.norm(a - b))), parallel=True)
+    else:
+        corner = RideAlongCorner(*_pairs(rays, lambda a, b: float(angles_between(a, b))))
+    one, other = (ray - (ray @ along) * along for ray in (rays[1], rays[3]))
+    return corner, atan2(float(np.cross(one, other) @ along), float(one @ other)) % tau
+
+
+def _rays(points: Floats, axes: Floats, same: float) -> Floats:
+    """Return unit vectors along axes from where they meet, towards their points where these lie off it."""
+    out = ((points - lines_meet(points, axes).point) * axes).sum(axis=1)
+    return np.asarray(axes * np.where(np.abs(out) > same, np.sign(out), 1.0)[:, None])
+
+
+def _pairs(
+    rays: Floats, apart: Callable[[Floats, Floats], float]
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return how far axes are apart: of both base links, and of both links of the ride-along."""
+    joint, first, middle, last = rays
+    return (apart(joint, first), apart(joint, last)), (apart(first, middle), apart(middle, last))
+
+
+def _truss(linkage: PosedLinkage, middles: Members) -> Truss:
+    """Return what is left of a linkage with all ride-alongs rigid, as they are where they are straight."""
+    left = released(linkage, middles, NONE)
+    closure = ClosureEquations(left)
+    rank = spectrum(closure.at(left.angles)[1].toarray(), DOUBLE.derivative).rank
+    redundant = None if rank is None else closure.rows - rank
+    freedoms = state_of(linkage, middles, NONE).freedoms
+    return Truss(middles.joints, len(left.graph), len(left.angles), rank, redundant, freedoms)

@@ -1,0 +1,434 @@
+"""Loops on cones and cylinders: every right cone of a spherical loop, every cylinder of a planar one.
+
+On a cone the apex is the spherical centre, joint axes are ruling lines. The cone angle lambda is the angle between
+a ruling line and the plane across the axis: 0 is a flat disk, 90 degrees a needle, which no linkage has. A link of
+angle phi spans the projected angle phi_0 with sin(phi / 2) = cos(lambda) sin(phi_0 / 2). Across the axis of a
+cylinder, the joints of a planar loop lie on a circle. Sources: Hyatt, Magleby, Howell 2020; Hyatt et al. 2021,
+sections 3 and 4. Theory: docs/theory/mapping.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import cos, degrees, fsum, inf
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.arrays import Floats
+from graphs.errors import InvariantError, UnsolvableError, numbered
+from graphs.mechanism.surfaces import Cylinder, checked_cone_angle
+from graphs.printing import Block, Printed, TableBlock
+from graphs.tolerances import DOUBLE
+from synth.fourbar.closing import (
+    ILL_CONDITIONED,
+    FourBarKind,
+    checked_link_angles,
+    checked_link_lengths,
+    kind_of_planar,
+    kind_of_spherical,
+    minimal_supplementary,
+    rounding_of,
+    spherical_differences,
+)
+from synth.surfaces.circuit import azimuths
+from synth.surfaces.loop_sums import sign_patterns
+from synth.surfaces.mapping import (
+    FamilyOfCircles,
+    MappedLoop,
+    cautions_of,
+    circles_table,
+    in_degrees,
+    kind_line,
+    mapped_loop,
+)
+
+__all__ = ["ConeMap", "CylinderMap", "central_angles", "map_to_cones", "map_to_cylinders", "projected_angles"]
+
+
+@dataclass(frozen=True, slots=True)
+class ConeMap(Printed):
+    """All right cones on which a spherical loop lies.
+
+    Attributes
+    ----------
+    angles : tuple of float
+        Link angles, radians, at most pi.
+    cones, flat : tuple of MappedLoop
+        Loops with 0 < lambda < 90 degrees, and with lambda = 0: in a plane.
+    families : tuple of FamilyOfCircles
+    kind : FourBarKind or None
+        Of four-bars.
+    solutions : {"a", "b", "c", "d", "crossed only", "none"} or None
+        Of four-bars: the class of Fig. 10.
+    why : str
+        Why there is no cone; empty where there is one.
+    supplementary : ConeMap or None
+        Of four-bars without a cone: the linkage on the same joint lines whose sum of angles is least.
+
+    Examples
+    --------
+    >>> cone_map = map_to_cones(np.radians([120, 95, 45, 85]))
+    >>> len(cone_map.cones), cone_map.kind.grashof, cone_map.solutions
+    (2, 'Grashof', 'a')
+    """
+
+    angles: tuple[float, ...]
+    cones: tuple[MappedLoop, ...]
+    flat: tuple[MappedLoop, ...]
+    families: tuple[FamilyOfCircles, ...]
+    kind: FourBarKind | None
+    solutions: str | None
+    why: str
+    supplementary: ConeMap | None
+
+    def cautions(self) -> tuple[str, ...]:
+        """Return where rounding decides: the type and class, circles, or families."""
+        return cautions_of(self.kind, (*self.flat, *self.cones), self.families)
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        blocks: list[Block] = []
+        if self.kind is not None:
+            blocks.append(kind_line(self.kind, angular=True))
+            if self.solutions in ("a", "b", "c", "d"):
+                blocks.append(f"class {self.solutions} of Hyatt et al. 2020, Fig. 10")
+        blocks.append("chords, 2 sin(phi / 2): " + ", ".join(f"{x:.6g}" for x in cone_chords(self.angles)))
+        blocks += circles_table([*self.flat, *self.cones], self.families, flat=self.flat, angular=True)
+        blocks += [f"caution: {caution}" for caution in self.cautions()]
+        if self.why:
+            blocks.append(f"no cone: {self.why}")
+        if self.supplementary is not None:
+            angles = ", ".join(f"{degrees(angle):.6g}" for angle in self.supplementary.angles)
+            blocks += [
+                "",
+                f"supplementary linkage, on the same joint lines: {angles}",
+                *self.supplementary.blocks(),
+            ]
+        return blocks
+
+    def __repr__(self) -> str:
+        return f"<ConeMap: {len(self.angles)} links, {numbered(len(self.cones), 'cone')}>"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the map as plain data, with the keys that scripts rely on (docs/command-json.md)."""
+        document: dict[str, Any] = {
+            "angles_deg": in_degrees(self.angles),
+            "chords": cone_chords(self.angles).tolist(),
+            **({} if self.kind is None else self.kind.to_json(angular=True)),
+            "cones": [_in_json(cone) for cone in self.cones],
+            "families": [
+                {"lambda_deg": [degrees(x) for x in family.interval], **family.to_json()}
+                for family in self.families
+            ],
+            "flat": [{**_in_json(loop), "lambda_deg": 0.0} for loop in self.flat],
+            "why": self.why or None,
+            "cautions": list(self.cautions()),
+        }
+        if self.kind is not None:
+            document["class"] = self.solutions
+            document["supplementary"] = None if self.supplementary is None else self.supplementary.to_json()
+        return document
+
+
+def _in_json(cone: MappedLoop) -> dict[str, Any]:
+    bounds = [degrees(x) for x in cone.bounds]
+    return {"lambda_deg": degrees(cone.size), "lambda_bounds_deg": bounds, "R": cos(cone.size), **cone.to_json()}
+
+
+def projected_angles(angles: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
+    """Return the unsigned projected angles of links, phi_0 in [0, pi] (Hyatt et al. 2020, Eq. 7; 2021, Eq. 9).
+
+    cos(phi_0) = (cos(phi) - sin(lambda)^2) / cos(lambda)^2, float[...].
+
+    Parameters
+    ----------
+    angles, cone_angle : float[...]
+        Link angles phi in [0, pi] and lambda, radians, broadcast against each other.
+
+    Raises
+    ------
+    InvariantError
+        If a cone angle is out of range.
+    UnsolvableError
+        If a link does not fit on its cone: lambda is more than pi / 2 - phi / 2.
+
+    Examples
+    --------
+    >>> float(np.degrees(projected_angles(np.radians(60), np.radians(60))).round(5))
+    180.0
+    """
+    phi, lam = np.broadcast_arrays(np.asarray(angles, dtype=float), checked_cone_angle(cone_angle))
+    beyond = lam - largest_cone_angle(phi)
+    if (beyond > rounding_of(np.stack([lam, phi / 2, np.full_like(phi, np.pi / 2)], axis=-1))).any():
+        worst = np.unravel_index(beyond.argmax(), beyond.shape)
+        numbers = [f"{np.degrees(value[worst]).round(9):.12g}" for value in (phi, lam, largest_cone_angle(phi))]
+        raise UnsolvableError(
+            f"a link of {numbers[0]} degrees does not fit on a cone of {numbers[1]}; "
+            f"{numbers[2]} is the largest cone angle"
+        )
+    other = np.maximum(np.sin((np.pi - phi) / 2 - lam) * np.sin((np.pi - phi) / 2 + lam), 0.0)
+    return np.asarray(2.0 * np.arctan2(np.sin(phi / 2), np.sqrt(other)))
+
+
+def largest_cone_angle(angles: npt.ArrayLike) -> Floats:
+    """Return the largest cone angle for links, pi / 2 - phi / 2, radians (Hyatt et al. 2021, Eqs. 15, 16)."""
+    return np.asarray((np.pi - np.asarray(angles, dtype=float)) / 2.0)
+
+
+def cone_chords(angles: npt.ArrayLike) -> Floats:
+    """Return the chords of links on the unit sphere, 2 sin(phi / 2) (Hyatt et al. 2021, Eq. 13)."""
+    return np.asarray(2.0 * np.sin(np.asarray(angles, dtype=float) / 2.0))
+
+
+def is_flat(cone_angle: float, longest: float) -> bool:
+    """Check whether a cone is flat within the rounding of the longest link, which ends the cones."""
+    return bool(cone_angle <= rounding_of([longest]))
+
+
+def cone_reach(angles: npt.ArrayLike) -> Floats:
+    """Return cot(angle / 2)^2, the reach of links in a loop sum."""
+    half = np.asarray(angles, dtype=float) / 2.0
+    return np.asarray((np.cos(half) / np.sin(half)) ** 2)
+
+
+def map_to_cones(angles: npt.ArrayLike) -> ConeMap:
+    """Return every right cone on which a spherical loop of any number of links lies, by its loop sums.
+
+    Parameters
+    ----------
+    angles : float[n]
+        Link angles in loop order, radians, between 0 and 2 pi (over pi: the joint axes are those of 2 pi less the
+        angle). Of a four-bar: ground, input, coupler, output.
+
+    Raises
+    ------
+    InvariantError
+        If an angle is out of range, or the links cannot close.
+    UnsolvableError
+        If there are too many links.
+
+    Examples
+    --------
+    Hyatt et al. 2021, Fig. 3:
+
+    >>> (cone,) = map_to_cones(np.radians([70, 80, 120, 40])).cones
+    >>> round(float(np.degrees(cone.size)), 2), cone.circuit
+    (25.21, 'open')
+    """
+    links = checked_link_angles(angles)
+    loops, families = mapped_loop(cone_reach(links), 1, links)
+    cones = tuple(one for one in loops if not is_flat(one.size, links.max()))
+    flat = tuple(one for one in loops if is_flat(one.size, links.max()))
+    kind = solutions = supplement = None
+    four = len(links) == 4
+    if four:
+        kind, solutions = kind_of_spherical(links), solution_class(links)
+    why = "" if cones or families else _why_not(links, bool(flat))
+    if why and four and spherical_differences(links)[3] < 0 and not _is_straight(links.max()):
+        supplement = map_to_cones(minimal_supplementary(links))
+    return ConeMap(tuple(links.tolist()), cones, flat, families, kind, solutions, why, supplement)
+
+
+def solution_class(angles: npt.ArrayLike) -> str:
+    """Return the class of a four-bar's cones, by its link angles, float[4], radians.
+
+    The classes of Hyatt et al. 2020, Fig. 10 and section 5, are a: Grashof, two cones; b: non-Grashof, one, open;
+    c: folding, one cone of angle 0; d: two pairs of equal angles, infinitely many. With T4 < 0: "none" if Grashof,
+    "crossed only" if non-Grashof, one crossed cone (the paper says none, docs/misprints.md 000-6).
+    """
+    links = np.asarray(angles, dtype=float)
+    t = spherical_differences(links)
+    zero = np.abs(t) <= rounding_of(links)
+    if zero[:3].sum() >= 2:
+        return "d"
+    if zero.any():
+        return "c"
+    grashof = np.sign(t).prod() > 0
+    if t[3] < 0:
+        return "none" if grashof else "crossed only"
+    return "a" if grashof else "b"
+
+
+def _is_straight(angle: float) -> bool:
+    return bool(np.pi - angle <= rounding_of([angle]))
+
+
+def _why_not(angles: Floats, flat: bool) -> str:
+    """Return why a loop has no cone."""
+    if flat:
+        return "the loop closes in a plane only, lambda = 0"
+    if _is_straight(angles.max()):
+        return "a link of 180 degrees fits on no cone but the flat one"
+    if len(angles) == 4 and spherical_differences(angles)[3] < 0:
+        return "T4 < 0: the links wrap round the sphere"
+    most = np.degrees(largest_cone_angle(angles.max()))
+    return f"no loop sum is a multiple of 360 degrees for lambda up to {most:.6g}, where the longest link ends"
+
+
+@dataclass(frozen=True, slots=True)
+class CylinderMap(Printed):
+    """All cylinders on which a planar loop lies.
+
+    Attributes
+    ----------
+    lengths : tuple of float
+    cylinders : tuple of MappedLoop
+        Their size is the radius.
+    families : tuple of FamilyOfCircles
+        Intervals of radii, up to infinity.
+    kind : FourBarKind or None
+        Of four-bars.
+    why : str
+        Why there is no cylinder; empty where there is one.
+    stretched : tuple of tuples of int
+        Signs with which the lengths sum to nearly zero, within rounding: perhaps one more circle, too large to
+        find.
+
+    Examples
+    --------
+    >>> cylinder_map = map_to_cylinders([4, 3, 5, 1])
+    >>> len(cylinder_map.cylinders), cylinder_map.kind.name
+    (2, 'rocker-crank')
+    """
+
+    lengths: tuple[float, ...]
+    cylinders: tuple[MappedLoop, ...]
+    families: tuple[FamilyOfCircles, ...]
+    kind: FourBarKind | None
+    why: str
+    stretched: tuple[tuple[int, ...], ...]
+
+    def cautions(self) -> tuple[str, ...]:
+        """Return where rounding decides: the type, circles, families, or one more cylinder beyond them."""
+        large = f"{ILL_CONDITIONED}: stretched out within rounding: one more cylinder may be very large"
+        return cautions_of(self.kind, self.cylinders, self.families, large if self.stretched else "")
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        blocks: list[Block] = [] if self.kind is None else [kind_line(self.kind, angular=False)]
+        blocks += circles_table(self.cylinders, self.families, flat=(), angular=False)
+        blocks += [f"caution: {caution}" for caution in self.cautions()]
+        for number, cylinder in enumerate(self.cylinders, start=1):
+            rows = [
+                (str(joint), f"{x + 0.0:.8g}", f"{y + 0.0:.8g}")
+                for joint, (x, y) in enumerate(
+                    joint_coordinates(cylinder.size, azimuths(cylinder.steps)).tolist(), start=1
+                )
+            ]
+            blocks += [f"joints on cylinder {number}", TableBlock(("joint", "x", "y"), rows, ["x", "y"])]
+        return [*blocks, f"no cylinder: {self.why}"] if self.why else blocks
+
+    def __repr__(self) -> str:
+        return f"<CylinderMap: {len(self.lengths)} links, {numbered(len(self.cylinders), 'cylinder')}>"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the map as plain data, with the keys that scripts rely on (docs/command-json.md)."""
+        return {
+            "lengths": list(self.lengths),
+            **({} if self.kind is None else self.kind.to_json(angular=False)),
+            "cylinders": [
+                {
+                    "radius": cylinder.size,
+                    "radius_bounds": [None if x == inf else x for x in cylinder.bounds],
+                    **cylinder.to_json(),
+                    "coordinates": joint_coordinates(cylinder.size, azimuths(cylinder.steps)).tolist(),
+                }
+                for cylinder in self.cylinders
+            ],
+            "families": [
+                {"radius": [None if x == inf else x for x in family.interval], **family.to_json()}
+                for family in self.families
+            ],
+            "why": self.why or None,
+            "cautions": list(self.cautions()),
+        }
+
+
+def joint_coordinates(radius: float, places: npt.ArrayLike) -> Floats:
+    """Return where joints at azimuths float[J] are across a cylinder's axis: (R sin t, R cos t), float[J, 2]."""
+    points, _ = Cylinder(radius).axes(places)
+    return np.where(np.abs(points) > DOUBLE.same_point * radius, points, 0.0)[:, ::2]
+
+
+def central_angles(lengths: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:
+    """Return the angles that links span round the axis, psi = 2 asin(length / 2 R) (Hyatt et al. 2021, Eq. 19).
+
+    Parameters
+    ----------
+    lengths, radius : float[...]
+        Any one unit.
+
+    Raises
+    ------
+    InvariantError
+        If a link is longer than the diameter.
+
+    Examples
+    --------
+    >>> float(np.degrees(central_angles(1.0, 1.0)).round(9))
+    60.0
+    """
+    ratio = np.asarray(lengths, dtype=float) / (2.0 * np.asarray(radius, dtype=float))
+    if not ((ratio >= 0) & (ratio <= 1)).all():
+        raise InvariantError(
+            "radius", "a link is longer than the diameter, or the radius is not positive", "2 R >= every length"
+        )
+    return np.asarray(2.0 * np.arcsin(ratio))
+
+
+def chords(steps: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:
+    """Return the lengths of links that span angles (radians, signed or not) on a cylinder of a radius."""
+    return np.asarray(2.0 * np.asarray(radius) * np.abs(np.sin(np.asarray(steps, dtype=float) / 2.0)))
+
+
+def cylinder_reach(lengths: npt.ArrayLike) -> Floats:
+    """Return 1 / length^2, the reach of links in a loop sum."""
+    return np.asarray(np.asarray(lengths, dtype=float) ** -2.0)
+
+
+def map_to_cylinders(lengths: npt.ArrayLike) -> CylinderMap:
+    """Return every cylinder on which a planar loop of any number of links lies, by its loop sums.
+
+    Parameters
+    ----------
+    lengths : float[n]
+        In loop order, any one unit. Of a four-bar: ground, input, coupler, output.
+
+    Raises
+    ------
+    InvariantError
+        If a length is not positive, or the links cannot close.
+    UnsolvableError
+        If there are too many links.
+
+    Examples
+    --------
+    Hyatt et al. 2021, Fig. 10:
+
+    >>> [(round(one.size, 2), one.circuit) for one in map_to_cylinders([4, 3, 5, 1]).cylinders]
+    [(2.54, 'open'), (2.59, 'crossed')]
+    """
+    sides = checked_link_lengths(lengths)
+    unit = 2.0 ** np.frexp(sides.max())[1]  # a power of two: no digit of the lengths is lost
+    loops, families = mapped_loop(cylinder_reach(sides / unit), 0)
+    cylinders = tuple(_scaled(one, unit) for one in loops)
+    many = tuple(replace(one, interval=(one.interval[0] * unit, inf)) for one in families)
+    kind = kind_of_planar(sides) if len(sides) == 4 else None
+    why = "" if cylinders or many else "the loop closes stretched out only, at an infinite radius"
+    stretched = _nearly_stretched(sides, {family.signs for family in many})
+    return CylinderMap(tuple(sides.tolist()), cylinders, many, kind, why, stretched)
+
+
+def _scaled(loop: MappedLoop, unit: float) -> MappedLoop:
+    least, most = loop.bounds
+    return replace(loop, size=float(loop.size * unit), bounds=(float(least * unit), float(most * unit)))
+
+
+def _nearly_stretched(lengths: Floats, families: set[tuple[int, ...]]) -> tuple[tuple[int, ...], ...]:
+    """Return the signs, but for those of families, with which lengths sum to nearly zero, and not to zero."""
+    patterns = sign_patterns(len(lengths))
+    near = patterns[np.abs(patterns @ lengths) <= rounding_of(lengths)]
+    signs = [tuple(row) for row in near.tolist()]
+    return tuple(one for one in signs if one not in families and fsum(np.multiply(one, lengths)) != 0.0)
