@@ -32,8 +32,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from enumerate.chains.counting import count_by_burnside, count_by_orbits
-from enumerate.contracted.descent import descendants
-from enumerate.contracted.graphs import cubic_graphs
+from enumerate.contracted.graphs import cubic_graphs, descendants
 from graphs.types import Bytes, Floats
 
 RESULTS = Path(__file__).parent / "results"

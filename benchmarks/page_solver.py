@@ -24,7 +24,7 @@ import numpy as np
 from synth.folding.configuration import configuration_of_sheet
 from synth.folding.derivatives import largest_panel
 from synth.folding.motion import fold
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import miura
 from synth.viewer.linkage import bodies_of_sheet, solver_data
 
 HERE = Path(__file__).resolve().parent

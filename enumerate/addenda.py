@@ -25,17 +25,16 @@ import networkx as nx
 
 from enumerate.runner.job import Column, ListColumn, Row, RowCount, Unit, batches
 from enumerate.runner.running import rows_of
-from graphs.edit.sc import Edit, add_loop
+from graphs.edit.edits import Edit, add_loop
 from graphs.errors import InvariantError
-from graphs.files.native.documents import dumps
-from graphs.identity.chains import chain_id
-from graphs.identity.classes import class_code, symmetries_of_links
-from graphs.ids import JointId, LinkId
+from graphs.files.native import dumps
+from graphs.identity.chains import chain_id, class_code, symmetries_of_links
 from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
-from graphs.rank.generic import exact_mobility
+from graphs.rank.exact import exact_mobility
+from graphs.types import JointId, LinkId
 
 __all__ = ["Addendum", "AddendumJob", "addenda", "addendum_count_job"]
 

@@ -130,7 +130,7 @@ class UnsolvableError(SynthedraError):
     Examples
     --------
     >>> from graphs.convert.table import to_scd
-    >>> from graphs.files.ids import mechanism_of_id
+    >>> from graphs.files.formats import mechanism_of_id
     >>> to_scd(mechanism_of_id("k1:Cr"))
     Traceback (most recent call last):
     ...

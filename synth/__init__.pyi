@@ -20,10 +20,10 @@ from graphs.mechanism.sheet import Sheet as Sheet
 from graphs.mechanism.surfaces import SurfaceLinkage as SurfaceLinkage
 from graphs.mechanism.vertex_edge import VertexEdgeGraph as VertexEdgeGraph
 from graphs.reduce.ride_alongs import reduce as reduce
-from synth.advice.advised import advise as advise
-from synth.assembly.found import positions as positions
+from synth.advice.advice import advise as advise
+from synth.assembly.modes import positions as positions
 from synth.atlas.opened import open_atlas as open_atlas
-from synth.compliance.stated import states as states
+from synth.compliance.compliance_states import states as states
 from synth.drawing.mechanisms.pictures import draw as draw
 from synth.folding.motion import fold as fold
 from synth.guidance.fourbars import four_bars as four_bars

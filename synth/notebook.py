@@ -16,7 +16,7 @@ _SHOWN = {
     "graphs.mechanism.sheet": "Sheet",
     "graphs.mechanism.polyhedron": "PolyhedronModel",
     "graphs.mechanism.solids": "HingedSolids",
-    "graphs.mechanism.on_surface": "SurfaceLinkage",
+    "graphs.mechanism.surfaces": "SurfaceLinkage",
     "graphs.joints.linkage": "JointedLinkage",
     "graphs.mechanism.vertex_edge": "VertexEdgeGraph",
     "enumerate.strings.panel_strings": "ChainString",
@@ -48,7 +48,7 @@ def load_ipython_extension(shell: Any) -> None:
 def picture_of(thing: Any) -> str | None:
     """Return a scene or a mechanism as SVG; None if it cannot be drawn, so that IPython prints its description.
 
-    >>> from graphs.files.ids import mechanism_of_id
+    >>> from graphs.files.formats import mechanism_of_id
     >>> picture_of(mechanism_of_id("k1:Cr"))[:4]
     '<svg'
     """

@@ -17,7 +17,7 @@ from drawings.together import above, beside, said
 from graphs.errors import InvariantError
 from graphs.mechanism.surfaces import Cone
 from graphs.types import Floats
-from synth.conformed.layers import links_in_layers
+from synth.conformed.all_angles import links_in_layers
 from synth.conformed.linkages import OnSurface, linkage_on_surfaces, loop_of_steps, loop_on_cones
 from synth.conformed.rates import ConformedChain
 from synth.drawing import Scene

@@ -22,6 +22,7 @@ from enumerate.scd.jobs import scd_graphs_of
 from graphs.errors import numbered
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
+from graphs.types import LinkId
 from synth.atlas.building import AtlasPlan, build_atlas
 from synth.drawing import Scene
 from synth.drawing.mechanisms.chains import ChainLook, OrderOnCircle, chain_scene

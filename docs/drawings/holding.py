@@ -15,9 +15,8 @@ from drawings.together import above, beside, said
 from graphs.errors import numbered
 from graphs.mechanism.sheet import Sheet
 from graphs.types import Floats
-from synth.compliance.equilibrium import equilibrium, load_path
-from synth.compliance.limited import limits
-from synth.compliance.springs import ElasticLinkage, Springs
+from synth.compliance.joint_limits import limits
+from synth.compliance.springs import ElasticLinkage, Springs, equilibrium, load_path
 from synth.drawing import Scene
 from synth.drawing.scene.frame import Plot, round_steps, signed
 from synth.drawing.scene.shapes import (

@@ -13,7 +13,7 @@ from drawings.pieces import in_rows, of_shapes
 from drawings.together import beside, said
 from graphs.mechanism.sc import SCGraph
 from graphs.types import Flags, Floats
-from synth.conformed.layers import links_in_layers
+from synth.conformed.all_angles import links_in_layers
 from synth.conformed.rates import ConformedChain
 from synth.drawing import Scene
 from synth.drawing.scene.shapes import FINE, NORMAL, STRONG, Disc, Label, Line, Point, Shape

@@ -26,7 +26,7 @@ from enumerate.contracted.left_in_place import Cycles, count_left_in_place, cycl
 from enumerate.contracted.orbits import count_orbits, count_with_a_link
 from enumerate.contracted.states import order_of_classes
 from enumerate.kernel.compiled import compiled, number_of_orbits
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = [
     "count_by_burnside",

@@ -35,8 +35,8 @@ import numpy as np
 from enumerate.contracted.binary_links import Units, conditions, frame_of, place, rigid_sets
 from enumerate.contracted.graphs import contracted_graphs, decode
 from enumerate.kernel.compiled import cycles
-from graphs.arrays import Bytes, Ints
 from graphs.identity.chains import automorphisms_of
+from graphs.types import Bytes, Ints
 
 __all__ = ["Block", "block_choices", "count_connected", "glued", "shapes"]
 

@@ -33,9 +33,9 @@ from enumerate.contracted.binary_links import EVERY
 from enumerate.contracted.graphs import contracted_graphs, cubic_graphs, descendants
 from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, Column, Counting, Row, RowCount, Unit, batches
 from enumerate.runner.running import rows_of, total_of
-from graphs.arrays import Bytes, Ints
 from graphs.errors import UnsolvableError
 from graphs.identity.chains import chain_from_id
+from graphs.types import Bytes, Ints
 
 __all__ = ["ChainJob", "CountJob", "beginnings", "chain_rows", "chains", "count_chains", "count_job"]
 

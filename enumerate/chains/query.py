@@ -10,8 +10,8 @@ import numpy as np
 
 from enumerate.contracted.graphs import MOST_LOOPS, decode
 from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, Limits, Query
-from graphs.arrays import Bytes
 from graphs.errors import InvariantError, numbered
+from graphs.types import Bytes
 
 __all__ = ["ChainQuery", "is_planar"]
 

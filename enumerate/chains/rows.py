@@ -32,8 +32,8 @@ from enumerate.contracted.binary_links import (
 from enumerate.contracted.graphs import decode
 from enumerate.kernel.bliss_order import MOST_NODES, bliss_orders
 from enumerate.runner.job import Column, ListColumn, Row
-from graphs.arrays import Bytes, Ints
-from graphs.identity.chains import automorphisms_of, canonical_order
+from graphs.identity.chains import automorphisms_of, canonical_numbers
+from graphs.types import Bytes, Ints
 
 __all__ = [
     "GraphChains",
@@ -141,7 +141,7 @@ def chain_ids(links: int, joints: Ints, automorphisms: Ints | None = None) -> tu
     else:
         labels, left = np.empty((len(joints), links), np.int64), np.arange(len(joints))
     for row in left.tolist():
-        labels[row] = canonical_order(links, joints[row].tolist())
+        labels[row] = canonical_numbers(links, joints[row].tolist())
     text = graph6_rows(joints, labels).tobytes().decode("ascii")
     width = len(text) // len(labels)
     return [f"k1:{text[i : i + width]}" for i in range(0, len(text), width)], labels

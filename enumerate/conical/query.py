@@ -19,10 +19,9 @@ import numpy as np
 from enumerate.conical.rounds import Rounds, count_rounds_by_burnside, count_rounds_by_orbits, placements, prefixes
 from enumerate.runner.job import Column, Counting, Row, Unit
 from enumerate.runner.running import total_of, tuples_of
-from graphs.arrays import Ints
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.identity.bliss import subdivided, symmetries_of
-from graphs.ids import JointId, LinkId
+from graphs.identity.chains import subdivided, symmetries_of
+from graphs.types import Ints, JointId, LinkId
 
 __all__ = [
     "ConicalCountJob",

@@ -26,8 +26,8 @@ from math import perm
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, cycles, doubled
-from graphs.arrays import Ints
 from graphs.errors import InvariantError
+from graphs.types import Ints
 
 __all__ = [
     "Rounds",

@@ -26,7 +26,7 @@ import numpy as np
 from enumerate.contracted.graphs import decode
 from enumerate.kernel.compiled import compiled, doubled
 from enumerate.kernel.labelling import canonical_labels
-from graphs.arrays import Bytes, Ints, Words
+from graphs.types import Bytes, Ints, Words
 
 __all__ = [
     "EVERY",

@@ -35,8 +35,8 @@ import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled, empty_set, insert
 from enumerate.kernel.labelling import canonical_labels
-from graphs.arrays import Bytes, Ints
 from graphs.errors import InvariantError
+from graphs.types import Bytes, Ints
 
 __all__ = [
     "MOST_LOOPS",

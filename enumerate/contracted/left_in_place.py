@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled, slot_of
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = ["Cycles", "count_left_in_place", "cycles_of"]
 

@@ -21,7 +21,7 @@ from enumerate.contracted.binary_links import rigid_sets
 from enumerate.contracted.graphs import Growth, cheapest_degree
 from enumerate.kernel.compiled import compiled, empty_set, insert
 from enumerate.kernel.maps import END, JOINT, canonical_map, decode_map, faces_of, from_turns, symmetries_of_map
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = [
     "MOST_MAP_LOOPS",

@@ -36,7 +36,7 @@ from enumerate.contracted.states import (
     total_at_end,
 )
 from enumerate.kernel.compiled import compiled
-from graphs.arrays import Bytes, Flags, Ints, Words
+from graphs.types import Bytes, Flags, Ints, Words
 
 __all__ = ["count_orbits", "count_with_a_link"]
 

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
-from graphs.arrays import Bytes, Ints, Words
+from graphs.types import Bytes, Ints, Words
 
 __all__ = [
     "GROUP",

@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from enumerate.kernel.compiled import compiled
-from graphs.arrays import Ints
+from graphs.types import Ints
 
 __all__ = ["MOST_NODES", "bliss_orders"]
 
@@ -52,7 +52,7 @@ class _Cells(NamedTuple):
 def bliss_orders(n: int, joints: Ints, automorphisms: Ints) -> tuple[Ints, Ints]:
     """Return canonical numbers of the nodes of simple graphs, and the graphs that have to be given to bliss.
 
-    Node i of a graph has number ``order[i]``, as `graphs.identity.chains.canonical_order` says up to an
+    Node i of a graph has number ``order[i]``, as `graphs.identity.chains.canonical_numbers` says up to an
     automorphism; rows of the graphs for bliss hold nothing. There are `MOST_NODES` at most, and joints, int64[r,
     J, 2], are pairs, no pair twice. With 1 automorphism where their number is not known, only graphs are numbered
     that need no choice at all, and so have no symmetries.

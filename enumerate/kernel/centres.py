@@ -3,7 +3,7 @@
 Two loops that share two joints have one centre, and so have two classes of loops that share two joints between
 them (`graphs.loops.classes`). Sets of joints are words of 64 bits. Theory: docs/theory/centre-classes.md.
 
-The rank is that of `graphs.rank.generic.exact_mobility`, found by other code: a random member of the type modulo a
+The rank is that of `graphs.rank.exact.exact_mobility`, found by other code: a random member of the type modulo a
 prime of 31 bits, its loops closed face by face. It is done twice, modulo two primes; chance can make a rank too
 small, never too large (about once in 10^7 graphs and prime), so the larger one counts. Theory:
 docs/theory/exact-mobility.md.
@@ -14,7 +14,7 @@ from __future__ import annotations
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
-from graphs.arrays import Ints, Words
+from graphs.types import Ints, Words
 
 __all__ = [
     "FINITE",

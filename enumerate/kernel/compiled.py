@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from enumerate.machine_code.cache import KeptCode, fingerprint
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = ["compiled", "cycles", "doubled", "empty_set", "insert", "kernels", "number_of_orbits", "slot_of"]
 

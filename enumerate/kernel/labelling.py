@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
-from graphs.arrays import Bytes, Words
+from graphs.types import Bytes, Words
 
 __all__ = ["canonical_labels"]
 

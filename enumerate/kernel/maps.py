@@ -24,7 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
-from graphs.arrays import Bytes, Ints
+from graphs.types import Bytes, Ints
 
 __all__ = ["END", "JOINT", "OPEN", "canonical_map", "decode_map", "faces_of", "from_turns", "symmetries_of_map"]
 

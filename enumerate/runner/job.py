@@ -13,9 +13,9 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Protocol, TypeVar
 
-from graphs.arrays import Bytes, Flags, Ints
 from graphs.errors import InvariantError
-from graphs.plain_text import plain
+from graphs.printing import plain
+from graphs.types import Bytes, Flags, Ints
 
 __all__ = [
     "ANY_NUMBER",

@@ -18,9 +18,8 @@ from enumerate.runner.job import Column, Job, ListColumn, Row, Sink, Unit, row_a
 from enumerate.runner.store import SqliteSink, read_rows
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, InvariantError, StoreError, shown
-from graphs.files.atomic import Beside, FolderBeside
-from graphs.files.native.documents import dumps
-from graphs.files.unfinished import remove_left
+from graphs.files.atomic import Beside, FolderBeside, remove_left
+from graphs.files.native import dumps
 from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph

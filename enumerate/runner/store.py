@@ -31,8 +31,7 @@ from enumerate.runner.store_units import (
     rebuild_store,
 )
 from graphs.errors import StoreError
-from graphs.files.atomic import check_place
-from graphs.files.unfinished import remove_left
+from graphs.files.atomic import check_place, remove_left
 
 __all__ = ["SqliteSink", "job_in", "read_meta", "read_rows"]
 

@@ -27,7 +27,7 @@ from typing import Any, TypeVar
 
 from enumerate.runner.job import Row
 from graphs.errors import OpenError, StoreError, shown
-from graphs.files.unfinished import Unfinished, remove_folder
+from graphs.files.atomic import Unfinished, remove_folder
 
 __all__ = [
     "COMPLAINTS",

@@ -39,10 +39,10 @@ from enumerate.sc.listing import (
     list_drawn,
 )
 from enumerate.sc.query import SCQuery
-from graphs.arrays import Bytes, Ints
 from graphs.errors import UnsolvableError
 from graphs.identity.drawings import map_text, mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
+from graphs.types import Bytes, Ints
 
 __all__ = [
     "LABEL_LETTERS",

@@ -25,7 +25,7 @@ from enumerate.kernel.centres import (
     mobility_of,
 )
 from enumerate.kernel.compiled import compiled, doubled, number_of_orbits
-from graphs.arrays import Bytes, Ints, Words
+from graphs.types import Bytes, Ints, Words
 
 __all__ = [
     "Centres",

@@ -1,7 +1,7 @@
 """SCD graphs: every valid placement of open edges on every SC graph, and on every plane tree, listed and counted.
 
 The thesis stops at single examples of SCD graphs (section 3.4); here are all of a size, by the rules of
-`graphs.mechanism.rules` and with the exact rank under the forced geometry (rule S3). Theory:
+`graphs.mechanism.scd` and with the exact rank under the forced geometry (rule S3). Theory:
 docs/theory/scd-enumeration.md.
 """
 
@@ -23,12 +23,12 @@ from enumerate.sc.listing import codes_of_all
 from enumerate.scd.listing import count_placements, list_placements_of, sides_of_all
 from enumerate.scd.patterns import numbers_of_placements, outline
 from enumerate.scd.query import PlacementQuery, SCDQuery
-from graphs.arrays import Bytes, Ints
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.identity.drawings import map_code, map_id, mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
+from graphs.types import Bytes, Ints
 
 __all__ = [
     "AllMechanisms",

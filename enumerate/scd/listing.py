@@ -36,7 +36,7 @@ from enumerate.scd.patterns import (
     room_of,
     ways_to_lay,
 )
-from graphs.arrays import Bytes, Flags, Ints
+from graphs.types import Bytes, Flags, Ints
 
 __all__ = ["count_placements", "list_placements_of", "sides_of_all"]
 

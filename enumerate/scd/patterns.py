@@ -1,6 +1,6 @@
 """Open edges in the corners of a drawn mechanism: the rules they obey, and what placements may choose, compiled.
 
-Rules S1 and S2 (`graphs.mechanism.rules`) look at the points that joints and links share: the centres of the
+Rules S1 and S2 (`graphs.mechanism.scd`) look at the points that joints and links share: the centres of the
 classes, and the vertices in faces without a centre that several joints end in. These depend on one thing only: in
 which corners of the faces without a centre there is no open edge. A *pattern* says so for every such corner; it is
 valid or not, however many open edges there are elsewhere. With a pattern and a set of explicit faces chosen, links
@@ -27,7 +27,7 @@ from enumerate.kernel.centres import (
 )
 from enumerate.kernel.compiled import compiled, doubled
 from enumerate.kernel.maps import decode_map, faces_of, symmetries_of_map
-from graphs.arrays import Bytes, Ints, Words
+from graphs.types import Bytes, Ints, Words
 
 __all__ = [
     "CLOSED",

@@ -16,10 +16,10 @@ from functools import cached_property
 from itertools import pairwise, product
 
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.ids import JointId, LinkId
-from graphs.mechanism.rotation import Side
+from graphs.mechanism.drawing import Side
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
+from graphs.types import JointId, LinkId
 
 __all__ = ["ChainString", "chain_sc", "chain_scd", "count_strings", "joint_chain", "string_of_chain", "strings"]
 

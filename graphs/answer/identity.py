@@ -38,7 +38,7 @@ class Identity(Printed):
 
     Examples
     --------
-    >>> from graphs.files.ids import mechanism_of_id
+    >>> from graphs.files.formats import mechanism_of_id
     >>> identify(mechanism_of_id("m1:ab.ac.bd.cd")).chain
     'k1:Cr'
     """

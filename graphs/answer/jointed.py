@@ -21,10 +21,9 @@ from graphs.count.report import EquationResult, MobilityReport, mechanism_class,
 from graphs.errors import numbered, shown
 from graphs.geometry import frame_about, unit
 from graphs.joints.as_points import points_of, rods_between_balls
-from graphs.joints.as_revolutes import revolutes_of
-from graphs.joints.kinds import JointKind
-from graphs.joints.linkage import JointedLinkage, JointPlace, Leg, legs
+from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, Leg, legs
 from graphs.joints.placing import placed
+from graphs.joints.revolutes import revolutes_of
 from graphs.loops.loop import Centre, Loop, signed_cycle
 from graphs.mechanism.precision import extent_of, precision_of_axes
 from graphs.mechanism.sc import SCGraph

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from graphs.convert.reconstruction import VertexStep, vertex_steps
+from graphs.convert.panels import VertexStep, vertex_steps
 from graphs.convert.table import Mechanism, to_polyhedron, to_scd
 from graphs.count.equations import mobility_of_model
 from graphs.errors import check_argument

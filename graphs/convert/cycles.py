@@ -13,13 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import common_direction, lines_meet
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.plane import in_space
-from graphs.mechanism.precision import extent_of, precision_as_written
+from graphs.mechanism.precision import extent_of, in_space, precision_as_written
 from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
 from graphs.tolerances import DOUBLE, Tolerances
+from graphs.types import Floats
 
 __all__ = ["HingedFaces", "axes_meet", "boundary_cycles", "loops_with_centres", "vertex_cycles"]
 

@@ -17,8 +17,7 @@ import networkx as nx
 from graphs.convert.cycles import HingedFaces, boundary_cycles, loops_with_centres, vertex_cycles
 from graphs.convert.hinges import HingeLines, lines_of_hinges
 from graphs.errors import InvariantError, numbered
-from graphs.loops.cycle_space import added_independent, split_dependent
-from graphs.loops.loop import Centre, Loop
+from graphs.loops.loop import Centre, Loop, added_independent, split_dependent
 from graphs.mechanism.precision import off_panel_planes, precision_of
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, sides_of_face

@@ -13,10 +13,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
-from graphs.mechanism.plane import flattened
+from graphs.mechanism.precision import flattened
 from graphs.mechanism.sheet import COLLINEAR, HINGES, Edge, Sheet, sides_of_face
+from graphs.types import Floats
 
 __all__ = ["creases_on_no_face", "joins_faces", "traced_anew", "with_simple_faces"]
 

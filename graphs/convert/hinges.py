@@ -13,9 +13,9 @@ from math import ceil, floor, log10
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import numbered
 from graphs.mechanism.sheet import COLLINEAR, Edge
+from graphs.types import Floats
 
 __all__ = ["BENT", "HingeLines", "lines_of_hinges"]
 

@@ -13,10 +13,10 @@ from itertools import pairwise
 import networkx as nx
 
 from graphs.errors import InvariantError
-from graphs.ids import JointId, Joints, LinkId
+from graphs.limits import check_work
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.work_limits import check_work
+from graphs.types import JointId, Joints, LinkId
 
 __all__ = ["BlockCycles", "block_cycles", "sc_from_link_joint_graph"]
 
@@ -68,7 +68,7 @@ def sc_from_link_joint_graph(
     ------
     InvariantError
         For a self-joint, for ``closed`` where a block has no embedding in the sphere, or for a block that is not
-        planar and has more joints than the limit ``basis`` (:mod:`graphs.work_limits`).
+        planar and has more joints than the limit ``basis`` (:mod:`graphs.limits`).
 
     Examples
     --------

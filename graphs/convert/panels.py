@@ -18,14 +18,13 @@ import numpy as np
 from graphs.convert.cycles import loops_with_centres
 from graphs.errors import InvariantError, shown
 from graphs.geometry import area_vector
-from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.drawing import FaceKind
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.drawing import FaceKind, face_cycles, trace_faces
 from graphs.mechanism.polyhedron import PolyhedronModel, RemoteCentre
-from graphs.mechanism.rotation import face_cycles, trace_faces
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
+from graphs.types import JointId, LinkId
 
 __all__ = [
     "VertexStep",

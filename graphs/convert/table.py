@@ -15,19 +15,18 @@ from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.panels import oriented_panels, polyhedron_of, scd_from_panels, scd_of_placed_panels
 from graphs.edit.analogues import generalised_form, planar_analogue, spherical_analogue
-from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.given import check_given
-from graphs.ids import JointId
+from graphs.errors import InvariantError, UnsolvableError, check_argument, shown
 from graphs.joints.linkage import JointedLinkage
 from graphs.joints.revolutes import recognised, revolutes_of
-from graphs.mechanism.on_surface import SurfaceLinkage
-from graphs.mechanism.plane import in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet, sheet_from_model, sides_of_face
 from graphs.mechanism.solids import Axis, HingedSolids
+from graphs.mechanism.surfaces import SurfaceLinkage
 from graphs.mechanism.vertex_edge import VertexEdgeGraph, sc_from_vertex_edge, vertex_edge_from_sc
+from graphs.types import JointId
 
 __all__ = [
     "CONVERSIONS",
@@ -330,7 +329,7 @@ def convert(mechanism: Mechanism, kind: str | None = None, *, form: str | None =
     >>> convert(fan, "sc", form="planar").loops[0].centre
     <Centre.INFINITE: 'infinite'>
     """
-    check_given("convert", mechanism, Mechanism)
+    check_argument("convert", mechanism, Mechanism)
     for name, what, known in ((kind, "kind", tuple(CONVERSIONS)), (form, "form", tuple(FORMS))):
         if name is not None and name not in known:
             raise InvariantError(what, f"the {what} {shown(name)}", "one of " + ", ".join(known))

@@ -20,12 +20,11 @@ import shapely
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError, numbered
 from graphs.geometry import signed_area
-from graphs.mechanism.reading import Place, Reading, Repair, RepairKind
-from graphs.mechanism.sheet import HINGES, Edge, Sheet, sides_of_face
-from graphs.work_limits import check_work
+from graphs.limits import check_work
+from graphs.mechanism.sheet import HINGES, Edge, Place, Reading, Repair, RepairKind, Sheet, sides_of_face
+from graphs.types import Floats
 
 __all__ = [
     "MOST",

@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import Any
 
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
-from graphs.count.relative import relative_spherical_system
+from graphs.count.equations import relative_spherical_system
 from graphs.creasing.lines import creased_along, edge_in_words
 from graphs.edit.edits import counted_change, counts_as_json
 from graphs.edit.named import joint_named, known

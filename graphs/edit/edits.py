@@ -11,16 +11,14 @@ from dataclasses import dataclass, replace
 from itertools import count, islice
 from typing import Any
 
-from graphs.count.relative import relative_cgk, relative_polyhedron, relative_spherical_system
+from graphs.count.equations import relative_cgk, relative_polyhedron, relative_spherical_system
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.ids import JointId, Joints, LinkId
-from graphs.loops.cycle_space import cut_into_cycles, dependent_loop
-from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.drawing import FaceKind
-from graphs.mechanism.rotation import Side
+from graphs.loops.loop import Centre, Loop, cut_into_cycles, dependent_loop
+from graphs.mechanism.drawing import FaceKind, Side
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
+from graphs.types import JointId, Joints, LinkId
 
 __all__ = [
     "Edit",

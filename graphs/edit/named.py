@@ -6,8 +6,8 @@ from collections.abc import Hashable, Iterable
 from difflib import get_close_matches
 
 from graphs.errors import InvariantError, shown
-from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
+from graphs.types import JointId, LinkId
 
 __all__ = ["joint_named", "known", "link_named"]
 

@@ -29,9 +29,9 @@ import networkx as nx
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, UnsolvableError, numbered, shown
 from graphs.files.text import Checker, read_text
-from graphs.ids import JointId
 from graphs.joints.linkage import JointedLinkage, JointKind, kind_named
 from graphs.mechanism.sc import SCGraph
+from graphs.types import JointId
 
 __all__ = [
     "are_kept",

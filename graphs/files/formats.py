@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.table import Mechanism, to_sc, to_sheet
-from graphs.errors import FileError, InvariantError, OpenError, UnsolvableError, numbered
+from graphs.errors import FileError, InvariantError, OpenError, UnsolvableError, check_argument, numbered
 from graphs.files.atomic import Beside
 from graphs.files.bare import (
     as_linkage,
@@ -43,14 +43,13 @@ from graphs.files.patterns.fold import fold_text, read_fold
 from graphs.files.patterns.legend import UNSTATED, Legend, Looks
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
 from graphs.files.text import load_json
-from graphs.given import check_given
 from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.joints.linkage import JointedLinkage
-from graphs.mechanism.on_surface import SurfaceLinkage
-from graphs.mechanism.plane import flattened
+from graphs.mechanism.precision import flattened
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.surfaces import SurfaceLinkage
 
 __all__ = [
     "READERS",
@@ -267,7 +266,7 @@ def write(
     ...     write(four_bar, Path(folder, "four-bar.json")), write(four_bar, Path(folder, "bare.g6"), lossy=True)
     ((), ('1 loop and its centre',))
     """
-    check_given("write", mechanism, Mechanism)
+    check_argument("write", mechanism, Mechanism)
     path = Path(path)
     suffix = path.suffix.lower()
     writer = WRITERS.get(suffix)

@@ -12,16 +12,16 @@ from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.files.bare import are_kept
 from graphs.files.native import is_count
-from graphs.identity.classes import class_code
+from graphs.identity.chains import class_code
 from graphs.joints.linkage import JointedLinkage, JointKind
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import FLAT, HINGES, Sheet, with_all_edges
 from graphs.mechanism.solids import HingedSolids
-from graphs.plain_text import plain
+from graphs.mechanism.surfaces import SurfaceLinkage
+from graphs.printing import plain
 
 __all__ = [
     "change_of_type",

@@ -13,17 +13,15 @@ from typing import Any
 
 from graphs.errors import FileError, InvariantError, UnsolvableError, shown
 from graphs.files.text import Checker, json_text, load_json
-from graphs.ids import JointId, LinkId
 from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, kind_named
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.on_surface import Pair, SurfaceLinkage, as_planar, places_of_steps
 from graphs.mechanism.polyhedron import GROUND, PointConstraint, PolyhedronModel, RemoteCentre
-from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sc import SCGraph, SpecialGeometry
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.solids import Axis, HingedSolids, Vector
-from graphs.mechanism.special import SpecialGeometry
-from graphs.mechanism.surfaces import Cone, Cylinder, Surface
+from graphs.mechanism.surfaces import Cone, Cylinder, Pair, Surface, SurfaceLinkage, as_planar, places_of_steps
 from graphs.mechanism.vertex_edge import VertexEdgeGraph
+from graphs.types import JointId, LinkId
 
 __all__ = [
     "FORMATS",

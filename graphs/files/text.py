@@ -16,7 +16,7 @@ from typing import Any, NoReturn, TypeVar
 
 from graphs.errors import FileError, InvariantError, OpenError, shown
 from graphs.files.atomic import reason_of
-from graphs.work_limits import how_to_raise, most
+from graphs.limits import how_to_raise, most
 
 __all__ = ["Checker", "json_text", "load_json", "read_text"]
 

@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from graphs.ids import JointId, LinkId
 from graphs.joints.linkage import JointedLinkage, JointKind
 from graphs.loops.loop import Centre
 from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel, RemoteCentre
+from graphs.types import JointId, LinkId
 
 __all__ = ["points_of", "rods_between_balls"]
 

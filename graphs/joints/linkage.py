@@ -12,12 +12,11 @@ from enum import Enum
 from math import hypot
 from types import MappingProxyType
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError, numbered, shown
-from graphs.extent import LEAST, MOST, check_extent, in_reach
-from graphs.ids import JointId, LinkId
+from graphs.limits import LEAST, MOST, check_extent, in_reach
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
+from graphs.types import Floats, JointId, LinkId
 
 __all__ = ["JointKind", "JointPlace", "JointedLinkage", "Leg", "kind_named", "legs", "plain_vector"]
 

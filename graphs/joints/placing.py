@@ -12,13 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import across, frame_about, unit
-from graphs.ids import JointId
 from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, legs, plain_vector
 from graphs.loops.loop import Centre
 from graphs.mechanism.precision import precision_of_axes
 from graphs.tolerances import Tolerances
+from graphs.types import Floats, JointId
 
 __all__ = ["Knee", "KneeEnd", "knees_of_type", "placed", "placed_knees"]
 

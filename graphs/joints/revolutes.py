@@ -13,15 +13,14 @@ from itertools import count, pairwise
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import across, frame_about, unit
-from graphs.ids import JointId, LinkId
 from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, Leg, legs, plain_vector
 from graphs.joints.placing import placed, placed_knees
 from graphs.mechanism.precision import extent_of, precision_of_axes
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import Axis, HingedSolids
 from graphs.tolerances import Tolerances
+from graphs.types import Floats, JointId, LinkId
 
 __all__ = ["recognised", "revolutes_of"]
 

@@ -311,13 +311,13 @@ def row_space(matrix: Floats, zero: float = DOUBLE.zero, scale: float | None = N
     return canonical_basis(right[: _counted(values, zero, scale)].T)
 
 
-def rank_of(matrix: Floats, zero: float = DOUBLE.zero) -> int:
+def rank_of(matrix: Floats, zero: float = DOUBLE.zero, scale: float | None = None) -> int:
     """Return the rank of a matrix.
 
     Parameters
     ----------
     matrix : float[m, n]
-    zero : float, optional
+    zero, scale : float, optional
         As for `split`.
 
     Examples
@@ -325,7 +325,7 @@ def rank_of(matrix: Floats, zero: float = DOUBLE.zero) -> int:
     >>> rank_of(np.array([[1.0, 2.0], [2.0, 4.0 + 1e-12]]))
     1
     """
-    return _counted(singular_values(matrix), zero)
+    return _counted(singular_values(matrix), zero, scale)
 
 
 def singular_values(matrices: Floats) -> Floats:
@@ -373,7 +373,7 @@ class Inertia:
         return np.asarray((self.signs < 0).sum(axis=-1))
 
 
-def inertia(forms: Floats, zero: float = DOUBLE.zero) -> Inertia:
+def inertia(forms: Floats, zero: float = DOUBLE.zero, scale: float | None = None) -> Inertia:
     """Return the eigenvalues of symmetric matrices, and which are positive, zero and negative.
 
     Parameters
@@ -381,6 +381,8 @@ def inertia(forms: Floats, zero: float = DOUBLE.zero) -> Inertia:
     forms : float[..., s, s]
     zero : float, optional
         Eigenvalues up to this part of the largest, of each matrix, are zero.
+    scale : float, optional
+        Replaces the largest eigenvalue where a matrix may consist of rounding errors only.
 
     Examples
     --------
@@ -390,5 +392,6 @@ def inertia(forms: Floats, zero: float = DOUBLE.zero) -> Inertia:
     """
     values, vectors = np.linalg.eigh(forms)
     sizes = np.abs(values)
-    signs = np.where(sizes > zero * sizes.max(axis=-1, keepdims=True, initial=0.0), np.sign(values), 0.0)
+    largest = sizes.max(axis=-1, keepdims=True, initial=0.0) if scale is None else scale
+    signs = np.where(sizes > zero * largest, np.sign(values), 0.0)
     return Inertia(values, vectors, signs.astype(np.int64))

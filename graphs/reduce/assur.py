@@ -23,9 +23,9 @@ from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.count.equations import loop_form
 from graphs.count.report import mechanism_class
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 from graphs.printing import Block, Printed, plain
+from graphs.types import JointId, LinkId
 
 __all__ = ["AssurGroup", "AssurReduction", "assur_groups", "reduce_assur"]
 

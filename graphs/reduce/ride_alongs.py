@@ -21,14 +21,13 @@ import networkx as nx
 from graphs.convert.table import Mechanism, to_sc
 from graphs.count.report import mobility_report
 from graphs.edit.edits import counts_as_json
-from graphs.errors import InvariantError, numbered, shown
-from graphs.given import check_given
-from graphs.identity.bliss import ColouredGraph, labels_of
-from graphs.ids import JointId, LinkId
+from graphs.errors import InvariantError, check_argument, numbered, shown
+from graphs.identity.chains import ColouredGraph, labels_of
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.printing import Block, Printed, plain
 from graphs.reduce.working import RULES, ReductionTerms, Removal, TakenAddendum, WorkingGraph, take_all
+from graphs.types import JointId, LinkId
 
 __all__ = ["Reduction", "ReductionStep", "links_of_loops_that_stay", "reduce"]
 
@@ -356,7 +355,7 @@ def reduce(
     >>> len(reduction.graph), [step.removed for step in reduction.steps]
     (4, [(0, 1)])
     """
-    check_given("reduce", mechanism, Mechanism)
+    check_argument("reduce", mechanism, Mechanism)
     if rule not in RULES:
         raise InvariantError("rule", f"the rule {shown(rule)}", "one of " + ", ".join(RULES))
     sc = to_sc(mechanism)

@@ -13,11 +13,10 @@ from typing import NamedTuple
 
 import networkx as nx
 
-from graphs.ids import JointId, Joints, LinkId
 from graphs.loops.classes import centre_classes
-from graphs.loops.cycle_space import cut_into_cycles, dependent_loop, in_span_of
-from graphs.loops.loop import Loop
+from graphs.loops.loop import Loop, cut_into_cycles, dependent_loop, in_span_of
 from graphs.mechanism.sc import SCGraph
+from graphs.types import JointId, Joints, LinkId
 
 __all__ = ["RULES", "Path", "ReductionTerms", "Removal", "TakenAddendum", "WorkingGraph", "take_all"]
 

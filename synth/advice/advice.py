@@ -10,17 +10,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.edit.named import known
-from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.given import check_given
-from graphs.ids import JointId, LinkId
-from graphs.mechanism.plane import lies_flat
+from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
+from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed, TableBlock
-from graphs.rank.singular_values import spectrum
-from graphs.rank.spaces import split
+from graphs.rank.singular_values import spectrum, split
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId, LinkId
 from synth.advice.diagonals import (
     Bounds,
     Candidates,
@@ -35,7 +32,7 @@ from synth.folding.configuration import SheetConfiguration
 from synth.motion.branches import Branch
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
-from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.step import Allowance
 from synth.moving.made import Movable, configuration_of
 
 __all__ = ["Advice", "Creased", "Locked", "advise"]
@@ -337,7 +334,7 @@ def advise(
     >>> advice.locks[0].joints, advice.locks[0].weight
     ((1, 3, 4), 3.0)
     """
-    check_given("advise", thing, Movable)
+    check_argument("advise", thing, Movable)
     protected = _Protected(frozenset(joints), frozenset(links), not flaps, dict(weights or {}))
     _check_number("freedoms", freedoms, 0)
     _check_number("limit", limit, 1)

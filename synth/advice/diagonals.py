@@ -16,19 +16,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.creasing.edits import crease_sheet, lock_crease
 from graphs.errors import NumericalError
 from graphs.geometry import principal_axes, signed_area
-from graphs.ids import LinkId
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet, sides_of_face
-from graphs.rank.spaces import split
+from graphs.rank.singular_values import split
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, LinkId
 from synth.advice.locks import GeneralPose
 from synth.folding.configuration import configuration_of_sheet
 from synth.motion.linkage import PosedLinkage, PosedLoop
-from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.step import Allowance
 
 __all__ = ["Diagonal"]
 

@@ -18,21 +18,20 @@ from math import degrees
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import NumericalError, UnsolvableError, numbered
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.folding.configuration import SheetConfiguration
-from synth.motion.beginning import Wanted, beginning
 from synth.motion.branches import Branches
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
-from synth.motion.linkage import PosedLinkage, linkage_of_sheet
-from synth.motion.placement import moved
-from synth.motion.second_order import rates_at
-from synth.motion.walk.allowance import Allowance
-from synth.verdict.words import flaps_of
+from synth.motion.driving import BranchChoice, beginning
+from synth.motion.linkage import PosedLinkage, linkage_of_sheet, moved
+from synth.motion.singular.second_order import rates_at
+from synth.motion.walk.step import Allowance
+from synth.verdict.verdict import flaps_of
 
 __all__ = ["GeneralPose", "cheapest_sets"]
 
@@ -98,7 +97,7 @@ def general_pose(configuration: Configuration, branch: int | str | None = None) 
     if branches.no_motion == "proved":
         rates = rates_at(configuration.closure, linkage.angles)
         return GeneralPose(linkage, rates, None, sheet=here[0], mechanism=here[1], rigid=True)
-    number, _ = beginning(configuration, Wanted(branch))
+    number, _ = beginning(configuration, BranchChoice(branch))
     if number is None:
         return GeneralPose(linkage, _rates(linkage, branches, number), None, *here)
     angles = branches.branches[number].sample

@@ -17,13 +17,12 @@ from math import atan2, hypot
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats, Ints
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, numbered, shown
 from graphs.geometry import frame_about, lines_meet
-from graphs.ids import JointId
 from graphs.loops.loop import Centre
-from graphs.rank.spaces import rank_of
+from graphs.rank.singular_values import rank_of
 from graphs.tolerances import DOUBLE
+from graphs.types import Flags, Floats, Ints, JointId
 from synth.assembly.kernel import (
     ARRIVED,
     CLOSED,

@@ -14,14 +14,11 @@ from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats
-from graphs.canonical import canonical_order
-from graphs.errors import InvariantError, SynthedraError, numbered, shown
-from graphs.given import check_given
-from graphs.ids import JointId
+from graphs.errors import InvariantError, SynthedraError, check_argument, numbered, shown
 from graphs.printing import Block, Printed, TableBlock, plain
-from graphs.rank.spaces import rank_of
-from graphs.tolerances import DOUBLE, EPSILON
+from graphs.rank.singular_values import rank_of
+from graphs.tolerances import DOUBLE, EPSILON, canonical_order
+from graphs.types import Flags, Floats, JointId
 from synth.assembly.family import (
     SMALL,
     Family,
@@ -37,7 +34,7 @@ from synth.assembly.kernel import CLOSED, Complexes
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
-from synth.motion.walk.circuits import circuit_through
+from synth.motion.path import circuit_through
 from synth.motion.walk.events import TurningPoint
 from synth.motion.walk.step import Step
 from synth.motion.walk.walking import Event, Walk
@@ -299,7 +296,7 @@ def positions(
     >>> len(answer.positions), answer.general, answer.exhaustive
     (2, 2, True)
     """
-    check_given("positions", thing, Movable)
+    check_argument("positions", thing, Movable)
     at = configuration_of(thing, slides=True)
     linkage = at.linkage
     for joint, angle in drive.items():

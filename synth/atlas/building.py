@@ -23,18 +23,17 @@ from typing import Any
 from enumerate.chains.jobs import ChainJob
 from enumerate.chains.names import chain_named
 from enumerate.chains.query import ChainQuery
-from enumerate.runner.columns import Column
-from enumerate.runner.job import Job, Progress, Row, Unit
+from enumerate.runner.job import Column, Job, Progress, Row, Unit
 from enumerate.runner.running import run
 from enumerate.runner.store import SqliteSink
-from enumerate.runner.store_units import named, quoted
+from enumerate.runner.store_units import naming, quoted
 from enumerate.sc.jobs import SCJob
 from enumerate.sc.query import SCQuery
 from enumerate.scd.jobs import AllMechanisms, SCDJob
 from enumerate.scd.query import PlacementQuery, SCDQuery
 from enumerate.strings.panel_strings import strings
 from graphs.errors import InvariantError
-from graphs.files.ids import mechanism_of_id
+from graphs.files.formats import mechanism_of_id
 from synth.atlas.columns import COLUMNS, SCHEMA, stored_columns
 from synth.atlas.filling import filled
 from synth.candidates.job import CandidateJob
@@ -290,7 +289,7 @@ def build_atlas(
 
 def _make_askable(path: Path, command: str) -> None:
     """Give a complete store of types its views and indexes; existing ones stay."""
-    with named(path), closing(sqlite3.connect(path)) as connection, connection:
+    with naming(path), closing(sqlite3.connect(path)) as connection, connection:
         connection.execute("BEGIN IMMEDIATE")
         connection.execute(f"CREATE VIEW IF NOT EXISTS types AS SELECT {quoted(COLUMNS)} FROM type")
         connection.execute(f"CREATE VIEW IF NOT EXISTS relations AS {_relations()}")

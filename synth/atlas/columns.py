@@ -15,11 +15,11 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.columns import Column, ListColumn, unstored
+from enumerate.runner.job import Column, ListColumn, unstored
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import StoreError, shown
-from graphs.mechanism.arrangement import ARRANGEMENTS
-from graphs.plain_text import plain
+from graphs.mechanism.sc import ARRANGEMENTS
+from graphs.printing import plain
 
 __all__ = [
     "COLUMNS",

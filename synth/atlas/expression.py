@@ -24,10 +24,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple, NoReturn
 
-from enumerate.runner.columns import Column, ListColumn, stored
+from enumerate.runner.job import Column, ListColumn, stored
 from graphs.edit.named import known
 from graphs.errors import InvariantError, shown
-from graphs.plain_text import plain
+from graphs.printing import plain
 
 __all__ = ["Condition", "ExpressionError", "condition_of"]
 

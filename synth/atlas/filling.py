@@ -11,19 +11,18 @@ from typing import Any, get_args
 
 import numpy as np
 
-from enumerate.contracted.listing import orbits_of
-from enumerate.strings.graphs import chain_scd
+from enumerate.contracted.binary_links import orbits_of
+from enumerate.strings.panel_strings import chain_scd
 from graphs.edit.analogues import generalised_form, planar_analogue, spherical_analogue
 from graphs.errors import SynthedraError
-from graphs.files.ids import mechanism_of_id
+from graphs.files.formats import mechanism_of_id
 from graphs.files.patterns.fold import fold_text
 from graphs.identity.chains import automorphisms_of, chain_id
 from graphs.identity.drawings import map_id
-from graphs.mechanism.arrangement import arrangement_of
-from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sc import SCGraph, arrangement_of
 from graphs.reduce.ride_alongs import reduce
 from synth.atlas.columns import name_of_type
-from synth.motion.driving import Asked
+from synth.motion.driving import MotionOptions
 from synth.motion.motion import motion_of
 from synth.realisation.realised import Kind, Realised, realise
 
@@ -62,7 +61,7 @@ def _realised(code: str) -> Realised | None:
 def _folded(realised: Realised) -> dict[str, Any]:
     """Return the largest fold angle of its motion, degrees, and the reason for its end."""
     try:
-        motion = motion_of(realised.configuration, Asked(frames=_FRAMES), collisions=True)
+        motion = motion_of(realised.configuration, MotionOptions(frames=_FRAMES), collisions=True)
     except SynthedraError as error:
         return {"fold_deg": None, "fold_end": str(error)}
     reached = float(np.degrees(np.abs(motion.path.angles).max(initial=0.0)))

@@ -11,8 +11,15 @@ import networkx as nx
 
 from graphs.answer.identity import identify
 from graphs.convert.table import Mechanism, graph_of, to_scd
-from graphs.edit.sc import Edit, add_ride_along, lock_joint
-from graphs.edit.scd import lock_hinge, make_explicit, make_implicit, ride_along
+from graphs.edit.edits import (
+    Edit,
+    add_ride_along,
+    lock_hinge,
+    lock_joint,
+    make_explicit,
+    make_implicit,
+    ride_along,
+)
 from graphs.errors import SynthedraError
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph

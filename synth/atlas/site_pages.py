@@ -12,23 +12,21 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.columns import Column
-from enumerate.runner.job import Job, Progress, Row, Unit
+from enumerate.runner.job import Column, Job, Progress, Row, Unit
 from enumerate.runner.running import run
 from enumerate.runner.sinks import FolderSink
 from graphs.errors import FileError, SynthedraError, UnsolvableError, numbered
 from graphs.mechanism.sheet import Sheet
-from graphs.plain_text import plain
+from graphs.printing import plain
 from synth.atlas.columns import COLUMNS, damaged
 from synth.atlas.opened import Atlas, TypeReport, open_guarded, report_of, value_text
 from synth.atlas.written import sheet_of_type
-from synth.drawing.catalogue.atlas_types import drawable_of_type
+from synth.drawing.catalogue import drawable_of_type
 from synth.drawing.mechanisms.pictures import draw
-from synth.drawing.scene.svg import svg_text
-from synth.templates.formats.svg import svg_of_page
-from synth.templates.pages import pages_of
-from synth.templates.paper import paper_named
+from synth.drawing.scene.writing import svg_text
+from synth.templates.pages import pages_of, paper_named
 from synth.templates.template import template_of
+from synth.templates.writing import svg_of_page
 from synth.viewer.building import BUILT
 from synth.viewer.pages import check_built, json_in_html
 from synth.viewer.shown import shown_of

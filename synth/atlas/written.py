@@ -8,22 +8,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.columns import Column, ListColumn
-from enumerate.runner.job import Row, Unit
+from enumerate.runner.job import Column, ListColumn, Row, Unit
 from enumerate.runner.running import run
 from enumerate.runner.sinks import sink_for
-from enumerate.strings.graphs import chain_scd
+from enumerate.strings.panel_strings import chain_scd
 from graphs.errors import FileError, InvariantError, UnsolvableError, shown
 from graphs.files.atomic import write_text
-from graphs.files.native.documents import dumps
+from graphs.files.native import dumps
 from graphs.files.patterns.fold import sheet_from_fold
 from graphs.mechanism.sheet import Sheet
 from synth.atlas.columns import COLUMNS
 from synth.atlas.opened import AtlasRows
-from synth.drawing.catalogue.atlas_types import drawable_of_type
-from synth.drawing.catalogue.entries import CatalogueEntry
-from synth.drawing.catalogue.pages import catalogue_pages
-from synth.drawing.catalogue.writing import write_catalogue
+from synth.drawing.catalogue import CatalogueEntry, catalogue_pages, drawable_of_type, write_catalogue
 
 __all__ = ["mechanism_file_of_type", "sheet_of_type", "write_rows"]
 

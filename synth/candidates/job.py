@@ -16,20 +16,16 @@ from typing import Any
 import numpy as np
 
 from enumerate.conical.query import ConicalQuery, Portion
-from enumerate.runner.columns import Column
-from enumerate.runner.job import Counting, Row, Unit
+from enumerate.runner.job import Column, Counting, Row, Unit
 from enumerate.runner.running import rows_of
-from graphs.arrays import Floats, Ints
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.files.native.documents import dumps
+from graphs.files.native import dumps
 from graphs.identity.chains import chain_id
-from graphs.ids import LinkId
-from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.surfaces import Cone, Cylinder, Surface
+from graphs.mechanism.surfaces import Cone, Cylinder, Surface, SurfaceLinkage
+from graphs.types import Floats, Ints, LinkId
 from synth.candidates.rows import CandidateChain, order_rows, placed_rows
-from synth.conformed.cycles import loops_of_chain
-from synth.conformed.rates import ConformedChain
+from synth.conformed.rates import ConformedChain, loops_of_chain
 
 __all__ = ["CandidateCountJob", "CandidateJob", "Filter"]
 

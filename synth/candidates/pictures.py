@@ -7,14 +7,12 @@ from math import radians
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.columns import row_as_dict
-from enumerate.runner.job import Row, Sink
+from enumerate.runner.job import Row, Sink, row_as_dict
 from graphs.errors import UnsolvableError
-from graphs.files.atomic import FolderBeside
-from graphs.files.unfinished import remove_left
+from graphs.files.atomic import FolderBeside, remove_left
 from graphs.mechanism.surfaces import Cone
 from synth.candidates.job import CandidateJob
-from synth.conformed.layers import links_in_layers
+from synth.conformed.all_angles import links_in_layers
 from synth.conformed.rates import ConformedChain
 from synth.drawing.conformed import draw_conformed
 from synth.drawing.scene.shapes import Scene

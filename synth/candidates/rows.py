@@ -1,7 +1,7 @@
 """Rows of conical candidates: names of columns, and values, computed for many candidates at a time.
 
-Layers: `synth.conformed.layers`; rank and behaviour: `synth.conformed.rates`, `synth.conformed.behaviours`; over
-all angles: `synth.conformed.all_angles`. Theory: docs/theory/conical-candidates.md.
+Layers, and values over all angles: `synth.conformed.all_angles`; rank and behaviour: `synth.conformed.rates`,
+`synth.conformed.behaviours`. Theory: docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
@@ -15,25 +15,23 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.runner.columns import Column, ListColumn, RangeColumn
-from enumerate.runner.job import Row
-from graphs.arrays import Floats, Ints
+from enumerate.runner.job import Column, ListColumn, RangeColumn, Row
 from graphs.mechanism.surfaces import Cone, Surface
+from graphs.types import Floats, Ints
 from synth.conformed.all_angles import (
     Allowed,
     OverAngles,
     RateFormulas,
+    layers,
     never_singular,
     orders_with_opposites,
     over_angles,
 )
 from synth.conformed.behaviours import Way, behaviour_of_motion, link_arcs
-from synth.conformed.layers import layers
 from synth.conformed.rates import ConformedChain, first_order
 from synth.fourbar.closing import grashof_class, planar_differences, spherical_differences
-from synth.surfaces.circuit import HALF_TURN, Circuits, circuits, wrapped
-from synth.surfaces.cone import link_angles
-from synth.surfaces.cylinder import chords
+from synth.surfaces.circuit import HALF_TURN, Circuits, circuits, link_angles, wrapped
+from synth.surfaces.loop_maps import chords
 
 __all__ = ["CandidateChain", "four_bar_classes", "half_turns", "loop_circuits", "order_rows", "placed_rows"]
 

@@ -27,7 +27,7 @@ def run() -> None:
 
 
 def _run_command() -> None:
-    from enumerate.machine_code.notice import on_compiling
+    from enumerate.machine_code.folders import on_compiling
     from synth.cli.main import main
     from synth.cli.output import guard_output
 

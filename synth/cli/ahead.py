@@ -76,8 +76,8 @@ def _run(command: str) -> int:
 
 def _positions() -> int:
     """Compile the search for assembly modes, for which commands need a file."""
-    from synth.assembly.found import positions
-    from synth.patterns.rings.spherical import spherical_ring
+    from synth.assembly.modes import positions
+    from synth.patterns.hinged_rings import spherical_ring
 
     before = _compiled()
     positions(spherical_ring([1.0, 1.2, 0.9, 1.4]), {0: 0.1}, circuits=False)

@@ -17,7 +17,7 @@ from typing import Any, NoReturn
 
 import click
 
-from graphs.plain_text import plain
+from graphs.printing import plain
 from synth.cli.options import FORCE
 
 __all__ = ["NamedGroup", "completion", "main"]

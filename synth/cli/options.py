@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from graphs.extent import LEAST, MOST
-from graphs.plain_text import plain
+from graphs.limits import LEAST, MOST
+from graphs.printing import plain
 
 if TYPE_CHECKING:
-    from graphs.ids import JointId
     from graphs.mechanism.sc import SCGraph
     from graphs.mechanism.surfaces import Surface
+    from graphs.types import JointId
 
 __all__ = [
     "BRANCH",
@@ -84,7 +84,7 @@ class LimitsType(click.ParamType):  # type: ignore[type-arg,unused-ignore]
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return limits."""
-        from enumerate.runner.limits import Limits
+        from enumerate.runner.job import Limits
 
         if isinstance(value, Limits):
             return value

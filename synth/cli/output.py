@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import click
 
 from graphs.errors import SynthedraError
-from graphs.plain_text import plain
-from graphs.printing import UNWRAPPED, console_for, rich_table as table
+from graphs.printing import UNWRAPPED, console_for, plain, rich_table as table
 
 if TYPE_CHECKING:
     from rich.console import Console

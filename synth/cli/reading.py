@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from graphs.plain_text import plain
+from graphs.printing import plain
 from synth.cli.options import LENGTH_OR_NONE
 
 if TYPE_CHECKING:
     from enumerate.strings.panel_strings import ChainString
     from graphs.convert.table import Mechanism
-    from synth.drawing.mechanisms.orders import OrderOnCircle
+    from synth.drawing.mechanisms.chains import OrderOnCircle
 
 __all__ = [
     "COLOUR",
@@ -169,7 +169,7 @@ def read_named(argument: str, row: int | None = None, mode: str | None = None) -
     >>> read_named("RR-R-RRR").mechanism
     ChainString(clusters=(2, 1, 3))
     """
-    from synth.drawing.catalogue.entries import entry_numbered, is_catalogue
+    from synth.drawing.catalogue import entry_numbered, is_catalogue
 
     if is_catalogue(argument):
         if row is None:

@@ -10,13 +10,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from graphs.plain_text import LONGEST_CELL
+from graphs.printing import LONGEST_CELL
 from synth.cli.options import FORCE
 from synth.cli.output import console, plain, print_json, table, tell_written
 
 if TYPE_CHECKING:
-    from enumerate.runner.columns import Column
-    from enumerate.runner.job import Job, Progress, Row, Sink
+    from enumerate.runner.job import Column, Job, Progress, Row, Sink
 
 __all__ = [
     "RunOptions",
@@ -118,8 +117,8 @@ def check_method(method: str | None, only_count: bool) -> None:
 
 def run_count(job: Job, options: RunOptions) -> None:
     """Run a job that counts, print the number, and keep the counts in the output, if there is one."""
+    from enumerate.runner.sinks import CountSink
     from enumerate.runner.store import SqliteSink
-    from enumerate.runner.totals import CountSink
 
     meter = _Meter.of(options, counting=True)
     store = None
@@ -180,7 +179,8 @@ def run_whole(job: Job, sink: Sink, options: RunOptions) -> None:
 
 
 def _run(job: Job, sink: Sink, options: RunOptions, meter: _Meter, *, stored: bool = False) -> Progress:
-    from enumerate.runner.running import Interrupted, run
+    from enumerate.runner.running import run
+    from enumerate.runner.stopping import Interrupted
 
     try:
         if options.output is not None or meter.counting:  # else rows may be printed on the same line

@@ -12,13 +12,10 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from graphs.arrays import Floats
-from graphs.canonical import canonical_order
-from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.given import check_given
-from graphs.ids import JointId, LinkId
+from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
 from graphs.printing import Block, Printed, TableBlock
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, canonical_order
+from graphs.types import Floats, JointId, LinkId
 from synth.compliance.members import Members, State, state_of, states_of_sets
 from synth.compliance.springs import (
     ElasticLinkage,
@@ -33,8 +30,7 @@ from synth.compliance.springs import (
 )
 from synth.motion.configuration import Configuration
 from synth.motion.driving import goals_of
-from synth.motion.linkage import PosedLinkage
-from synth.motion.placement import moved
+from synth.motion.linkage import PosedLinkage, moved
 from synth.moving.made import Movable, configuration_of
 
 __all__ = ["DrivenJoint", "States", "states"]
@@ -355,7 +351,7 @@ def states(
     >>> answer.classes, [(len(state.active), state.freedoms) for state in answer.sets]
     (('compliant mechanism',), [(0, 0), (1, 1)])
     """
-    check_given("states", thing, Movable)
+    check_argument("states", thing, Movable)
     at = configuration_of(thing)
     linkage = at.linkage
     stiff = () if springs is None else tuple(one for one, value in springs.stiffness.items() if value)

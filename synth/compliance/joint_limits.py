@@ -12,14 +12,13 @@ from typing import Any, Literal
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError, numbered, shown
 from graphs.geometry import angles_between, lines_meet
-from graphs.ids import JointId, LinkId
 from graphs.printing import Block, Printed, TableBlock
 from graphs.rank.singular_values import spectrum
 from graphs.reduce.ride_alongs import ReductionStep, reduce
 from graphs.tolerances import DOUBLE, Tolerances
+from graphs.types import Floats, JointId, LinkId
 from synth.compliance.members import NONE, Members, released, state_of
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration

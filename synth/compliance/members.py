@@ -13,16 +13,14 @@ from typing import Any, Literal
 import networkx as nx
 import numpy as np
 
-from graphs.arrays import Ints
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.ids import JointId, LinkId
-from graphs.loops.cycle_space import signed_cycle
-from graphs.loops.loop import Loop
+from graphs.loops.loop import Loop, signed_cycle
 from graphs.mechanism.sc import SCGraph
-from graphs.rank.closure import independent_cycles
+from graphs.rank.exact import independent_cycles
 from graphs.rank.singular_values import spectrum
 from graphs.tolerances import DOUBLE
+from graphs.types import Ints, JointId, LinkId
 from synth.motion.branches import MOST_JOINTS, Certainty, branches_of, search_for
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, PosedLoop

@@ -13,24 +13,20 @@ import numpy as np
 import numpy.typing as npt
 import scipy.linalg
 
-from graphs.arrays import Floats
-from graphs.canonical import leading
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.edit.named import known
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, shown
 from graphs.geometry import unit
-from graphs.ids import JointId, LinkId
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from graphs.rank.spaces import inertia, null_space, split
-from graphs.tolerances import DOUBLE
+from graphs.rank.singular_values import inertia, null_space, split
+from graphs.tolerances import DOUBLE, leading
+from graphs.types import Floats, JointId, LinkId
 from synth.motion.branches import MOST_JOINTS, branches_of, search_for
-from synth.motion.closure import ClosureEquations
+from synth.motion.closure import ClosureEquations, corrected, exactly_held
 from synth.motion.driving import check_closed
-from synth.motion.linkage import PosedLinkage
-from synth.motion.newton import corrected, exactly_held
+from synth.motion.linkage import PosedLinkage, joints_outwards, link_motions
 from synth.motion.path import driven_path
-from synth.motion.placement import joints_outwards, link_motions
 
 __all__ = ["Mass", "Masses", "Springs", "sheet_masses"]
 

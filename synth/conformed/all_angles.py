@@ -21,10 +21,10 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.conical.layers import fewest_layers, layers_of_links
-from graphs.arrays import Flags, Floats, Ints, Signs
+from enumerate.conical.rounds import fewest_layers, layers_of_links
 from graphs.errors import NumericalError, UnsolvableError
 from graphs.tolerances import DOUBLE
+from graphs.types import Flags, Floats, Ints, Signs
 from synth.conformed.outward import OutwardRate, SignRelations, joint_rates, outward_rates
 from synth.conformed.rates import ConformedChain
 from synth.surfaces.circuit import HALF_TURN

@@ -22,9 +22,9 @@ from enum import IntEnum
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.conformed.rates import ConformedChain, FirstOrder, first_order
 from synth.surfaces.circuit import HALF_TURN
 

@@ -13,14 +13,12 @@ from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.edit.named import joint_named, link_named
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.ids import JointId, LinkId
-from graphs.mechanism.on_surface import SurfaceLinkage, as_planar, ring
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.surfaces import Cone, Cylinder, Surface, surface_json
+from graphs.mechanism.surfaces import Cone, Cylinder, Surface, SurfaceLinkage, as_planar, ring, surface_json
 from graphs.printing import Block, Printed, TableBlock, plain
+from graphs.types import Floats, JointId, LinkId
 from synth.conformed.behaviours import (
     Behaviour,
     TableRow,

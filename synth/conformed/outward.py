@@ -40,9 +40,9 @@ import numpy as np
 import numpy.typing as npt
 
 from enumerate.kernel.compiled import compiled
-from graphs.arrays import Floats, Ints, Signs
 from graphs.errors import UnsolvableError
-from graphs.rank.spaces import rank_of
+from graphs.rank.singular_values import rank_of
+from graphs.types import Floats, Ints, Signs
 from synth.conformed.rates import ConformedChain, signed_cycles
 
 __all__ = ["OutwardRate", "joint_rates", "outward_rates"]

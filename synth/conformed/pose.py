@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.geometry import across, rotated, sectors, unit
 from graphs.mechanism.surfaces import checked_cone_angle, joint_axes
+from graphs.types import Floats
 from synth.fourbar.position import output_spherical
 from synth.surfaces.circuit import azimuths, link_angles
 

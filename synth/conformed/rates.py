@@ -21,13 +21,12 @@ from itertools import product
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Loop, cyclic_order
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.singular_values import spectra
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId, LinkId
 
 __all__ = ["ConformedChain", "FirstOrder", "first_order"]
 

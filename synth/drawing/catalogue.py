@@ -15,15 +15,13 @@ from pathlib import Path
 from typing import Any
 
 from enumerate.chains.names import name_of
-from enumerate.runner.columns import row_as_dict
-from enumerate.runner.limits import Limits
+from enumerate.runner.job import Limits, row_as_dict
 from enumerate.runner.store import read_meta, read_rows
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import FileError, InvariantError, SynthedraError, UnsolvableError, numbered, shown
-from graphs.files.formats import read_all
-from graphs.files.ids import is_id, mechanism_of_id
+from graphs.files.formats import is_id, mechanism_of_id, read_all
 from graphs.mechanism.sc import SCGraph
-from synth.conformed.cycles import loops_of_chain
+from synth.conformed.rates import loops_of_chain
 from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.shapes import LARGE, Label, Layer, Scene, moved, text_width
@@ -112,7 +110,7 @@ def _order_of_row(row: Row, chain: SCGraph) -> OrderOnCircle:
     of the joints of the chain (that of the row's id), and ``order`` names joints as they follow each other; a
     point opposite to one has a prime. Raise KeyError, TypeError or ValueError for another row.
 
-    >>> from graphs.files.ids import mechanism_of_id
+    >>> from graphs.files.formats import mechanism_of_id
     >>> row = {"order": ["0", "1'", "3", "2"], "slots": [0, 5, 3, 2], "loops": [["0", "1", "3", "2"]]}
     >>> order = _order_of_row(row, mechanism_of_id("k1:Cr"))
     >>> order.names, [round(azimuth / pi, 3) for azimuth in order.azimuths], order.pairs

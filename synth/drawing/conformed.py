@@ -1,8 +1,8 @@
 """Pictures of a linkage at its conformed position: circle with ICRL and shadow, surface with the links as strips.
 
 Both are seen from the side of the apex, where azimuths grow counter-clockwise. On the surface, links lie in bands,
-so that none hides another. The layers drawn are those counted (`synth.conformed.layers`). Hyatt et al. 2020, Figs.
-7 to 9; Hyatt et al. 2021, section 5.
+so that none hides another. The layers drawn are those counted (`synth.conformed.all_angles`). Hyatt et al. 2020,
+Figs. 7 to 9; Hyatt et al. 2021, section 5.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ from math import cos, degrees, pi, radians, sin
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Flags, Floats
 from graphs.errors import numbered
 from graphs.geometry import unit
 from graphs.mechanism.surfaces import Cone, Cylinder, Surface
+from graphs.types import Flags, Floats
+from synth.conformed.all_angles import LinksInLayers, links_in_layers
 from synth.conformed.behaviours import Way, behaviour_of_motion, icrl
-from synth.conformed.layers import LinksInLayers, links_in_layers
 from synth.conformed.rates import ConformedChain, first_order
 from synth.drawing.scene.frame import Frame, captions_of, page_of
 from synth.drawing.scene.shapes import (

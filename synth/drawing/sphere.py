@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Flags, Floats
 from graphs.errors import UnsolvableError, numbered
 from graphs.geometry import across, signed_area, unit
+from graphs.types import Flags, Floats
 from synth.drawing.scene.frame import COLUMN, Frame, Plot, framed, page_of
 from synth.drawing.scene.shapes import (
     FINE,
@@ -35,10 +35,8 @@ from synth.drawing.scene.shapes import (
     text_width,
 )
 from synth.drawing.space.panels import View, view_from
-from synth.guidance.dyads import Dyad
-from synth.guidance.four import AxisCurve
-from synth.guidance.hoop_method import Crossing, Hoop, direction_words, pair_name
-from synth.guidance.order import order_verdicts
+from synth.guidance.dyads import AxisCurve, Dyad
+from synth.guidance.order import Hoop, HoopCrossing, direction_words, order_verdicts, pair_name
 from synth.guidance.orientations import Orientations, unit_vector
 
 __all__ = ["CCW", "CW", "NEITHER", "draw_hoop", "draw_map", "hammer", "hammer_inverse", "spread"]
@@ -80,7 +78,7 @@ def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Sc
     axis : float[3]
         The fixed axis.
     hoop : Hoop
-        Result of :func:`synth.guidance.hoop_method.hoop`.
+        Result of :func:`synth.guidance.order.hoop`.
 
     Raises
     ------
@@ -90,7 +88,7 @@ def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Sc
     Examples
     --------
     >>> from scipy.spatial.transform import Rotation
-    >>> from synth.guidance.hoop_method import hoop
+    >>> from synth.guidance.order import hoop
     >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
     >>> task = Orientations.from_rotation(body)
     >>> [layer.name for layer in draw_hoop(task, (0, 0, 1), hoop(task, (0, 0, 1))).layers]
@@ -200,7 +198,7 @@ def _bodies(globe: _Globe, orientations: Orientations) -> list[Shape]:
 
 
 def _ends(
-    orientations: Orientations, g: Floats, start: Floats, across: Floats, shown: Sequence[Crossing],
+    orientations: Orientations, g: Floats, start: Floats, across: Floats, shown: Sequence[HoopCrossing],
     needed: set[tuple[int, int]],
 ) -> list[tuple[Floats, str, str]]:  # fmt: skip
     """Return the ends of axes that the hoop crosses, of S12 and of G, with their names and colours."""
@@ -228,11 +226,11 @@ def _marks(globe: _Globe, marks: Sequence[tuple[Floats, str, str]], orientations
     return shapes
 
 
-def _strip(shown: Sequence[Crossing], needed: set[tuple[int, int]]) -> list[Shape]:
+def _strip(shown: Sequence[HoopCrossing], needed: set[tuple[int, int]]) -> list[Shape]:
     """Return crossings along the angle of the hoop, those that decide above the line."""
     plot = Plot(6.0, _SIDE, _SIDE - 12.0, _STRIP - 26.0, (-13.0, 193.0), (-2.4, 2.4))
     shapes: list[Shape] = [Line([plot.at(-13.0, 0.0), plot.at(193.0, 0.0)], "ink", NORMAL)]
-    deciding = [Crossing((1, 2), 0.0), *(c for c in shown if c.pair in needed)]
+    deciding = [HoopCrossing((1, 2), 0.0), *(c for c in shown if c.pair in needed)]
     for crossings, sign, colour in (
         (deciding, 1.0, _NEEDED),
         ([c for c in shown if c.pair not in needed], -1.0, "ink"),

@@ -7,11 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphs.arrays import Floats
+from graphs.types import Floats
 from synth.drawing.scene.frame import Frame, Plot, page_of, round_steps
 from synth.drawing.scene.shapes import FINE, SMALL, STRONG, Disc, Label, Layer, Line, Scene, Shape, colour_of_class
-from synth.surfaces.cone import ConeMap, cone_reach
-from synth.surfaces.cylinder import CylinderMap, cylinder_reach
+from synth.surfaces.loop_maps import ConeMap, CylinderMap, cone_reach, cylinder_reach
 from synth.surfaces.loop_sums import Base, loop_sum, sign_patterns
 
 __all__ = ["draw_loop_sums"]
@@ -55,13 +54,13 @@ def draw_loop_sums(mapped: ConeMap | CylinderMap) -> Scene:
 
     Examples
     --------
-    >>> from synth.surfaces.cone import map_to_cones
+    >>> from synth.surfaces.loop_maps import map_to_cones
     >>> scene = draw_loop_sums(map_to_cones(np.radians([70, 80, 120, 40])))
     >>> [layer.name for layer in scene.layers]
     ['turns', 'sums', 'axes', 'legend', 'caption']
     >>> scene.title
     'loop sums of link angles 70°, 80°, 120°, 40°: the loop closes where one is a multiple of 360° (dots)'
-    >>> from synth.surfaces.cylinder import map_to_cylinders
+    >>> from synth.surfaces.loop_maps import map_to_cylinders
     >>> "radius R" in [label.text for label in draw_loop_sums(map_to_cylinders([4, 3, 5, 1])).labels()]
     True
     """

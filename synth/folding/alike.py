@@ -22,14 +22,13 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from graphs.arrays import Flags, Floats, Ints
-from graphs.canonical import leading
 from graphs.errors import UnsolvableError
 from graphs.geometry import lines_meet, principal_axes, unit
 from graphs.loops.loop import Centre
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet, sides_of_face
-from graphs.tolerances import DOUBLE, Tolerances
+from graphs.tolerances import DOUBLE, Tolerances, leading
+from graphs.types import Flags, Floats, Ints
 from synth.folding.configuration import SheetConfiguration, configuration_of_sheet
 from synth.motion.closure import ClosureEquations
 from synth.motion.driving import BranchChoice, DrivenMotion, beginning

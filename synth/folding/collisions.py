@@ -14,10 +14,10 @@ from math import ceil, radians
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats, Ints
 from graphs.geometry import area_vector, frame_about, unit
 from graphs.mechanism.precision import extent_of
 from graphs.tolerances import DOUBLE, Tolerances
+from graphs.types import Flags, Floats, Ints
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.walk.step import Step
 from synth.motion.walk.walking import Event, Walk

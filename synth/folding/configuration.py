@@ -15,17 +15,17 @@ from math import degrees
 import networkx as nx
 import numpy as np
 
-from graphs.answer.mechanisms import lying
-from graphs.arrays import Floats
+from graphs.answer.mechanisms import sheet_in_frame
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import UnsolvableError
-from graphs.ids import JointId
 from graphs.mechanism.precision import keeping, precision_of_sheet, stated
 from graphs.mechanism.sheet import Edge, Sheet, sides_of_face, with_all_edges
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId
 from synth.folding.collisions import Collision, Panels
 from synth.folding.derivatives import vertex_places
 from synth.folding.mending.nearest import (
+    ALL_BRANCHES,
     Mended,
     Nearby,
     WrittenPattern,
@@ -188,7 +188,9 @@ class SheetConfiguration(Configuration):
         """The caution on the coordinates where nothing moves or a motion ends; empty without any."""
         if self.branches is None or self.branches.branches:
             return doubt_of(self.precision)
-        return doubt_of_rigid(self.precision, None if self.nearest is None else self.nearest.moved, self.unsettled)
+        misfit = None if self.nearest is None else self.nearest.moved
+        too_large = "" if self.as_drawn.small else f"more than {ALL_BRANCHES} creases"
+        return doubt_of_rigid(self.precision, misfit, self.unsettled, too_large)
 
     def placed(self, angles: Floats) -> PointPlaces:
         """Return where vertices are at fold angles float[F, J], radians."""
@@ -252,7 +254,7 @@ def configuration_of_sheet(
     The options are those of `synth.moving.made.configuration_of`. Raises `UnsolvableError` if the sheet has no
     coordinates, or panels do not fit, `InvariantError` if a crease has no length, or there is no such frame.
     """
-    sheet = stated(lying(sheet, frame), precision)
+    sheet = stated(sheet_in_frame(sheet, frame), precision)
     if sheet.coordinates is None:
         raise UnsolvableError(f"motion needs coordinates, and {sheet!r} has none")
     read = precision_of_sheet(sheet)

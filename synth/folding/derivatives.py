@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 import scipy.sparse
 
-from graphs.arrays import Floats, Ints
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import UnsolvableError
 from graphs.geometry import crossing
 from graphs.loops.loop import Centre
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet
+from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations
 from synth.motion.derivatives import AxisDependence, BodyPoses, BodyTree, Sensitivity, spatial
 from synth.motion.linkage import Creases, PosedLinkage, creases_of, link_motions
@@ -174,7 +174,7 @@ class SheetDerivatives:
     >>> from synth.folding.motion import fold
     >>> from synth.motion.derivatives import derivatives_by_parameters
     >>> from synth.motion.linkage import linkage_of_sheet
-    >>> from synth.patterns.creases.tessellations import miura
+    >>> from synth.patterns.creases import miura
     >>> sheet = miura(3, 3, 1.0)
     >>> mechanism = mechanism_of_sheet(sheet)
     >>> shape = SheetDerivatives(sheet, mechanism, linkage_of_sheet(sheet, mechanism))

@@ -11,11 +11,10 @@ from dataclasses import replace
 import numpy as np
 
 from graphs.creasing.edits import SheetEdit
-from graphs.errors import UnsolvableError
-from graphs.given import check_given
-from graphs.ids import JointId
+from graphs.errors import UnsolvableError, check_argument
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.tolerances import DOUBLE
+from graphs.types import JointId
 from synth.folding.configuration import SheetConfiguration, configuration_of_sheet
 from synth.motion.driving import BranchChoice, MotionOptions, beginning
 from synth.motion.marked import disagreement_with
@@ -82,7 +81,7 @@ def fold(
     >>> np.degrees(folded.path.angles[-1]).round(2).tolist(), folded.freedoms
     ([-48.19, 90.0, 48.19, 90.0], 1)
     """
-    check_given("fold", sheet, Sheet)
+    check_argument("fold", sheet, Sheet)
     at = configuration_of_sheet(sheet, precision=precision)
     return motion_of(at, MotionOptions(drive or {}, along or {}, branch, frames, report), collisions=collisions)
 
@@ -122,7 +121,7 @@ def assign_branch(sheet: Sheet | SheetConfiguration, branch: int | str) -> Sheet
     >>> [assign_branch(sheet, number).sheet.assignments[:4] for number in (0, 1)]
     ['VMMM', 'MFMF']
     """
-    check_given("assign_branch", sheet, Sheet | SheetConfiguration)
+    check_argument("assign_branch", sheet, Sheet | SheetConfiguration)
     at = sheet if isinstance(sheet, SheetConfiguration) else configuration_of_sheet(sheet)
     if not at.flat:
         raise UnsolvableError("an assignment says how a flat sheet begins to fold, and this sheet is folded")

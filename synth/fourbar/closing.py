@@ -21,9 +21,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 
 __all__ = [
     "FourBarKind",

@@ -15,8 +15,8 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 
 __all__ = [
     "input_limits_planar",

@@ -20,10 +20,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError
 from graphs.geometry import best_plane, facing, frame_about, principal_axes, unit
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.guidance.order import (
     Direction,
     crank_angles,

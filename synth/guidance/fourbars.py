@@ -21,11 +21,10 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
-from graphs.canonical import canonical_order
 from graphs.errors import UnsolvableError
 from graphs.geometry import across, angles_between, rotated, unit
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, canonical_order
+from graphs.types import Floats
 from synth.fourbar.closing import FourBarKind, kind_of_spherical, supplementary
 from synth.fourbar.position import input_limits_spherical, output_spherical, transmission_spherical
 from synth.guidance.dyads import Dyad

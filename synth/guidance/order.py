@@ -20,12 +20,11 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
-from graphs.canonical import canonical_order
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.geometry import across, best_plane
 from graphs.printing import Block, Printed, TableBlock
-from graphs.tolerances import DOUBLE, EPSILON
+from graphs.tolerances import DOUBLE, EPSILON, canonical_order
+from graphs.types import Floats
 from synth.guidance.orientations import Orientations, Pair, unit_vector
 
 __all__ = ["Hoop", "HoopCrossing", "OrderAnalysis", "analyse_order", "crank_angles", "hoop"]

@@ -15,13 +15,13 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import FileError, InvariantError, UnsolvableError, numbered
 from graphs.files.atomic import write_text
-from graphs.files.native.orientations import orientation_rows, orientations_document
+from graphs.files.native import orientation_rows, orientations_document
 from graphs.files.text import json_text
 from graphs.geometry import nearest_rotation, unit
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation

@@ -20,12 +20,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
-from graphs.canonical import canonical_order
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, numbered
 from graphs.printing import Block, Printed, TableBlock
-from graphs.rank.spaces import singular_values, split
-from graphs.tolerances import DOUBLE
+from graphs.rank.singular_values import singular_values, split
+from graphs.tolerances import DOUBLE, canonical_order
+from graphs.types import Floats
 from synth.guidance.dyads import Dyad, dyad_of, dyads_of_four, dyads_of_three
 from synth.guidance.order import direction_words, nearest_moving_axis
 from synth.guidance.orientations import Orientations

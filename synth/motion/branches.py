@@ -17,14 +17,11 @@ from typing import Any, Literal
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import MARGIN, canonical_basis, canonical_order, signed
 from graphs.geometry import lines_meet, sectors, unit
-from graphs.ids import JointId
 from graphs.loops.loop import Centre
-from graphs.rank.singular_values import spectrum
-from graphs.rank.spaces import inertia, rank_of
-from graphs.tolerances import DOUBLE
+from graphs.rank.singular_values import inertia, rank_of, spectrum
+from graphs.tolerances import DOUBLE, MARGIN, canonical_basis, canonical_order, signed
+from graphs.types import Floats, JointId
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, PosedLoop
 from synth.motion.singular.joint_order import in_order, joint_order
@@ -477,7 +474,7 @@ class _Looking:
         if self._stresses != 1 or len(self._quadrics) != 1:
             return False
         forms = local_forms(self._tangent, self._quadrics)
-        rank = int((inertia(forms, max(self.search.zero, DOUBLE.clear)).signs != 0).sum())
+        rank = int((inertia(forms, max(self.search.zero, DOUBLE.clear), scale=1.0).signs != 0).sum())
         return bool(rank == self._tangent.shape[1] - free)
 
     def method(self, spaces: list[RateSpace]) -> Method:
@@ -547,7 +544,7 @@ class _Looking:
         for row, quadric in zip(slopes, self._quadrics, strict=True):
             joints = list(quadric.joints)
             row[:] = rates[joints] @ quadric.form @ self._tangent[joints] / np.abs(quadric.form).max()
-        independent = rank_of(slopes, DOUBLE.clear) == self._stresses
+        independent = rank_of(slopes, DOUBLE.clear, scale=1.0) == self._stresses
         return int(slopes.shape[1] - self._stresses) if independent else None
 
     def branch(self, space: RateSpace, rates: Floats, *, proved: bool, late: bool) -> Branch:

@@ -23,11 +23,11 @@ import scipy.linalg
 import scipy.sparse
 from scipy.sparse.linalg import splu
 
-from graphs.arrays import Floats, Ints
 from graphs.errors import NumericalError
 from graphs.geometry import common_direction, frame_about, rotations
 from graphs.loops.loop import Centre
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, Ints
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["ClosureEquations", "Corrected", "TangentSpace", "carried", "corrected", "exactly_held", "frames_of"]

@@ -15,15 +15,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.convert.table import Mechanism
 from graphs.errors import UnsolvableError, numbered, shown
-from graphs.ids import JointId
 from graphs.loops.loop import Centre
 from graphs.mechanism.precision import Precision
-from graphs.mechanism.reading import Reading
-from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.sheet import Reading, Sheet
 from graphs.tolerances import DOUBLE, EPSILON, Tolerances
+from graphs.types import Floats, JointId
 from synth.motion.branches import MOST_JOINTS, Branch, Branches, branches_of, search_for
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, moved
@@ -47,17 +45,21 @@ def doubt_of(precision: Precision) -> str:
     return f", with the coordinates as written; {precise}, and exact coordinates may allow motion"
 
 
-def doubt_of_rigid(precision: Precision, misfit: float | None, unsettled: bool = False) -> str:
+def doubt_of_rigid(
+    precision: Precision, misfit: float | None, unsettled: bool = False, too_large: str = ""
+) -> str:
     """Return how near a rigid pattern is to one that moves, after "rigid"; empty where there is nothing to add.
 
     The misfit is the largest displacement of a vertex, in units of the extent, in the nearest pattern that moves,
-    or None if none was found; `unsettled` says that motion within the precision is neither found nor excluded.
+    or None if none was found; `unsettled` says that motion within the precision is neither found nor excluded,
+    `too_large` why no pattern was searched for.
     """
     exact = precision.size <= EXACT
     within = "" if exact else f" within the drawing's precision, {precision}"
     if misfit is None:
         nearly = "; some branches nearly exist, and whether any does there is unknown" if unsettled else ""
-        return within + nearly
+        unsought = f"; the nearest rigid-foldable pattern was not searched for: {too_large}" if too_large else ""
+        return within + (nearly or unsought)
     times = "" if exact else f", {misfit / precision.size:.0f} times the precision"
     moved = f"vertices moved by up to {at_most(misfit)} of the extent{times}"
     return f"{within}; the nearest rigid-foldable pattern has {moved}"

@@ -16,12 +16,11 @@ import numpy as np
 import scipy.sparse
 
 from graphs import geometry
-from graphs.arrays import Floats, Ints
 from graphs.errors import UnsolvableError
 from graphs.geometry import crossing
-from graphs.ids import LinkId
 from graphs.loops.loop import Centre
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, Ints, LinkId
 from synth.motion.closure import ClosureEquations, TangentSpace, carried
 from synth.motion.linkage import PosedLinkage, joints_outwards
 

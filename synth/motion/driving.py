@@ -11,14 +11,12 @@ from math import degrees, pi
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import MARGIN, canonical_basis, leading
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.extent import LEAST, MOST, in_reach
-from graphs.ids import JointId
-from graphs.rank.spaces import null_space
-from graphs.tolerances import DOUBLE
+from graphs.limits import LEAST, MOST, in_reach
+from graphs.rank.singular_values import null_space
+from graphs.tolerances import DOUBLE, MARGIN, canonical_basis, leading
+from graphs.types import Floats, JointId
 from synth.motion.branches import MOST_JOINTS, Branch, Branches
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration

@@ -14,19 +14,16 @@ from math import radians
 import networkx as nx
 import numpy as np
 
-from graphs.arrays import Floats, Ints
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.geometry import lines_meet, rotations, unit
-from graphs.ids import JointId, LinkId
-from graphs.loops.cycle_space import signed_cycle
-from graphs.loops.loop import Centre
-from graphs.mechanism.plane import in_space
-from graphs.mechanism.precision import extent_of
+from graphs.loops.loop import Centre, signed_cycle
+from graphs.mechanism.precision import extent_of, in_space
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet, sides_of_face
-from graphs.rank.closure import independent_cycles
+from graphs.rank.exact import independent_cycles
 from graphs.tolerances import DOUBLE, Tolerances
+from graphs.types import Floats, Ints, JointId, LinkId
 
 __all__ = [
     "Creases",

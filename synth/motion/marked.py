@@ -11,9 +11,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 from scipy.optimize import linprog
 
-from graphs.arrays import Floats
-from graphs.canonical import signed
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, signed
+from graphs.types import Floats
 from synth.motion.branches import Branch, Branches
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage

@@ -12,11 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.ids import JointId, LinkId
 from graphs.printing import Block, Printed
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId, LinkId
 from synth.motion.branches import Branch, Branches, Method
 from synth.motion.configuration import Configuration, listed
 from synth.motion.driving import DrivenMotion, MotionOptions, driven_from

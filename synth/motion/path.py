@@ -15,10 +15,9 @@ from math import degrees
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Flags, Floats
-from graphs.canonical import trailing
 from graphs.errors import UnsolvableError, numbered
-from graphs.ids import JointId
+from graphs.tolerances import trailing
+from graphs.types import Flags, Floats, JointId
 from synth.motion.closure import ClosureEquations
 from synth.motion.singular.second_order import rates_at
 from synth.motion.walk.events import Limit, RankDeficiency, Return, TurningPoint

@@ -13,25 +13,21 @@ import networkx as nx
 import numpy as np
 
 from graphs.answer.mechanisms import precision_of_steps
-from graphs.arrays import Floats
-from graphs.canonical import leading
 from graphs.convert.table import Mechanism, to_sheet
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.geometry import frame_about, lines_meet, unit
-from graphs.ids import JointId
-from graphs.joints.as_revolutes import revolutes_of
-from graphs.joints.kinds import JointKind
-from graphs.joints.linkage import JointedLinkage
+from graphs.joints.linkage import JointedLinkage, JointKind
+from graphs.joints.revolutes import revolutes_of
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import Precision, precision_of, stated
-from graphs.mechanism.reading import WrittenPrecision
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.sheet import Sheet, WrittenPrecision
 from graphs.mechanism.solids import Axis, HingedSolids
-from graphs.rank.closure import independent_cycles
-from graphs.tolerances import DOUBLE, Tolerances
+from graphs.mechanism.surfaces import SurfaceLinkage
+from graphs.rank.exact import independent_cycles
+from graphs.tolerances import DOUBLE, Tolerances, leading
+from graphs.types import Floats, JointId
 from synth.conformed.linkages import OnSurface, linkage_on_surfaces
 from synth.folding.configuration import configuration_of_sheet
 from synth.guidance.fourbars import GuidedFourBar

@@ -16,12 +16,11 @@ from types import MappingProxyType
 import numpy as np
 
 from graphs.convert.table import Mechanism
-from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.given import check_given
-from graphs.ids import JointId
-from graphs.mechanism.plane import in_space
+from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE
+from graphs.types import JointId
 from synth.motion.driving import MotionOptions
 from synth.motion.motion import FRAMES, Motion, motion_of
 from synth.moving.made import Movable, configuration_of, sheet_of
@@ -72,7 +71,7 @@ def move(
     >>> np.degrees(moved.path.angles[-1, 0]).round(6).tolist(), moved.taken.freedoms
     (30.0, 1)
     """
-    check_given("move", mechanism, Movable)
+    check_argument("move", mechanism, Movable)
     at = configuration_of(mechanism, precision=precision)
     return motion_of(at, MotionOptions(drive or {}, along or {}, branch, frames, report), collisions=collisions)
 

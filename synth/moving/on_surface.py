@@ -15,14 +15,12 @@ from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats
-from graphs.canonical import signed
 from graphs.edit.named import known, link_named
 from graphs.errors import InvariantError, numbered, shown
-from graphs.ids import JointId, LinkId
 from graphs.mechanism.surfaces import Cylinder, surface_json
 from graphs.printing import Block, TableBlock, plain
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, signed
+from graphs.types import Flags, Floats, JointId, LinkId
 from synth.conformed.behaviours import Way, link_arcs
 from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain

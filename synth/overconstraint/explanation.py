@@ -8,11 +8,10 @@ from typing import Any
 
 from graphs.answer.report import power_of_ten
 from graphs.convert.table import Mechanism
-from graphs.errors import numbered, shown
-from graphs.given import check_given
-from graphs.ids import JointId
+from graphs.errors import check_argument, numbered, shown
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.tolerances import Tolerances
+from graphs.types import JointId
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
 from synth.moving.made import Movable, configuration_of
@@ -186,7 +185,7 @@ def explain(thing: Mechanism | PosedLinkage, *, precision: float | None = None) 
     >>> answer.freedoms, answer.count, answer.idle, answer.sets[0].reasons[0]
     (1, -2, 3, 'opposite links equal, lengths proportional to the sines of the twists (Bennett)')
     """
-    check_given("explain", thing, Movable)
+    check_argument("explain", thing, Movable)
     at = configuration_of(thing, precision=precision)
     linkage = at.linkage
     order = first_order_closure(linkage, at.tolerances)

@@ -11,15 +11,14 @@ from math import pi
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats, Ints
 from graphs.geometry import lines_meet, rigid_motion, sectors, unit
-from graphs.joints.kinds import JointKind
-from graphs.joints.linkage import JointedLinkage, Leg, legs, plain_vector
-from graphs.joints.recognising import recognised
+from graphs.joints.linkage import JointedLinkage, JointKind, Leg, legs, plain_vector
+from graphs.joints.revolutes import recognised
 from graphs.loops.loop import Centre
 from graphs.mechanism.solids import HingedSolids
-from graphs.rank.spaces import null_space, singular_values
+from graphs.rank.singular_values import null_space, singular_values
 from graphs.tolerances import DOUBLE, Tolerances
+from graphs.types import Flags, Floats, Ints
 from synth.motion.linkage import PosedLinkage, PosedLoop, axis_lengths
 from synth.overconstraint.redundancy import FirstOrderClosure
 

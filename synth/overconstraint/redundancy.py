@@ -13,15 +13,12 @@ from math import inf
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
-from graphs.canonical import canonical_basis, canonical_order
 from graphs.errors import NumericalError
 from graphs.geometry import crossing
-from graphs.ids import JointId
 from graphs.loops.loop import Centre
-from graphs.rank.singular_values import spectrum
-from graphs.rank.spaces import row_space, singular_values, split
-from graphs.tolerances import DOUBLE, Tolerances
+from graphs.rank.singular_values import row_space, singular_values, spectrum, split
+from graphs.tolerances import DOUBLE, Tolerances, canonical_basis, canonical_order
+from graphs.types import Floats, Ints, JointId
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, PosedLoop, axis_lengths
 

@@ -13,7 +13,7 @@ from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.printing import Block, Printed
-from synth.folding.alike.reaching import fold_to
+from synth.folding.alike import fold_to
 from synth.patterns.catalogue import GENERATORS
 from synth.patterns.generator import FOLD, Generator
 

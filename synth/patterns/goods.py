@@ -11,12 +11,12 @@ from itertools import pairwise
 from math import acos, cos, degrees, pi, radians, sin, sqrt, tan
 
 from graphs.errors import InvariantError, numbered
-from graphs.ids import JointId
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import Axis, HingedSolids
 from graphs.tolerances import DOUBLE
+from graphs.types import JointId
 from synth.patterns.hinged_rings import Line
 from synth.patterns.panels import Place, sheet_of_faces
 

@@ -13,16 +13,14 @@ from math import acos, atan2, cos, degrees, hypot, isclose, pi, sin, tan
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import canonical_order
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.geometry import unit
-from graphs.ids import JointId
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import Axis, HingedSolids
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, canonical_order
+from graphs.types import Floats, JointId
 from synth.patterns.panels import sheet_of_faces
 
 __all__ = [

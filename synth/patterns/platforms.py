@@ -7,14 +7,12 @@ from math import cos, isclose, pi, sin
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.geometry import unit
-from graphs.ids import JointId, LinkId
-from graphs.joints.kinds import JointKind
-from graphs.joints.linkage import JointedLinkage, JointPlace, Vector
+from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, Vector
 from graphs.mechanism.sc import SCGraph
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId, LinkId
 
 __all__ = ["platform", "translating_platform"]
 

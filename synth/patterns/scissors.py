@@ -15,13 +15,12 @@ import numpy as np
 
 from graphs.errors import InvariantError
 from graphs.geometry import unit
-from graphs.ids import JointId, LinkId
-from graphs.joints.kinds import JointKind
-from graphs.joints.linkage import JointedLinkage, JointPlace, plain_vector
+from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, plain_vector
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import Axis, HingedSolids
 from graphs.tolerances import DOUBLE
+from graphs.types import JointId, LinkId
 
 __all__ = ["CUBE", "OCTAHEDRON", "TETRAHEDRON", "Corners", "prism", "scissor_polyhedron", "scissor_ring"]
 

@@ -34,11 +34,11 @@ from typing import Any
 import networkx as nx
 import numpy as np
 
-from graphs.arrays import Flags, Floats, Ints
 from graphs.errors import UnsolvableError, numbered, shown
 from graphs.geometry import rigid_motion
 from graphs.mechanism.sheet import Edge, sides_of_face
 from graphs.tolerances import DOUBLE
+from graphs.types import Flags, Floats, Ints
 from synth.realisation.measures import opened_angles
 from synth.realisation.pattern import Pattern, Sides, creases_round, sides_of
 

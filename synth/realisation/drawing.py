@@ -22,12 +22,12 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import common_direction, unit
 from graphs.mechanism.sheet import sides_of_face
-from graphs.rank.spaces import split
+from graphs.rank.singular_values import split
 from graphs.tolerances import DOUBLE
-from synth.motion.walk.allowance import Allowance
+from graphs.types import Floats
+from synth.motion.walk.step import Allowance
 from synth.realisation.conditions import Condition, Wishes, together
 from synth.realisation.measures import corner_angles, crossings, edge_lengths, is_drawn, opened_angles, sums_at
 from synth.realisation.pattern import Pattern, Pointing

@@ -13,18 +13,17 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any, Literal
 
-from enumerate.runner.columns import Column, row_as_dict
-from enumerate.runner.job import Job, Row, Unit
+from enumerate.runner.job import Column, Job, Row, Unit, row_as_dict
 from enumerate.runner.store import SqliteSink, read_rows
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import FileError, SynthedraError, UnsolvableError
 from graphs.files.atomic import check_new_folder, write_text
-from graphs.files.native.documents import dumps
+from graphs.files.native import dumps
 from graphs.files.patterns.fold import fold_text
 from graphs.identity.drawings import map_id
 from graphs.mechanism.sheet import Sheet
-from synth.drawing.catalogue.entries import CatalogueEntry, catalogue_entries
-from synth.drawing.mechanisms.orders import OrderOnCircle
+from synth.drawing.catalogue import CatalogueEntry, catalogue_entries
+from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.realisation.realised import NotFoundError, Realised, realise
 
 __all__ = ["COLUMNS", "Outcome", "RealisationFolder", "RealisationJob", "store_beside", "summary_of"]
@@ -124,7 +123,7 @@ its id, figures and file (FOLD)."""
 class RealisationJob:
     """All types of a store, a list or a folder, realised.
 
-    `source` is anything that `synth.drawing.catalogue.entries.catalogue_entries` reads (FileError if it cannot be
+    `source` is anything that `synth.drawing.catalogue.catalogue_entries` reads (FileError if it cannot be
     read); `options` are keyword arguments of `synth.realisation.realise`, JSON values.
     """
 

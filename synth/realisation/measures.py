@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
 from graphs.errors import numbered
 from graphs.geometry import angles_between
 from graphs.mechanism.precision import extent_of, off_panel_planes
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, Ints
 from synth.realisation.pattern import Pattern
 
 __all__ = [

@@ -12,24 +12,20 @@ from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.convert.table import Mechanism, to_sc
-from graphs.errors import InvariantError, UnsolvableError, numbered
-from graphs.given import check_given
+from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered
 from graphs.loops.loop import Centre
-from graphs.mechanism.on_surface import Pair, SurfaceLinkage
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.surfaces import Cone
-from graphs.plain_text import plain
-from graphs.printing import Block, Printed, TableBlock
-from graphs.rank.generic import exact_mobility
+from graphs.mechanism.surfaces import Cone, Pair, SurfaceLinkage
+from graphs.printing import Block, Printed, TableBlock, plain
+from graphs.rank.exact import exact_mobility
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.conformed.rates import ConformedChain, first_order
 from synth.moving.made import configuration_of
 from synth.realisation.measures import first_order_freedoms
-from synth.surfaces.circuit import wrapped
+from synth.surfaces.circuit import link_pairs, loop_steps, wrapped
 from synth.surfaces.linkages import by_sizes, map_linkage
-from synth.surfaces.several_loops import link_pairs, loop_steps
 
 __all__ = ["CONE_ANGLE", "OnOneCone", "realise_on_cone"]
 
@@ -176,7 +172,7 @@ def realise_on_cone(
     >>> on_cone.circuits, on_cone.freedoms, len(on_cone.arcs)
     (('open',), 1, 4)
     """
-    check_given("realise_on_cone", mechanism, Mechanism)
+    check_argument("realise_on_cone", mechanism, Mechanism)
     _check(cone_angle, seed, tries)
     chain = _about_one_centre(to_sc(mechanism))
     conformed, mobility = ConformedChain.of(chain), exact_mobility(chain).mobility

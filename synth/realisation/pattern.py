@@ -13,17 +13,16 @@ from functools import cached_property
 import networkx as nx
 import numpy as np
 
-from enumerate.scd.graphs import mechanism_of, scd_graphs_of
-from graphs.arrays import Flags, Floats, Ints
+from enumerate.scd.jobs import mechanism_of, scd_graphs_of
 from graphs.convert.panels import rings_of
 from graphs.convert.table import Mechanism, to_scd
 from graphs.errors import UnsolvableError, numbered, shown
-from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre
 from graphs.mechanism.drawing import FaceKind
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
+from graphs.types import Flags, Floats, Ints, JointId, LinkId
 
 __all__ = [
     "Pattern",

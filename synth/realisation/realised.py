@@ -13,21 +13,20 @@ from typing import Any, Literal, get_args, overload
 import numpy as np
 
 from enumerate.strings.panel_strings import ChainString
-from graphs.arrays import Floats
-from graphs.canonical import MARGIN, signed
 from graphs.convert.table import Mechanism, to_scd
-from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.extent import LEAST, MOST
-from graphs.given import check_given
+from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
 from graphs.identity.drawings import map_id
+from graphs.limits import LEAST, MOST
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed
-from graphs.rank.generic import exact_mobility
+from graphs.rank.exact import exact_mobility
 from graphs.rank.pose import pose_mobility
+from graphs.tolerances import MARGIN, signed
+from graphs.types import Floats
 from synth.folding.configuration import SheetConfiguration, configuration_of_sheet
 from synth.motion.branches import first_branch, search_for
-from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.step import Allowance
 from synth.realisation.conditions import Kept, Wishes, wishes_for
 from synth.realisation.drawing import Drawn, drawings
 from synth.realisation.measures import ShapeFigures, figures_of, first_order_freedoms
@@ -281,7 +280,7 @@ def realise(
     >>> vertex.sheet, vertex.folds, vertex.mobility
     (<Sheet: 4 faces, 4 creases, 5 vertices, flat>, True, 1)
     """
-    check_given("realise", mechanism, Mechanism | ChainString)
+    check_argument("realise", mechanism, Mechanism | ChainString)
     _check(kind, size, seed, tries)
     if freedoms is not None:
         if flat_foldable or symmetric or size != 1.0 or mode:

@@ -22,12 +22,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.optimize
 
-from graphs.arrays import Floats
-from graphs.canonical import MARGIN
 from graphs.errors import UnsolvableError, shown
 from graphs.geometry import area_vector, lines_meet, unit
-from graphs.rank.spaces import null_space
-from graphs.tolerances import DOUBLE
+from graphs.rank.singular_values import null_space
+from graphs.tolerances import DOUBLE, MARGIN
+from graphs.types import Floats
 from synth.realisation.pattern import Pattern, Pointing
 
 __all__ = ["evenly_folded", "folds_of", "lifted", "planes_over", "receded", "with_finite_centres"]

@@ -10,13 +10,12 @@ from itertools import pairwise
 
 import numpy as np
 
-from enumerate.strings.graphs import chain_scd
-from enumerate.strings.panel_strings import ChainString
-from graphs.arrays import Floats
+from enumerate.strings.panel_strings import ChainString, chain_scd
 from graphs.errors import numbered
 from graphs.geometry import rotated, unit
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, sides_of_face
+from graphs.types import Floats
 from synth.realisation.drawing import Drawn
 from synth.realisation.measures import opened_angles, sums_at
 from synth.realisation.pattern import Pattern
@@ -36,7 +35,7 @@ bodies of RR-RR-RR have five freedoms, not six."""
 def drawn_string(chain: ChainString, mode: str | None = None) -> tuple[SCDGraph, tuple[str, ...]]:
     """Return the SCD graph of a string, its two bodies quadrilaterals, and notes on it.
 
-    The mode is one that `enumerate.strings.graphs.chain_scd` accepts; all on one side without it. Raises
+    The mode is one that `enumerate.strings.panel_strings.chain_scd` accepts; all on one side without it. Raises
     `InvariantError` if the string has no such mode.
     """
     scd = chain_scd(chain, mode, ends=(4, 4))

@@ -14,13 +14,11 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError, numbered
-from graphs.ids import JointId
-from graphs.mechanism.on_surface import Pair
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.surfaces import checked_cone_angle
+from graphs.mechanism.surfaces import Pair, checked_cone_angle
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId
 
 __all__ = [
     "Circuits",

@@ -18,15 +18,12 @@ import networkx as nx
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
-from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.given import check_given
-from graphs.ids import JointId
-from graphs.mechanism.on_surface import Pair, SurfaceLinkage, places_of_steps
+from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.surfaces import Cone, Cylinder, Surface
+from graphs.mechanism.surfaces import Cone, Cylinder, Pair, Surface, SurfaceLinkage, places_of_steps
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId
 from synth.fourbar.closing import ILL_CONDITIONED, checked_link_angles, spherical_differences, supplementary
 from synth.surfaces.circuit import HALF_TURN, circuits, link_angles, link_pairs, loop_steps, wrapped
 from synth.surfaces.loop_maps import (
@@ -253,7 +250,7 @@ def map_linkage(linkage: SurfaceLinkage, tolerance: float = 1e-7) -> LinkageMap:
     >>> [family.interval[0] for family in map_linkage(SurfaceLinkage(chain, steps=steps)).families]
     [0.0]
     """
-    check_given("map_linkage", linkage, SurfaceLinkage)
+    check_argument("map_linkage", linkage, SurfaceLinkage)
     if linkage.sizes is not None:
         by_lengths = linkage.lengths is not None
         return LinkageMap(linkage, *common_surfaces(linkage.chain, linkage.sizes, tolerance, lengths=by_lengths))

@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.mechanism.surfaces import Cylinder, checked_cone_angle
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.fourbar.closing import (
     ILL_CONDITIONED,
     FourBarKind,

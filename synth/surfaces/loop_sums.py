@@ -38,8 +38,8 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Flags, Floats
 from graphs.errors import UnsolvableError
+from graphs.types import Flags, Floats
 from synth.fourbar.closing import rounding_of
 
 __all__ = ["LoopRoots", "circumradii", "cone_angles", "loop_roots", "loop_sum"]

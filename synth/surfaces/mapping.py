@@ -15,9 +15,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
-from graphs.ids import JointId
 from graphs.printing import Block, TableBlock, plain
+from graphs.types import Floats, JointId
 from synth.fourbar.closing import ILL_CONDITIONED, FourBarKind
 from synth.surfaces.circuit import circuits
 from synth.surfaces.loop_sums import Base, LoopRoots, half_steps, loop_roots, loop_sum, put_together, sum_rounding

@@ -16,8 +16,8 @@ from typing import Any, Literal, get_args
 import numpy as np
 import shapely
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.types import Floats
 from synth.templates.pieces import (
     GRID,
     Kind,

@@ -11,11 +11,11 @@ from typing import Any, NamedTuple
 import numpy as np
 import shapely
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError
 from graphs.geometry import unit
 from graphs.mechanism.sheet import FLAT, Sheet, sides_of_face
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.templates.pieces import (
     FOLDS,
     Kind,

@@ -14,16 +14,16 @@ import numpy as np
 import numpy.typing as npt
 import shapely
 
-from graphs.arrays import Floats
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.files.solids.mesh import Mesh
+from graphs.files.solids.meshes import Mesh
 from graphs.mechanism.surfaces import Cone, Cylinder, Surface
-from graphs.plain_text import plain
+from graphs.printing import plain
 from graphs.tolerances import DOUBLE
-from synth.conformed.layers import links_in_layers
+from graphs.types import Floats
+from synth.conformed.all_angles import links_in_layers
 from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain
-from synth.drawing.on_surface import surface_layer
+from synth.drawing.conformed import surface_layer
 from synth.drawing.scene.shapes import Scene
 from synth.templates.pieces import Kind, Piece, Point, Stroke, Text
 from synth.templates.template import GREATEST, Template

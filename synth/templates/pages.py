@@ -9,7 +9,7 @@ from math import ceil, prod
 from textwrap import wrap
 
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.plain_text import plain
+from graphs.printing import plain
 from synth.drawing.scene.shapes import Scene
 from synth.templates.pieces import LOOKS, Kind, Piece, Point, Stroke, Text
 from synth.templates.template import Template

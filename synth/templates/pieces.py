@@ -12,9 +12,9 @@ import numpy as np
 import shapely
 from scipy.spatial import cKDTree
 
-from graphs.arrays import Floats
 from graphs.errors import numbered
 from graphs.mechanism.sheet import Sheet, sides_of_face
+from graphs.types import Floats
 
 __all__ = [
     "FOLDS",

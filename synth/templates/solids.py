@@ -10,18 +10,15 @@ from typing import Any
 import numpy as np
 import shapely
 
-from graphs.arrays import Floats
 from graphs.errors import FileError, InvariantError, UnsolvableError, numbered
 from graphs.files.atomic import Beside, check_place
 from graphs.files.solids.gltf import gltf_text
-from graphs.files.solids.mesh import Mesh
-from graphs.files.solids.obj import obj_of_meshes
-from graphs.files.solids.stl import stl_bytes
-from graphs.files.solids.three_mf import three_mf_bytes
+from graphs.files.solids.meshes import Mesh, obj_of_meshes, stl_bytes, three_mf_bytes
 from graphs.geometry import rigid_motion
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import FLAT, Sheet, with_all_edges
 from graphs.mechanism.surfaces import Surface
+from graphs.types import Floats
 from synth.conformed.linkages import OnSurface
 from synth.templates.on_surface import Dimensions, layered, solids_on_surface
 from synth.templates.pieces import GRID, united

@@ -16,17 +16,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from enumerate.strings.panel_strings import ChainString
-from graphs.arrays import Floats
 from graphs.convert.table import Mechanism
 from graphs.errors import InvariantError, SynthedraError, UnsolvableError, numbered, shown
-from graphs.mechanism.on_surface import SurfaceLinkage
-from graphs.mechanism.plane import flattened, in_space, lies_flat
+from graphs.mechanism.precision import flattened, in_space, lies_flat
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from graphs.mechanism.surfaces import Surface
+from graphs.mechanism.surfaces import Surface, SurfaceLinkage
+from graphs.types import Floats
 from synth.conformed.linkages import OnSurface, linkage_on_surfaces, surface_of_number
-from synth.drawing.mechanisms.orders import OrderOnCircle
+from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.drawing.mechanisms.space import folded_scene
 from synth.drawing.scene.shapes import Scene
 from synth.drawing.space.panels import same_side_up

@@ -15,12 +15,11 @@ from typing import Any
 import numpy as np
 import shapely
 
-from graphs.arrays import Floats
-from graphs.canonical import leading, trailing
 from graphs.errors import UnsolvableError
 from graphs.geometry import across, area_vector, unit
 from graphs.mechanism.sheet import COLLINEAR, FLAT, Edge, Sheet, sides_of_face
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, leading, trailing
+from graphs.types import Floats
 from synth.templates.pieces import lies_over
 
 __all__ = ["Net", "Panels", "Plane", "laid_across", "nets_of", "panels_of"]

@@ -11,10 +11,9 @@ from xml.sax.saxutils import escape
 
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.atomic import Beside, check_place
-from graphs.files.patterns.dxf.written import DxfLayer, DxfLine, DxfWord, dxf_of
-from graphs.plain_text import plain
-from synth.drawing.scene.pdf import Painter
-from synth.drawing.scene.svg import svg_group
+from graphs.files.patterns.dxf import DxfLayer, DxfLine, DxfWord, dxf_of
+from graphs.printing import plain
+from synth.drawing.scene.writing import PdfPainter, svg_group
 from synth.templates.pages import Page, Paper, Picture, gauge, laid_out, pages_of
 from synth.templates.pieces import LOOKS, Piece, Stroke, Text
 from synth.templates.template import Template
@@ -106,7 +105,7 @@ def _paint(canvas: Any, picture: Picture) -> None:
     canvas.scale(picture.scale * _POINTS, picture.scale * _POINTS)
     canvas.setLineJoin(1)
     canvas.setDash([])
-    painter = Painter(canvas, "light", scene.height)
+    painter = PdfPainter(canvas, "light", scene.height)
     for shape in scene.shapes():
         painter.paint(shape)
     canvas.restoreState()

@@ -12,17 +12,15 @@ from typing import Any, Literal, NamedTuple
 import networkx as nx
 import numpy as np
 
-from graphs.answer.mechanisms import lying, mobility as counted
+from graphs.answer.mechanisms import mobility as counted, sheet_in_frame
 from graphs.answer.report import MobilityAnswer
-from graphs.arrays import Floats
 from graphs.convert.table import Mechanism
-from graphs.errors import SynthedraError, UnsolvableError
-from graphs.given import check_given
-from graphs.ids import JointId
+from graphs.errors import SynthedraError, UnsolvableError, check_argument
 from graphs.mechanism.precision import BY_DIGITS, ESTIMATED
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.branches import Branch, Branches, Certainty, signs_of
 from synth.motion.configuration import EXACT, Configuration
@@ -394,7 +392,7 @@ def mobility(
     >>> answer.mobility, answer.pose.dof
     (1, 2)
     """
-    check_given("mobility", mechanism, Configuration | Mechanism | nx.Graph)
+    check_argument("mobility", mechanism, Configuration | Mechanism | nx.Graph)
     if precision is not None and isinstance(mechanism, Mechanism):
         mechanism = with_precision(mechanism, precision)
     counted_from = mechanism.given if isinstance(mechanism, Configuration) else mechanism
@@ -404,7 +402,7 @@ def mobility(
     at, reason = None, "its motion was not analysed" if motion is False else ""
     looked_for = pose is not False and motion is not False
     if looked_for and isinstance(counted_from, Sheet):
-        at, reason = question.of_sheet(lying(counted_from, pose))
+        at, reason = question.of_sheet(sheet_in_frame(counted_from, pose))
     dual = at.dual if isinstance(at, SheetConfiguration) and geometry else None
     answer = counted(counted_from, exact=exact, hinge_flat=hinge_flat, pose=pose, geometry=geometry, dual=dual)
     if looked_for and not isinstance(counted_from, Sheet) and (answer.pose is not None or motion):

@@ -15,9 +15,9 @@ from typing import Any, Literal
 import networkx as nx
 
 from graphs.errors import numbered
-from graphs.ids import JointId, LinkId
 from graphs.mechanism.sc import SCGraph
 from graphs.tolerances import DOUBLE
+from graphs.types import JointId, LinkId
 from synth.motion.branches import Certainty
 from synth.motion.configuration import Configuration, at_most, listed
 from synth.motion.marked import Marked

@@ -18,21 +18,19 @@ import scipy.sparse
 from scipy.sparse.linalg import splu
 from scipy.spatial import ConvexHull
 
-from graphs.arrays import Floats, Ints
 from graphs.convert.duality import SheetMechanism
 from graphs.geometry import lines_meet, principal_axes
-from graphs.ids import LinkId
 from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet, sides_of_face
 from graphs.tolerances import DOUBLE, EPSILON, Tolerances
+from graphs.types import Floats, Ints, LinkId
 from synth.drawing.space.panels import joints_of_links
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.closure import frames_of
 from synth.motion.configuration import Configuration
-from synth.motion.linkage import PosedLinkage, PosedLoop
-from synth.motion.placement import joints_outwards
+from synth.motion.linkage import PosedLinkage, PosedLoop, joints_outwards
 
 __all__ = [
     "Bodies",

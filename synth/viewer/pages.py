@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from graphs.errors import UnsolvableError
-from graphs.plain_text import plain
+from graphs.printing import plain
 from synth.viewer.building import BUILT
 from synth.viewer.shown import Shown
 

@@ -13,26 +13,25 @@ from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
-from graphs.canonical import leading
 from graphs.convert.table import Mechanism
 from graphs.errors import SynthedraError, UnsolvableError, numbered
-from graphs.mechanism.plane import lies_flat
+from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from graphs.plain_text import plain
-from graphs.tolerances import DOUBLE
+from graphs.printing import plain
+from graphs.tolerances import DOUBLE, leading
+from graphs.types import Floats, Ints
 from synth.drawing.mechanisms.creases import places_on_page
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.writing import svg_text
 from synth.folding.configuration import SheetConfiguration
-from synth.folding.vertices import largest_panel
-from synth.motion.beginning import Wanted, beginning
+from synth.folding.derivatives import largest_panel
 from synth.motion.branches import Branch
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
+from synth.motion.driving import BranchChoice, beginning
 from synth.motion.linkage import PosedLinkage
 from synth.motion.singular.sampling import walked
-from synth.motion.walk.freedoms import free_rates, independent_joints
+from synth.motion.walk.events import free_rates, independent_joints
 from synth.moving.made import configuration_of
 from synth.verdict.judged import MOST_PANELS, mobility
 from synth.viewer.linkage import Bodies, ShownCentre, bodies_of_linkage, bodies_of_sheet, centres_of, solver_data
@@ -98,7 +97,7 @@ def ways_of(configuration: Configuration) -> Ways:
     Raise UnsolvableError if the mechanism is rigid, or no motion was found.
     """
     closure, branches = configuration.closure, configuration.branches
-    number, rates = beginning(configuration, Wanted())
+    number, rates = beginning(configuration, BranchChoice())
     rates = rates / np.abs(rates).max()
     if branches is None:  # too many joints to look for branches
         angles, first = configuration.linkage.angles, leading(rates)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from synth.patterns.creases import miura
 from tests.agreement.comparison import Table, disagreements
 from tests.agreement.running import comparisons

@@ -3,7 +3,7 @@ import pytest
 
 from enumerate.addenda import AddendumJob, addenda, addendum_count_job
 from enumerate.runner.running import run
-from enumerate.runner.totals import CountSink
+from enumerate.runner.sinks import CountSink
 from graphs.edit.edits import add_ride_along
 from graphs.errors import InvariantError
 from graphs.files.formats import read

@@ -11,7 +11,7 @@ from graphs.mechanism.precision import extent_of
 from graphs.mechanism.sheet import Sheet
 from synth.folding.configuration import configuration_of_sheet
 from synth.patterns import generate
-from synth.patterns.creases.twists import polygon_twist
+from synth.patterns.creases import polygon_twist
 from synth.verdict.judged import verdict_of_motion
 
 

@@ -15,8 +15,8 @@ from synth.folding.collisions import Panels
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import link_motions
 from synth.motion.path import PathOptions, driven_path
-from synth.viewer.shown import Moving
-from synth.viewer.solver_data import solver_data
+from synth.viewer.linkage import solver_data
+from synth.viewer.shown import MovingLinkage
 
 WEB = Path(__file__).resolve().parents[2] / "synth" / "viewer" / "web"
 

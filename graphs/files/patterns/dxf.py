@@ -27,9 +27,9 @@ from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.patterns.legend import LEFT_OUT, UNSTATED, Dash, Legend, Rgb, Stroke, dash_of_line_type
 from graphs.files.patterns.lines import traced_sheet
 from graphs.files.text import Checker, read_text
-from graphs.mechanism.plane import flat_places
+from graphs.mechanism.precision import flat_places
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from graphs.plain_text import plain
+from graphs.printing import plain
 
 __all__ = [
     "DrawnShape",

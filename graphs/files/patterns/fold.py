@@ -23,11 +23,9 @@ import numpy as np
 from graphs.convert.faces import creases_on_no_face, joins_faces, traced_anew, with_simple_faces
 from graphs.errors import FileError, numbered
 from graphs.files.text import Checker, json_text, load_json
-from graphs.mechanism.plane import flattened
-from graphs.mechanism.precision import written_by
-from graphs.mechanism.reading import WrittenPrecision
-from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet
-from graphs.work_limits import most
+from graphs.limits import most
+from graphs.mechanism.precision import flattened, written_by
+from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, WrittenPrecision
 
 __all__ = ["FoldFrames", "fold_text", "fold_text_of_poses", "read_fold", "resolved_frame", "sheet_from_fold"]
 

@@ -22,10 +22,8 @@ from graphs.convert.tracing import MOST, Lines, trace_sheet
 from graphs.errors import FileError, UnsolvableError, numbered, shown
 from graphs.files.patterns.legend import Interpretation
 from graphs.files.text import Checker, read_text
-from graphs.mechanism.plane import flat_places
-from graphs.mechanism.precision import written_by
-from graphs.mechanism.reading import Reading, WrittenPrecision
-from graphs.mechanism.sheet import HINGES, Sheet, with_all_edges
+from graphs.mechanism.precision import flat_places, written_by
+from graphs.mechanism.sheet import HINGES, Reading, Sheet, WrittenPrecision, with_all_edges
 
 __all__ = ["cp_text", "sheet_from_cp", "sheet_from_opx", "traced_sheet"]
 

@@ -34,12 +34,10 @@ from graphs.files.patterns.legend import (
 )
 from graphs.files.patterns.lines import traced_sheet
 from graphs.files.text import Checker, read_text
-from graphs.mechanism.evidence.digits import digits_of
-from graphs.mechanism.plane import flat_places
-from graphs.mechanism.reading import WrittenPrecision
-from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
-from graphs.plain_text import plain
-from graphs.work_limits import how_to_raise, most
+from graphs.limits import how_to_raise, most
+from graphs.mechanism.precision import digits_of, flat_places
+from graphs.mechanism.sheet import Sheet, WrittenPrecision, sides_of_face, with_all_edges
+from graphs.printing import plain
 
 __all__ = ["check_work_of_svg", "precision_of_shapes", "sheet_from_svg", "svg_text"]
 

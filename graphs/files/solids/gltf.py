@@ -15,9 +15,9 @@ import numpy as np
 import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
-from graphs.arrays import Floats
 from graphs.files.solids.meshes import Mesh
-from graphs.plain_text import plain
+from graphs.printing import plain
+from graphs.types import Floats
 
 __all__ = ["gltf_text"]
 

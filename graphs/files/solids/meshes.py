@@ -16,9 +16,9 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.geometry import unit
-from graphs.plain_text import plain
+from graphs.printing import plain
+from graphs.types import Floats
 
 __all__ = ["Mesh", "is_watertight", "obj_of_meshes", "stl_bytes", "three_mf_bytes"]
 

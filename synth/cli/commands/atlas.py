@@ -14,7 +14,7 @@ from synth.cli.output import about, check_output, console, entries, plain, print
 from synth.cli.runner import RunOptions, run_resumable, run_whole, runner_options
 
 if TYPE_CHECKING:
-    from synth.atlas.asked.opened import AtlasRows
+    from synth.atlas.opened import AtlasRows
 
 __all__ = ["atlas_group"]
 
@@ -75,10 +75,8 @@ def build(**options: Any) -> None:
 
     Continue a stopped build with --resume. For the columns, see `synth atlas query ATLAS.sqlite --columns help`.
     """
-    from synth.atlas.asked.opened import open_atlas
-    from synth.atlas.made.building import AtlasSink
-    from synth.atlas.made.job import AtlasJob
-    from synth.atlas.made.plan import AtlasPlan
+    from synth.atlas.building import AtlasJob, AtlasPlan, AtlasSink
+    from synth.atlas.opened import open_atlas
 
     running = RunOptions.taken_from(options, counting=True)
     if running.output is None:
@@ -138,7 +136,7 @@ def query(
       loop_sizes contains 5 and not (symmetry = 1)
       kind in ('sc', 'scd') and ride_alongs is known
     """
-    from synth.atlas.asked.opened import open_atlas
+    from synth.atlas.opened import open_atlas
 
     if columns == "help":
         _print_columns()
@@ -179,7 +177,7 @@ def _print_columns() -> None:
 
 
 def _write(rows: AtlasRows, output: str, force: bool) -> None:
-    from synth.atlas.asked.written import write_rows
+    from synth.atlas.written import write_rows
 
     tell_written(*write_rows(rows, output, force=force))
 
@@ -192,14 +190,14 @@ def _write(rows: AtlasRows, output: str, force: bool) -> None:
 @_JSON
 def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: bool) -> None:
     """Show the properties of a type, given its id or its name, and the types related to it."""
-    from synth.atlas.asked.opened import open_atlas
+    from synth.atlas.opened import open_atlas
 
     check_output(output, force=force)
     report = open_atlas(atlas).show(type_id)
     if output is not None:
         from graphs.errors import UnsolvableError
         from graphs.files.atomic import write_text
-        from synth.atlas.asked.mechanisms import sheet_of_type
+        from synth.atlas.written import sheet_of_type
 
         text = report.values.get("fold_file")
         if text is None:
@@ -227,8 +225,8 @@ def page(atlas: str, condition: str, folder: str, title: str, workers: int | Non
 
     The site needs no server and no network: open index.html. CONDITION is that of `synth atlas query`.
     """
-    from synth.atlas.asked.opened import open_atlas
-    from synth.atlas.site.writing import SiteSink, site_of
+    from synth.atlas.opened import open_atlas
+    from synth.atlas.site_pages import SiteSink, site_of
 
     site, first = site_of(open_atlas(atlas), condition, title)
     running = RunOptions(folder, workers, None, False, quiet, False)
@@ -242,8 +240,8 @@ def page(atlas: str, condition: str, folder: str, title: str, workers: int | Non
 @_JSON
 def find(atlas: str, files: tuple[str, ...], as_json: bool) -> None:
     """Find the types of mechanisms in the atlas, and the types one edit away."""
-    from synth.atlas.asked.finding import find_type
-    from synth.atlas.asked.opened import open_atlas
+    from synth.atlas.finding import find_type
+    from synth.atlas.opened import open_atlas
 
     opened = open_atlas(atlas)
     failures: list[str] = []

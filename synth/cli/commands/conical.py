@@ -13,8 +13,8 @@ from synth.cli.runner import RunOptions, check_method, run_count, run_rows, runn
 
 if TYPE_CHECKING:
     from enumerate.runner.job import Sink
-    from graphs.ids import LinkId
     from graphs.mechanism.sc import SCGraph
+    from graphs.types import LinkId
     from synth.candidates.job import CandidateJob, Filter
 
 __all__ = ["conical"]
@@ -177,8 +177,7 @@ def _chain(name: str) -> SCGraph:
     from graphs.convert.link_joint import sc_from_link_joint_graph
     from graphs.convert.table import graph_of
     from graphs.errors import FileError
-    from graphs.files.formats import read
-    from graphs.files.ids import is_id
+    from graphs.files.formats import is_id, read
 
     known = chain_names()
     code = chain_named(name) if name.lower() in known else name
@@ -191,7 +190,7 @@ def _chain(name: str) -> SCGraph:
 
 def _grounds(chain: SCGraph, ground: str | None) -> tuple[LinkId | None, ...]:
     """Return the fixed links of --ground; without it that of the chain."""
-    from enumerate.conical.symmetries import links_apart
+    from enumerate.conical.query import links_apart
     from graphs.edit.named import link_named
 
     if ground is None:

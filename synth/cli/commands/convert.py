@@ -14,7 +14,7 @@ from synth.cli.reading import DRAWN, read
 
 if TYPE_CHECKING:
     from graphs.convert.table import Mechanism
-    from graphs.mechanism.on_surface import SurfaceLinkage
+    from graphs.mechanism.surfaces import SurfaceLinkage
 
 __all__ = ["convert", "id_command", "reconstruct"]
 
@@ -100,7 +100,7 @@ def convert(
       synth convert stewart.json creases.json --to solids
       synth convert creases.json platform.json --to joints
     """
-    from graphs.convert.by_name import convert as converted
+    from graphs.convert.table import convert as converted
     from graphs.files.formats import write
 
     check_output(target, force=force)
@@ -126,7 +126,7 @@ def convert(
 
 def _write_table(mechanism: Mechanism, target: str, table: str, *, force: bool) -> tuple[str, ...]:
     from graphs.files.atomic import write_text
-    from synth.moving.tables import table_text
+    from synth.moving.motion import table_text
 
     text, lost = table_text(mechanism, table)
     write_text(Path(target), text, force=force)
@@ -146,7 +146,7 @@ def _write_solids(
     mechanism: Mechanism, target: str, solid: Mapping[str, float | None], *, force: bool
 ) -> tuple[str, ...]:
     from graphs.errors import UnsolvableError
-    from graphs.mechanism.on_surface import SurfaceLinkage
+    from graphs.mechanism.surfaces import SurfaceLinkage
     from synth.moving.made import sheet_of
     from synth.templates.solids import THICKNESS, write_solids
 

@@ -30,8 +30,8 @@ from synth.cli.reading import (
 )
 
 if TYPE_CHECKING:
-    from enumerate.runner.limits import Limits
-    from synth.drawing.catalogue.entries import CatalogueEntry
+    from enumerate.runner.job import Limits
+    from synth.drawing.catalogue import CatalogueEntry
     from synth.drawing.mechanisms.pictures import Drawable
     from synth.templates.template import Template
     from synth.viewer.shown import Shown
@@ -117,7 +117,7 @@ def draw(
       synth draw k1:Cr -o four-bar.svg
       synth draw chains.sqlite -o catalogue.pdf --where symmetry=2.. --where planar=1
     """
-    from synth.drawing.catalogue.entries import is_catalogue
+    from synth.drawing.catalogue import is_catalogue
 
     check_picture(output, force=force)
     if is_catalogue(file):
@@ -137,7 +137,7 @@ def draw(
 
 def _read(file: str) -> Drawable:
     """Return the mechanism or the orientations of a file."""
-    from graphs.files.native.orientations import holds_orientations
+    from graphs.files.native import holds_orientations
 
     if not holds_orientations(file):
         return read(file)
@@ -149,9 +149,7 @@ def _read(file: str) -> Drawable:
 def _draw_catalogue(
     file: str, output: str, kind: str | None, where: dict[str, Limits | str], paper: str, force: bool
 ) -> None:
-    from synth.drawing.catalogue.entries import catalogue_entries
-    from synth.drawing.catalogue.pages import catalogue_pages
-    from synth.drawing.catalogue.writing import write_catalogue
+    from synth.drawing.catalogue import catalogue_entries, catalogue_pages, write_catalogue
 
     failures: list[str] = []
     entries = _counted(catalogue_entries(file, where, failures))
@@ -257,7 +255,7 @@ def _can_serve() -> bool:
 
 
 def _serve(mechanisms: list[Shown], sources: list[bytes | None]) -> None:
-    from synth.viewer.workbench.serving import serve
+    from synth.viewer.workbench.app import serve
 
     def opened(address: str) -> None:
         click.echo(f"workbench: {address}  (Ctrl-C ends it)")
@@ -366,8 +364,8 @@ def template(
       synth template types.sqlite --row 7 --size 150 -o seventh.svg
     """
     from graphs.errors import InvariantError
-    from graphs.mechanism.on_surface import SurfaceLinkage
-    from synth.drawing.mechanisms.orders import OrderOnCircle
+    from graphs.mechanism.surfaces import SurfaceLinkage
+    from synth.drawing.mechanisms.chains import OrderOnCircle
     from synth.templates.pages import paper_named
     from synth.templates.writing import check_template, write_template
 

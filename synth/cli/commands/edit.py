@@ -24,7 +24,7 @@ from synth.cli.reading import DRAWN, read
 
 if TYPE_CHECKING:
     from graphs.creasing.edits import SheetEdit
-    from graphs.edit.sc import Edit
+    from graphs.edit.edits import Edit
     from graphs.mechanism.sc import SCGraph
     from graphs.mechanism.sheet import Sheet
     from graphs.reduce.assur import AssurReduction
@@ -110,7 +110,7 @@ def edit(
       synth edit data/wiener/six-bar.json --add-spatial-loop 0,2,4:1,2 -o ten-bar.json
     """
     from graphs.convert.table import graph_of
-    from graphs.edit.sc import Edit as EditOfGraph
+    from graphs.edit.edits import Edit as EditOfGraph
     from graphs.errors import UnsolvableError
     from graphs.files.formats import write
     from graphs.mechanism.sheet import Sheet
@@ -179,9 +179,8 @@ def _whole(word: str, option: str) -> int:
 
 
 def _crease(sc: SCGraph, text: str) -> Edit:
+    from graphs.edit.edits import add_crease, crease_link
     from graphs.edit.named import joint_named, link_named
-    from graphs.edit.sc import add_crease
-    from graphs.edit.scd import crease_link
     from graphs.mechanism.scd import SCDGraph
 
     name, _, rest = text.partition(":")
@@ -196,8 +195,8 @@ def _crease(sc: SCGraph, text: str) -> Edit:
 
 
 def _loop(sc: SCGraph, text: str, centre: str, option: str) -> Edit:
+    from graphs.edit.edits import add_loop
     from graphs.edit.named import joint_named, link_named
-    from graphs.edit.sc import add_loop
     from graphs.mechanism.scd import SCDGraph
 
     chain, _, rest = text.partition(":")
@@ -209,9 +208,8 @@ def _loop(sc: SCGraph, text: str, centre: str, option: str) -> Edit:
 
 
 def _ride_along(sc: SCGraph, text: str) -> Edit:
+    from graphs.edit.edits import add_ride_along, ride_along
     from graphs.edit.named import link_named
-    from graphs.edit.sc import add_ride_along
-    from graphs.edit.scd import ride_along
     from graphs.mechanism.scd import SCDGraph
 
     a, b = (link_named(sc, word) for word in _words(text, 2, "--add-ride-along"))
@@ -221,7 +219,7 @@ def _ride_along(sc: SCGraph, text: str) -> Edit:
 
 
 def _centre(sc: SCGraph, text: str, option: str) -> Edit:
-    from graphs.edit.scd import make_explicit, make_implicit
+    from graphs.edit.edits import make_explicit, make_implicit
     from graphs.errors import UnsolvableError
     from graphs.mechanism.scd import SCDGraph
 
@@ -231,9 +229,8 @@ def _centre(sc: SCGraph, text: str, option: str) -> Edit:
 
 
 def _lock(sc: SCGraph, text: str) -> Edit:
+    from graphs.edit.edits import lock_hinge, lock_joint
     from graphs.edit.named import joint_named
-    from graphs.edit.sc import lock_joint
-    from graphs.edit.scd import lock_hinge
     from graphs.mechanism.scd import SCDGraph
 
     joint = joint_named(sc, text)
@@ -247,12 +244,11 @@ def _pattern_edits(
 
     Edges keep their numbers until creases are removed; those are named before.
     """
-    from graphs.creasing.edits import crease_sheet, lock_crease, remove_crease
-    from graphs.creasing.named import joint_of_sheet_named
+    from graphs.creasing.edits import crease_sheet, joint_of_sheet_named, lock_crease, remove_crease
     from graphs.mechanism.sheet import with_all_edges
 
     if branch is not None:
-        from synth.folding.assigned import assign_branch
+        from synth.folding.motion import assign_branch
 
         edit = assign_branch(sheet, branch)
         sheet = edit.sheet

@@ -15,7 +15,7 @@ from synth.cli.output import about, console, plain, print_json, table, tell_writ
 from synth.cli.runner import RunOptions, check_method, run_count, run_rows, runner_options
 
 if TYPE_CHECKING:
-    from enumerate.runner.limits import Limits
+    from enumerate.runner.job import Limits
     from enumerate.scd.jobs import Mechanisms
 
 __all__ = ["enumerate_group"]
@@ -230,7 +230,7 @@ def chains(
     check_method(method, only_count)
     from enumerate.chains.jobs import ChainJob, count_job
     from enumerate.chains.query import ChainQuery
-    from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE
+    from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE
 
     query = ChainQuery(
         links, dof, **rest, longest_string=longest_string or ANY_NUMBER, symmetry=symmetry or ONE_OR_MORE
@@ -308,9 +308,8 @@ def sc(
     options = RunOptions.taken_from(rest, counting=only_count)
     if not only_count and (method is not None or embeddings):
         raise click.UsageError("--method and --embeddings require --count")
-    from enumerate.runner.limits import ANY_NUMBER, ONE_OR_MORE
-    from enumerate.sc.forms import FormJob
-    from enumerate.sc.jobs import SCJob, sc_count_job
+    from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE
+    from enumerate.sc.jobs import FormJob, SCJob, sc_count_job
     from enumerate.sc.query import SCQuery
 
     query = SCQuery(
@@ -379,7 +378,7 @@ def scd(
     """
     options = RunOptions.taken_from(rest, counting=only_count)
     check_method(method, only_count)
-    from enumerate.runner.limits import ANY_NUMBER
+    from enumerate.runner.job import ANY_NUMBER
     from enumerate.scd.jobs import SCDJob, scd_count_job
 
     filters = {**rest, "vertices": vertices or ANY_NUMBER}
@@ -391,7 +390,7 @@ def scd(
     elif links is None or dof is None:
         raise click.UsageError("expected --links and --dof, or --of FILE")
     else:
-        from enumerate.scd.graphs import all_mechanisms
+        from enumerate.scd.jobs import all_mechanisms
 
         mechanisms = all_mechanisms(links, dof, max_degree, spatial=spatial, infinite=infinite, **filters)
         if not mechanisms.query.tree:
@@ -403,7 +402,7 @@ def scd(
 
 
 def _of_file(file: str, max_degree: int, filters: dict[str, Any]) -> Mechanisms:
-    from enumerate.scd.graphs import mechanism_of
+    from enumerate.scd.jobs import mechanism_of
     from graphs.convert.table import graph_of
     from graphs.files.formats import read
 
@@ -433,7 +432,7 @@ def addenda(file: str, delta_dof: int, only_count: bool, **rest: Any) -> None:
       synth enumerate addenda --of data/wiener/watt.json --delta-dof 1 -o addenda
     """
     options = RunOptions.taken_from(rest, counting=only_count)
-    from enumerate.addenda import AddendumCountJob, AddendumJob
+    from enumerate.addenda import AddendumJob, addendum_count_job
     from graphs.convert.table import graph_of
     from graphs.files.formats import read
 
@@ -441,7 +440,7 @@ def addenda(file: str, delta_dof: int, only_count: bool, **rest: Any) -> None:
     with about(file):
         job = AddendumJob(graph_of(mechanism), delta_dof)
     if only_count:
-        run_count(AddendumCountJob(job), options)
+        run_count(addendum_count_job(job), options)
     else:
         run_rows(job, options)
 

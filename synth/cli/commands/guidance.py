@@ -23,10 +23,10 @@ from synth.cli.output import (
 )
 
 if TYPE_CHECKING:
-    from graphs.arrays import Floats
+    from graphs.types import Floats
     from synth.guidance.dyads import Dyad
     from synth.guidance.fourbars import GuidedFourBar
-    from synth.guidance.hoop_method import Direction
+    from synth.guidance.order import Direction
     from synth.guidance.orientations import Orientations
     from synth.guidance.synthesis import GuidingDyads
 
@@ -171,10 +171,10 @@ def _guiding_dyads(
 
 def _drawn(orientations: Orientations, guiding: tuple[Dyad, ...]) -> Any:
     """Return the map of orders, with the dyads, or with the curve of fixed axes for four orientations."""
-    from synth.drawing.order_map import draw_map
+    from synth.drawing.sphere import draw_map
 
     if len(orientations) == 4:
-        from synth.guidance.four import centre_axes
+        from synth.guidance.dyads import centre_axes
 
         return draw_map(orientations, (), centre_axes(orientations, 720))
     return draw_map(orientations, guiding)
@@ -272,7 +272,7 @@ def _motion(orientations: Orientations, good: list[GuidedFourBar], steps: int) -
 
 def _cones_json(four_bar: GuidedFourBar) -> dict[str, Any]:
     """Return every cone, and interval of cones, on which a four-bar can lie."""
-    from synth.guidance.on_cones import conical_forms
+    from synth.guidance.fourbars import conical_forms
 
     forms = conical_forms(four_bar)
     return {
@@ -298,7 +298,7 @@ def _table_of_cones(listed: Sequence[GuidedFourBar]) -> Any:
 def _table(listed: Sequence[GuidedFourBar]) -> Any:
     from math import degrees
 
-    from synth.guidance.hoop_method import direction_words
+    from synth.guidance.order import direction_words
 
     rows = table(
         "driver G", "follower G", "ground driver coupler follower", "type", "driver turns", "defects",

@@ -14,10 +14,10 @@ from synth.cli.reading import DRAWN, PRECISION, precise, read
 
 if TYPE_CHECKING:
     from graphs.convert.table import Mechanism
-    from graphs.ids import LinkId
     from graphs.mechanism.sc import SCGraph
-    from synth.compliance.small_motions import Mass, Masses
-    from synth.compliance.stated import Drive
+    from graphs.types import LinkId
+    from synth.compliance.compliance_states import DrivenJoint
+    from synth.compliance.springs import Mass, Masses
 
 __all__ = ["advise", "explain", "fold", "limits", "positions", "states"]
 
@@ -91,7 +91,7 @@ def fold(
       synth fold data/patterns/bird-base.fold --all -o folded.gif
       synth fold data/linkages/sarrus.json --frames 11 -o rising.svg
     """
-    from synth.drawing.foldings import check_output, write_motion
+    from synth.drawing.space.poses import check_output, write_motion
     from synth.moving.made import configuration_of
     from synth.moving.motion import move
 
@@ -173,7 +173,7 @@ def positions(file: str, drive: tuple[str, ...], circuits: bool, seed: int, as_j
 
     Exit status 1: the linkage has no assembly mode at these inputs, or not all were found.
     """
-    from synth.assembly.found import positions as assembly_modes
+    from synth.assembly.modes import positions as assembly_modes
     from synth.moving.made import configuration_of
 
     mechanism = read(file)
@@ -206,7 +206,7 @@ def explain(file: str, as_json: bool) -> None:
       synth generate miura --rows 4 --columns 4 --fold 60 -o miura.fold
       synth explain miura.fold
     """
-    from synth.overconstraint.explained import explain as explained
+    from synth.overconstraint.explanation import explain as explained
 
     mechanism = read(file)
     with about(file):
@@ -283,7 +283,7 @@ def advise(
     """
     from graphs.convert.duality import mechanism_of_sheet
     from graphs.edit.named import joint_named, link_named
-    from synth.advice.advised import advise as advised
+    from synth.advice.advice import advise as advised
     from synth.moving.made import configuration_of, sheet_of
 
     mechanism = read(file)
@@ -361,8 +361,8 @@ def states(
       synth states four-bar.json --stiffness 1=2 --drive 0=40 --frames 8
     """
     from graphs.edit.named import joint_named, link_named
+    from synth.compliance.compliance_states import states as stated
     from synth.compliance.springs import Springs
-    from synth.compliance.stated import states as stated
     from synth.moving.made import configuration_of
 
     mechanism = read(file)
@@ -385,13 +385,13 @@ def states(
     print_report(file, report, as_json=as_json)
 
 
-def _drive(graph: SCGraph, word: str | None, frames: int) -> Drive | None:
-    from synth.compliance.stated import Drive
+def _drive(graph: SCGraph, word: str | None, frames: int) -> DrivenJoint | None:
+    from synth.compliance.compliance_states import DrivenJoint
 
     if word is None:
         return None
     [(joint, angle)] = driven_angles(graph, (word,)).items()
-    return Drive(joint, angle, frames)
+    return DrivenJoint(joint, angle, frames)
 
 
 def _masses(
@@ -400,7 +400,7 @@ def _masses(
     """Return the masses of the options --mass, --density and --ground."""
     from graphs.edit.named import link_named
     from graphs.errors import UnsolvableError
-    from synth.compliance.small_motions import Masses, sheet_masses
+    from synth.compliance.springs import Masses, sheet_masses
     from synth.moving.made import sheet_of
 
     if not words and density is None:
@@ -419,7 +419,7 @@ def _masses(
 def _mass(graph: SCGraph, word: str) -> Mass:
     """Return the point mass of a word ``LINK=M@X,Y,Z``."""
     from graphs.edit.named import link_named
-    from synth.compliance.small_motions import Mass
+    from synth.compliance.springs import Mass
 
     link, _, rest = word.rpartition("=")
     value, _, place = rest.partition("@")
@@ -454,7 +454,7 @@ def limits(file: str, keep: tuple[str, ...], as_json: bool) -> None:
       synth limits cylinder.fold
     """
     from graphs.edit.named import link_named
-    from synth.compliance.limited import limits as limits_of
+    from synth.compliance.joint_limits import limits as limits_of
     from synth.moving.made import configuration_of
 
     mechanism = read(file)

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from enumerate.runner.job import Sink
     from graphs.convert.table import Mechanism
     from synth.patterns.generator import Generator, Parameter
-    from synth.realisation.forms.on_cone import OnOneCone
+    from synth.realisation.on_cone import OnOneCone
     from synth.realisation.realised import Realised
 
 __all__ = ["generate", "realise"]
@@ -289,7 +289,7 @@ def realise(
     """
     from graphs.errors import FileError
     from graphs.files.formats import write
-    from synth.drawing.catalogue.entries import is_catalogue
+    from synth.drawing.catalogue import is_catalogue
 
     if freedoms is not None:
         others = kind == "cone" or size is not None or flat_foldable or symmetric or mode or workers or resume
@@ -351,7 +351,7 @@ def _refuse(*rules: tuple[object, str]) -> None:
 def _on_cone(file: str, cone_angle: float | None, seed: int, tries: int) -> tuple[OnOneCone | Realised, Mechanism]:
     from enumerate.strings.panel_strings import ChainString
     from graphs.errors import FileError
-    from synth.realisation.forms.on_cone import CONE_ANGLE, realise_on_cone
+    from synth.realisation.on_cone import CONE_ANGLE, realise_on_cone
 
     mechanism: Any = read_named(file).mechanism
     if isinstance(mechanism, ChainString):
@@ -376,10 +376,10 @@ def _realise_many(source: str, running: RunOptions, options: dict[str, Any], *, 
     The output of `running` is a folder, or a store (.sqlite), which holds the files in its rows; the options are
     those of `synth.realisation.realise`.
     """
-    from enumerate.runner.columns import row_as_dict
+    from enumerate.runner.job import row_as_dict
     from enumerate.runner.store import read_rows
     from graphs.errors import numbered
-    from synth.realisation.many.job import COLUMNS, RealisationJob, summary_of
+    from synth.realisation.many import COLUMNS, RealisationJob, summary_of
 
     job = RealisationJob(source, tuple(sorted(options.items())))
     sink, store = _sink_of(running)
@@ -401,7 +401,7 @@ def _realise_many(source: str, running: RunOptions, options: dict[str, Any], *, 
 def _sink_of(running: RunOptions) -> tuple[Callable[..., Sink], Path]:
     """Return a function that makes the sink, and the path of the store."""
     from enumerate.runner.store import SqliteSink
-    from synth.realisation.many.folder import FolderOfThings, store_beside
+    from synth.realisation.many import RealisationFolder, store_beside
 
     if running.output is None:
         raise click.UsageError("many types require -o FOLDER or -o FILE.sqlite")
@@ -412,7 +412,7 @@ def _sink_of(running: RunOptions) -> tuple[Callable[..., Sink], Path]:
         raise click.UsageError("many types are written to a folder or a store; try -o FOLDER or -o FILE.sqlite")
     if running.force:
         raise click.UsageError("--force replaces no folder; remove it, or try --resume or another name")
-    return partial(FolderOfThings, place, resume=running.resume), store_beside(place)
+    return partial(RealisationFolder, place, resume=running.resume), store_beside(place)
 
 
 def _search_special_geometry(
@@ -423,7 +423,7 @@ def _search_special_geometry(
     The search has the options of `synth.realise`.
     """
     from graphs.files.formats import write
-    from synth.drawing.catalogue.entries import is_catalogue
+    from synth.drawing.catalogue import is_catalogue
     from synth.realisation.realised import realise as realised
 
     if is_catalogue(file):

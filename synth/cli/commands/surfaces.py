@@ -11,17 +11,15 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import click
 
-from graphs.plain_text import plain
+from graphs.printing import plain
 from synth.cli.options import FORCE, NumberList, in_radians, surface_from_options
 from synth.cli.output import about, check_output, check_picture, print_answer, print_json, tell_written
 
 if TYPE_CHECKING:
-    from graphs.mechanism.on_surface import SurfaceLinkage
-    from graphs.mechanism.surfaces import Surface
+    from graphs.mechanism.surfaces import Surface, SurfaceLinkage
     from synth.conformed.linkages import OnSurface
-    from synth.surfaces.cone import ConeMap
-    from synth.surfaces.cylinder import CylinderMap
     from synth.surfaces.linkages import LinkageMap
+    from synth.surfaces.loop_maps import ConeMap, CylinderMap
 
 __all__ = ["cone_group", "cylinder_group"]
 
@@ -79,7 +77,7 @@ class LinkageOptions:
     def linkage(self) -> SurfaceLinkage:
         """Return the linkage of the options, which need not lie on a surface."""
         from graphs.files.formats import read_linkage
-        from graphs.mechanism.on_surface import SurfaceLinkage
+        from graphs.mechanism.surfaces import SurfaceLinkage
 
         if self.file is not None:
             return read_linkage(self.file)
@@ -88,7 +86,7 @@ class LinkageOptions:
         return self._of_steps().linkage()
 
     def _of_steps(self) -> OnSurface:
-        from graphs.mechanism.on_surface import as_planar
+        from graphs.mechanism.surfaces import as_planar
         from synth.conformed.linkages import loop_of_steps
 
         loop = loop_of_steps(in_radians(self.steps or ()), self.surface)
@@ -163,9 +161,8 @@ def map_answer(
     A picture of a loop by its link sizes shows loop sums, unless the number of a surface is chosen.
     """
     from synth.conformed.linkages import linkage_on_surfaces, surface_of_number
-    from synth.surfaces.cone import map_to_cones
-    from synth.surfaces.cylinder import map_to_cylinders
     from synth.surfaces.linkages import by_sizes as with_sizes_only, map_linkage
+    from synth.surfaces.loop_maps import map_to_cones, map_to_cylinders
 
     if output is None and number is not None:
         raise click.UsageError(f"--{chosen.kind} requires -o")
@@ -301,7 +298,7 @@ def map_command(kind: Kind) -> click.Command:
         if supplementary:
             if chosen.sizes is None or output is not None:
                 raise click.UsageError("--supplementary lists linkages for --angles, and writes none")
-            from synth.surfaces.supplementary import supplementary_linkages
+            from synth.surfaces.linkages import supplementary_linkages
 
             answer: Any = supplementary_linkages(chosen.linkage_sizes)
         else:

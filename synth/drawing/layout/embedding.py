@@ -18,8 +18,8 @@ from typing import Any, TypeAlias
 
 import networkx as nx
 
-from graphs.identity.bliss import subdivided, symmetries_of
-from graphs.ids import Joints, LinkId
+from graphs.identity.chains import subdivided, symmetries_of
+from graphs.types import Joints, LinkId
 
 __all__ = [
     "Neighbours",

@@ -9,9 +9,8 @@ from math import inf
 import networkx as nx
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.geometry import best_line
-from graphs.ids import JointId, Joints, LinkId
+from graphs.types import Floats, JointId, Joints, LinkId
 from synth.drawing.layout.embedding import (
     Neighbours,
     Node,

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats, Ints
+from graphs.types import Flags, Floats, Ints
 from synth.drawing.layout.embedding import Node, faces_of
 
 __all__ = ["LayoutSprings", "PlaneGraph", "barycentric", "plane_graph", "pulled", "springs_of"]

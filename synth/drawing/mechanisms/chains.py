@@ -15,10 +15,10 @@ from math import cos, hypot, pi, sin
 
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import numbered
-from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre
-from graphs.mechanism.on_surface import SurfaceLinkage
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.surfaces import SurfaceLinkage
+from graphs.types import JointId, LinkId
 from synth.drawing.layout.mechanisms import Layout, layout_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, joint_dot, placed
 from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of

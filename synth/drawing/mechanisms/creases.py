@@ -19,12 +19,11 @@ import numpy as np
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.geometry import signed_area
-from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre
-from graphs.mechanism.plane import flat_places
-from graphs.mechanism.reading import Reading, RepairKind
-from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.mechanism.precision import flat_places
+from graphs.mechanism.sheet import Reading, RepairKind, Sheet, with_all_edges
 from graphs.tolerances import DOUBLE
+from graphs.types import JointId, LinkId
 from synth.drawing.mechanisms.labelling import SIGN, Obstacles, beside, centre_sign, placed
 from synth.drawing.mechanisms.sc_graphs import class_numbers
 from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of
@@ -46,11 +45,11 @@ from synth.drawing.scene.shapes import (
 )
 from synth.drawing.space.panels import sheet_and_mechanism
 from synth.folding.configuration import SheetConfiguration
-from synth.motion.beginning import Wanted, beginning
 from synth.motion.branches import Branch
+from synth.motion.driving import BranchChoice, beginning
 from synth.motion.marked import disagreement_with
 from synth.moving.made import configuration_of
-from synth.verdict.of_motion import verdict_of_motion
+from synth.verdict.judged import verdict_of_motion
 
 __all__ = [
     "COLOURINGS",
@@ -389,7 +388,7 @@ def motions_on_branch(sheet: Sheet | SheetConfiguration, branch: int | str | Non
     """
     pattern = configuration_of(sheet)
     branches = pattern.branches
-    number, rates = beginning(pattern, Wanted(branch))
+    number, rates = beginning(pattern, BranchChoice(branch))
     chosen = branches.branches[number or 0] if branches is not None else None
     immobile = set(chosen.still) if chosen is not None else set()
     of: dict[JointId, Doing] = {}
@@ -421,7 +420,7 @@ def overlay_of_marks(sheet: Sheet | SheetConfiguration, branch: int | str | None
     at = configuration_of(sheet)
     if not at.flat or not isinstance(at, SheetConfiguration) or not _is_assigned(at):
         raise UnsolvableError("marks require a flat crease pattern with mountains and valleys")
-    number, _ = beginning(at, Wanted(branch))
+    number, _ = beginning(at, BranchChoice(branch))
     chosen = at.branch(number or 0)
     near = at.disagreement
     if chosen is None or near is None:

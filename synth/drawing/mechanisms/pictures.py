@@ -12,15 +12,14 @@ import networkx as nx
 
 from enumerate.strings.panel_strings import ChainString
 from graphs.convert.table import Mechanism, graph_of, to_polyhedron, to_sc, to_solids
-from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.given import check_given
+from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
 from graphs.joints.linkage import JointedLinkage
-from graphs.mechanism.on_surface import SurfaceLinkage
-from graphs.mechanism.plane import lies_flat
 from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from graphs.mechanism.surfaces import SurfaceLinkage
 from synth.drawing.mechanisms.chains import (
     ChainLook,
     OrderOnCircle,
@@ -98,7 +97,7 @@ def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
     >>> [layer.name for layer in draw(read("k1:Cr")).layers]
     ['links', 'joints', 'labels', 'caption']
     """
-    check_given("draw", thing, Drawable)
+    check_argument("draw", thing, Drawable)
     if isinstance(thing, Configuration) and not isinstance(thing, SheetConfiguration):
         thing = thing.given
     kind = _suiting(thing) if kind is None else kind

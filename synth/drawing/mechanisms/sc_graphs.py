@@ -17,12 +17,12 @@ import numpy as np
 
 from graphs.errors import UnsolvableError, numbered
 from graphs.identity.drawings import drawing_of
-from graphs.ids import JointId, LinkId
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.rotation import trace_faces
+from graphs.mechanism.drawing import trace_faces
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.reduce.ride_alongs import Reduction, reduce
+from graphs.types import JointId, LinkId
 from synth.drawing.layout.mechanisms import Layout, layout_of
 from synth.drawing.mechanisms.labelling import SIGN, Obstacles, beside, centre_sign, placed
 from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of

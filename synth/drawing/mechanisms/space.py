@@ -11,13 +11,12 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError, numbered
-from graphs.ids import LinkId
-from graphs.mechanism.plane import in_space
 from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from graphs.types import Floats, LinkId
 from synth.drawing.layout.mechanisms import layout_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of

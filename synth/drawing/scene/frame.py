@@ -8,8 +8,8 @@ from math import ceil, floor, log10
 from textwrap import wrap
 from typing import TypeAlias
 
-from graphs.arrays import Floats
-from graphs.plain_text import plain
+from graphs.printing import plain
+from graphs.types import Floats
 from synth.drawing.scene.shapes import (
     FINE,
     NORMAL,

@@ -14,7 +14,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from graphs.errors import InvariantError, shown
-from graphs.plain_text import plain
+from graphs.printing import plain
 
 __all__ = [
     "FINE",

@@ -23,7 +23,7 @@ import numpy.typing as npt
 
 from graphs.errors import FileError, InvariantError, UnsolvableError, shown
 from graphs.files.atomic import Beside, check_place
-from graphs.plain_text import LONGEST_CELL, plain
+from graphs.printing import LONGEST_CELL, plain
 from synth.drawing.scene.shapes import Disc, Label, Line, Point, Polygon, Scene, Shape, colour_of
 
 __all__ = [

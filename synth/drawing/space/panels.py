@@ -13,17 +13,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import trailing
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.geometry import across, area_vector, frame_about, principal_axes, unit
-from graphs.ids import JointId, LinkId
 from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, trailing
+from graphs.types import Floats, JointId, LinkId
 from synth.drawing.scene.shapes import FINE, NORMAL, STRONG, Line, Point, Polygon, Shape
 from synth.folding.configuration import SheetConfiguration
-from synth.motion.linkage import PosedLinkage
-from synth.motion.placement import link_motions
+from synth.motion.linkage import PosedLinkage, link_motions
 
 __all__ = [
     "HINGE",

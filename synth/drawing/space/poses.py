@@ -13,14 +13,14 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.atomic import check_place, write_text
-from graphs.files.patterns.fold_poses import fold_text_of_poses
+from graphs.files.patterns.fold import fold_text_of_poses
 from graphs.files.patterns.obj import obj_text
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from graphs.types import Floats
 from synth.drawing.scene.frame import Frame, framed, page_of
 from synth.drawing.scene.shapes import SMALL, Label, Layer, Scene, moved
 from synth.drawing.scene.writing import check_matplotlib, pixels, save_scene, whole_file

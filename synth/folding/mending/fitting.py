@@ -20,15 +20,14 @@ from typing import NamedTuple
 import numpy as np
 import scipy.sparse
 
-from graphs.arrays import Floats, Ints
-from graphs.canonical import leading
 from graphs.convert.duality import SheetMechanism
 from graphs.geometry import crossing, principal_axes, unit
 from graphs.loops.loop import Centre
-from graphs.mechanism.plane import in_space
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet
-from graphs.rank.spaces import row_space, split
-from graphs.tolerances import DOUBLE, EPSILON
+from graphs.rank.singular_values import row_space, split
+from graphs.tolerances import DOUBLE, EPSILON, leading
+from graphs.types import Floats, Ints
 from synth.folding.derivatives import axis_motions
 from synth.motion.closure import ClosureEquations, TangentSpace, corrected
 from synth.motion.linkage import PosedLinkage

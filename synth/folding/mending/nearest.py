@@ -16,13 +16,12 @@ from itertools import islice, product
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import MARGIN
 from graphs.convert.duality import SheetMechanism
 from graphs.geometry import across, best_plane
 from graphs.mechanism.precision import Precision, off_plane
 from graphs.mechanism.sheet import Sheet
-from graphs.tolerances import DOUBLE, Tolerances
+from graphs.tolerances import DOUBLE, MARGIN, Tolerances
+from graphs.types import Floats
 from synth.folding.mending.fitting import FARTHEST_PATTERN, Fitting, MeantAngles, VertexPlaces
 from synth.motion.branches import MOST_BRANCHES, FlatVertices
 from synth.motion.closure import ClosureEquations

@@ -15,12 +15,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
-from graphs.canonical import canonical_order, trailing
 from graphs.geometry import lines_meet
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, canonical_order, trailing
+from graphs.types import Floats, Ints
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 __all__ = ["in_order", "joint_order"]

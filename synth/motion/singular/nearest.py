@@ -16,10 +16,9 @@ from math import pi
 
 import numpy as np
 
-from graphs.arrays import Floats, Ints
-from graphs.canonical import MARGIN, canonical_basis, canonical_order, signed, trailing
-from graphs.rank.spaces import Inertia, inertia, split
-from graphs.tolerances import DOUBLE
+from graphs.rank.singular_values import Inertia, inertia, split
+from graphs.tolerances import DOUBLE, MARGIN, canonical_basis, canonical_order, signed, trailing
+from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations, TangentSpace, corrected
 from synth.motion.linkage import PosedLinkage
 from synth.motion.singular.sampling import rates_towards

@@ -14,10 +14,9 @@ from math import radians, tan
 
 import numpy as np
 
-from graphs.arrays import Floats
-from graphs.canonical import leading, signed, trailing
-from graphs.rank.spaces import Split, inertia, singular_values, split
-from graphs.tolerances import DOUBLE
+from graphs.rank.singular_values import Split, inertia, singular_values, split
+from graphs.tolerances import DOUBLE, leading, signed, trailing
+from graphs.types import Floats
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import PosedLinkage, moved
 from synth.motion.path import PathOptions, driven_path

@@ -26,12 +26,10 @@ import scipy.linalg
 import scipy.sparse
 from scipy.optimize import nnls
 
-from graphs.arrays import Floats, Ints
-from graphs.canonical import canonical_basis, canonical_order, signed
 from graphs.loops.loop import Centre
-from graphs.rank.singular_values import spectrum
-from graphs.rank.spaces import inertia, null_space, row_space, split
-from graphs.tolerances import DOUBLE
+from graphs.rank.singular_values import inertia, null_space, row_space, spectrum, split
+from graphs.tolerances import DOUBLE, canonical_basis, canonical_order, signed
+from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations, TangentSpace
 from synth.motion.linkage import PosedLinkage, PosedLoop
 from synth.motion.walk.step import Allowance
@@ -299,7 +297,7 @@ def rates_at(closure: ClosureEquations, angles: Floats, zero: float = DOUBLE.zer
     """Return the rates at which loops stay closed to first order: float[J, s], orthonormal columns.
 
     By singular values; of many joints by orthogonal columns, the largest of what is left first, which takes a
-    third of the time. The columns depend on the space alone (`graphs.canonical`).
+    third of the time. The columns depend on the space alone (`graphs.tolerances`).
     """
     matrix = closure.at(angles)[1].toarray()
     if closure.joints <= _MANY:

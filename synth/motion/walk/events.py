@@ -12,11 +12,9 @@ from math import pi
 
 import numpy as np
 
-from graphs.arrays import Flags, Floats, Ints
-from graphs.canonical import pivots
-from graphs.ids import JointId
-from graphs.rank.spaces import row_space, split
-from graphs.tolerances import DOUBLE
+from graphs.rank.singular_values import row_space, split
+from graphs.tolerances import DOUBLE, pivots
+from graphs.types import Flags, Floats, Ints, JointId
 from synth.motion.closure import ClosureEquations, Corrected, TangentSpace, corrected
 from synth.motion.walk.step import Step, named
 from synth.motion.walk.walking import Event, Walk, only_rates

@@ -21,10 +21,9 @@ import numpy as np
 import scipy.linalg
 from scipy.optimize import brentq, minimize_scalar
 
-from graphs.arrays import Floats
 from graphs.errors import numbered, shown
-from graphs.ids import JointId
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId
 from synth.motion.closure import ClosureEquations, Corrected, TangentSpace, corrected, exactly_held
 
 __all__ = ["STRAY", "WATCHED", "Allowance", "EventKind", "PathEvent", "RankWatch", "Step", "in_degrees", "named"]

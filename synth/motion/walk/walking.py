@@ -14,11 +14,9 @@ from math import inf, sqrt
 import numpy as np
 from scipy.optimize import nnls
 
-from graphs.arrays import Flags, Floats
-from graphs.canonical import leading
 from graphs.errors import shown
-from graphs.ids import JointId
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, leading
+from graphs.types import Flags, Floats, JointId
 from synth.motion.closure import ClosureEquations, Corrected, TangentSpace, corrected, exactly_held
 from synth.motion.walk.step import STRAY, Allowance, EventKind, PathEvent, RankWatch, Step, in_degrees
 

@@ -21,15 +21,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.arrays import Floats
-from graphs.canonical import leading
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, leading
+from graphs.types import Floats
 from synth.motion.closure import ClosureEquations
 from synth.motion.derivatives import dependence_on_axes
 from synth.motion.linkage import PosedLinkage, linkage_of_axes
-from synth.motion.walk.allowance import Allowance
+from synth.motion.walk.step import Allowance
 
 __all__ = [
     "AxisCondition",

@@ -17,16 +17,15 @@ from math import cos, lcm, pi, radians, sin
 import networkx as nx
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.errors import UnsolvableError, numbered
 from graphs.geometry import lines_meet, unit
-from graphs.loops.cycle_space import signed_cycle
-from graphs.loops.loop import Centre
+from graphs.loops.loop import Centre, signed_cycle
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from graphs.rank.closure import independent_cycles
-from synth.motion.walk.allowance import Allowance
+from graphs.rank.exact import independent_cycles
+from graphs.types import Floats
+from synth.motion.walk.step import Allowance
 from synth.realisation.conditions import (
     Condition,
     Wishes,

@@ -14,27 +14,24 @@ from typing import Any
 
 import numpy as np
 
-from graphs.arrays import Floats
 from graphs.convert.table import Mechanism, to_sc, to_scd
-from graphs.errors import InvariantError, SynthedraError, UnsolvableError, numbered, shown
-from graphs.given import check_given
+from graphs.errors import InvariantError, SynthedraError, UnsolvableError, check_argument, numbered, shown
 from graphs.identity.drawings import map_id
 from graphs.loops.loop import Centre
-from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sc import SCGraph, SpecialGeometry
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from graphs.mechanism.special import SpecialGeometry
 from graphs.printing import Block, Printed
-from graphs.rank.closure import independent_cycles
-from graphs.rank.generic import exact_mobility
+from graphs.rank.exact import exact_mobility, independent_cycles
 from graphs.tolerances import DOUBLE
+from graphs.types import Floats
 from synth.motion.branches import Branch, first_branch, search_for
 from synth.motion.configuration import Configuration
-from synth.motion.placement import moved
-from synth.motion.walk.allowance import Allowance
+from synth.motion.linkage import moved
+from synth.motion.walk.step import Allowance
 from synth.moving.made import configuration_of
-from synth.overconstraint.explained import explain
+from synth.overconstraint.explanation import explain
 from synth.realisation.pattern import Pattern, check_holes, pattern_of
 from synth.realisation.special.families import (
     AxisFamily,
@@ -372,7 +369,7 @@ def search_special(mechanism: Mechanism, wishes: SpecialWishes) -> SpecialSearch
     >>> search_special(ring, SpecialWishes(1)).members[0].reasons[0]
     'opposite links equal, lengths proportional to the sines of the twists (Bennett)'
     """
-    check_given("realise", mechanism, Mechanism)
+    check_argument("realise", mechanism, Mechanism)
     if isinstance(mechanism, SCGraph):
         graph = mechanism
     else:

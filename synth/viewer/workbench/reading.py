@@ -29,8 +29,7 @@ from typing import Any
 from zipfile import ZipFile
 
 from graphs.convert.table import Mechanism
-from graphs.creasing.edits import crease_sheet, lock_crease, remove_crease
-from graphs.creasing.panels import take_off_panels
+from graphs.creasing.edits import crease_sheet, lock_crease, remove_crease, take_off_panels
 from graphs.errors import FileError, InvariantError, SynthedraError, UnsolvableError
 from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet

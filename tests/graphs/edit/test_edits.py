@@ -5,7 +5,7 @@ from hypothesis import given
 from strategies import randoms, sc_graphs, scd_graphs
 
 from graphs.convert.panels import scd_from_panels
-from graphs.count.relative import relative_polyhedron
+from graphs.count.equations import relative_polyhedron
 from graphs.edit.edits import (
     add_crease,
     add_loop,

@@ -9,9 +9,8 @@ from graphs.mechanism.sheet import Sheet
 from synth.advice.advice import advise
 from synth.advice.diagonals import Bounds, Candidates, Diagonal, smallest_sets
 from synth.advice.locks import cheapest_sets
-from synth.advice.search import Bounds, Candidates, smallest_sets
 from synth.motion.walk.step import Allowance
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import miura
 
 
 def strip(panels):

@@ -14,8 +14,7 @@ from conical import WATT
 
 from graphs.files.formats import write
 from graphs.mechanism.surfaces import SurfaceLinkage
-from synth.surfaces.cone import link_angles
-from synth.surfaces.several_loops import link_pairs
+from synth.surfaces.circuit import link_angles, link_pairs
 
 ROOT = Path(__file__).resolve().parents[3]
 FIG_11 = ROOT / "data" / "surfaces" / "fig11-stephenson.json"

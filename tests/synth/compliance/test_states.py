@@ -15,8 +15,7 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.exact import independent_cycles
-from synth.compliance.freedoms import state_of, states_of_sets
-from synth.compliance.members import NONE, Members, released
+from synth.compliance.members import NONE, Members, released, state_of, states_of_sets
 from synth.motion.linkage import linkage_of_axes
 from synth.moving.made import configuration_of
 from synth.patterns import generate

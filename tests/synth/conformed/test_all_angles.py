@@ -12,7 +12,7 @@ from enumerate.conical.rounds import Rounds, placements
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from synth.candidates.job import CandidateJob
 from synth.candidates.rows import loop_circuits
-from synth.conformed.all_angles import Allowed, never_singular, orders_with_opposites, over_angles, sampled
+from synth.conformed.all_angles import Allowed, layers, never_singular, orders_with_opposites, over_angles, sampled
 from synth.conformed.behaviours import link_arcs
 from synth.conformed.outward import arc_sets, joint_rates, outward_rates, sign_of_sum
 from synth.conformed.rates import ConformedChain, first_order, loops_of_chain, signed_cycles

@@ -12,10 +12,8 @@ from shapely.geometry import Point, Polygon
 from graphs.errors import UnsolvableError
 from synth.drawing.scene import shapes
 from synth.drawing.sphere import CCW, CW, NEITHER, draw_hoop, draw_map, hammer, hammer_inverse, spread
-from synth.guidance.dyads import dyads_of_three
-from synth.guidance.four import centre_axes
-from synth.guidance.hoop_method import hoop
-from synth.guidance.order import order_verdicts
+from synth.guidance.dyads import centre_axes, dyads_of_three
+from synth.guidance.order import hoop, order_verdicts
 from synth.guidance.orientations import read_orientations
 from synth.guidance.synthesis import guiding_dyads
 

@@ -13,8 +13,7 @@ from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import linkage_of_sheet
 from synth.motion.singular.second_order import quadrics_of, rates_near
 from synth.motion.walk.step import Allowance
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import fan, miura
 
 
 def branches(sheet):

@@ -19,10 +19,8 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet, moved
 from synth.motion.singular.sampling import followed, general_rates, same_part
 from synth.motion.singular.second_order import all_quadrics, largest_only, local_forms, rates_at, spaces_within
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import map_sheet, miura
-from synth.patterns.creases.tubes import kresling, miura_tube
-from synth.patterns.goods.pop_ups import box_pop_up
+from synth.patterns.creases import fan, kresling, map_sheet, miura, miura_tube
+from synth.patterns.goods import box_pop_up
 
 
 def linkage(sheet):

@@ -10,8 +10,7 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
 from synth.motion.marked import marked_way
 from synth.motion.singular.second_order import rates_at
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import fan, miura
 from synth.verdict.judged import mobility
 
 

@@ -11,11 +11,9 @@ from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.formats import read, read_linkage, write
 from graphs.loops.loop import Centre
 from graphs.mechanism.surfaces import Cylinder, SurfaceLinkage
-from synth.surfaces.common import common_surfaces
-from synth.surfaces.cylinder import chords, joint_coordinates, map_to_cylinders
-from synth.surfaces.linkages import by_sizes, map_linkage, sizes_on
-from synth.surfaces.several_loops import link_pairs
-from synth.surfaces.supplementary import supplementary_linkages
+from synth.surfaces.circuit import link_pairs
+from synth.surfaces.linkages import by_sizes, common_surfaces, map_linkage, sizes_on, supplementary_linkages
+from synth.surfaces.loop_maps import chords, joint_coordinates, map_to_cylinders
 
 
 def lengths_of(chain, places, radius):

@@ -8,7 +8,7 @@ from synth.folding.configuration import configuration_of_sheet
 from synth.folding.motion import fold
 from synth.motion.linkage import link_motions
 from synth.moving.made import configuration_of
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import miura
 from synth.viewer.linkage import centres_of
 
 

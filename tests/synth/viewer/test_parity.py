@@ -17,7 +17,7 @@ from graphs.tolerances import EPSILON, Tolerances
 from synth.folding.collisions import Panels
 from synth.motion.closure import ClosureEquations
 from synth.motion.path import driven_path
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import miura
 from synth.viewer.shown import MovingLinkage, shown_of
 
 SAME_RESIDUAL, SAME_POSE, SAME_PATH = 1e-12, 1e-9, 1e-9

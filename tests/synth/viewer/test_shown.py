@@ -9,7 +9,7 @@ import pytest
 from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
 from synth.motion.linkage import linkage_of_sheet
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import miura
 from synth.viewer.linkage import factor_order, hull_faces, solver_data
 from synth.viewer.shown import shown_of
 

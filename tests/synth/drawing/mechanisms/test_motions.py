@@ -11,7 +11,7 @@ from graphs.mechanism.sheet import Sheet
 from synth.drawing.mechanisms.creases import motions_by_verdict, motions_on_branch
 from synth.drawing.mechanisms.pictures import draw
 from synth.folding.configuration import configuration_of_sheet
-from synth.verdict.of_motion import verdict_of_motion
+from synth.verdict.judged import verdict_of_motion
 
 CORNERS = ((0, 0), (1, 0), (0.5, 1), (-1, 0), (0.5, -1))
 VERTEX = Sheet(5, ((0, 1), (0, 2), (0, 3), (0, 4)), "MVVV", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), CORNERS)

@@ -11,6 +11,7 @@ from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.solids import HingedSolids
+from graphs.mechanism.surfaces import SurfaceLinkage
 from synth.drawing.catalogue import catalogue_entries, catalogue_pages
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.writing import svg_text

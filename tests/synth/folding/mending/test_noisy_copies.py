@@ -24,10 +24,10 @@ from synth.folding.configuration import configuration_of_sheet
 from synth.folding.mending.nearest import nearby
 from synth.motion.branches import branches_of
 from synth.motion.closure import ClosureEquations
+from synth.motion.configuration import doubt_of_rigid
 from synth.motion.linkage import linkage_of_sheet
-from synth.motion.misfit import doubt_of_rigid
 from synth.motion.path import PathOptions, driven_path
-from synth.patterns.creases.twists import polygon_twist
+from synth.patterns.creases import polygon_twist
 from synth.verdict.judged import verdict_of_motion
 
 QUICK = ["miura 3 x 3", "tapered 3 x 3", "square twist", "map 3 x 3", "huffman 3 x 3", "fish base"]

@@ -11,7 +11,7 @@ from graphs.mechanism.sheet import Sheet
 from synth.folding.configuration import configuration_of_sheet
 from synth.motion.singular.nearest import folded_start
 from synth.motion.singular.second_order import quadrics_of
-from synth.patterns.creases.triangulated import freedoms_of_triangles, resch, waterbomb
+from synth.patterns.creases import freedoms_of_triangles, resch, waterbomb
 from synth.verdict.judged import verdict_of_motion
 
 TESSELLATIONS = {"Resch 5 x 6, 262 panels": resch(5, 6), "waterbomb 4 x 5, 120 panels": waterbomb(4, 5)}

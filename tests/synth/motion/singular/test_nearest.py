@@ -13,8 +13,7 @@ from synth.motion.linkage import linkage_of_sheet
 from synth.motion.singular import nearest
 from synth.motion.singular.nearest import begun_near, spaces_near
 from synth.motion.singular.second_order import largest_only, quadrics_of, rates_at, rates_near, spaces_within
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import map_sheet, miura
+from synth.patterns.creases import fan, map_sheet, miura
 from synth.verdict.judged import mobility
 
 

@@ -18,10 +18,8 @@ from synth.motion.singular.second_order import (
     shared_quadrics,
     spaces_within,
 )
-from synth.patterns.creases.bases import fan
-from synth.patterns.creases.tessellations import miura
-from synth.patterns.creases.tubes import kresling
-from synth.patterns.goods.pop_ups import box_pop_up
+from synth.patterns.creases import fan, kresling, miura
+from synth.patterns.goods import box_pop_up
 
 
 def disturbed(axes, rng):

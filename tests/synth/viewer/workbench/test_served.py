@@ -13,7 +13,7 @@ from graphs.creasing.edits import crease_sheet, lock_crease
 from graphs.errors import SynthedraError
 from graphs.files.formats import read
 from synth.drawing.mechanisms.creases import places_on_page
-from synth.patterns.creases.tessellations import miura
+from synth.patterns.creases import miura
 from synth.viewer.workbench.reading import edited
 
 pytestmark = pytest.mark.web
