@@ -1,5 +1,5 @@
 /**
- * What a site of an atlas says of its types; it is written by synth.atlas.site.
+ * What a site of an atlas says of its types; it is written by synth.atlas.site_pages.
  *
  * @typedef {object} AtlasData
  * @property {string} title

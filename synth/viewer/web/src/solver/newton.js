@@ -1,5 +1,5 @@
 /**
- * Newton's method for closure equations: synth/motion/newton.py.
+ * Newton's method for closure equations: synth/motion/closure.py.
  *
  * The equations may depend on each other and leave freedoms, so each step is the least one in the sense of least
  * squares, by normal equations with a trace of regularisation.

@@ -1,4 +1,4 @@
-/** Where links and vertices are at joint angles: synth/motion/placement.py. */
+/** Where links and vertices are at joint angles: synth/motion/linkage.py. */
 
 /** @import { LinkageData } from "./types.js" */
 
