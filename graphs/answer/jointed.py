@@ -27,6 +27,7 @@ from graphs.joints.revolutes import revolutes_of
 from graphs.loops.loop import Centre, Loop, signed_cycle
 from graphs.mechanism.precision import extent_of, precision_of_axes
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.solids import HingedSolids
 from graphs.rank.exact import independent_cycles
 from graphs.rank.pose import pose_mobility_of_axes
 from graphs.rank.singular_values import spectrum
@@ -35,6 +36,7 @@ from graphs.types import Floats, JointId
 
 __all__ = [
     "Passive",
+    "chain_with_planar_loops",
     "freedoms_by_screws",
     "mobility_of_jointed",
     "passive_freedoms",
@@ -305,6 +307,12 @@ def with_planar_loops(linkage: JointedLinkage) -> JointedLinkage:
         return linkage
     whole = SCGraph(chain.nodes, chain.joints, loops, closing=chain.closing, ground=chain.ground)
     return JointedLinkage(whole, linkage.kinds, linkage.places)
+
+
+def chain_with_planar_loops(solids: HingedSolids) -> SCGraph:
+    """Return the chain of hinged solids; loops without a centre whose axes are parallel get an infinite one."""
+    places = {joint: JointPlace(point, (direction,)) for joint, (point, direction) in solids.axes.items()}
+    return with_planar_loops(JointedLinkage(solids.chain, {}, places)).chain
 
 
 def _is_planar(linkage: JointedLinkage, joints: Sequence[JointId], parallel: float) -> bool:

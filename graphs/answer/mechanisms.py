@@ -12,7 +12,7 @@ from typing import Literal
 import networkx as nx
 import numpy as np
 
-from graphs.answer.jointed import mobility_of_jointed
+from graphs.answer.jointed import chain_with_planar_loops, mobility_of_jointed
 from graphs.answer.report import MobilityAnswer, notes_of_pose
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.convert.table import Mechanism, graph_of
@@ -194,8 +194,12 @@ def mobility(
             why = "revolute joints that replace others share points and directions, generic ones do not"
             answer = answer.with_notes(warnings=[f"no exact rank: {why}"])
         return replace(answer, pose=None) if pose is False else answer
-    sc = graph_of(mechanism)
+    sc = chain_with_planar_loops(mechanism) if isinstance(mechanism, HingedSolids) else graph_of(mechanism)
     answer = MobilityAnswer.of(mobility_report(sc))
+    planar = len(sc.centred_loops) - len(graph_of(mechanism).centred_loops)
+    if planar:
+        counted = numbered(planar, "loop whose axes are parallel counts", "loops whose axes are parallel count")
+        answer = answer.with_notes(warnings=[f"{counted} as planar"])
     if sc.centres_assumed:
         answer = replace(answer, warnings=(_ASSUMED, *answer.warnings))
     if pose is not None and pose is not False:

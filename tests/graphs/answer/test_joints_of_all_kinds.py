@@ -7,10 +7,12 @@ from random_joints import random_jointed
 from graphs.answer.jointed import freedoms_by_screws, report_of_joints, with_planar_loops
 from graphs.answer.mechanisms import mobility
 from graphs.errors import InvariantError
+from graphs.files.formats import read
 from graphs.joints import JointedLinkage, JointKind, JointPlace, placed, points_of
 from graphs.joints.as_points import rods_between_balls
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.solids import HingedSolids
 from graphs.rank.rods import exact_mobility_of_model
 from synth.patterns import generate
 
@@ -150,3 +152,13 @@ def general(linkage, seed):
         axes = np.linalg.qr(random.normal(size=(3, 3)))[0][: kind.axes]
         places[joint] = JointPlace(tuple(random.normal(size=3)), tuple(map(tuple, axes)))
     return JointedLinkage(linkage.chain, linkage.kinds, places)
+
+
+def test_parallel_axes_of_solids_make_planar_loops(data):
+    """Roberts' seven-bar: no loop is declared planar; by M = 3 (7 - 1) - 2 * 9 it is rigid, and it moves."""
+    linkage = read(data / "joints" / "roberts.json")
+    answer = mobility(linkage)
+    assert (answer.mobility, answer.mechanism_class, answer.pose.dof) == (0, "planar", 1)
+    assert "3 loops whose axes are parallel count as planar" in answer.warnings
+    door = HingedSolids(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
+    assert not any("planar" in note for note in mobility(door).warnings)

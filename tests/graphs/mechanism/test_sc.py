@@ -113,5 +113,5 @@ def test_analogues_change_centres_only():
     assert {numeric_mobility(g) for g in (watt, planar, spherical)} == {1}
     assert generalised_form(planar).is_identical(watt)
     assert generalised_form(spherical).is_identical(watt)
-    with pytest.raises(UnsolvableError, match=r"1 spatial loop\(s\) has no planar analogue"):
+    with pytest.raises(UnsolvableError, match=r"a mechanism with 1 spatial loop has no planar analogue"):
         planar_analogue(SCGraph(6, WATT, WATT_LOOPS[:1]))

@@ -111,7 +111,7 @@ def test_formulas():
         (["--chain", "watt", "--count", "--sort", "order"], "--count excludes --sort"),
         (["--chain", "watt", "--count", "--open", 2, "--method", "orbits"], "without filters"),
         (["--chain", "watt", "-o", "x.sqlite", "--resume", "--sort", "order"], "--resume excludes"),
-        (["--chain", "watt", "-o", "x.g6"], "graph6 has no place for angles"),
+        (["--chain", "watt", "-o", "x.g6"], "graph6 cannot hold angles"),
     ],
 )
 def test_candidates_that_cannot_be_listed(words, message, tmp_path, monkeypatch):

@@ -212,7 +212,7 @@ def test_enumerate_addenda(tmp_path, data):
     ("words", "message"),
     [
         (["sc", "--links", 8, "--dof", 1, "--embeddings"], "--method and --embeddings require --count"),
-        (["sc", "--links", 8, "--dof", 1, "--count", "--method", "burnside", "--centres", 2], "Burnside's lemma counts"),
+        (["sc", "--links", 8, "--dof", 1, "--count", "--method", "burnside", "--centres", 2], "Burnside's lemma cannot count"),
         (["sc", "--links", 22, "--dof", 1], "9 at most"),
         (["sc", "--links", 8, "--dof", 1, "--per-chain", "--count"], "synth enumerate chains --planar"),
         (["scd", "--max-degree", 4], "expected --links and --dof, or --of FILE"),

@@ -38,7 +38,7 @@ def test_a_gap_may_be_0_and_not_less(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("option", "told"), [("--thickness", "at most 1e+06"), ("--size", "smaller scale or a size")]
+    ("option", "told"), [("--thickness", "at most 1e+06"), ("--size", "try a smaller --scale, or --size")]
 )
 @pytest.mark.parametrize("source", [FOLD, CONE])
 def test_nothing_larger_than_a_kilometre_is_cut_out(source, option, told, tmp_path):

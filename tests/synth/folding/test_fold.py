@@ -274,7 +274,7 @@ def test_the_command_line(tmp_path, data):
     assert "frames after the first." in run("fold", "--help").stdout
     assert "'99' is no joint" in run("fold", bird, "--drive", "99=1", code=2).stderr
     assert "JOINT=DEGREES" in run("fold", bird, "--drive", "1", code=2).stderr
-    assert "leave all but one out" in run("fold", bird, "--drive", "1=5", "--all", code=2).stderr
+    assert "exclude each other" in run("fold", bird, "--drive", "1=5", "--all", code=2).stderr
     assert "needs coordinates" in run("fold", data / "wiener" / "watt.json", code=2).stderr
 
 

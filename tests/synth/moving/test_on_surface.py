@@ -382,6 +382,6 @@ def test_points_and_axes_at_the_command_line():
             "Usage:" in run("cone", "move", "--steps", "50,110,80", "--lambda", 20, "--at", 1, *bad, code=2).output
         )
     assert (
-        "expected --at"
+        "require --at"
         in run("cone", "move", "--steps", "50,110,80", "--lambda", 20, "--axes", "1,2", code=2).output
     )
