@@ -184,7 +184,7 @@ class Graph6Sink(_FileSink):
 
 
 class JsonLinesSink(_FileSink):
-    """JSON lines: one object a row."""
+    """JSON lines: one object per row."""
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Write a line a row."""

@@ -139,7 +139,7 @@ class Elastic:
             for joint, angle in zip(self.joints, self.pose.angles.tolist(), strict=True)
         )
         summary = f"springs in balance, {how}, energy {self.pose.energy:.6g}"
-        evidence = f"moments of {self.pose.unbalanced:.0e} left, loops close to {self.pose.error:.0e}"
+        evidence = f"residual moments {self.pose.unbalanced:.0e}, loop-closure residual {self.pose.error:.0e}"
         return [f"{summary}   ({evidence})", f"joints: {ends}", *self._load_path(), *self._small_motions()]
 
     def _load_path(self) -> list[Block]:

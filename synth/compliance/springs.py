@@ -163,7 +163,7 @@ def _freedoms_of_regular_pose(linkage: PosedLinkage, closure: ClosureEquations) 
 
 _STEPS = 200
 _LONGEST = 0.2
-"""Of a step, in radians of all joints (root of summed squares)."""
+"""Longest step, in radians (root of the summed squares of all joints)."""
 _BALANCED = 1e-11
 """Slope of the energy at which it is in balance, as part of the largest moment at hand."""
 _SOFT = 1e-6

@@ -245,7 +245,7 @@ class FoldingReach:
 
 
 def fold_to(sheet: Sheet, angle: float) -> FoldingReach:
-    """Fold a flat pattern as it is marked until the crease that moves most has an angle, radians, above 0.
+    """Fold a flat pattern as assigned until the crease that moves most has an angle, radians, above 0.
 
     Tried are, until one leads there: the motion on which creases that look alike fold alike; those that keep less
     of the symmetry; the branch that agrees best with the marks; others that agree with them. On each of these the

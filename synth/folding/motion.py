@@ -102,7 +102,7 @@ def assign_branch(sheet: Sheet | SheetConfiguration, branch: int | str) -> Sheet
     -------
     SheetEdit
         Creases that do not move on the branch are flat (F): panels stay one there, so that the pattern folds on
-        this branch as it is marked. Fold angles keep their size and take the sign of their crease.
+        this branch as assigned. Fold angles keep their size and take the sign of their crease.
 
     Raises
     ------

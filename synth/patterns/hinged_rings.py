@@ -398,7 +398,8 @@ def _off_closing(angles: Floats) -> Floats:
 
 
 _CLOSED_DIGITS = 9
-"""Of a ring that is closed numerically: it moves with any proportions, and these are the same on every machine."""
+"""Decimals of a ring that is closed numerically: it moves with any proportions, and these are the same on every
+machine."""
 
 
 def kaleidocycle(solids: int, tilt: float = 0.9) -> HingedSolids:

@@ -333,7 +333,7 @@ class Symmetry:
 
     def __str__(self) -> str:
         parts = [f"turns by {360 / self.turns:.6g} degrees"] if self.turns > 1 else []
-        parts += [f"{self.mirrors} mirror(s)"] if self.mirrors else []
+        parts += [numbered(self.mirrors, "mirror")] if self.mirrors else []
         return ", ".join(parts)
 
     def condition(self, unknowns: Floats) -> tuple[Floats, Floats]:

@@ -67,7 +67,7 @@ def test_modes_and_ways_to_realise_are_of_types(data):
     bird = read(data / "patterns" / "bird-base.fold")
     with pytest.raises(UnsolvableError, match="requires a type, and the mechanism has coordinates"):
         panels_of_thing(bird, kind="space")
-    with pytest.raises(InvariantError, match="the mode 'S' for <SCDGraph: 4 links.*expected an R/- string"):
+    with pytest.raises(InvariantError, match=r"the mode 'S' for <SCDGraph: 4 links.*expected an R/- string"):
         panels_of_thing(read(FOUR_BAR), mode="S")
     with pytest.raises(InvariantError, match="expected 1 letter S or D"):
         panels_of_thing(ChainString((2, 2)), mode="X")
