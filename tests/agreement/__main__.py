@@ -51,7 +51,7 @@ def _options() -> argparse.Namespace:
     names = [verb.name for verb in VERBS]
     parser.add_argument("--verbs", nargs="+", default=names, choices=names, help="Only these verbs.")
     parser.add_argument("--python-only", action="store_true", help="Do not ask at the command line.")
-    parser.add_argument("--seconds", type=float, default=60.0, help="Leave out what takes longer.")
+    parser.add_argument("--seconds", type=float, default=60.0, help="Leave out what takes more processor time.")
     return parser.parse_args()
 
 

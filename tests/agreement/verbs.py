@@ -14,7 +14,7 @@ from functools import cached_property
 from html.parser import HTMLParser
 from math import degrees, radians
 from pathlib import Path
-from signal import ITIMER_REAL, SIGALRM, setitimer, signal
+from signal import ITIMER_PROF, SIGPROF, setitimer, signal
 from typing import Any
 
 import numpy as np
@@ -231,7 +231,7 @@ def asked(verb: Verb, door: str, subject: Subject, seconds: float | None = None)
                 return Outcome("left out", why="not for such a mechanism")
             return _in_python(verb, subject) if door == "python" else _at_the_command_line(verb, subject)
     except _TimeIsUpError:
-        return Outcome("left out", why=f"more than {seconds:g} seconds")
+        return Outcome("left out", why=f"more than {seconds:g} seconds of processor time")
     except SynthedraError as error:  # what is no mechanism at all has no joints to be driven
         return _refusal(str(error))
 
@@ -314,10 +314,10 @@ def _at_most(seconds: float | None) -> Iterator[None]:
     def end(_number: int, _frame: object) -> None:
         raise _TimeIsUpError
 
-    before = signal(SIGALRM, end)
-    setitimer(ITIMER_REAL, seconds)
+    before = signal(SIGPROF, end)
+    setitimer(ITIMER_PROF, seconds)
     try:
         yield
     finally:
-        setitimer(ITIMER_REAL, 0.0)
-        signal(SIGALRM, before)
+        setitimer(ITIMER_PROF, 0.0)
+        signal(SIGPROF, before)
