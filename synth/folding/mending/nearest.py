@@ -367,12 +367,16 @@ class _Search(_Tried):
         linkage, wanted = self.written.linkage, self.written.wanted
         for zero in zeros_of(self.precision.size, lengths)[:levels]:
             more, complete = near_branches(linkage, zero, wanted, MOST_BRANCHES, self.near)
+            known = len(self.near)
             self.near += more
             self.unsettled |= not complete
             exactly = self._had_by(linkage, range(len(self.near)), follow=False)
             left = [number for number in range(len(self.near)) if number not in exactly]
-            if left or bent:
-                self._mend(left)
+            new = [
+                number for number in left if number >= known
+            ]  # for others another attempt ends as the first did
+            if new or bent:
+                self._mend(new)
             if exactly or self.candidates:
                 break
         within = self._sorted(exactly)
