@@ -37,7 +37,7 @@ DOORS = ("python", "command")
 _TURN = radians(2.0)
 """How far a joint is driven."""
 _FRAMES = 2
-_INDETERMINATE = "the rank of the closure equations at the pose cannot be told"
+_INDETERMINATE = "the rank of the closure equations at this configuration is unclear"
 
 
 @dataclass(frozen=True, slots=True)
