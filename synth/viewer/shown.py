@@ -117,10 +117,7 @@ def ways_of(configuration: Configuration) -> Ways:
 
 def _start_of_branch(number: int, branch: Branch, rates: Floats, closure: ClosureEquations) -> Beginning:
     freedoms, first = branch.freedoms, leading(rates)
-    if freedoms is None:
-        degrees = "degrees of freedom unknown"
-    else:
-        degrees = numbered(freedoms, "degree of freedom", "degrees of freedom")
+    degrees = f"{'unknown' if freedoms is None else freedoms} DOF"
     moving = np.setdiff1d(np.arange(len(rates)), np.array(branch.still, dtype=np.int64))
     # rates that close to first order may be more than the degrees of freedom, which are those to second order
     drivers = (first,) if not freedoms else _driven(closure, branch.sample, moving, first)[1][:freedoms]

@@ -25,7 +25,7 @@ def test_a_pattern_has_its_ways_and_the_marked_one_is_taken(bird_base):
     ways = told["moving"]["ways"]
     assert len(ways["all"]) == 16
     assert ways["singular"]
-    assert ways["all"][ways["taken"]]["told"] == f"branch {ways['taken']}: 5 degrees of freedom, numerical"
+    assert ways["all"][ways["taken"]]["told"] == f"branch {ways['taken']}: 5 DOF, numerical"
     assert told["verdict"] in told["report"]
     assert {"light", "dark"} == set(told["pictures"])
     assert len(told["moving"]["between"]) == len(told["moving"]["joints"]) == 20
