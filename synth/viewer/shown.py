@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from graphs.convert.table import Mechanism
-from graphs.errors import SynthedraError, UnsolvableError, numbered
+from graphs.errors import SynthedraError, UnsolvableError
 from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.printing import plain
