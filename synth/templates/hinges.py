@@ -42,7 +42,7 @@ _THIN = 1e-5
 _SPECK = 1e-3
 """Square millimetres: smaller areas are not parts of a panel."""
 _ROWS_APART, _CUT, _BRIDGE = 2.0, 15.0, 2.5
-"""Of a living hinge, in millimetres: distance of rows, and about the length of a cut and of a bridge."""
+"""Living hinge, in millimetres: distance between rows, and approximate length of a cut and of a bridge."""
 _LETTERS: dict[Kind, str] = {"MOUNTAIN": "M", "VALLEY": "V"}
 
 
