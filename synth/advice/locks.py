@@ -117,7 +117,7 @@ def _rates(linkage: PosedLinkage, branches: Branches, number: int | None) -> Flo
         first = numbered(rates.shape[1], "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
         finite = "an unknown number" if freedoms is None else str(freedoms)
         raise NumericalError(
-            f"no regular configuration was branches: {first} beside {finite} of finite motion, "
+            f"no regular configuration was found: {first} beside {finite} of finite motion, "
             f"at fold angles up to {degrees(float(np.abs(linkage.angles).max())):.3g}°"
         )
     return rates
