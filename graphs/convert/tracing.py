@@ -53,7 +53,7 @@ class Lines:
     """Straight lines of a planar pattern.
 
     `ends`, float[n, 2, 2], are both ends of each line in any unit of length; `letters` has the assignment of each,
-    as in FOLD, and `angles` the fold angle, in degrees as in files.
+    as in FOLD, and `angles` the fold angle, in radians.
     """
 
     ends: Floats
@@ -76,7 +76,7 @@ class Network:
     """Vertices, float[n, 2], and edges with their assignments, after welding and splitting.
 
     A vertex may have no edge. `tolerance` is the length within which ends were welded, and `spread` the root mean
-    square of how far ends of one vertex were apart; fold angles are in degrees as in files. `repairs` has the
+    square of how far ends of one vertex were apart; fold angles are in radians. `repairs` has the
     places of each kind of repair, `gathered`, float[m, 3], where ends were moved to and how far; `dangling` counts
     the lines that ended nowhere.
     """

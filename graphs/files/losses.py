@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Hashable
 from dataclasses import dataclass
-from math import isclose
+from math import isclose, pi
 from typing import Any
 
 from graphs.convert.table import Mechanism, to_sc
@@ -221,7 +221,7 @@ def _is_informative(letter: str, angle: float) -> bool:
 def _by_opacity(letter: str, angle: float) -> bool:
     """Return whether the colour and the opacity of a line give its fold angle."""
     signed = {"M": -abs(angle), "V": abs(angle)}
-    return letter in signed and abs(angle) <= 180 and isclose(angle, signed[letter])
+    return letter in signed and abs(angle) <= pi and isclose(angle, signed[letter])
 
 
 def _letters(assignments: str, letter: str, kind: str, becomes: str) -> Lost:

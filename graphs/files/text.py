@@ -10,7 +10,7 @@ import os
 import stat
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from math import isfinite
+from math import degrees, inf, isfinite, nextafter, radians
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
@@ -18,7 +18,7 @@ from graphs.errors import FileError, InvariantError, OpenError, shown
 from graphs.files.atomic import reason_of
 from graphs.limits import how_to_raise, most
 
-__all__ = ["Checker", "json_text", "load_json", "read_text"]
+__all__ = ["Checker", "in_degrees", "json_text", "load_json", "read_text"]
 
 
 def read_text(path: Path) -> str:
@@ -121,6 +121,21 @@ def json_text(document: Mapping[str, Any]) -> str:
         inner = ",\n".join("    " + item for item in items)
         rows.append(f"  {compact(key)}: {brackets[0]}\n{inner}\n  {brackets[1]}")
     return "{\n" + ",\n".join(rows) + "\n}\n"
+
+
+def in_degrees(angle: float) -> float:
+    """Return an angle in degrees, for a file: the number that reading makes this angle of, where there is one.
+
+    ``degrees(radians(x))`` differs from x in the last bit for one number in nine. Of two numbers that give the
+    same angle, the one with at most 15 digits is taken: it is what a file had.
+
+    >>> from math import degrees, radians
+    >>> degrees(radians(29.0)), in_degrees(radians(29.0))
+    (29.000000000000004, 29.0)
+    """
+    near = degrees(angle)
+    candidates = (float(f"{near:.15g}"), near, nextafter(near, -inf), nextafter(near, inf))
+    return next((number for number in candidates if radians(number) == angle), near)
 
 
 T = TypeVar("T")

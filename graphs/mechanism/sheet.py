@@ -183,7 +183,7 @@ class Sheet:
     repairs : tuple of str
         What was repaired on reading.
     fold_angles : tuple of float or None, optional
-        One for each edge, in degrees as in files; None where an edge has none.
+        One for each edge, in radians; None where an edge has none.
     spread : float, optional
         Mean distance of points that were made one vertex, in the length unit of the coordinates.
     precision : WrittenPrecision, optional

@@ -10,7 +10,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
-from math import degrees
 
 import networkx as nx
 import numpy as np
@@ -208,7 +207,7 @@ class SheetConfiguration(Configuration):
         there = self.placed(angles[None]).points[0] if points is None else points
         column = {joint: place for place, joint in enumerate(self.joints)}
         edges = range(len(self.sheet.edges))
-        turned = tuple(degrees(float(angles[column[edge]])) if edge in column else None for edge in edges)
+        turned = tuple(float(angles[column[edge]]) if edge in column else None for edge in edges)
         return replace(self.sheet, coordinates=tuple(map(tuple, there.tolist())), fold_angles=turned, frames=None)
 
     def passed(self, path: Path, points: Floats, driver: int) -> tuple[Path, tuple[int, ...]]:

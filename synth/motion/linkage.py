@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import radians
 
 import networkx as nx
 import numpy as np
@@ -298,7 +297,7 @@ def _marks(sheet: Sheet) -> dict[tuple[int, int], float]:
     for number, (a, b) in enumerate(sheet.edges):
         given = None if sheet.fold_angles is None else sheet.fold_angles[number]
         letter = {"V": 1.0, "M": -1.0}.get(sheet.assignments[number], 0.0)
-        marks[min(a, b), max(a, b)] = radians(given) if given else letter
+        marks[min(a, b), max(a, b)] = given or letter
     return marks
 
 

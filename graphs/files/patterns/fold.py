@@ -11,10 +11,10 @@ frame (0) or an earlier or later one.
 from __future__ import annotations
 
 import json
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
-from math import isclose
+from math import isclose, radians
 from pathlib import Path
 from typing import Any, cast
 
@@ -22,7 +22,7 @@ import numpy as np
 
 from graphs.convert.faces import creases_on_no_face, joins_faces, traced_anew, with_simple_faces
 from graphs.errors import FileError, numbered
-from graphs.files.text import Checker, json_text, load_json
+from graphs.files.text import Checker, in_degrees, json_text, load_json
 from graphs.limits import most
 from graphs.mechanism.precision import flattened, written_by
 from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, WrittenPrecision
@@ -320,7 +320,7 @@ def fold_text(sheet: Sheet) -> str:
     document["edges_vertices"] = [list(edge) for edge in sheet.edges]
     document["edges_assignment"] = list(sheet.assignments)
     if sheet.fold_angles is not None:
-        document["edges_foldAngle"] = list(sheet.fold_angles)
+        document["edges_foldAngle"] = _in_degrees(sheet.fold_angles)
     document["faces_vertices"] = [list(face) for face in sheet.faces]
     return json_text(document)
 
@@ -402,7 +402,11 @@ def _fold_angles(value: dict[str, Any], edges: int, check: Checker) -> tuple[flo
         for i, x in enumerate(listed):
             if x is not None:
                 check.number(x, f"edges_foldAngle[{i}]")
-    return tuple(None if x is None else float(x) for x in listed)
+    return tuple(None if x is None else radians(x) for x in listed)
+
+
+def _in_degrees(angles: Iterable[float | None]) -> list[float | None]:
+    return [None if angle is None else in_degrees(angle) for angle in angles]
 
 
 def fold_text_of_poses(sheet: Sheet, poses: Sequence[Sheet]) -> str:
@@ -420,7 +424,7 @@ def fold_text_of_poses(sheet: Sheet, poses: Sequence[Sheet]) -> str:
             "frame_parent": 0,
             "frame_inherit": True,
             "vertices_coords": [list(place) for place in pose.coordinates or ()],
-            **({} if pose.fold_angles is None else {"edges_foldAngle": list(pose.fold_angles)}),
+            **({} if pose.fold_angles is None else {"edges_foldAngle": _in_degrees(pose.fold_angles)}),
         }
         for number, pose in enumerate(poses)
     ]

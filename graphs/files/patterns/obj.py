@@ -7,14 +7,14 @@ of the edge between two vertices (numbered from 1) and, if known, its fold angle
 from __future__ import annotations
 
 import re
-from math import isfinite
+from math import isfinite, radians
 from pathlib import Path
 
 import numpy as np
 
 from graphs.convert.faces import with_simple_faces
 from graphs.errors import FileError, UnsolvableError, shown
-from graphs.files.text import Checker, read_text
+from graphs.files.text import Checker, in_degrees, read_text
 from graphs.mechanism.precision import written_by
 from graphs.mechanism.sheet import Sheet
 
@@ -35,7 +35,7 @@ def sheet_from_obj(path: Path) -> Sheet:
     for number, line in enumerate(read_text(path).splitlines(), start=1):
         if crease := _CREASE.fullmatch(line.strip()):
             a, b, letter, angle = crease.groups()
-            edges[int(a) - 1, int(b) - 1] = letter, None if angle is None else float(angle)
+            edges[int(a) - 1, int(b) - 1] = letter, None if angle is None else radians(float(angle))
             if angle is not None and not isfinite(float(angle)):
                 raise FileError(path, f"line {number}", shown(line.strip()), "a fold angle in degrees")
         words = line.split("#", 1)[0].split()
@@ -80,7 +80,7 @@ def obj_text(sheet: Sheet) -> str:
     rows = ["v " + " ".join(repr(x) for x in (*place, 0.0)[:3]) for place in sheet.coordinates]
     angles = sheet.fold_angles or (None,) * len(sheet.edges)
     for (a, b), letter, angle in zip(sheet.edges, sheet.assignments, angles, strict=True):
-        rows.append(f"#e {a + 1} {b + 1} {letter}" + ("" if angle is None else f" {angle!r}"))
+        rows.append(f"#e {a + 1} {b + 1} {letter}" + ("" if angle is None else f" {in_degrees(angle)!r}"))
     rows += ["f " + " ".join(str(v + 1) for v in face) for face in sheet.faces]
     return "\n".join(rows) + "\n"
 

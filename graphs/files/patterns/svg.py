@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from io import BytesIO
 from itertools import pairwise
-from math import hypot, isfinite, sqrt
+from math import hypot, isfinite, pi, radians, sqrt
 from pathlib import Path
 from typing import Any, NamedTuple
 from xml.etree import ElementTree
@@ -33,7 +33,7 @@ from graphs.files.patterns.legend import (
     rgb_of_css,
 )
 from graphs.files.patterns.lines import traced_sheet
-from graphs.files.text import Checker, read_text
+from graphs.files.text import Checker, in_degrees, read_text
 from graphs.limits import how_to_raise, most
 from graphs.mechanism.precision import digits_of, flat_places
 from graphs.mechanism.sheet import Sheet, WrittenPrecision, sides_of_face, with_all_edges
@@ -392,10 +392,10 @@ def _opacity(shape: Any) -> float:
 
 
 def _fold_angle(letter: str, opacity: float) -> float | None:
-    """Return the fold angle in degrees that a stroke's opacity stands for: valleys up, mountains down."""
+    """Return the fold angle that a stroke's opacity stands for: valleys up, mountains down."""
     if letter not in "MV":
         return None
-    return round((180 if letter == "V" else -180) * min(max(opacity, 0.0), 1.0), _DECIMALS) + 0.0
+    return radians(round((180 if letter == "V" else -180) * min(max(opacity, 0.0), 1.0), _DECIMALS) + 0.0)
 
 
 def svg_text(sheet: Sheet) -> str:
@@ -421,8 +421,8 @@ def svg_text(sheet: Sheet) -> str:
         red, green, blue = COLOURS["F" if letter == "J" else letter]
         ends = [(places[v][0] - left, high - places[v][1]) for v in (a, b)]
         opacity = ""
-        if angle is not None and letter in "MV" and abs(angle) < 180:
-            opacity = f' stroke-opacity="{abs(angle) / 180!r}"'
+        if angle is not None and letter in "MV" and abs(angle) < pi:
+            opacity = f' stroke-opacity="{abs(in_degrees(angle)) / 180!r}"'
         rows.append(
             f'<line x1="{ends[0][0]!r}" y1="{ends[0][1]!r}" x2="{ends[1][0]!r}" y2="{ends[1][1]!r}" '
             f'stroke="#{red:02x}{green:02x}{blue:02x}"{opacity}/>'

@@ -1,6 +1,7 @@
 """FOLD: frames, inheritance, old names, nulls, angles; writing what other programs read."""
 
 import json
+from math import radians
 
 import pytest
 
@@ -55,7 +56,7 @@ def test_frames_inherit(tmp_path):
 def test_old_names_and_nulls_are_read(tmp_path):
     old = {k: v for k, v in SQUARE.items() if k != "edges_foldAngle"} | {"edges_foldAngles": [None, 0, 0, 0, 45]}
     found = sheet(old | {"file_frames": None, "edges_assignment": ["B", None, "B", "B", "M"]}, tmp_path)
-    assert found.fold_angles == (None, 0, 0, 0, 45)
+    assert found.fold_angles == (None, 0, 0, 0, radians(45))
     assert found.assignments == "BUBBM"
     assert found.repairs == (
         "old key edges_foldAngles read as edges_foldAngle",
@@ -85,7 +86,7 @@ def test_svg_is_written_in_origami_colours(tmp_path):
     assert 'stroke="#ff0000" stroke-opacity="0.5"' in text
     back = read(tmp_path / "a.svg")
     assert sorted(back.assignments) == sorted(found.assignments)
-    assert [x for x in back.fold_angles if x is not None] == [-90]
+    assert [x for x in back.fold_angles if x is not None] == [radians(-90)]
     assert len(mechanism_of_sheet(back).sc.joints) == 1
 
 

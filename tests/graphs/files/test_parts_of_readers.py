@@ -3,6 +3,7 @@
 from collections import Counter
 from dataclasses import replace
 from json import loads
+from math import pi
 from pathlib import Path
 
 import numpy as np
@@ -133,7 +134,7 @@ def test_what_files_lose():
     assert losses.lost_as_json(kite) == ("the title", "coordinates of 3 vertices", "the shape of 1 face")
     assert losses.lost_as_fold(SCGraph(["A", "B"], [("A", "B")])) == ("names of 2 links",)
     bounds = "which lines bound which of 1 face"
-    cut = Sheet(3, ((0, 1), (1, 2)), "CU", ((0, 1, 2),), fold_angles=(None, 90.0))
+    cut = Sheet(3, ((0, 1), (1, 2)), "CU", ((0, 1, 2),), fold_angles=(None, pi / 2))
     lost = ("1 cut: as borders", "1 unassigned crease: as valleys", "1 fold angle", bounds)
     assert losses.lost_as_cp(cut, cut) == lost
     joined = replace(cut, assignments="JM")

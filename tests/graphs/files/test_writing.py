@@ -3,6 +3,7 @@
 import json
 import os
 from dataclasses import replace
+from math import pi, radians
 
 import pytest
 
@@ -11,6 +12,7 @@ from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.atomic import FolderBeside, check_new_folder, check_place
 from graphs.files.formats import READERS, WRITERS, mechanism_of_id, read, write
 from graphs.files.losses import change_of_type
+from graphs.files.text import in_degrees
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet, with_all_edges
@@ -56,7 +58,7 @@ def test_types_differ_by_their_centres_though_all_numbers_agree():
 
 def test_a_sheet_tells_what_each_format_loses(tmp_path):
     edges = ((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4))
-    sheet = Sheet(5, edges, "BBBBCJUM", FAN, PLACES, "Fan", fold_angles=(*(None,) * 7, 90.0))
+    sheet = Sheet(5, edges, "BBBBCJUM", FAN, PLACES, "Fan", fold_angles=(*(None,) * 7, pi / 2))
     bounds = "which lines bound which of 4 faces"
     assert write(sheet, tmp_path / "a.fold") == ()
     assert write(sheet, tmp_path / "a.obj") == ("the title",)
@@ -82,7 +84,7 @@ def test_faces_without_a_list_of_edges_are_written_whole(suffix, tmp_path):
 
 
 def test_edges_that_are_added_have_the_ids_of_their_joints():
-    sheet = Sheet(5, ((4, 2), (0, 1)), "MB", FAN, PLACES, fold_angles=(30.0, None))
+    sheet = Sheet(5, ((4, 2), (0, 1)), "MB", FAN, PLACES, fold_angles=(0.5, None))
     whole = with_all_edges(sheet)
     hinges = mechanism_of_sheet(sheet).hinges
     assert {joint: frozenset(whole.edges[joint]) for joint in hinges} == {
@@ -157,10 +159,29 @@ def test_fold_keeps_the_precision_of_a_traced_pattern(tmp_path):
 
 @pytest.mark.parametrize("angle", [1e-05, -12345.678, 2.5e-300, 1e22, -180.0, 0.1 + 0.2])
 def test_fold_angles_of_any_size_survive_in_obj(angle, tmp_path):
-    sheet = Sheet(5, ((0, 4), (1, 4)), "MV", FAN, PLACES, fold_angles=(angle, None))
+    sheet = Sheet(5, ((0, 4), (1, 4)), "MV", FAN, PLACES, fold_angles=(radians(angle), None))
     assert write(sheet, tmp_path / "a.obj") == ()
     again = read(tmp_path / "a.obj")
-    assert (again.assignments, again.fold_angles) == ("MV", (angle, None))
+    assert (again.assignments, again.fold_angles) == ("MV", (radians(angle), None))
+    assert f"#e 1 5 M {angle!r}" in (tmp_path / "a.obj").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("suffix", [".fold", ".obj"])
+def test_degrees_of_files_are_written_again_as_they_were(suffix, tmp_path):
+    listed = [*range(-360, 361), *(k / 100 for k in range(-1817, 1817, 3)), 179.99999999999997, 123.456789012345]
+    ends = tuple((0, k + 1) for k in range(len(listed)))
+    places = tuple((float(k), float(k * k)) for k in range(len(listed) + 1))
+    angles = tuple(map(radians, listed))
+    sheet = Sheet(len(places), ends, "B" * len(listed), ((0, 1, 2),), places, fold_angles=angles)
+    write(sheet, tmp_path / f"a{suffix}")
+    assert [in_degrees(angle) for angle in angles] == listed
+    again = read(tmp_path / f"a{suffix}")
+    assert (
+        dict(zip(again.edges, again.fold_angles, strict=True)).items()
+        >= dict(zip(ends, angles, strict=True)).items()
+    )
+    write(again, tmp_path / f"b{suffix}")
+    assert (tmp_path / f"a{suffix}").read_bytes() == (tmp_path / f"b{suffix}").read_bytes()
 
 
 def test_a_fold_angle_that_is_not_finite_is_refused_in_obj(tmp_path):
@@ -174,7 +195,7 @@ def test_a_fold_angle_that_is_not_finite_is_refused_in_obj(tmp_path):
 def test_fold_angles_keep_their_digits_in_svg(angle, tmp_path):
     letters = "BBBBMVMV"
     edges = ((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4))
-    angles = (*(None,) * 4, -angle, angle, -180.0, 180.0)
+    angles = (*(None,) * 4, -radians(angle), radians(angle), -pi, pi)
     sheet = Sheet(5, edges, letters, FAN, PLACES, fold_angles=angles)
     assert not any("fold angle" in line for line in write(sheet, tmp_path / "a.svg"))
     again = read(tmp_path / "a.svg")
@@ -227,7 +248,7 @@ def test_what_another_frame_or_title_holds_is_told_too(tmp_path):
 
 
 def test_a_pattern_that_is_held_whole_loses_nothing(tmp_path):
-    write(Sheet(5, ((0, 4),), "M", FAN, PLACES, "Fan", fold_angles=(30.0,), spread=1e-6), tmp_path / "a.fold")
+    write(Sheet(5, ((0, 4),), "M", FAN, PLACES, "Fan", fold_angles=(0.5,), spread=1e-6), tmp_path / "a.fold")
     assert write(read(tmp_path / "a.fold"), tmp_path / "b.fold") == ()
     assert (tmp_path / "a.fold").read_bytes() == (tmp_path / "b.fold").read_bytes()
 

@@ -43,7 +43,7 @@ def test_patterns_fold_to_an_angle_with_rigid_panels(name, parameters, goal):
     letters = {"M": -1.0, "V": 1.0}
     last = reached.folding.frames()[-1]
     for letter, angle in zip(last.assignments, last.fold_angles, strict=True):
-        assert letter not in letters or letters[letter] * angle > 0.1
+        assert letter not in letters or letters[letter] * angle > radians(0.1)
     before, after = (np.array(sheet.coordinates) for sheet in (flat, last))
     for face in flat.faces:
         sides = [
@@ -68,8 +68,8 @@ def test_yoshimuras_pattern_rolls_up_with_one_angle_for_all_mountains(rows, colu
     angles = {letter: [] for letter in "MV"}
     for letter, angle in zip(sheet.assignments, sheet.fold_angles, strict=True):
         angles.get(letter, []).append(angle)
-    np.testing.assert_allclose(angles["M"], -80, atol=1e-8)
-    np.testing.assert_allclose(angles["V"], degrees(line_crease(radians(80), np.arctan2(0.6, 0.5))), atol=1e-8)
+    np.testing.assert_allclose(angles["M"], -radians(80), atol=1e-10)
+    np.testing.assert_allclose(angles["V"], line_crease(radians(80), np.arctan2(0.6, 0.5)), atol=1e-10)
 
 
 def test_the_preliminary_base_keeps_its_open_diagonal_nearly_flat():

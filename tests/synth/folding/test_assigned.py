@@ -121,10 +121,10 @@ def test_assigned_as_it_is_marked_it_stays_so(miura):
 
 def test_fold_angles_take_the_sign_of_their_crease(miura):
     _, at = miura
-    angles = tuple(None if letter == "B" else 120.0 for letter in at.drawn.assignments)
+    angles = tuple(None if letter == "B" else 2.0 for letter in at.drawn.assignments)
     for number in range(2):
         after = assign_branch(replace(at.drawn, fold_angles=angles), number).sheet
-        turned = {"M": -120.0, "V": 120.0, "F": 0.0, "B": None}
+        turned = {"M": -2.0, "V": 2.0, "F": 0.0, "B": None}
         assert after.fold_angles == tuple(turned[letter] for letter in after.assignments)
 
 

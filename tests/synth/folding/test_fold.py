@@ -91,9 +91,7 @@ def test_panels_stay_rigid(data):
     column = {joint: place for place, joint in enumerate(folded.joints)}
     again = linkage_of_sheet(last)
     assert again.angles == pytest.approx(folded.path.angles[-1], abs=1e-9)
-    assert last.fold_angles[folded.joints[0]] == pytest.approx(
-        np.degrees(folded.path.angles[-1][column[folded.joints[0]]])
-    )
+    assert last.fold_angles[folded.joints[0]] == pytest.approx(folded.path.angles[-1][column[folded.joints[0]]])
 
 
 def test_signs_of_the_file_choose_the_branch():
@@ -250,7 +248,7 @@ def test_files_hold_every_pose(tmp_path):
     assert sheet.frames.others == 4
     pose = sheet.frames.frame(4)
     np.testing.assert_allclose(pose.coordinates, folded.places[-1], atol=1e-12)
-    assert pose.fold_angles[1] == pytest.approx(90)
+    assert pose.fold_angles[1] == pytest.approx(np.pi / 2)
     assert synth.mobility(sheet, pose=4).pose.dof == 1
     assert [p.name for p in write_motion(folded, tmp_path / "f.obj")] == [f"f-{k:03d}.obj" for k in range(4)]
     assert len(list(read_all(tmp_path / "f-003.obj"))) == 1

@@ -59,7 +59,7 @@ def test_the_beak_folds_as_its_vertex_says():
     folded = synth.generate("beaked-box", fold=radians(50), angle=angle).mechanism
     turns = {frozenset(edge): turn for edge, turn in zip(folded.edges, folded.fold_angles, strict=True) if turn}
     (tip,) = (v for v in range(folded.vertices) if sum(v in edge for edge in turns) == 4)
-    at = [radians(turn) for edge, turn in turns.items() if tip in edge]
+    at = [turn for edge, turn in turns.items() if tip in edge]
     assert len(at) == 4
     sizes = sorted(abs(turn) for turn in at)
     # lateral creases l, both creases along the line c: tan(l / 2) cos(a) = tan(c / 2) up to which pair is alike
