@@ -78,11 +78,16 @@ def verdict_of_large(configuration: Configuration, generic: int | None = None) -
 
 
 def _unmoved_of_large(configuration: Configuration, rigid: bool, generic: int | None) -> Verdict:
-    """Return the verdict where no motion was seen: rigid, if that is proved and coordinates are exact."""
+    """Return the verdict where no motion was seen: rigid, if that is proved and coordinates are exact.
+
+    No mechanism nearby is looked for in so large a sheet, so that one remains possible where the digits alone say
+    that the coordinates are exact.
+    """
     written = AsWritten(0, "proved") if rigid else None
     settled = rigid and configuration.exact
     freedoms = 0 if settled else None
-    certainty: Certainty = "proved" if settled else "not known"
+    by_digits = isinstance(configuration, SheetConfiguration) and configuration.precision.evidence == BY_DIGITS
+    certainty: Certainty = ("numerical" if by_digits else "proved") if settled else "not known"
     findings = MotionFindings(configuration, (), None, rigid, generic, (), None, written)
     text = text_of_motion(findings, freedoms, certainty)
     stiff = tuple(configuration.linkage.graph.joints) if settled else ()
