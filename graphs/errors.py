@@ -153,6 +153,8 @@ class StoreError(SynthedraError):
 def check_argument(verb: str, value: object, kinds: type | UnionType) -> None:
     """Refuse an argument of a function of ``synth`` that is not of the kinds it takes, and say how to make one.
 
+    The functions of the face read paths themselves (`graphs.files.accepted`); others say that they do not.
+
     >>> from graphs.mechanism.sheet import Sheet
     >>> check_argument("fold", "a.fold", Sheet)
     Traceback (most recent call last):

@@ -2,9 +2,9 @@ from enumerate.chains.jobs import chains as chains, count_chains as count_chains
 from enumerate.sc.jobs import count_sc_graphs as count_sc_graphs, sc_graphs as sc_graphs
 from enumerate.scd.jobs import count_scd_graphs as count_scd_graphs, scd_graphs as scd_graphs
 from enumerate.strings.panel_strings import strings as strings
+from graphs.answer.conversion import convert as convert
 from graphs.answer.identity import identify as identify
 from graphs.answer.reconstruction import reconstruct as reconstruct
-from graphs.convert.table import convert as convert
 from graphs.errors import (
     FileError as FileError,
     InvariantError as InvariantError,

@@ -1,5 +1,6 @@
-"""The functions of ``synth`` given a name, a number or nothing where they take a mechanism."""
+"""The functions of ``synth`` given a path, an id, a number or nothing where they take a mechanism."""
 
+from inspect import signature
 from pathlib import Path
 
 import pytest
@@ -7,35 +8,41 @@ import pytest
 import synth
 
 VERBS = {
-    "mobility": (), "identify": (), "reconstruct": (), "reduce": (), "convert": ("sc",), "write": ("a.json",), "draw": (),
-    "fold": (), "move": (), "positions": ({},), "explain": (), "states": (), "advise": (1,), "realise": (),
-    "realise_on_cone": (), "map_linkage": (),
+    "mobility": {}, "identify": {}, "reconstruct": {}, "reduce": {}, "convert": {"kind": "sc"}, "write": {"path": "a.json"},
+    "draw": {}, "fold": {}, "move": {}, "positions": {"drive": {}}, "explain": {}, "states": {}, "advise": {"freedoms": 1},
+    "realise": {}, "realise_on_cone": {}, "map_linkage": {},
 }  # fmt: skip
 """The functions that take a mechanism, and what else they need."""
 
 
 @pytest.mark.parametrize("verb", VERBS)
-@pytest.mark.parametrize("name", ["k1:Cr", "path.fold", Path("path.fold")])
-def test_a_name_is_to_be_read_first(verb, name):
-    with pytest.raises(TypeError) as refused:
-        getattr(synth, verb)(name, *VERBS[verb])
-    assert isinstance(refused.value, synth.SynthedraError)
-    assert str(refused.value).startswith(f"{verb}: the ")
-    assert str(refused.value).endswith(f"try synth.{verb}(synth.read({str(name)!r}))")
+@pytest.mark.parametrize("path", ["no such file.fold", Path("no such file.fold")])
+def test_every_verb_reads_a_path(verb, path):
+    assert next(iter(signature(getattr(synth, verb)).parameters)) == "mechanism"
+    with pytest.raises(synth.FileError, match=r"^no such file.fold: no such file; expected a file$"):
+        getattr(synth, verb)(path, **VERBS[verb])
+
+
+def test_the_answer_for_a_path_is_that_for_its_mechanism(data):
+    path = data / "patterns" / "bird-base.fold"
+    sheet = synth.read(path)
+    assert synth.fold(path, frames=2).to_json() == synth.fold(sheet, frames=2).to_json()
+    assert synth.mobility(str(path)).to_json() == synth.mobility(sheet).to_json()
+    assert synth.identify("k1:Cr") == synth.identify(synth.read("k1:Cr"))
 
 
 @pytest.mark.parametrize("verb", VERBS)
 @pytest.mark.parametrize(("thing", "told"), [(None, "None"), (3, "3"), ([1], "an object of type list")])
 def test_what_is_no_mechanism_is_told(verb, thing, told):
     with pytest.raises(synth.SynthedraError) as refused:
-        getattr(synth, verb)(thing, *VERBS[verb])
+        getattr(synth, verb)(thing, **VERBS[verb])
     assert str(refused.value).startswith(f"{verb}: {told}; expected a")
     assert "synth.read" in str(refused.value)
 
 
 def test_a_graph_is_no_sheet():
     with pytest.raises(TypeError, match="fold: an object of type SCGraph; expected a Sheet"):
-        synth.fold(synth.read("k1:Cr"))
+        synth.fold("k1:Cr")
 
 
 def test_a_branch_of_five_thousand_digits_is_no_branch(data):

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import networkx as nx
 
 from graphs.convert.table import Mechanism, graph_of, to_scd
-from graphs.errors import InvariantError, UnsolvableError, check_argument
+from graphs.errors import InvariantError, UnsolvableError
+from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.identity.chains import chain_id
 from graphs.identity.drawings import map_id
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -58,12 +59,12 @@ class Identity(Printed):
         return [*lines, *(f"note: {note}" for note in self.notes)]
 
 
-def identify(mechanism: Mechanism | nx.Graph) -> Identity:
+def identify(mechanism: MechanismLike | nx.Graph) -> Identity:
     """Return the canonical ids of a mechanism.
 
     Parameters
     ----------
-    mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, SurfaceLinkage or networkx.Graph
+    mechanism : Mechanism, str, Path or networkx.Graph
 
     Examples
     --------
@@ -73,7 +74,7 @@ def identify(mechanism: Mechanism | nx.Graph) -> Identity:
     >>> identify(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])).drawing
     'm1:a-b.ac-.b-d.cd-'
     """
-    check_argument("identify", mechanism, Mechanism | nx.Graph)
+    mechanism = mechanism_for("identify", mechanism, Mechanism | nx.Graph)
     chain, no_chain = _id_or_reason(lambda: chain_id(graph_of(mechanism)))
     drawing, no_drawing = _id_or_reason(lambda: map_id(_drawn(mechanism)))
     notes = [f"no id of the chain: {no_chain}"] * (chain is None)

@@ -9,9 +9,9 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from graphs.convert.panels import VertexStep, vertex_steps
-from graphs.convert.table import Mechanism, to_polyhedron, to_scd
+from graphs.convert.table import to_polyhedron, to_scd
 from graphs.count.equations import mobility_of_model
-from graphs.errors import check_argument
+from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.scd import FeatureCounts
 from graphs.printing import Block, Printed, TableBlock, plain
@@ -82,13 +82,14 @@ class Reconstruction(Printed):
         return f"<Reconstruction: {self.model!r}>"
 
 
-def reconstruct(mechanism: Mechanism) -> Reconstruction:
+def reconstruct(mechanism: MechanismLike) -> Reconstruction:
     """Reconstruct the polyhedron model of a mechanism, vertex by vertex.
 
     Parameters
     ----------
-    mechanism : SCDGraph, Sheet of plain panels, or PolyhedronModel that knows its links
-        The coordinates of a sheet go with it.
+    mechanism : Mechanism, str or Path
+        An SCD graph, a sheet of plain panels, or a polyhedron model that knows its links. The coordinates of a
+        sheet go with it.
 
     Raises
     ------
@@ -101,6 +102,6 @@ def reconstruct(mechanism: Mechanism) -> Reconstruction:
     >>> reconstruct(scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")]))
     <Reconstruction: <PolyhedronModel: 4 vertices, 6 rods>>
     """
-    check_argument("reconstruct", mechanism, Mechanism)
+    mechanism = mechanism_for("reconstruct", mechanism)
     scd = to_scd(mechanism)
     return Reconstruction(to_polyhedron(mechanism), tuple(vertex_steps(scd)), scd.counts)

@@ -10,7 +10,6 @@ from graphs.convert.panels import (
 from graphs.convert.table import (
     CONVERSIONS as CONVERSIONS,
     Mechanism as Mechanism,
-    convert as convert,
     to_polyhedron as to_polyhedron,
     to_sc as to_sc,
     to_scd as to_scd,

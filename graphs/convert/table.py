@@ -1,4 +1,4 @@
-"""From any object that a file may hold to any other, by functions or by the names of kinds and forms.
+"""From any object that a file may hold to any other; by the names of kinds and forms: `graphs.answer.convert`.
 
 One function for each target; each says what stands in the way if there is no road. The roads themselves are in
 :mod:`graphs.convert.panels`, :mod:`graphs.mechanism.sheet` and :mod:`graphs.mechanism.vertex_edge`.
@@ -15,7 +15,7 @@ from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.panels import oriented_panels, polyhedron_of, scd_from_panels, scd_of_placed_panels
 from graphs.edit.analogues import generalised_form, planar_analogue, spherical_analogue
-from graphs.errors import InvariantError, UnsolvableError, check_argument, shown
+from graphs.errors import UnsolvableError
 from graphs.joints.linkage import JointedLinkage
 from graphs.joints.revolutes import recognised, revolutes_of
 from graphs.mechanism.polyhedron import PolyhedronModel
@@ -32,7 +32,6 @@ __all__ = [
     "CONVERSIONS",
     "FORMS",
     "Mechanism",
-    "convert",
     "graph_of",
     "to_joints",
     "to_polyhedron",
@@ -299,42 +298,3 @@ def _solids_of_sheet(sheet: Sheet) -> HingedSolids:
 
 FORMS = {"planar": planar_analogue, "spherical": spherical_analogue, "general": generalised_form}
 """Name of a form to the function that changes the centres."""
-
-
-def convert(mechanism: Mechanism, kind: str | None = None, *, form: str | None = None) -> Mechanism:
-    """Convert a mechanism to another kind, or change its centres, or both in this order.
-
-    Parameters
-    ----------
-    mechanism : SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, Sheet, SurfaceLinkage, HingedSolids, ...
-    kind : {"sc", "scd", "polyhedron", "vertex-edge", "sheet", "solids", "joints"}, optional
-        "solids": revolutes with axes, chains of them for joints of other kinds; "joints": such chains recognised
-        as the joints that they stand for.
-    form : {"planar", "spherical", "general"}, optional
-        Planar analogue, spherical analogue, or most general form of the SC graph.
-
-    Raises
-    ------
-    InvariantError
-        If a name is not known.
-    UnsolvableError
-        If there is no road to that kind.
-
-    Examples
-    --------
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
-    >>> convert(fan, "polyhedron")
-    <PolyhedronModel: 5 vertices, 8 rods>
-    >>> convert(fan, "sc", form="planar").loops[0].centre
-    <Centre.INFINITE: 'infinite'>
-    """
-    check_argument("convert", mechanism, Mechanism)
-    for name, what, known in ((kind, "kind", tuple(CONVERSIONS)), (form, "form", tuple(FORMS))):
-        if name is not None and name not in known:
-            raise InvariantError(what, f"the {what} {shown(name)}", "one of " + ", ".join(known))
-    if kind is not None:
-        mechanism = CONVERSIONS[kind](mechanism)
-    if form is None:
-        return mechanism
-    return FORMS[form](graph_of(mechanism))

@@ -220,7 +220,7 @@ def read_linkage(path: str | Path) -> SurfaceLinkage:
 
 
 def write(
-    mechanism: Mechanism,
+    mechanism: Mechanism | str | Path,
     path: str | Path,
     *,
     lossy: bool = False,
@@ -233,7 +233,7 @@ def write(
 
     Parameters
     ----------
-    mechanism : SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph or Sheet
+    mechanism : Mechanism, str or Path
         A sheet written as ``.json`` becomes the SC graph of its mechanism.
     path : str or Path
     lossy : bool, optional
@@ -266,6 +266,7 @@ def write(
     ...     write(four_bar, Path(folder, "four-bar.json")), write(four_bar, Path(folder, "bare.g6"), lossy=True)
     ((), ('1 loop and its centre',))
     """
+    mechanism = read(mechanism) if isinstance(mechanism, str | Path) else mechanism
     check_argument("write", mechanism, Mechanism)
     path = Path(path)
     suffix = path.suffix.lower()

@@ -18,10 +18,11 @@ from typing import Any, NamedTuple
 
 import networkx as nx
 
-from graphs.convert.table import Mechanism, to_sc
+from graphs.convert.table import to_sc
 from graphs.count.report import mobility_report
 from graphs.edit.edits import counts_as_json
-from graphs.errors import InvariantError, check_argument, numbered, shown
+from graphs.errors import InvariantError, numbered, shown
+from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.identity.chains import ColouredGraph, labels_of
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
@@ -310,13 +311,13 @@ class Reduction(Printed):
 
 
 def reduce(
-    mechanism: Mechanism, *, rule: str = "ride-along", fully: bool = False, keep: Iterable[LinkId] = ()
+    mechanism: MechanismLike, *, rule: str = "ride-along", fully: bool = False, keep: Iterable[LinkId] = ()
 ) -> Reduction:
     """Take off ride-alongs (or dyads) until none is left.
 
     Parameters
     ----------
-    mechanism : SCGraph, or anything that has an SC graph
+    mechanism : Mechanism, str or Path
         Its SC graph is reduced.
     rule : {"ride-along", "dyad"}, optional
         ``"ride-along"``: a and b are joined, and the cycle a-u-v-b is a sum of loops of one class.
@@ -355,7 +356,7 @@ def reduce(
     >>> len(reduction.graph), [step.removed for step in reduction.steps]
     (4, [(0, 1)])
     """
-    check_argument("reduce", mechanism, Mechanism)
+    mechanism = mechanism_for("reduce", mechanism)
     if rule not in RULES:
         raise InvariantError("rule", f"the rule {shown(rule)}", "one of " + ", ".join(RULES))
     sc = to_sc(mechanism)

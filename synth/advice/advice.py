@@ -274,7 +274,7 @@ class _Locks(NamedTuple):
 
 
 def advise(
-    thing: Movable,
+    mechanism: Movable,
     freedoms: int,
     *,
     branch: int | str | None = None,
@@ -290,7 +290,7 @@ def advise(
 
     Parameters
     ----------
-    thing : Mechanism
+    mechanism : Mechanism, str, Path or Configuration
         With coordinates. Only panels of a sheet can be creased.
     freedoms : int
         Required degrees of freedom, K. Of M that there are, M - K joints are locked, or K - M diagonals and more
@@ -334,11 +334,11 @@ def advise(
     >>> advice.locks[0].joints, advice.locks[0].weight
     ((1, 3, 4), 3.0)
     """
-    check_argument("advise", thing, Movable)
+    check_argument("advise", mechanism, Movable)
     protected = _Protected(frozenset(joints), frozenset(links), not flaps, dict(weights or {}))
     _check_number("freedoms", freedoms, 0)
     _check_number("limit", limit, 1)
-    at = configuration_of(thing)
+    at = configuration_of(mechanism)
     sheet = at.drawn if isinstance(at, SheetConfiguration) else None
     pose = general_pose(at, branch)
     _check_names(pose, protected)

@@ -12,6 +12,7 @@ import numpy as np
 
 from graphs.creasing.edits import SheetEdit
 from graphs.errors import UnsolvableError, check_argument
+from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.tolerances import DOUBLE
 from graphs.types import JointId
@@ -24,7 +25,7 @@ __all__ = ["assign_branch", "fold"]
 
 
 def fold(
-    sheet: Sheet,
+    mechanism: MechanismLike,
     *,
     drive: Mapping[JointId, float] | None = None,
     along: Mapping[JointId, float] | None = None,
@@ -38,7 +39,7 @@ def fold(
 
     Parameters
     ----------
-    sheet : Sheet
+    mechanism : Sheet, or the path of its file
         With coordinates, flat or folded, and closed loops.
     drive : mapping of joint id to float, optional
         Fold angles, radians, valleys positive. By default the crease that moves most is folded as far as it goes.
@@ -81,7 +82,7 @@ def fold(
     >>> np.degrees(folded.path.angles[-1]).round(2).tolist(), folded.freedoms
     ([-48.19, 90.0, 48.19, 90.0], 1)
     """
-    check_argument("fold", sheet, Sheet)
+    sheet = mechanism_for("fold", mechanism, Sheet)
     at = configuration_of_sheet(sheet, precision=precision)
     return motion_of(at, MotionOptions(drive or {}, along or {}, branch, frames, report), collisions=collisions)
 

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from pathlib import Path
+from typing import Any, TypeAlias
 
 import networkx as nx
 import numpy as np
@@ -15,6 +16,8 @@ import numpy as np
 from graphs.answer.mechanisms import precision_of_steps
 from graphs.convert.table import Mechanism, to_sheet
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.files.accepted import MechanismLike
+from graphs.files.formats import read
 from graphs.geometry import frame_about, lines_meet, unit
 from graphs.joints.linkage import JointedLinkage, JointKind
 from graphs.joints.revolutes import revolutes_of
@@ -207,8 +210,8 @@ def _at(model: PolyhedronModel, vertex: Hashable) -> Floats:
     return np.array(model.coordinates[vertex], dtype=float)
 
 
-Movable = Configuration | PosedLinkage | Mechanism | GuidedFourBar | OnSurface
-"""A configuration, or a mechanism with coordinates."""
+Movable: TypeAlias = Configuration | PosedLinkage | MechanismLike | GuidedFourBar | OnSurface
+"""A configuration, or a mechanism with coordinates, or its file."""
 
 _EXACTLY = Precision(0.0, "exact")
 
@@ -229,7 +232,7 @@ def configuration_of(
 
     Parameters
     ----------
-    mechanism : Sheet, PolyhedronModel, HingedSolids, JointedLinkage, SurfaceLinkage, OnSurface, GuidedFourBar, ...
+    mechanism : Mechanism, str, Path, Configuration, PosedLinkage, OnSurface or GuidedFourBar
         A model that knows its links is a sheet of panels, else its rods are links. A linkage on a surface lies
         there, a guided four-bar takes the first of its orientations. A Configuration is returned as it is.
     orientations : Orientations, optional
@@ -265,6 +268,8 @@ def configuration_of(
     >>> configuration_of(HingedSolids(ring, {joint: (corner, (0, 0, 1)) for joint, corner in enumerate(corners)}))
     <Configuration: <PosedLinkage: 4 links, 4 joints, 1 loops>>
     """
+    if isinstance(mechanism, str | Path):
+        mechanism = read(mechanism)
     if isinstance(mechanism, Configuration):
         return mechanism
     if isinstance(mechanism, PosedLinkage):

@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from graphs.convert.table import Mechanism, to_sc
-from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered
+from graphs.convert.table import to_sc
+from graphs.errors import InvariantError, UnsolvableError, numbered
+from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import Cone, Pair, SurfaceLinkage
@@ -138,7 +139,7 @@ class OnOneCone(Printed):
 
 
 def realise_on_cone(
-    mechanism: Mechanism, *, cone_angle: float = CONE_ANGLE, seed: int = 0, tries: int = 12
+    mechanism: MechanismLike, *, cone_angle: float = CONE_ANGLE, seed: int = 0, tries: int = 12
 ) -> OnOneCone:
     """Lay the joint axes of a type with one centre round a right cone.
 
@@ -172,7 +173,7 @@ def realise_on_cone(
     >>> on_cone.circuits, on_cone.freedoms, len(on_cone.arcs)
     (('open',), 1, 4)
     """
-    check_argument("realise_on_cone", mechanism, Mechanism)
+    mechanism = mechanism_for("realise_on_cone", mechanism)
     _check(cone_angle, seed, tries)
     chain = _about_one_centre(to_sc(mechanism))
     conformed, mobility = ConformedChain.of(chain), exact_mobility(chain).mobility

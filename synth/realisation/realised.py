@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
+from pathlib import Path
 from typing import Any, Literal, get_args, overload
 
 import numpy as np
@@ -15,6 +16,8 @@ import numpy as np
 from enumerate.strings.panel_strings import ChainString
 from graphs.convert.table import Mechanism, to_scd
 from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
+from graphs.files.accepted import MechanismLike
+from graphs.files.formats import read
 from graphs.identity.drawings import map_id
 from graphs.limits import LEAST, MOST
 from graphs.mechanism.scd import SCDGraph
@@ -181,7 +184,7 @@ class Realised(Printed):
 
 @overload
 def realise(
-    mechanism: Mechanism | ChainString,
+    mechanism: MechanismLike | ChainString,
     *,
     kind: Kind = ...,
     size: float = ...,
@@ -196,7 +199,7 @@ def realise(
 
 @overload
 def realise(
-    mechanism: Mechanism,
+    mechanism: MechanismLike,
     *,
     kind: Kind = ...,
     seed: int = ...,
@@ -209,7 +212,7 @@ def realise(
 
 
 def realise(
-    mechanism: Mechanism | ChainString,
+    mechanism: MechanismLike | ChainString,
     *,
     kind: Kind = "sheet",
     size: float = 1.0,
@@ -280,6 +283,8 @@ def realise(
     >>> vertex.sheet, vertex.folds, vertex.mobility
     (<Sheet: 4 faces, 4 creases, 5 vertices, flat>, True, 1)
     """
+    if isinstance(mechanism, str | Path):
+        mechanism = read(mechanism)
     check_argument("realise", mechanism, Mechanism | ChainString)
     _check(kind, size, seed, tries)
     if freedoms is not None:

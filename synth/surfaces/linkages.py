@@ -18,7 +18,8 @@ import networkx as nx
 import numpy as np
 import numpy.typing as npt
 
-from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import Cone, Cylinder, Pair, Surface, SurfaceLinkage, places_of_steps
 from graphs.printing import Block, Printed, TableBlock, plain
@@ -232,12 +233,12 @@ def by_sizes(linkage: SurfaceLinkage) -> SurfaceLinkage:
     return SurfaceLinkage(linkage.chain, angles=sizes)
 
 
-def map_linkage(linkage: SurfaceLinkage, tolerance: float = 1e-7) -> LinkageMap:
+def map_linkage(mechanism: MechanismLike, tolerance: float = 1e-7) -> LinkageMap:
     """Return the surfaces of a linkage: from the sizes of links, or, for steps, its own surface or every one.
 
     Parameters
     ----------
-    linkage : SurfaceLinkage
+    mechanism : SurfaceLinkage, or the path of its file
     tolerance : float, optional
         How well its loops must close together, radians; a loop of less than a turn in proportion.
 
@@ -250,7 +251,7 @@ def map_linkage(linkage: SurfaceLinkage, tolerance: float = 1e-7) -> LinkageMap:
     >>> [family.interval[0] for family in map_linkage(SurfaceLinkage(chain, steps=steps)).families]
     [0.0]
     """
-    check_argument("map_linkage", linkage, SurfaceLinkage)
+    linkage = mechanism_for("map_linkage", mechanism, SurfaceLinkage)
     if linkage.sizes is not None:
         by_lengths = linkage.lengths is not None
         return LinkageMap(linkage, *common_surfaces(linkage.chain, linkage.sizes, tolerance, lengths=by_lengths))

@@ -15,7 +15,8 @@ import numpy as np
 from graphs.answer.mechanisms import mobility as counted, sheet_in_frame
 from graphs.answer.report import MobilityAnswer
 from graphs.convert.table import Mechanism
-from graphs.errors import SynthedraError, UnsolvableError, check_argument
+from graphs.errors import SynthedraError, UnsolvableError
+from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.mechanism.precision import BY_DIGITS, ESTIMATED
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block
@@ -354,7 +355,7 @@ class JudgedMobility(MobilityAnswer):
 
 
 def mobility(
-    mechanism: Configuration | Mechanism | nx.Graph,
+    mechanism: Configuration | MechanismLike | nx.Graph,
     *,
     exact: bool | None = None,
     hinge_flat: bool = False,
@@ -397,7 +398,7 @@ def mobility(
     >>> answer.mobility, answer.pose.dof
     (1, 2)
     """
-    check_argument("mobility", mechanism, Configuration | Mechanism | nx.Graph)
+    mechanism = mechanism_for("mobility", mechanism, Configuration | Mechanism | nx.Graph)
     if precision is not None and isinstance(mechanism, Mechanism):
         mechanism = with_precision(mechanism, precision)
     counted_from = mechanism.given if isinstance(mechanism, Configuration) else mechanism

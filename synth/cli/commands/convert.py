@@ -100,7 +100,7 @@ def convert(
       synth convert stewart.json creases.json --to solids
       synth convert creases.json platform.json --to joints
     """
-    from graphs.convert.table import convert as converted
+    from graphs.answer.conversion import convert as converted
     from graphs.files.formats import write
 
     check_output(target, force=force)

@@ -11,8 +11,9 @@ from typing import Any, TypeAlias
 import networkx as nx
 
 from enumerate.strings.panel_strings import ChainString
-from graphs.convert.table import Mechanism, graph_of, to_polyhedron, to_sc, to_solids
-from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
+from graphs.convert.table import graph_of, to_polyhedron, to_sc, to_solids
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import lies_flat
@@ -39,7 +40,7 @@ from synth.motion.configuration import Configuration
 
 __all__ = ["COLOURINGS", "KINDS", "Drawable", "PictureOptions", "draw"]
 
-Drawable: TypeAlias = Configuration | Mechanism | Orientations | ChainString | OrderOnCircle | nx.Graph
+Drawable: TypeAlias = Configuration | MechanismLike | Orientations | ChainString | OrderOnCircle | nx.Graph
 
 _SMALL = 200.0
 """Width or height, points, below which a chain has smaller joints, without numbers."""
@@ -62,22 +63,43 @@ class PictureOptions:
     caption: str | None = ""
 
 
-def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
+def draw(
+    mechanism: Drawable,
+    kind: str | None = None,
+    *,
+    colour: str = "letters",
+    branch: int | str | None = None,
+    numbers: bool = True,
+    graph: bool = False,
+    box: Box = BOX,
+    caption: str | None = "",
+) -> Scene:
     """Return a picture of a mechanism.
 
     Parameters
     ----------
-    thing : Mechanism, Configuration, Orientations, ChainString, OrderOnCircle or networkx graph
-        A mechanism or its configuration, orientations of a body, an R/- string, an order of joints round a cone,
-        or a plain link-joint graph.
+    mechanism : Mechanism, str, Path, Configuration, Orientations, ChainString, OrderOnCircle or networkx graph
+        A mechanism, its file or its configuration, orientations of a body, an R/- string, an order of joints round
+        a cone, or a plain link-joint graph.
     kind : {"pattern", "marks", "repairs", "folded", "chain", "graph", "model", "solids", "cone", ...}, optional
         One of `KINDS`: a crease pattern in its plane, with the creases whose assignment disagrees with a branch,
         or with repairs made when it was read; a folded sheet in space; links as bodies; links as discs with the
         signs of the centres; vertices and rods; solids in space; a linkage on its circle and surface; the order of
         joints round a cone; the sphere by the order of orientations. By default a sheet is a pattern or folded, as
         its coordinates are; a graph with assumed centres is a chain.
-    **look
-        Fields of `PictureOptions`: ``colour``, ``branch``, ``numbers``, ``graph``, ``box``, ``caption``.
+    colour : {"letters", "verdict", "branch", "centres", "none"}, optional
+        Colouring of a crease pattern.
+    branch : int or str, optional
+        With ``colour="branch"`` or the kind "marks": the number or the signs of a branch. By default the one
+        nearest to the assignment.
+    numbers : bool, optional
+        Label links and joints.
+    graph : bool, optional
+        Draw the SC graph over a crease pattern.
+    box : (float, float), optional
+        Largest width and height, points.
+    caption : str or None, optional
+        The first line below the picture; with None there are none.
 
     Returns
     -------
@@ -89,21 +111,20 @@ def draw(thing: Drawable, kind: str | None = None, **look: Any) -> Scene:
     InvariantError
         If the kind or the colouring is unknown.
     UnsolvableError
-        If the thing has no picture of this kind, or the kind has no colourings.
+        If the mechanism has no picture of this kind, or the kind has no colourings.
 
     Examples
     --------
-    >>> from graphs.files.formats import read
-    >>> [layer.name for layer in draw(read("k1:Cr")).layers]
+    >>> [layer.name for layer in draw("k1:Cr").layers]
     ['links', 'joints', 'labels', 'caption']
     """
-    check_argument("draw", thing, Drawable)
+    thing: object = mechanism_for("draw", mechanism, Drawable)
     if isinstance(thing, Configuration) and not isinstance(thing, SheetConfiguration):
         thing = thing.given
     kind = _suiting(thing) if kind is None else kind
     if kind not in KINDS:
         raise InvariantError("kind", f"unknown kind {shown(kind)}", ", ".join(KINDS))
-    how = PictureOptions(**look)
+    how = PictureOptions(colour, branch, numbers, graph, box, caption)
     branched = how.branch is not None and kind != "marks"
     if kind != "pattern" and (how.colour != "letters" or branched or how.graph):
         raise UnsolvableError(

@@ -1,0 +1,38 @@
+"""What the verbs of ``synth`` take as their first argument: a mechanism, or the file or id that has it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import UnionType
+from typing import TypeAlias, TypeVar, overload
+
+from graphs.convert.table import Mechanism
+from graphs.errors import check_argument
+from graphs.files.formats import read
+
+__all__ = ["MechanismLike", "mechanism_for"]
+
+MechanismLike: TypeAlias = Mechanism | str | Path
+"""A mechanism as `read` returns it, the path of its file, or an id."""
+
+K = TypeVar("K")
+T = TypeVar("T")
+
+
+@overload
+def mechanism_for(verb: str, mechanism: object, kinds: type[K]) -> K: ...
+@overload
+def mechanism_for(verb: str, mechanism: MechanismLike) -> Mechanism: ...
+@overload
+def mechanism_for(verb: str, mechanism: T | str | Path, kinds: UnionType) -> T | Mechanism: ...
+def mechanism_for(verb: str, mechanism: object, kinds: type | UnionType = Mechanism) -> object:
+    """Return the mechanism that a verb was called with, read if it is a path or an id.
+
+    Raise ArgumentError, by the name of the verb, if it is not of the kinds that the verb takes.
+
+    >>> mechanism_for("identify", "k1:Cr")
+    <SCGraph: 4 links, 4 joints>
+    """
+    value = read(mechanism) if isinstance(mechanism, str | Path) else mechanism
+    check_argument(verb, value, kinds)
+    return value
