@@ -35,8 +35,6 @@ from synth.realisation.space import lifted, receded, with_finite_centres
 from synth.realisation.special.search import OTHER_TYPE, SpecialSearch, SpecialWishes, search_special, turns_all
 from synth.realisation.strips import drawn_string, folded_strip, is_strip, strips
 
-__all__ = ["Kind", "NotFoundError", "Realised", "realise"]
-
 Kind = Literal["sheet", "space"]
 
 _TRIES = 12
@@ -61,7 +59,7 @@ Raised = Callable[[Pattern, Floats, np.random.Generator], tuple[Floats, Floats]]
 
 
 @dataclass(frozen=True)
-class Realised(Printed):
+class Realisation(Printed):
     """A type with coordinates.
 
     Attributes
@@ -176,7 +174,7 @@ class Realised(Printed):
         return f"no folding drawing found in {tries}: on each some creases stay flat"
 
     def __repr__(self) -> str:
-        return f"<Realised: {self.kind}, {self.sheet!r}>"
+        return f"<Realisation: {self.kind}, {self.sheet!r}>"
 
 
 @overload
@@ -191,7 +189,7 @@ def realise(
     symmetric: bool = ...,
     mode: str | None = ...,
     freedoms: None = ...,
-) -> Realised: ...
+) -> Realisation: ...
 
 
 @overload
@@ -222,7 +220,7 @@ def realise(
     geometry: str = "",
     every: bool = False,
     all_joints: bool = True,
-) -> Realised | SpecialSearch:
+) -> Realisation | SpecialSearch:
     """Give a type coordinates, or search for realisations with special dimensions that move.
 
     Parameters
@@ -260,7 +258,7 @@ def realise(
 
     Returns
     -------
-    Realised or SpecialSearch
+    Realisation or SpecialSearch
         The second with `freedoms`: the families and the results, possibly none.
 
     Raises
@@ -344,10 +342,10 @@ def _receded(
     return receded(pattern, [pointing for pointing in original.pointings if pointing.infinite], places, random)
 
 
-def _best(task: _Task, sources: Sequence[tuple[Wishes, Iterable[Drawn]]]) -> Realised:
+def _best(task: _Task, sources: Sequence[tuple[Wishes, Iterable[Drawn]]]) -> Realisation:
     """Return the best realisation of the first source of drawings that gives one which folds, or else any."""
     reasons: dict[str, None] = {}
-    first: Realised | None = None
+    first: Realisation | None = None
     for wishes, drawn in sources:
         best = _best_of(task, wishes, drawn, reasons)
         if best is not None and best.folds is not False:
@@ -361,8 +359,8 @@ def _best(task: _Task, sources: Sequence[tuple[Wishes, Iterable[Drawn]]]) -> Rea
     raise NotFoundError(f"no realisation was found in {tries}: {why}")
 
 
-def _best_of(task: _Task, wishes: Wishes, tried: Iterable[Drawn], reasons: dict[str, None]) -> Realised | None:
-    best: Realised | None = None
+def _best_of(task: _Task, wishes: Wishes, tried: Iterable[Drawn], reasons: dict[str, None]) -> Realisation | None:
+    best: Realisation | None = None
     for drawn in tried:
         try:
             realised = replace(_shaped(task, drawn), kept=wishes.kept(task.pattern, drawn.places))
@@ -376,14 +374,14 @@ def _best_of(task: _Task, wishes: Wishes, tried: Iterable[Drawn], reasons: dict[
     return best
 
 
-def _is_better(realised: Realised, other: Realised) -> bool:
+def _is_better(realised: Realisation, other: Realisation) -> bool:
     """Check whether a realisation ranks above another: of those that differ only by rounding neither does."""
     *verdict, quality = realised.rank
     *other_verdict, other_quality = other.rank
     return verdict > other_verdict or (verdict == other_verdict and quality > other_quality + MARGIN)
 
 
-def _shaped(task: _Task, drawn: Drawn) -> Realised:
+def _shaped(task: _Task, drawn: Drawn) -> Realisation:
     """Return the realisation of a drawing; in space the first of good shape, steep ones first, or the best."""
     best = _realised(task, drawn, 1.0)
     for height in _HEIGHTS:
@@ -394,7 +392,7 @@ def _shaped(task: _Task, drawn: Drawn) -> Realised:
     return best
 
 
-def _realised(task: _Task, drawn: Drawn, height: float) -> Realised:
+def _realised(task: _Task, drawn: Drawn, height: float) -> Realisation:
     """Return the realisation of a drawing; refuse one that is of another type when it is read back."""
     sheet = _placed(task, drawn, height)
     if map_id(to_scd(sheet)) != task.code:
@@ -402,7 +400,7 @@ def _realised(task: _Task, drawn: Drawn, height: float) -> Realised:
     at = configuration_of_sheet(sheet)
     at, folds = _folded(at) if task.kind == "sheet" else (at, None)
     pattern = task.pattern
-    return Realised(
+    return Realisation(
         kind=task.kind,
         scd=task.scd,
         configuration=at,
