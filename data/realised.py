@@ -15,7 +15,7 @@ from entries import Entry
 
 from graphs.files.formats import write
 from graphs.mechanism.polyhedron import PolyhedronModel
-from synth.realisation.realised import Realised, realise
+from synth.realisation.realised import Realisation, realise
 
 HERE = Path(__file__).resolve().parent / "realised"
 
@@ -49,7 +49,7 @@ def _is_of_rods(entry: Entry) -> bool:
     return isinstance(made, PolyhedronModel) and not made.links
 
 
-def row(entry: Entry, found: Realised) -> dict[str, object]:
+def row(entry: Entry, found: Realisation) -> dict[str, object]:
     """Return what the index says of a realised mechanism."""
     told = found.to_json()
     return {"file": f"{Path(entry.file).stem}.fold", "of": entry.file} | {

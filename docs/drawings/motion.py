@@ -116,7 +116,7 @@ def positions() -> Scene:
 
 def _circuits(four_bar: HingedSolids, driven: float) -> Scene:
     """Return the angle of joint 2 against that of joint 0, degrees, on all circuits that a driven angle meets."""
-    found = synth.positions(four_bar, {0: radians(driven)})
+    found = synth.positions(four_bar, drive={0: radians(driven)})
     closure = ClosureEquations(configuration_of(four_bar).linkage)
     plot = Plot(34.0, 20.0, 170.0, 150.0, (-180.0, 180.0), (-180.0, 180.0))
     shapes: list[Shape] = [*plot.below((-180, -90, 0, 90, 180), "driven angle, degrees")]

@@ -31,7 +31,7 @@ def mechanism_for(verb: str, mechanism: object, kinds: type | UnionType = Mechan
     Raise ArgumentError, by the name of the verb, if it is not of the kinds that the verb takes.
 
     >>> mechanism_for("identify", "k1:Cr")
-    <SCGraph: 4 links, 4 joints>
+    <SCGraph: 4 links, 4 joints, 1 centre>
     """
     value = read(mechanism) if isinstance(mechanism, str | Path) else mechanism
     check_argument(verb, value, kinds)

@@ -38,8 +38,6 @@ from synth.assembly.kernel import (
 )
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
-__all__ = ["general_positions"]
-
 Curves = tuple[Complexes, Complexes, Complexes]
 SMALL = 3e-3
 """Of corrections along a path, radians."""

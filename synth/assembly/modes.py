@@ -1,6 +1,6 @@
 """All assembly modes of a linkage at given inputs, with the circuits and branches they belong to.
 
-Positions of one *circuit* are reached from each other without taking the linkage apart; those of one *branch* of
+PositionSet of one *circuit* are reached from each other without taking the linkage apart; those of one *branch* of
 it without the driven joint turning back. Theory: docs/theory/positions.md.
 """
 
@@ -40,13 +40,11 @@ from synth.motion.walk.step import Step
 from synth.motion.walk.walking import Event, Walk
 from synth.moving.made import Movable, configuration_of
 
-__all__ = ["Position", "Positions", "positions"]
-
 _OTHER_QUESTION = "positions finds all configurations at given angles of driven joints, on all branches"
 
 
 @dataclass(frozen=True, slots=True)
-class Position:
+class AssemblyMode:
     """One position.
 
     Attributes
@@ -68,7 +66,7 @@ class Position:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Positions(Printed):
+class PositionSet(Printed):
     """All positions at angles of driven joints. It prints as ``synth positions`` does.
 
     Attributes
@@ -78,7 +76,7 @@ class Positions(Printed):
     joints : tuple of joint ids
     driven : mapping of joint id to float
         Radians; of prismatic joints lengths.
-    positions : tuple of Position
+    positions : tuple of AssemblyMode
         Real ones.
     general : int
         How many a generic realisation of the family has, real or not.
@@ -94,7 +92,7 @@ class Positions(Printed):
     configuration: Configuration
     joints: tuple[JointId, ...]
     driven: Mapping[JointId, float]
-    positions: tuple[Position, ...]
+    positions: tuple[AssemblyMode, ...]
     general: int
     imaginary: int
     far: int
@@ -198,7 +196,7 @@ class Positions(Printed):
         return f"{tracked}: {counted}; here {', '.join(parts)}"
 
     def __repr__(self) -> str:
-        return f"<Positions: {len(self.positions)} of {self.general}>"
+        return f"<PositionSet: {len(self.positions)} of {self.general}>"
 
 
 def _one_more(number: int | None) -> str:
@@ -216,7 +214,7 @@ class CircuitMembership:
 def members_of_circuits(closure: ClosureEquations, positions: Sequence[Floats], driver: int) -> CircuitMembership:
     """Return the circuit and branch of each position of a linkage of one freedom.
 
-    Positions are closed, float[J], radians; the driver is the place of the driven joint. Raise `UnsolvableError`
+    PositionSet are closed, float[J], radians; the driver is the place of the driven joint. Raise `UnsolvableError`
     if a position has not exactly one infinitesimal freedom.
     """
     places: dict[int, tuple[int, int]] = {}
@@ -261,13 +259,13 @@ _SURER = (SMALL, SMALL / 30, SMALL / 1000)
 
 
 def positions(
-    thing: Movable, drive: Mapping[JointId, float], *, circuits: bool = True, seed: int = 0
-) -> Positions:
+    mechanism: Movable, *, drive: Mapping[JointId, float], circuits: bool = True, seed: int = 0
+) -> PositionSet:
     """Find all positions of a spherical or planar linkage at angles of as many driven joints as it has freedoms.
 
     Parameters
     ----------
-    thing : Mechanism or PosedLinkage
+    mechanism : Mechanism or PosedLinkage
         With coordinates. The axes of each loop meet in a point, which need not be the same for all, or are
         parallel; prismatic joints slide across them.
     drive : mapping of joint id to float
@@ -292,12 +290,12 @@ def positions(
     --------
     >>> from math import radians
     >>> from synth.patterns import generate
-    >>> answer = positions(generate("four-bar").mechanism, {0: radians(10)})
+    >>> answer = positions(generate("four-bar").mechanism, drive={0: radians(10)})
     >>> len(answer.positions), answer.general, answer.exhaustive
     (2, 2, True)
     """
-    check_argument("positions", thing, Movable)
-    at = configuration_of(thing, slides=True)
+    check_argument("positions", mechanism, Movable)
+    at = configuration_of(mechanism, slides=True)
     linkage = at.linkage
     for joint, angle in drive.items():
         if not isfinite(angle):
@@ -313,11 +311,11 @@ def positions(
     real = np.abs(ends.values.imag).max(axis=1, initial=0.0) <= DOUBLE.same_configuration
     angles = [_angles(linkage, family, member, one) for one in ends.values.real[real]]
     order = canonical_order(angles)
-    answer = Positions(
+    answer = PositionSet(
         at,
         tuple(names),
         dict(drive),
-        tuple(Position(angles[place] * units, bool(ends.regular[real][place])) for place in order),
+        tuple(AssemblyMode(angles[place] * units, bool(ends.regular[real][place])) for place in order),
         len(general.values),
         int((~real).sum()),
         ends.far,
@@ -428,7 +426,7 @@ def _units(linkage: PosedLinkage) -> Floats:
     return units
 
 
-def _with_circuits(answer: Positions) -> Positions:
+def _with_circuits(answer: PositionSet) -> PositionSet:
     """Add circuits and branches, or a note why they are unknown."""
     driver = answer.joints.index(next(iter(answer.driven)))
     try:

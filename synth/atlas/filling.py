@@ -24,7 +24,7 @@ from graphs.reduce.ride_alongs import reduce
 from synth.atlas.columns import name_of_type
 from synth.motion.driving import MotionOptions
 from synth.motion.motion import motion_of
-from synth.realisation.realised import Kind, Realised, realise
+from synth.realisation.realised import Kind, Realisation, realise
 
 __all__ = ["coordinates_of", "filled", "order_id"]
 
@@ -48,7 +48,7 @@ def coordinates_of(code: str) -> dict[str, Any]:
     }
 
 
-def _realised(code: str) -> Realised | None:
+def _realised(code: str) -> Realisation | None:
     """Return a type as a flat sheet, or else in space; None if neither was found."""
     for kind in get_args(Kind):
         try:
@@ -58,7 +58,7 @@ def _realised(code: str) -> Realised | None:
     return None
 
 
-def _folded(realised: Realised) -> dict[str, Any]:
+def _folded(realised: Realisation) -> dict[str, Any]:
     """Return the largest fold angle of its motion, degrees, and the reason for its end."""
     try:
         motion = motion_of(realised.configuration, MotionOptions(frames=_FRAMES), collisions=True)

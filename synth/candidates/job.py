@@ -27,8 +27,6 @@ from graphs.types import Floats, Ints, LinkId
 from synth.candidates.rows import CandidateChain, order_rows, placed_rows
 from synth.conformed.rates import ConformedChain, loops_of_chain
 
-__all__ = ["CandidateCountJob", "CandidateJob", "Filter"]
-
 _PLACED, _SETS = 20_000, 1 << 15
 """Placements per unit, without symmetric ones; orders with opposites per unit of cyclic orders."""
 

@@ -18,8 +18,6 @@ from synth.drawing.conformed import draw_conformed
 from synth.drawing.scene.shapes import Scene
 from synth.drawing.scene.writing import save_scene
 
-__all__ = ["PictureSink", "picture_of_row", "title_of_picture"]
-
 _MOST = 10_000
 _ANY = Cone(radians(30.0))
 """The cone of the picture where the candidate has no surface of its own."""

@@ -33,8 +33,6 @@ from synth.fourbar.closing import grashof_class, planar_differences, spherical_d
 from synth.surfaces.circuit import HALF_TURN, Circuits, circuits, link_angles, wrapped
 from synth.surfaces.loop_maps import chords
 
-__all__ = ["CandidateChain", "four_bar_classes", "half_turns", "loop_circuits", "order_rows", "placed_rows"]
-
 
 def loop_circuits(loops: Sequence[Sequence[int]], places: npt.ArrayLike) -> tuple[Circuits, ...]:
     """Return the circuits of loops, each its joints in loop order, at azimuths float[..., J], radians."""

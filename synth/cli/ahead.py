@@ -80,7 +80,7 @@ def _positions() -> int:
     from synth.patterns.hinged_rings import spherical_ring
 
     before = _compiled()
-    positions(spherical_ring([1.0, 1.2, 0.9, 1.4]), {0: 0.1}, circuits=False)
+    positions(spherical_ring([1.0, 1.2, 0.9, 1.4]), drive={0: 0.1}, circuits=False)
     return _compiled() - before
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import degrees
 from sys import float_info
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
@@ -16,7 +16,7 @@ from graphs.errors import InvariantError, UnsolvableError, check_argument, numbe
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE, canonical_order
 from graphs.types import Floats, JointId, LinkId
-from synth.compliance.members import Members, State, state_of, states_of_sets
+from synth.compliance.members import Members, State, freedoms_text, number_or_unknown, state_of, states_of_sets
 from synth.compliance.springs import (
     ElasticLinkage,
     Equilibrium,
@@ -32,8 +32,6 @@ from synth.motion.configuration import Configuration
 from synth.motion.driving import goals_of
 from synth.motion.linkage import PosedLinkage, moved
 from synth.moving.made import Movable, configuration_of
-
-__all__ = ["DrivenJoint", "States", "states"]
 
 _LISTED = 20
 """Sets, transitions, poses and modes that are printed; data has all."""
@@ -55,19 +53,17 @@ class Transition:
 
     def line(self) -> str:
         """Return the transition as a line."""
-        return f"{self.name}: {_told(self.before)} to {_told(self.after)}"
+        return f"{self.name}: {_summary(self.before)} to {_summary(self.after)}"
 
 
-@dataclass(frozen=True, slots=True)
-class PathPose:
+class PathPose(NamedTuple):
     """A pose of the load path, and the state of the mechanism there."""
 
     pose: Equilibrium
     state: State
 
 
-@dataclass(frozen=True, slots=True)
-class RestPassed:
+class RestPassed(NamedTuple):
     """A compliant joint that comes to rest on the load path, where the driver is at `driven`, radians."""
 
     joint: JointId
@@ -76,10 +72,10 @@ class RestPassed:
 
 @dataclass(frozen=True, slots=True)
 class Elastic:
-    """What springs do: the pose at which they and moments are in balance, and a path that begins there.
+    """The pose at which springs and moments are in balance, a load path from there, and modes about it.
 
     `joints` are the columns of angles and rates; `path` holds the poses while the driver is driven, `stopped` says
-    why they end before the goal. `modes` are those about the equilibrium; None without masses.
+    why they end before the goal. `modes` is None without masses.
     """
 
     joints: tuple[JointId, ...]
@@ -93,22 +89,22 @@ class Elastic:
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
         modes = [
-            {"frequency": one.frequency, "growth": one.growth, "rates": self._named(one.rates)}
-            for one in self.modes or ()
+            {"frequency": mode.frequency, "growth": mode.growth, "rates": self._named(mode.rates)}
+            for mode in self.modes or ()
         ]
         return {
             "equilibrium": self._pose(self.pose),
             "driver": self.driver,
             "path": [
                 {
-                    "driven_deg": degrees(float(one.pose.angles[self._column])),
-                    "moment": float(one.pose.held[0]),
-                    **self._pose(one.pose),
-                    "state": one.state.to_json(),
+                    "driven_deg": degrees(float(point.pose.angles[self._column])),
+                    "moment": float(point.pose.held[0]),
+                    **self._pose(point.pose),
+                    "state": point.state.to_json(),
                 }
-                for one in self.path
+                for point in self.path
             ],
-            "rest_passed": [{"joint": one.joint, "driven_deg": degrees(one.driven)} for one in self.passed],
+            "rest_passed": [{"joint": rest.joint, "driven_deg": degrees(rest.driven)} for rest in self.passed],
             "stopped": self.stopped or None,
             "modes": None if self.modes is None else modes,
         }
@@ -145,20 +141,17 @@ class Elastic:
     def _load_path(self) -> list[Block]:
         if self.driver is None:
             return []
-        level = DOUBLE.zero * max(abs(float(one.pose.held[0])) for one in self.path)
+        level = DOUBLE.zero * max(abs(float(point.pose.held[0])) for point in self.path)
         step = -(-len(self.path) // _LISTED)
-        shown_poses = [*self.path[:-1:step], self.path[-1]]
-        rows = [self._row(one, level) for one in shown_poses]
+        rows = [self._row(point, level) for point in (*self.path[:-1:step], self.path[-1])]
         columns = ("driven, degrees", "moment", "energy", "stable", "freedoms", "state")
-        lines: list[Block] = [
-            f"load path of joint {shown(self.driver)}:",
-            TableBlock(columns, rows, ("driven, degrees", "moment", "energy", "freedoms")),
-        ]
+        table = TableBlock(columns, rows, ("driven, degrees", "moment", "energy", "freedoms"))
+        lines: list[Block] = [f"load path of joint {shown(self.driver)}:", table]
         if len(rows) < len(self.path):
             lines.append(f"{len(rows)} of {len(self.path)} poses")
         lines += [
-            f"joint {shown(one.joint)} comes to rest at {degrees(one.driven):.6g} degrees of the driven joint"
-            for one in self.passed
+            f"joint {shown(rest.joint)} comes to rest at {degrees(rest.driven):.6g} degrees of the driven joint"
+            for rest in self.passed
         ]
         return [*lines, *([f"stopped: {self.stopped}"] if self.stopped else [])]
 
@@ -169,7 +162,7 @@ class Elastic:
             f"{moment:.6g}" if abs(moment) > level else "0",
             f"{point.pose.energy:.6g}",
             "yes" if point.pose.stable else "no",
-            _number(point.state.freedoms),
+            number_or_unknown(point.state.freedoms),
             point.state.kind,
         )
 
@@ -208,7 +201,7 @@ class States(Printed):
     Examples
     --------
     >>> from synth.patterns import generate
-    >>> states(generate("four-bar").mechanism, [0])
+    >>> states(generate("four-bar").mechanism, joints=[0])
     <States: rigid immobile; compliant mechanism>
     """
 
@@ -222,7 +215,7 @@ class States(Printed):
     @property
     def classes(self) -> tuple[str, ...]:
         """The classes that transitions at this pose make it one of."""
-        return tuple(dict.fromkeys(one.name for one in self.transitions))
+        return tuple(dict.fromkeys(transition.name for transition in self.transitions))
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
@@ -230,9 +223,9 @@ class States(Printed):
             "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
             "compliant": self.compliant.to_json(),
             "state": self.now.to_json(),
-            "sets": [one.to_json() for one in self.sets],
+            "sets": [state.to_json() for state in self.sets],
             "classes": list(self.classes),
-            "transitions": [one.to_json() for one in self.transitions],
+            "transitions": [transition.to_json() for transition in self.transitions],
             "elastic": None if self.elastic is None else self.elastic.to_json(),
         }
 
@@ -240,10 +233,12 @@ class States(Printed):
         """Return the lines and tables that are printed."""
         lines: list[Block] = [
             f"compliant: {self.compliant}",
-            f"now {_told(self.now)}   ({self.now.certainty})",
+            f"now {_summary(self.now)}   ({self.now.certainty})",
         ]
-        chosen = _telling(self.sets)
-        rows = [(str(one.active), _number(one.freedoms), one.kind, one.certainty) for one in chosen[:_LISTED]]
+        chosen = _distinctive(self.sets)
+        rows = [
+            (str(one.active), number_or_unknown(one.freedoms), one.kind, one.certainty) for one in chosen[:_LISTED]
+        ]
         lines.append(TableBlock(("active", "freedoms", "state", "how known"), rows, ("freedoms",)))
         if len(self.sets) > len(rows):
             first = "" if len(rows) == len(chosen) else "the first of "
@@ -251,7 +246,9 @@ class States(Printed):
                 f"{len(rows)} of {numbered(len(self.sets), 'set')}: {first}those to which one member less gives "
                 "other freedoms"
             )
-        lines += [one.line() for one in self.transitions[:_LISTED]] or ["no transition of a class at this pose"]
+        lines += [transition.line() for transition in self.transitions[:_LISTED]] or [
+            "no transition of a class at this pose"
+        ]
         if len(self.transitions) > _LISTED:
             lines.append(f"and {len(self.transitions) - _LISTED} more transitions")
         return [*lines, *([] if self.elastic is None else self.elastic.blocks())]
@@ -260,31 +257,18 @@ class States(Printed):
         return f"<States: {self.now.kind}; {', '.join(self.classes) or 'no class'}>"
 
 
-def _telling(sets: Sequence[State]) -> list[State]:
-    """Return the states whose freedoms every set with a member less has not."""
+def _distinctive(sets: Sequence[State]) -> list[State]:
+    """Return the states of which no state with one active member less has the same freedoms."""
     return [
-        one
-        for one in sets
-        if not len(one.active)
-        or all(
-            other.freedoms != one.freedoms
-            for other in sets
-            if len(other.active) == len(one.active) - 1 and other.active.within(one.active)
-        )
+        state
+        for state in sets
+        if all(other.freedoms != state.freedoms for other in sets if other.active.is_one_less_than(state.active))
     ]
 
 
-def _told(state: State) -> str:
+def _summary(state: State) -> str:
     active = f", active: {state.active}" if len(state.active) else ""
-    freedoms = "degrees of freedom unknown" if state.freedoms is None else numbered(state.freedoms, "freedom")
-    return f"{state.kind} ({freedoms}{active})"
-
-
-def _number(number: int | None) -> str:
-    return "?" if number is None else str(number)
-
-
-_FRAMES = 20
+    return f"{state.kind} ({freedoms_text(state.freedoms)}{active})"
 
 
 @dataclass(frozen=True, slots=True)
@@ -307,14 +291,18 @@ class DrivenJoint:
 
     joint: JointId
     to: float
-    frames: int = _FRAMES
+    frames: int = 20
+
+    def __post_init__(self) -> None:
+        if self.frames < 1:
+            raise InvariantError("frames", f"a path of {self.frames} frames", "1 or more")
 
 
 def states(
-    thing: Movable,
+    mechanism: Movable,
+    *,
     joints: Collection[JointId] = (),
     links: Collection[LinkId] = (),
-    *,
     springs: Springs | None = None,
     drive: DrivenJoint | None = None,
     masses: Masses | None = None,
@@ -323,7 +311,7 @@ def states(
 
     Parameters
     ----------
-    thing : Mechanism or PosedLinkage
+    mechanism : Mechanism or PosedLinkage
         With coordinates; of a sheet with several frames the first that has them.
     joints, links : collection of ids
         Compliant members. Joints with a stiffness are compliant too.
@@ -347,16 +335,16 @@ def states(
     Examples
     --------
     >>> from synth.patterns import generate
-    >>> answer = states(generate("four-bar").mechanism, [0])
+    >>> answer = states(generate("four-bar").mechanism, joints=[0])
     >>> answer.classes, [(len(state.active), state.freedoms) for state in answer.sets]
     (('compliant mechanism',), [(0, 0), (1, 1)])
     """
-    check_argument("states", thing, Movable)
-    at = configuration_of(thing)
+    check_argument("states", mechanism, Movable)
+    at = configuration_of(mechanism)
     linkage = at.linkage
-    stiff = () if springs is None else tuple(one for one, value in springs.stiffness.items() if value)
+    stiff = () if springs is None else tuple(joint for joint, value in springs.stiffness.items() if value)
     compliant = Members(tuple(dict.fromkeys((*joints, *stiff))), tuple(dict.fromkeys(links)))
-    compliant.checked(linkage.graph)
+    compliant.check_names(linkage.graph)
     if not len(compliant):
         raise UnsolvableError("nothing is compliant; expected one or more compliant joints or links")
     if springs is None and (drive is not None or masses is not None):
@@ -364,7 +352,7 @@ def states(
     sets = tuple(states_of_sets(linkage, compliant))
     analysis = _SpringAnalysis(linkage, compliant, springs or Springs())
     active = analysis.active(linkage.angles)
-    now = next(one for one in sets if one.active.within(active) and active.within(one.active))
+    now = next(state for state in sets if state.active.within(active) and active.within(state.active))
     elastic = None if springs is None else analysis.elastic(drive, masses)
     return States(at, compliant, now, sets, tuple(_transitions(sets)), elastic)
 
@@ -384,7 +372,7 @@ class _SpringAnalysis:
 
     def active(self, angles: Floats) -> Members:
         """Return the members that are not at rest. Links have no springs, and count as at rest."""
-        return Members(tuple(one for one in self.compliant.joints if not _is_rest(self.off_rest(one, angles))))
+        return Members(tuple(name for name in self.compliant.joints if not _is_rest(self.off_rest(name, angles))))
 
     def elastic(self, drive: DrivenJoint | None, masses: Masses | None) -> Elastic:
         """Return what springs do."""
@@ -396,22 +384,18 @@ class _SpringAnalysis:
         joints = tuple(self.linkage.graph.joints)
         if drive is None:
             return Elastic(joints, pose, modes=modes)
-        if drive.frames < 1:
-            raise InvariantError("frames", f"a path of {drive.frames} frames", "1 or more")
         [driver], goal = goals_of(joints, {drive.joint: drive.to}, float_info.max)
         values = np.linspace(pose.angles[driver], goal[0], drive.frames + 1)[1:]
         path = load_path(bending, pose.angles, driver, values)
-        poses = tuple(self.path_poses(path))
-        passed = tuple(self.passed(bending, path))
+        poses = tuple(PathPose(at, self.state_at(at.angles)) for at in path.poses)
+        passed = tuple(self.rests_passed(bending, path))
         return Elastic(joints, pose, drive.joint, poses, passed, path.stopped, modes)
 
-    def path_poses(self, path: LoadPath) -> Iterator[PathPose]:
-        """Yield the poses of a load path with their states."""
-        for pose in path.poses:
-            here = moved(self.linkage, pose.angles)
-            yield PathPose(pose, state_of(here, self.compliant, self.active(pose.angles)))
+    def state_at(self, angles: Floats) -> State:
+        """Return the state at a pose, where members that are off their rest are active."""
+        return state_of(moved(self.linkage, angles), self.compliant, self.active(angles))
 
-    def passed(self, bending: ElasticLinkage, path: LoadPath) -> Iterator[RestPassed]:
+    def rests_passed(self, bending: ElasticLinkage, path: LoadPath) -> Iterator[RestPassed]:
         """Yield where compliant joints come to rest after the beginning."""
         for before, after in pairwise(path.poses):
             ends = [float(pose.angles[path.driver]) for pose in (before, after)]
@@ -436,19 +420,17 @@ def _is_rest(off: float) -> bool:
 def _transitions(sets: Sequence[State]) -> Iterator[Transition]:
     """Yield the transitions of each class: those to the smallest sets, or between sets that differ by a member."""
     rest = sets[0]
-    moving = [one for one in sets[1:] if one.freedoms is not None and one.freedoms > (rest.freedoms or 0)]
+    moving = [state for state in sets[1:] if state.freedoms is not None and state.freedoms > (rest.freedoms or 0)]
     if rest.freedoms is not None and moving:
         name = "variable mobility" if rest.freedoms else "compliant mechanism"
         fewest = len(moving[0].active)
-        yield from (Transition(name, rest, one) for one in moving if len(one.active) == fewest)
+        yield from (Transition(name, rest, state) for state in moving if len(state.active) == fewest)
     locking = [
         Transition("compliant locking", before, after)
         for before in sets
         if before.freedoms
         for after in sets[1:]
-        if after.freedoms == 0
-        and len(after.active) == len(before.active) - 1
-        and after.active.within(before.active)
+        if after.freedoms == 0 and after.active.is_one_less_than(before.active)
     ]
-    fewest = min((len(one.before.active) for one in locking), default=0)
-    yield from (one for one in locking if len(one.before.active) == fewest)
+    fewest = min((len(change.before.active) for change in locking), default=0)
+    yield from (change for change in locking if len(change.before.active) == fewest)

@@ -6,26 +6,24 @@ Theory: docs/theory/activating-constraints.md.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from math import acos, atan2, degrees, inf, pi, tau
 from typing import Any, Literal
 
 import numpy as np
 
-from graphs.errors import UnsolvableError, numbered, shown
+from graphs.errors import UnsolvableError, check_argument, numbered, shown
 from graphs.geometry import angles_between, lines_meet
 from graphs.printing import Block, Printed, TableBlock
 from graphs.rank.singular_values import spectrum
 from graphs.reduce.ride_alongs import ReductionStep, reduce
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Floats, JointId, LinkId
-from synth.compliance.members import NONE, Members, released, state_of
+from synth.compliance.members import NONE, Members, freedoms_text, number_or_unknown, released, state_of
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
 from synth.moving.made import Movable, configuration_of
-
-__all__ = ["Limits", "limits"]
 
 _LISTED = 40
 
@@ -39,18 +37,14 @@ class End:
     angle: float
     how: Literal["stretched", "folded"]
 
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data."""
-        return {"at_deg": degrees(self.angle), "how": self.how}
-
 
 @dataclass(frozen=True, slots=True)
 class RideAlong:
     """A ride-along, and the range of angles that it leaves to the joint it sits on.
 
     The second of its own `joints` is between its links. `angle`, radians, is that of `joint` at the pose; `lower`
-    and `upper` end the range of this that holds the pose, None where it may turn round. `freedoms` are those of
-    the mechanism with the ride-along rigid; None where they are unknown.
+    and `upper` end the range of this that holds the pose, None where it may make a full turn. `freedoms` are those
+    of the mechanism with the ride-along rigid; None where they are unknown.
     """
 
     joints: tuple[JointId, JointId, JointId]
@@ -66,8 +60,10 @@ class RideAlong:
             "joints": list(self.joints),
             "joint": self.joint,
             "angle_deg": degrees(self.angle),
-            "lower": None if self.lower is None else self.lower.to_json(),
-            "upper": None if self.upper is None else self.upper.to_json(),
+            **{
+                side: None if end is None else {"at_deg": degrees(end.angle), "how": end.how}
+                for side, end in (("lower", self.lower), ("upper", self.upper))
+            },
             "freedoms": self.freedoms,
         }
 
@@ -89,18 +85,11 @@ class Truss:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
-        return {
-            "locked": list(self.locked),
-            "links": self.links,
-            "joints": self.joints,
-            "rank": self.rank,
-            "redundant": self.redundant,
-            "freedoms": self.freedoms,
-        }
+        return {**asdict(self), "locked": list(self.locked)}
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Limits(Printed):
+class JointLimits(Printed):
     """The joint limits that the ride-alongs of a mechanism impose. It prints as ``synth limits`` does.
 
     Attributes
@@ -115,7 +104,7 @@ class Limits(Printed):
     --------
     >>> from synth.patterns import generate
     >>> limits(generate("deployable-cylinder", pleats=3).mechanism)
-    <Limits: 6 ride-alongs>
+    <JointLimits: 6 ride-alongs>
     """
 
     configuration: Configuration
@@ -126,7 +115,7 @@ class Limits(Printed):
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {
             "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
-            "ride_alongs": [one.to_json() for one in self.ride_alongs],
+            "ride_alongs": [ride_along.to_json() for ride_along in self.ride_alongs],
             "truss": self.truss.to_json(),
         }
 
@@ -134,46 +123,42 @@ class Limits(Printed):
         """Return the lines and the table that are printed."""
         rows = [
             (
-                shown(one.joint),
-                " ".join(map(shown, one.joints)),
-                _told(one.lower),
-                f"{degrees(one.angle):.6g}",
-                _told(one.upper),
-                _number(one.freedoms),
+                shown(ride_along.joint),
+                " ".join(map(shown, ride_along.joints)),
+                _end(ride_along.lower),
+                f"{degrees(ride_along.angle):.6g}",
+                _end(ride_along.upper),
+                number_or_unknown(ride_along.freedoms),
             )
-            for one in self.ride_alongs[:_LISTED]
+            for ride_along in self.ride_alongs[:_LISTED]
         ]
         columns = ("on joint", "joints", "from, degrees", "now", "to, degrees", "freedoms when rigid")
-        lines: list[Block] = [
-            numbered(len(self.ride_alongs), "ride-along"),
-            TableBlock(columns, rows, ("now", "freedoms when rigid")),
-        ]
+        table = TableBlock(columns, rows, ("now", "freedoms when rigid"))
+        lines: list[Block] = [numbered(len(self.ride_alongs), "ride-along"), table]
         if len(rows) < len(self.ride_alongs):
             lines.append(f"and {len(self.ride_alongs) - len(rows)} more")
         truss = self.truss
-        freedoms = "degrees of freedom unknown" if truss.freedoms is None else numbered(truss.freedoms, "freedom")
         parts = f"{numbered(truss.links, 'link')}, {numbered(truss.joints, 'joint')}"
-        evidence = f"rank {_number(truss.rank)}, {_number(truss.redundant)} redundant"
-        return [*lines, f"with all of them rigid at this pose: {freedoms} ({parts}; {evidence})"]
+        evidence = f"rank {number_or_unknown(truss.rank)}, {number_or_unknown(truss.redundant)} redundant"
+        return [
+            *lines,
+            f"with all of them rigid at this pose: {freedoms_text(truss.freedoms)} ({parts}; {evidence})",
+        ]
 
     def __repr__(self) -> str:
-        return f"<Limits: {numbered(len(self.ride_alongs), 'ride-along')}>"
+        return f"<JointLimits: {numbered(len(self.ride_alongs), 'ride-along')}>"
 
 
-def _told(end: End | None) -> str:
+def _end(end: End | None) -> str:
     return "any" if end is None else f"{degrees(end.angle):.6g}, {end.how}"
-
-
-def _number(number: int | None) -> str:
-    return "?" if number is None else str(number)
 
 
 @dataclass(frozen=True, slots=True)
 class RideAlongCorner:
-    """The two links of a joint and the ride-along on it, seen from where their four axes meet.
+    """The two links of a joint and the ride-along on it: lengths if all axes are `parallel`, else angles, radians.
 
     `base` is from the joint to the axis of the ride-along on the first and on the second link, `links` from these
-    axes to the middle one: lengths if the axes are `parallel`, else angles, radians.
+    axes to the middle one.
     """
 
     base: tuple[float, float]
@@ -183,7 +168,7 @@ class RideAlongCorner:
     def cosines(self) -> tuple[float, float]:
         """Return the cosines of the angle between the base links with the ride-along stretched and folded.
 
-        By the law of cosines; a value outside -1 to 1 is not reached.
+        They are by the law of cosines, planar or spherical; a value outside -1 to 1 is not reached.
         """
         (a, b), (c, d) = self.base, self.links
         if self.parallel:
@@ -198,10 +183,10 @@ class RideAlongCorner:
 
 
 def angles_left(corner: RideAlongCorner, angle: float) -> tuple[End | None, End | None]:
-    """Return the lower and upper end of the range of the angle between two links that a ride-along on them leaves.
+    """Return both ends of the range of angles between two base links that a ride-along on them leaves.
 
-    The angle is the present one between the base links, radians from 0 to 2 pi: from the first axis to the second
-    about the joint. The ends are less than a turn from it; None where a full turn is left.
+    The present angle is in radians from 0 to 2 pi, from the first axis to the second about the joint. The ends are
+    less than a turn from it; None where a full turn is left.
     """
     low, high = corner.cosines()
     if low <= -1.0 + DOUBLE.parallel and high >= 1.0 - DOUBLE.parallel:
@@ -219,12 +204,12 @@ def angles_left(corner: RideAlongCorner, angle: float) -> tuple[End | None, End 
     return End(narrowest, "folded"), End(widest, "stretched")
 
 
-def limits(thing: Movable, keep: Collection[LinkId] = ()) -> Limits:
+def limits(mechanism: Movable, *, keep: Collection[LinkId] = ()) -> JointLimits:
     """Find the joint limits that ride-alongs impose, and the truss that remains where they are straight.
 
     Parameters
     ----------
-    thing : Mechanism or PosedLinkage
+    mechanism : Mechanism or PosedLinkage
         With coordinates; of a sheet with several frames the first that has them.
     keep : collection of link ids, optional
         Links that are no ride-along's: of two four-bars with a joint in common either may be.
@@ -242,14 +227,15 @@ def limits(thing: Movable, keep: Collection[LinkId] = ()) -> Limits:
     >>> limits(generate("deployable-cylinder", pleats=3).mechanism).truss.freedoms
     0
     """
-    at = configuration_of(thing)
+    check_argument("compliance.limits", mechanism, Movable)
+    at = configuration_of(mechanism)
     linkage = at.linkage
     steps = [step for step in reduce(linkage.graph, keep=keep).steps if step.joint is not None]
     if not steps:
         raise UnsolvableError("there are no ride-alongs; expected two binary links on two adjacent ones")
     middles = Members(tuple(step.joints[1] for step in steps))
     tolerances = Tolerances.of(at.precision.size)
-    return Limits(at, tuple(_ride_alongs(linkage, steps, tolerances)), _truss(linkage, middles))
+    return JointLimits(at, tuple(_ride_alongs(linkage, steps, tolerances)), _truss(linkage, middles))
 
 
 def _ride_alongs(linkage: PosedLinkage, steps: list[ReductionStep], tolerances: Tolerances) -> Iterator[RideAlong]:
@@ -257,21 +243,18 @@ def _ride_alongs(linkage: PosedLinkage, steps: list[ReductionStep], tolerances: 
     for step in steps:
         assert step.joint is not None
         joint = place[step.joint]
-        first, middle, last = (place[one] for one in step.joints)
+        first, middle, last = (place[other] for other in step.joints)
         forwards = linkage.graph.joints[step.joint][0] == step.onto[0]
         corner, angle = _corner(linkage, (joint, first, middle, last), tolerances)
         now = float(linkage.angles[joint])
-        ends = angles_left(corner, angle)
-        turned = [None if end is None else _at_joint(end, now, angle, forwards=forwards) for end in ends]
+        sense = 1.0 if forwards else -1.0  # by which the joint turns while the angle between the links grows
+        turned = [
+            None if end is None else End(now + sense * (end.angle - angle), end.how)
+            for end in angles_left(corner, angle)
+        ]
         lower, upper = turned if forwards else turned[::-1]
         state = state_of(linkage, Members((step.joints[1],)), NONE)
         yield RideAlong(step.joints, step.joint, now, lower, upper, state.freedoms)
-
-
-def _at_joint(end: End, now: float, angle: float, *, forwards: bool) -> End:
-    """Return an end of the range of the angle between links as one of the joint's angle."""
-    way = 1.0 if forwards else -1.0
-    return End(now + way * (end.angle - angle), end.how)
 
 
 def _corner(
@@ -287,8 +270,8 @@ def _corner(
         corner = RideAlongCorner(*_pairs(rays, lambda a, b: float(np.linalg.norm(a - b))), parallel=True)
     else:
         corner = RideAlongCorner(*_pairs(rays, lambda a, b: float(angles_between(a, b))))
-    one, other = (ray - (ray @ along) * along for ray in (rays[1], rays[3]))
-    return corner, atan2(float(np.cross(one, other) @ along), float(one @ other)) % tau
+    first, last = (ray - (ray @ along) * along for ray in (rays[1], rays[3]))
+    return corner, atan2(float(np.cross(first, last) @ along), float(first @ last)) % tau
 
 
 def _rays(points: Floats, axes: Floats, same: float) -> Floats:

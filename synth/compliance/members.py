@@ -25,8 +25,6 @@ from synth.motion.branches import MOST_JOINTS, Certainty, branches_of, search_fo
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
-__all__ = ["Members", "State"]
-
 
 @dataclass(frozen=True, slots=True)
 class Members:
@@ -50,7 +48,7 @@ class Members:
         return len(self.joints) + len(self.links)
 
     def __str__(self) -> str:
-        words = [*(f"joint {shown(one)}" for one in self.joints), *(f"link {shown(one)}" for one in self.links)]
+        words = [f"joint {shown(name)}" for name in self.joints] + [f"link {shown(name)}" for name in self.links]
         return ", ".join(words) or "none"
 
     def to_json(self) -> dict[str, list[JointId]]:
@@ -61,15 +59,18 @@ class Members:
         """Check whether all of these are among others."""
         return set(self.joints) <= set(other.joints) and set(self.links) <= set(other.links)
 
+    def is_one_less_than(self, other: Members) -> bool:
+        """Check whether these are all of some others but one."""
+        return len(self) == len(other) - 1 and self.within(other)
+
     def subsets(self) -> Iterator[Members]:
         """Yield all sets of these members, smaller ones first."""
-        each = [*((0, joint) for joint in self.joints), *((1, link) for link in self.links)]
+        each = [*((joint, True) for joint in self.joints), *((link, False) for link in self.links)]
         for some in chain.from_iterable(combinations(each, size) for size in range(len(each) + 1)):
-            yield Members(
-                tuple(name for kind, name in some if kind == 0), tuple(name for kind, name in some if kind == 1)
-            )
+            joints = tuple(name for name, is_joint in some if is_joint)
+            yield Members(joints, tuple(name for name, is_joint in some if not is_joint))
 
-    def checked(self, graph: SCGraph) -> None:
+    def check_names(self, graph: SCGraph) -> None:
         """Raise `InvariantError` for names not in the graph, repeated names, and links that hang on one other."""
         for kind, names, there in (("joint", self.joints, graph.joints), ("link", self.links, graph.nodes)):
             for place, name in enumerate(names):
@@ -89,11 +90,11 @@ NONE = Members()
 
 
 def released(linkage: PosedLinkage, compliant: Members, active: Members) -> PosedLinkage:
-    """Return the linkage at its pose in which resting members are rigid and active ones give way.
+    """Return the linkage at its pose with resting members rigid and active ones, which are compliant, released.
 
     A resting joint makes its two links one, a resting link stays as it is. An active joint turns; an active link
-    gives way in any manner, as if it and its joints were absent. The active ones are among the compliant. Loops of
-    the answer may pass a link twice; it may be in several parts, if active links were all between them.
+    gives way in any manner, as if it and its joints were absent. Loops of the answer may pass a link twice; it is
+    in several parts if only active links were between them.
     """
     left = _without(linkage, active.links) if active.links else linkage
     held = {joint for joint in compliant.joints if joint in left.graph.joints} - set(active.joints)
@@ -161,6 +162,17 @@ MOST_MEMBERS = 10
 """Of more members not all sets are looked at: there are a thousand."""
 _OF_A_BODY = 6
 """Freedoms of a part that hangs on active links only."""
+
+
+def freedoms_text(freedoms: int | None) -> str:
+    """Return a number of freedoms in words; None if it is unknown."""
+    return "degrees of freedom unknown" if freedoms is None else numbered(freedoms, "freedom")
+
+
+def number_or_unknown(number: int | None) -> str:
+    """Return a number as a cell of a table; None if it is unknown."""
+    return "?" if number is None else str(number)
+
 
 Kind = Literal["rigid immobile", "rigid mobile", "compliant immobile", "compliant mobile", "not known"]
 

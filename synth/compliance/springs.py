@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isfinite, pi
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -27,8 +28,6 @@ from synth.motion.closure import ClosureEquations, corrected, exactly_held
 from synth.motion.driving import check_closed
 from synth.motion.linkage import PosedLinkage, joints_outwards, link_motions
 from synth.motion.path import driven_path
-
-__all__ = ["Mass", "Masses", "Springs", "sheet_masses"]
 
 _NUDGE = 1e-5
 
@@ -56,29 +55,30 @@ class Springs:
     rest: Mapping[JointId, float] = field(default_factory=dict)
     moments: Mapping[JointId, float] = field(default_factory=dict)
 
-    def checked(self, joints: tuple[JointId, ...]) -> None:
-        """Raise `InvariantError` for joints that do not exist, infinite numbers, and negative stiffness."""
+    def __post_init__(self) -> None:
         for what in ("stiffness", "rest", "moments"):
             for joint, value in getattr(self, what).items():
-                if joint not in joints:
-                    raise InvariantError("joint", f"{shown(joint)} is no joint", known(joints, str(joint)))
                 if not isfinite(value) or (what == "stiffness" and value < 0.0):
                     expected = "a number, 0 or more" if what == "stiffness" else "a number"
                     raise InvariantError(what, f"joint {shown(joint)} has {value!r}", expected)
                 if what == "rest" and not self.stiffness.get(joint):
                     raise InvariantError("rest", f"joint {shown(joint)} has no spring", "a stiffness")
 
+    def check_joints(self, joints: tuple[JointId, ...]) -> None:
+        """Raise `InvariantError` for joints that do not exist."""
+        for joint in (*self.stiffness, *self.rest, *self.moments):
+            if joint not in joints:
+                raise InvariantError("joint", f"{shown(joint)} is no joint", known(joints, str(joint)))
 
-@dataclass(frozen=True, slots=True)
-class Tangent:
-    """Closed poses beside one: the derivatives float[rows, J], and the motions float[J, f], orthonormal rates."""
+
+class Tangent(NamedTuple):
+    """Derivatives of the closure equations at a pose, float[rows, J], and all motions, orthonormal float[J, f]."""
 
     jacobian: Floats
     rates: Floats
 
 
-@dataclass(frozen=True, slots=True)
-class Bent:
+class EnergyExpansion(NamedTuple):
     """Energy on the closed poses beside one, to second order along n rates; `held`: moments at held joints."""
 
     slope: Floats
@@ -89,13 +89,13 @@ class Bent:
 class ElasticLinkage:
     """A linkage with springs, from a regular closed pose; `freedoms` are those of finite motion.
 
-    Raise `InvariantError` as :meth:`Springs.checked` does, `UnsolvableError` if loops are not closed, nothing
-    moves, or the pose is singular.
+    Raise `InvariantError` for joints that do not exist, `UnsolvableError` if loops are not closed, nothing moves,
+    or the pose is singular.
     """
 
     def __init__(self, linkage: PosedLinkage, springs: Springs) -> None:
         joints = tuple(linkage.graph.joints)
-        springs.checked(joints)
+        springs.check_joints(joints)
         self.linkage, self.closure = linkage, ClosureEquations(linkage)
         check_closed(self.closure, linkage)
         self.stiffness = np.array([springs.stiffness.get(joint, 0.0) for joint in joints])
@@ -125,14 +125,13 @@ class ElasticLinkage:
             )
         return Tangent(jacobian, parts.right[rank:].T)
 
-    def bent(self, angles: Floats, tangent: Tangent, along: Floats, held: tuple[int, ...]) -> Bent:
-        """Return how the energy bends on the closed poses along orthonormal rates of the tangent, float[J, n].
+    def expansion(self, angles: Floats, tangent: Tangent, along: Floats, held: tuple[int, ...]) -> EnergyExpansion:
+        """Return the energy on the closed poses beside one along orthonormal rates of its tangent, float[J, n].
 
-        The closure equations pull with moments -J^T w that hold the slopes of the energy in balance; second
-        derivatives of w . (closure) by rates along which loops stay closed are those of w . J. Joints at the
-        places `held` do not move along the rates. Angles are those of a closed pose, radians, the tangent is taken
-        there.
+        Joints at the places `held` do not move along the rates.
         """
+        # The closure equations pull with moments -J^T w that hold the slopes of the energy in balance; the second
+        # derivative of the energy has that of w . (closure) in it, found by differences of w . J along each rate.
         slopes = self.slopes(angles)
         places = list(held)
         moments = np.linalg.lstsq(tangent.rates[places].T, tangent.rates.T @ slopes, rcond=None)[0]
@@ -143,7 +142,7 @@ class ElasticLinkage:
         for number, rates in enumerate(along.T):
             ahead, back = (self.closure.at(angles + way * _NUDGE * rates)[1] for way in (1.0, -1.0))
             curvature[number] += (ahead - back).T @ weights @ along / (2.0 * _NUDGE)
-        return Bent(along.T @ slopes, (curvature + curvature.T) / 2.0, np.asarray(moments + 0.0))
+        return EnergyExpansion(along.T @ slopes, (curvature + curvature.T) / 2.0, np.asarray(moments + 0.0))
 
 
 def _freedoms_of_regular_pose(linkage: PosedLinkage, closure: ClosureEquations) -> int:
@@ -222,27 +221,24 @@ def equilibrium(elastic: ElasticLinkage, start: Floats | None = None, held: tupl
 
     Newton's method on the closed poses, with the curvature made positive, and steps halved until the energy falls
     as its slope predicts. The start, radians, is by default the pose of the linkage; joints at the places `held`
-    keep their angles. Raise `NumericalError` if a singular pose is met, or balance is not reached.
+    keep their angles. Raise `NumericalError` at a singular pose, or where balance is not reached.
     """
     angles = elastic.linkage.angles if start is None else start
     values = angles[list(held)]
     for _ in range(_STEPS):
-        along, bent = _beside(elastic, angles, held)
-        off = float(np.abs(bent.slope).max(initial=0.0))
+        along, expansion = _beside(elastic, angles, held)
+        off = float(np.abs(expansion.slope).max(initial=0.0))
         moments = np.abs([elastic.slopes(angles), elastic.moments])
         if off <= _BALANCED * max(float(moments.max(initial=0.0)), float(elastic.stiffness.max(initial=0.0))):
-            least = float(np.linalg.eigvalsh(bent.curvature)[0]) if along.shape[1] else None
+            least = float(np.linalg.eigvalsh(expansion.curvature)[0]) if along.shape[1] else None
             error = elastic.closure.error(angles)
-            return Equilibrium(angles, elastic.energy(angles), bent.held, least, off, error)
-        angles = _lower(elastic, angles, along @ _downhill(bent), (held, values), along @ bent.slope)
+            return Equilibrium(angles, elastic.energy(angles), expansion.held, least, off, error)
+        angles = _lower(elastic, angles, along @ _downhill(expansion), (held, values), along @ expansion.slope)
     raise NumericalError(f"springs found no balance in {_STEPS} steps: moments of {off:.1e} are left")
 
 
 def load_path(elastic: ElasticLinkage, start: Floats, driver: int, values: npt.ArrayLike) -> LoadPath:
-    """Return the equilibria while the joint at place `driver` is driven from a closed pose to angles, radians.
-
-    Raise `NumericalError` as :func:`equilibrium` does.
-    """
+    """Return the equilibria while the joint at place `driver` is driven from a closed pose to angles, radians."""
     poses, stopped = [equilibrium(elastic, start, (driver,))], ""
     for value in np.asarray(values, dtype=float).tolist():
         path = driven_path(elastic.closure, poses[-1].angles, [driver], [[value]])
@@ -253,19 +249,19 @@ def load_path(elastic: ElasticLinkage, start: Floats, driver: int, values: npt.A
     return LoadPath(driver, tuple(poses), stopped)
 
 
-def _beside(elastic: ElasticLinkage, angles: Floats, held: tuple[int, ...]) -> tuple[Floats, Bent]:
+def _beside(elastic: ElasticLinkage, angles: Floats, held: tuple[int, ...]) -> tuple[Floats, EnergyExpansion]:
     """Return the rates that leave held joints still, float[J, n], and how the energy bends along them."""
     tangent = elastic.tangent(angles)
     along = tangent.rates @ null_space(tangent.rates[list(held)]) if held else tangent.rates
-    return along, elastic.bent(angles, tangent, along, held)
+    return along, elastic.expansion(angles, tangent, along, held)
 
 
-def _downhill(bent: Bent) -> Floats:
+def _downhill(expansion: EnergyExpansion) -> Floats:
     """Return Newton's step with the signs of all curvatures made positive, no longer than may be: float[n]."""
-    values, vectors = np.linalg.eigh(bent.curvature)
+    values, vectors = np.linalg.eigh(expansion.curvature)
     sizes = np.abs(values)
-    sizes = np.maximum(sizes, _SOFT * max(float(sizes.max()), float(np.abs(bent.slope).max())))
-    step = -vectors @ ((vectors.T @ bent.slope) / sizes)
+    sizes = np.maximum(sizes, _SOFT * max(float(sizes.max()), float(np.abs(expansion.slope).max())))
+    step = -vectors @ ((vectors.T @ expansion.slope) / sizes)
     return np.asarray(step * min(1.0, _LONGEST / float(np.linalg.norm(step))))
 
 
@@ -310,6 +306,11 @@ class Mass:
     mass: float
     point: tuple[float, float, float]
 
+    def __post_init__(self) -> None:
+        if len(self.point) != 3 or not all(map(isfinite, (self.mass, *self.point))):
+            offender = f"link {shown(self.link)} has {self.mass!r} at {shown(list(self.point))}"
+            raise InvariantError("mass", offender, "a number and three coordinates")
+
 
 @dataclass(frozen=True, slots=True)
 class Masses:
@@ -330,19 +331,16 @@ class Masses:
     points: tuple[Mass, ...]
     ground: LinkId | None = None
 
-    def checked(self, linkage: PosedLinkage) -> None:
-        """Raise `InvariantError` for links that do not exist, infinite numbers, and links without mass."""
+    def check_links(self, linkage: PosedLinkage) -> None:
+        """Raise `InvariantError` for links that do not exist, and links without mass."""
         links = list(linkage.graph.nodes)
-        for link in [*(one.link for one in self.points), *([] if self.ground is None else [self.ground])]:
+        for link in [*(mass.link for mass in self.points), *([] if self.ground is None else [self.ground])]:
             if link not in linkage.graph:
                 raise InvariantError("link", f"{shown(link)} is no link", known(links, str(link)))
-        sums: dict[LinkId, float] = {}
-        for one in self.points:
-            if not isfinite(one.mass) or not all(map(isfinite, one.point)):
-                offender = f"link {shown(one.link)} has {one.mass!r} at {shown(list(one.point))}"
-                raise InvariantError("mass", offender, "a number and three coordinates")
-            sums[one.link] = sums.get(one.link, 0.0) + one.mass
-        for link, total in sums.items():
+        totals: dict[LinkId, float] = {}
+        for mass in self.points:
+            totals[mass.link] = totals.get(mass.link, 0.0) + mass.mass
+        for link, total in totals.items():
             if total <= 0.0:
                 raise InvariantError("mass", f"link {shown(link)} has {total:g} in all", "more than 0")
 
@@ -363,18 +361,21 @@ class SmallMotion:
 def small_motions(elastic: ElasticLinkage, at: Equilibrium, masses: Masses) -> list[SmallMotion]:
     """Return the modes of small motions about an equilibrium without driven joints, slowest first.
 
-    Raise `InvariantError` as :meth:`Masses.checked` does, `UnsolvableError` if some motion moves no mass.
+    Raise `InvariantError` as `Masses.check_links` does, `UnsolvableError` if some motion moves no mass.
     """
-    masses.checked(elastic.linkage)
+    masses.check_links(elastic.linkage)
     tangent = elastic.tangent(at.angles)
     mass = tangent.rates.T @ mass_matrix(elastic.linkage, at.angles, masses) @ tangent.rates
     if not (inertia(mass, DOUBLE.clear**2).signs > 0).all():  # squares of speeds
         raise UnsolvableError("some motion moves no mass; expected masses on the moving links")
-    curvature = elastic.bent(at.angles, tangent, tangent.rates, ()).curvature
+    curvature = elastic.expansion(at.angles, tangent, tangent.rates, ()).curvature
     squares, vectors = scipy.linalg.eigh(curvature, mass)
-    return [
-        _mode(square, tangent.rates @ vector) for square, vector in zip(squares.tolist(), vectors.T, strict=True)
-    ]
+    modes = []
+    for square, vector in zip(squares.tolist(), vectors.T, strict=True):
+        rates, rate = tangent.rates @ vector, abs(square) ** 0.5
+        frequency, growth = (None, rate) if square < 0.0 else (rate / (2.0 * pi), None)
+        modes.append(SmallMotion(frequency, growth, rates / rates[leading(rates)]))
+    return modes
 
 
 def mass_matrix(linkage: PosedLinkage, angles: Floats, masses: Masses) -> Floats:
@@ -393,17 +394,17 @@ def mass_matrix(linkage: PosedLinkage, angles: Floats, masses: Masses) -> Floats
         twists[far] = twists[near].copy()
         twists[far][:, place] += np.concatenate([axis, np.cross(point, axis)])
     matrix = np.zeros((len(angles), len(angles)))
-    for one in masses.points:
-        rotation, shift = (each[0] for each in motions[one.link])
-        place_now = rotation @ ((np.array(one.point) - linkage.middle) / linkage.extent) + shift
-        turning, sliding = twists[one.link][:3], twists[one.link][3:]
+    for mass in masses.points:
+        rotation, shift = (each[0] for each in motions[mass.link])
+        place_now = rotation @ ((np.array(mass.point) - linkage.middle) / linkage.extent) + shift
+        turning, sliding = twists[mass.link][:3], twists[mass.link][3:]
         velocity = (np.cross(turning.T, place_now) + sliding.T) * linkage.extent
-        matrix += one.mass * velocity @ velocity.T
+        matrix += mass.mass * velocity @ velocity.T
     return matrix
 
 
 def sheet_masses(sheet: Sheet, density: float) -> tuple[Mass, ...]:
-    """Return the masses of the panels of a sheet, thin and all of one stuff.
+    """Return the masses of the panels of a sheet, thin and all of one material.
 
     A triangle with a third of its mass at the middle of each side has its centre and its inertia.
 
@@ -448,11 +449,3 @@ def _lamina(link: int, corners: Floats, density: float) -> list[Mass]:
             x, y, z = ((a + b) / 2.0).tolist()
             masses.append(Mass(link, density * area / 3.0, (x, y, z)))
     return masses
-
-
-def _mode(square: float, rates: Floats) -> SmallMotion:
-    largest = rates[leading(rates)]
-    rate = abs(square) ** 0.5
-    if square < 0.0:
-        return SmallMotion(None, rate, rates / largest)
-    return SmallMotion(rate / (2.0 * pi), None, rates / largest)

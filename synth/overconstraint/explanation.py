@@ -7,13 +7,11 @@ from math import degrees, isfinite
 from typing import Any
 
 from graphs.answer.report import power_of_ten
-from graphs.convert.table import Mechanism
 from graphs.errors import check_argument, numbered, shown
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.tolerances import Tolerances
 from graphs.types import JointId
 from synth.motion.configuration import Configuration
-from synth.motion.linkage import PosedLinkage
 from synth.moving.made import Movable, configuration_of
 from synth.overconstraint.reasons import reasons_of, turning_reasons
 from synth.overconstraint.redundancy import (
@@ -23,8 +21,6 @@ from synth.overconstraint.redundancy import (
     first_order_closure,
     smallest_sets,
 )
-
-__all__ = ["Explanation", "IdleSet", "explain"]
 
 _LISTED = 12
 """Axes of which tolerances are printed; data has all."""
@@ -161,12 +157,12 @@ def _length(value: float) -> str:
     return f"{value:.3g}" if isfinite(value) else "any"
 
 
-def explain(thing: Mechanism | PosedLinkage, *, precision: float | None = None) -> Explanation:
+def explain(mechanism: Movable, *, precision: float | None = None) -> Explanation:
     """Find the loops of a mechanism with redundant equations, the reasons, and how far its axes may err.
 
     Parameters
     ----------
-    thing : Mechanism or PosedLinkage
+    mechanism : Mechanism or PosedLinkage
         With coordinates; of a sheet with several frames the first that has them.
     precision : float, optional
         The error that a coordinate may have, in their unit; by default by their digits, or as the geometry shows.
@@ -185,8 +181,8 @@ def explain(thing: Mechanism | PosedLinkage, *, precision: float | None = None) 
     >>> answer.freedoms, answer.count, answer.idle, answer.sets[0].reasons[0]
     (1, -2, 3, 'opposite links equal, lengths proportional to the sines of the twists (Bennett)')
     """
-    check_argument("explain", thing, Movable)
-    at = configuration_of(thing, precision=precision)
+    check_argument("explain", mechanism, Movable)
+    at = configuration_of(mechanism, precision=precision)
     linkage = at.linkage
     order = first_order_closure(linkage, at.tolerances)
     meant = Tolerances.of(at.precision.size)  # mended coordinates move, but are not all that they were meant to be

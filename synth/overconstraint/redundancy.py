@@ -22,8 +22,6 @@ from graphs.types import Floats, Ints, JointId
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, PosedLoop, axis_lengths
 
-__all__ = ["Tolerance"]
-
 _NUDGE = 1e-4
 
 

@@ -1,3 +1,3 @@
-from synth.realisation.on_cone import OnOneCone as OnOneCone, realise_on_cone as realise_on_cone
-from synth.realisation.realised import Realised as Realised, realise as realise
+from synth.realisation.on_cone import ConeRealisation as ConeRealisation, realise_on_cone as realise_on_cone
+from synth.realisation.realised import Realisation as Realisation, realise as realise
 from synth.realisation.special.search import SpecialSearch as SpecialSearch

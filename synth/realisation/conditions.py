@@ -42,25 +42,6 @@ from graphs.types import Flags, Floats, Ints
 from synth.realisation.measures import opened_angles
 from synth.realisation.pattern import Pattern, Sides, creases_round, sides_of
 
-__all__ = [
-    "Condition",
-    "Kept",
-    "Symmetry",
-    "Wishes",
-    "agreeing_ratios",
-    "bent_line",
-    "bundles",
-    "flat_folding",
-    "off_flat",
-    "off_symmetry",
-    "panels_between_vertices",
-    "parallel_creases",
-    "straight_lines",
-    "symmetries",
-    "together",
-    "wishes_for",
-]
-
 Condition = Callable[[Floats], tuple[Floats, Floats]]
 """Of unknowns float[n, 2] (vertices, centres across holes, hubs): float[c] to be 0, derivatives float[c, 2 n]."""
 

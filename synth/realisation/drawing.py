@@ -32,8 +32,6 @@ from synth.realisation.conditions import Condition, Wishes, together
 from synth.realisation.measures import corner_angles, crossings, edge_lengths, is_drawn, opened_angles, sums_at
 from synth.realisation.pattern import Pattern, Pointing
 
-__all__ = ["Drawn", "barycentric_start", "drawings", "first_unknowns", "improved", "off_centres"]
-
 _SPREAD = 0.5
 
 

@@ -24,9 +24,7 @@ from graphs.identity.drawings import map_id
 from graphs.mechanism.sheet import Sheet
 from synth.drawing.catalogue import CatalogueEntry, catalogue_entries
 from synth.drawing.mechanisms.chains import OrderOnCircle
-from synth.realisation.realised import NotFoundError, Realised, realise
-
-__all__ = ["COLUMNS", "Outcome", "RealisationFolder", "RealisationJob", "store_beside", "summary_of"]
+from synth.realisation.realised import NotFoundError, Realisation, realise
 
 
 def store_beside(folder: Path) -> Path:
@@ -192,7 +190,7 @@ def _row(entry: CatalogueEntry, options: dict[str, Any]) -> Row:
     return tuple(values.get(column) for column in COLUMNS)
 
 
-def _values(realised: Realised) -> dict[str, Any]:
+def _values(realised: Realisation) -> dict[str, Any]:
     return {
         "code": map_id(realised.scd),
         "mobility": realised.mobility,

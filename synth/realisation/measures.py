@@ -18,17 +18,6 @@ from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints
 from synth.realisation.pattern import Pattern
 
-__all__ = [
-    "ShapeFigures",
-    "corner_angles",
-    "crossings",
-    "edge_lengths",
-    "figures_of",
-    "is_drawn",
-    "opened_angles",
-    "sums_at",
-]
-
 
 def corner_angles(places: Floats, corners: Ints) -> tuple[Floats, Floats]:
     """Return the angle of each corner, in (-pi, pi], and its derivatives, float[K, 2 V].

@@ -28,8 +28,6 @@ from synth.realisation.measures import first_order_freedoms
 from synth.surfaces.circuit import link_pairs, loop_steps, wrapped
 from synth.surfaces.linkages import by_sizes, map_linkage
 
-__all__ = ["CONE_ANGLE", "OnOneCone", "realise_on_cone"]
-
 CONE_ANGLE = radians(30.0)
 """The default of lambda."""
 
@@ -42,7 +40,7 @@ _MAPPED = 8
 
 
 @dataclass(frozen=True, slots=True)
-class OnOneCone(Printed):
+class ConeRealisation(Printed):
     """A linkage on a cone, of a type with one centre; its joint axes are ruling lines.
 
     Attributes
@@ -135,12 +133,12 @@ class OnOneCone(Printed):
         return f"the arcs alone lead to {numbered(self.cones, 'cone')}, this one among them"
 
     def __repr__(self) -> str:
-        return f"<OnOneCone: lambda {degrees(self.cone_angle):.6g} degrees, {self.linkage.chain!r}>"
+        return f"<ConeRealisation: lambda {degrees(self.cone_angle):.6g} degrees, {self.linkage.chain!r}>"
 
 
 def realise_on_cone(
     mechanism: MechanismLike, *, cone_angle: float = CONE_ANGLE, seed: int = 0, tries: int = 12
-) -> OnOneCone:
+) -> ConeRealisation:
     """Lay the joint axes of a type with one centre round a right cone.
 
     Parameters
@@ -157,7 +155,7 @@ def realise_on_cone(
 
     Returns
     -------
-    OnOneCone
+    ConeRealisation
 
     Raises
     ------
@@ -177,10 +175,10 @@ def realise_on_cone(
     _check(cone_angle, seed, tries)
     chain = _about_one_centre(to_sc(mechanism))
     conformed, mobility = ConformedChain.of(chain), exact_mobility(chain).mobility
-    best: OnOneCone | None = None
+    best: ConeRealisation | None = None
     for number, places in enumerate(_placements(chain, seed, tries)):
         motion = first_order(conformed, places)
-        candidate = OnOneCone(
+        candidate = ConeRealisation(
             linkage=SurfaceLinkage.placed(chain, places.tolist(), Cone(cone_angle)),
             clear=_clear(chain, places),
             circuits=tuple(str(loop.circuits.names()) for loop in loop_steps(chain, places)),

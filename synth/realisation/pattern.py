@@ -24,18 +24,6 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
 from graphs.types import Flags, Floats, Ints, JointId, LinkId
 
-__all__ = [
-    "Pattern",
-    "Pointing",
-    "Sides",
-    "check_holes",
-    "creases_round",
-    "half_turns",
-    "pattern_of",
-    "sides_of",
-    "simplest_drawn",
-]
-
 
 @dataclass(frozen=True, slots=True)
 class Pointing:

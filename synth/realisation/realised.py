@@ -8,16 +8,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from pathlib import Path
 from typing import Any, Literal, get_args, overload
 
 import numpy as np
 
 from enumerate.strings.panel_strings import ChainString
 from graphs.convert.table import Mechanism, to_scd
-from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
-from graphs.files.accepted import MechanismLike
-from graphs.files.formats import read
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.identity.drawings import map_id
 from graphs.limits import LEAST, MOST
 from graphs.mechanism.scd import SCDGraph
@@ -37,8 +35,6 @@ from synth.realisation.pattern import Pattern, check_holes, pattern_of, sheet_of
 from synth.realisation.space import lifted, receded, with_finite_centres
 from synth.realisation.special.search import OTHER_TYPE, SpecialSearch, SpecialWishes, search_special, turns_all
 from synth.realisation.strips import drawn_string, folded_strip, is_strip, strips
-
-__all__ = ["Kind", "NotFoundError", "Realised", "realise"]
 
 Kind = Literal["sheet", "space"]
 
@@ -64,7 +60,7 @@ Raised = Callable[[Pattern, Floats, np.random.Generator], tuple[Floats, Floats]]
 
 
 @dataclass(frozen=True)
-class Realised(Printed):
+class Realisation(Printed):
     """A type with coordinates.
 
     Attributes
@@ -179,7 +175,7 @@ class Realised(Printed):
         return f"no folding drawing found in {tries}: on each some creases stay flat"
 
     def __repr__(self) -> str:
-        return f"<Realised: {self.kind}, {self.sheet!r}>"
+        return f"<Realisation: {self.kind}, {self.sheet!r}>"
 
 
 @overload
@@ -194,7 +190,7 @@ def realise(
     symmetric: bool = ...,
     mode: str | None = ...,
     freedoms: None = ...,
-) -> Realised: ...
+) -> Realisation: ...
 
 
 @overload
@@ -225,7 +221,7 @@ def realise(
     geometry: str = "",
     every: bool = False,
     all_joints: bool = True,
-) -> Realised | SpecialSearch:
+) -> Realisation | SpecialSearch:
     """Give a type coordinates, or search for realisations with special dimensions that move.
 
     Parameters
@@ -263,7 +259,7 @@ def realise(
 
     Returns
     -------
-    Realised or SpecialSearch
+    Realisation or SpecialSearch
         The second with `freedoms`: the families and the results, possibly none.
 
     Raises
@@ -283,30 +279,28 @@ def realise(
     >>> vertex.sheet, vertex.folds, vertex.mobility
     (<Sheet: 4 faces, 4 creases, 5 vertices, flat>, True, 1)
     """
-    if isinstance(mechanism, str | Path):
-        mechanism = read(mechanism)
-    check_argument("realise", mechanism, Mechanism | ChainString)
+    source: Mechanism | ChainString = mechanism_for("realise", mechanism, Mechanism | ChainString)
     _check(kind, size, seed, tries)
     if freedoms is not None:
         if flat_foldable or symmetric or size != 1.0 or mode:
             what = "freedoms with flat_foldable, symmetric, size or mode"
             raise InvariantError("freedoms", what, "freedoms alone: the first two are among the families tried")
-        if isinstance(mechanism, ChainString):
+        if isinstance(source, ChainString):
             raise InvariantError("string", "special geometry of an R/- string", "a type with a loop")
         wishes = SpecialWishes(freedoms, kind == "sheet", seed, tries, geometry, every, all_joints)
-        return search_special(mechanism, wishes)
+        return search_special(source, wishes)
     if geometry or every or not all_joints:
         raise InvariantError("freedoms", "geometry, every or all_joints without freedoms", "a number of freedoms")
     if kind == "space" and (flat_foldable or symmetric):
         raise InvariantError("kind", "a flat-foldable or symmetric configuration in space", "a sheet")
-    if isinstance(mechanism, ChainString) and (flat_foldable or symmetric):
+    if isinstance(source, ChainString) and (flat_foldable or symmetric):
         raise InvariantError("string", "an R/- string that is flat-foldable or symmetric", "an SCD graph")
-    if mode and not isinstance(mechanism, ChainString):
-        raise InvariantError("mode", f"the mode {shown(mode)} for {mechanism!r}", "an R/- string with it")
-    if isinstance(mechanism, ChainString):
-        scd, notes = drawn_string(mechanism, mode)
+    if mode and not isinstance(source, ChainString):
+        raise InvariantError("mode", f"the mode {shown(mode)} for {source!r}", "an R/- string with it")
+    if isinstance(source, ChainString):
+        scd, notes = drawn_string(source, mode)
     else:
-        scd, notes = simplest_drawn(mechanism)
+        scd, notes = simplest_drawn(source)
     pattern = pattern_of(scd)
     raised: Raised = lifted
     if kind == "sheet":
@@ -349,10 +343,10 @@ def _receded(
     return receded(pattern, [pointing for pointing in original.pointings if pointing.infinite], places, random)
 
 
-def _best(task: _Task, sources: Sequence[tuple[Wishes, Iterable[Drawn]]]) -> Realised:
+def _best(task: _Task, sources: Sequence[tuple[Wishes, Iterable[Drawn]]]) -> Realisation:
     """Return the best realisation of the first source of drawings that gives one which folds, or else any."""
     reasons: dict[str, None] = {}
-    first: Realised | None = None
+    first: Realisation | None = None
     for wishes, drawn in sources:
         best = _best_of(task, wishes, drawn, reasons)
         if best is not None and best.folds is not False:
@@ -366,8 +360,8 @@ def _best(task: _Task, sources: Sequence[tuple[Wishes, Iterable[Drawn]]]) -> Rea
     raise NotFoundError(f"no realisation was found in {tries}: {why}")
 
 
-def _best_of(task: _Task, wishes: Wishes, tried: Iterable[Drawn], reasons: dict[str, None]) -> Realised | None:
-    best: Realised | None = None
+def _best_of(task: _Task, wishes: Wishes, tried: Iterable[Drawn], reasons: dict[str, None]) -> Realisation | None:
+    best: Realisation | None = None
     for drawn in tried:
         try:
             realised = replace(_shaped(task, drawn), kept=wishes.kept(task.pattern, drawn.places))
@@ -381,14 +375,14 @@ def _best_of(task: _Task, wishes: Wishes, tried: Iterable[Drawn], reasons: dict[
     return best
 
 
-def _is_better(realised: Realised, other: Realised) -> bool:
+def _is_better(realised: Realisation, other: Realisation) -> bool:
     """Check whether a realisation ranks above another: of those that differ only by rounding neither does."""
     *verdict, quality = realised.rank
     *other_verdict, other_quality = other.rank
     return verdict > other_verdict or (verdict == other_verdict and quality > other_quality + MARGIN)
 
 
-def _shaped(task: _Task, drawn: Drawn) -> Realised:
+def _shaped(task: _Task, drawn: Drawn) -> Realisation:
     """Return the realisation of a drawing; in space the first of good shape, steep ones first, or the best."""
     best = _realised(task, drawn, 1.0)
     for height in _HEIGHTS:
@@ -399,7 +393,7 @@ def _shaped(task: _Task, drawn: Drawn) -> Realised:
     return best
 
 
-def _realised(task: _Task, drawn: Drawn, height: float) -> Realised:
+def _realised(task: _Task, drawn: Drawn, height: float) -> Realisation:
     """Return the realisation of a drawing; refuse one that is of another type when it is read back."""
     sheet = _placed(task, drawn, height)
     if map_id(to_scd(sheet)) != task.code:
@@ -407,7 +401,7 @@ def _realised(task: _Task, drawn: Drawn, height: float) -> Realised:
     at = configuration_of_sheet(sheet)
     at, folds = _folded(at) if task.kind == "sheet" else (at, None)
     pattern = task.pattern
-    return Realised(
+    return Realisation(
         kind=task.kind,
         scd=task.scd,
         configuration=at,

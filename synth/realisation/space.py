@@ -29,8 +29,6 @@ from graphs.tolerances import DOUBLE, MARGIN
 from graphs.types import Floats
 from synth.realisation.pattern import Pattern, Pointing
 
-__all__ = ["evenly_folded", "folds_of", "lifted", "planes_over", "receded", "with_finite_centres"]
-
 _STEEPEST = 0.8
 """Difference in slope of the two panels at the crease that is folded most: 39 degrees if one is level."""
 _STARTS, _ROUNDS = 12, 12

@@ -20,8 +20,6 @@ from synth.realisation.drawing import Drawn
 from synth.realisation.measures import opened_angles, sums_at
 from synth.realisation.pattern import Pattern
 
-__all__ = ["drawn_string", "folded_strip", "is_strip", "strips"]
-
 _FAN = np.radians(45.0)
 """The angle of a triangle, for strips that stay far enough from their own beginning."""
 _TURNED = np.radians(150.0)

@@ -167,7 +167,7 @@ VERBS = (
     Verb("explain", lambda s: synth.explain(s.thing), lambda s: ["explain", str(s.file), "--json"], takes_any=True),
     Verb(
         "states",
-        lambda s: synth.states(s.thing, list(s.driven())),
+        lambda s: synth.states(s.thing, joints=list(s.driven())),
         lambda s: ["states", str(s.file), *(f"--joint={joint}" for joint in s.driven()), "--json"],
         takes_any=True,
         suits=_can_be_driven,
@@ -175,7 +175,7 @@ VERBS = (
     Verb("limits", lambda s: limits(s.thing), lambda s: ["limits", str(s.file), "--json"]),
     Verb(
         "positions",
-        lambda s: synth.positions(s.thing, s.driven(all_freedoms=True), circuits=False),
+        lambda s: synth.positions(s.thing, drive=s.driven(all_freedoms=True), circuits=False),
         lambda s: ["positions", str(s.file), *s.drive_words(all_freedoms=True), "--no-circuits", "--json"],
         most_joints=12,
         suits=_can_be_driven,

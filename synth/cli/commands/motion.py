@@ -182,7 +182,7 @@ def positions(file: str, drive: tuple[str, ...], circuits: bool, seed: int, as_j
         slides = {joint for place, joint in enumerate(at.joints) if place in at.linkage.slides}
         values = numbers_of_joints(at.linkage.graph, drive, "--drive", "JOINT=DEGREES")
         inputs = {joint: value if joint in slides else radians(value) for joint, value in values.items()}
-        modes = assembly_modes(at, inputs, circuits=circuits, seed=seed)
+        modes = assembly_modes(at, drive=inputs, circuits=circuits, seed=seed)
     print_report(file, modes, as_json=as_json)
     if not modes.positions or not modes.exhaustive:
         sys.exit(1)
@@ -376,8 +376,8 @@ def states(
         )
         report = stated(
             mechanism,
-            [joint_named(graph, name) for name in joints],
-            [link_named(graph, name) for name in links],
+            joints=[joint_named(graph, name) for name in joints],
+            links=[link_named(graph, name) for name in links],
             springs=springs if stiffness or rest or moment else None,
             drive=_drive(graph, drive, frames),
             masses=_masses(mechanism, graph, mass, density, ground),
@@ -461,5 +461,5 @@ def limits(file: str, keep: tuple[str, ...], as_json: bool) -> None:
     with about(file):
         mechanism = precise(mechanism)
         graph = configuration_of(mechanism).linkage.graph
-        joint_limits = limits_of(mechanism, [link_named(graph, name) for name in keep])
+        joint_limits = limits_of(mechanism, keep=[link_named(graph, name) for name in keep])
     print_report(file, joint_limits, as_json=as_json)

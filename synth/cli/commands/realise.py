@@ -32,8 +32,8 @@ if TYPE_CHECKING:
     from enumerate.runner.job import Sink
     from graphs.convert.table import Mechanism
     from synth.patterns.generator import Generator, Parameter
-    from synth.realisation.on_cone import OnOneCone
-    from synth.realisation.realised import Realised
+    from synth.realisation.on_cone import ConeRealisation
+    from synth.realisation.realised import Realisation
 
 __all__ = ["generate", "realise"]
 
@@ -348,7 +348,9 @@ def _refuse(*rules: tuple[object, str]) -> None:
             raise click.UsageError(message)
 
 
-def _on_cone(file: str, cone_angle: float | None, seed: int, tries: int) -> tuple[OnOneCone | Realised, Mechanism]:
+def _on_cone(
+    file: str, cone_angle: float | None, seed: int, tries: int
+) -> tuple[ConeRealisation | Realisation, Mechanism]:
     from enumerate.strings.panel_strings import ChainString
     from graphs.errors import FileError
     from synth.realisation.on_cone import CONE_ANGLE, realise_on_cone
@@ -361,7 +363,9 @@ def _on_cone(file: str, cone_angle: float | None, seed: int, tries: int) -> tupl
     return realisation, realisation.linkage
 
 
-def _as_panels(file: str, mode: str | None, options: dict[str, Any]) -> tuple[OnOneCone | Realised, Mechanism]:
+def _as_panels(
+    file: str, mode: str | None, options: dict[str, Any]
+) -> tuple[ConeRealisation | Realisation, Mechanism]:
     from synth.patterns.panels import rounded
     from synth.realisation.realised import realise as realised
 

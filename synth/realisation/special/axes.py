@@ -30,20 +30,6 @@ from synth.motion.derivatives import dependence_on_axes
 from synth.motion.linkage import PosedLinkage, linkage_of_axes
 from synth.motion.walk.step import Allowance
 
-__all__ = [
-    "AxisCondition",
-    "AxisGroup",
-    "AxisSymmetry",
-    "axes_along_a_motion",
-    "axes_meeting",
-    "derivatives",
-    "equal_links",
-    "linkage_at",
-    "meeting",
-    "normal",
-    "symmetric",
-]
-
 Unknowns = npt.NDArray[Any]
 """Float or complex [..., rows, 6]."""
 AxisCondition = Callable[[Unknowns], Unknowns]

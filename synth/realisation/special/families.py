@@ -52,18 +52,6 @@ from synth.realisation.special.axes import (
     symmetric,
 )
 
-__all__ = [
-    "AxisFamily",
-    "SheetFamily",
-    "TypeOfAxes",
-    "axis_families",
-    "degenerate",
-    "named_motions",
-    "sheet_families",
-    "solids_of",
-    "type_of_axes",
-]
-
 _MODES = 4
 """Choices of modes tried per start: signs have to agree round panels too, which no condition ensures."""
 _BENT = (radians(10.0), radians(40.0))

@@ -43,8 +43,6 @@ from synth.realisation.special.families import (
     type_of_axes,
 )
 
-__all__ = ["FamilyTrial", "Moving", "SpecialMember", "SpecialSearch", "SpecialWishes", "judged", "search_special"]
-
 
 @dataclass(frozen=True)
 class Moving:

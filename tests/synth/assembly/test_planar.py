@@ -64,7 +64,7 @@ def check_four_bars(cases):
     for _ in range(cases):
         a, b, c, d = points = random.normal(size=(4, 2))
         turn = random.uniform(-pi, pi)
-        found = positions(planar(FOUR_BAR, points), {0: turn}, circuits=False)
+        found = positions(planar(FOUR_BAR, points), drive={0: turn}, circuits=False)
         crank = turned(b, a, turn)
         closed = circles_meet(crank, np.hypot(*(c - b)), d, np.hypot(*(c - d)))
         assert found.exhaustive
@@ -79,7 +79,7 @@ def check_slider_cranks(cases):
     for _ in range(cases):
         a, b, c = points = random.normal(size=(3, 2))
         way, turn = random.uniform(-pi, pi), random.uniform(-pi, pi)
-        found = positions(slider_crank(points, way), {0: turn}, circuits=False)
+        found = positions(slider_crank(points, way), drive={0: turn}, circuits=False)
         crank = turned(b, a, turn)
         along = np.array([np.cos(way), np.sin(way)])
         # |c + s along - crank| = |c - b|: a quadratic equation for the slide s
@@ -162,24 +162,24 @@ def test_slides_in_loops_that_are_declared_planar():
     plain = slider_crank(points, 0.0)
     loop = SCGraph(4, FOUR_BAR.joints, [Loop(range(4), "infinite")])
     declared = JointedLinkage(loop, plain.kinds, plain.places)
-    found, due = (positions(one, {0: 0.3}, circuits=False) for one in (declared, plain))
+    found, due = (positions(one, drive={0: 0.3}, circuits=False) for one in (declared, plain))
     for one, other in zip(found.positions, due.positions, strict=True):
         np.testing.assert_allclose(one.angles, other.angles, atol=1e-9)
     leaning = {**plain.places, 3: JointPlace((3, 0, 0), ((1.0, 0.0, 0.3),))}
     with pytest.raises(InvariantError, match=r"miss by 2\.9e-01"):
-        positions(JointedLinkage(loop, plain.kinds, leaning), {0: 0.3})
+        positions(JointedLinkage(loop, plain.kinds, leaning), drive={0: 0.3})
 
 
 def test_a_driven_slide_and_circuits():
     linkage = slider_crank(np.array([[0, 0], [1, 1], [3, 0]]), 0.0)
-    found = positions(linkage, {3: -0.5})
+    found = positions(linkage, drive={3: -0.5})
     assert [(one.circuit, one.branch) for one in found.positions] == [(0, 0), (0, 1)]
     assert all(one.angles[3] == pytest.approx(-0.5) for one in found.positions)
     document = found.to_json()
     assert (document["driven_deg"], document["driven_lengths"]) == ({}, {"3": -0.5})
     assert set(document["positions"][0]["lengths"]) == {"3"}
     larger = slider_crank(np.array([[0, 0], [10, 10], [30, 0]]), 0.0)
-    scaled = positions(larger, {3: -5.0})
+    scaled = positions(larger, drive={3: -5.0})
     for one, other in zip(found.positions, scaled.positions, strict=True):
         np.testing.assert_allclose(one.angles[:3], other.angles[:3], atol=1e-9)
 
@@ -197,7 +197,7 @@ def test_roberts_seven_bar_moves_and_has_six_rigid_assemblies():
     ratio = (p - a) / (b - a)
     points = {"O1": o1, "A": a, "B": b, "O2": o2, "O1'": o1, "A'": o1 + p - a, "P": p}
     points |= {"C": points["A'"] + ratio * (a - o1), "O3": o1 + ratio * (o2 - o1)}
-    found = positions(planar(SEVEN_BAR, {joint: (one.real, one.imag) for joint, one in points.items()}), {})
+    found = positions(planar(SEVEN_BAR, {joint: (one.real, one.imag) for joint, one in points.items()}), drive={})
     assert (found.general, found.imaginary + sum(one.regular for one in found.positions)) == (18, 6)
     assert found.singular + sum(not one.regular for one in found.positions) == 12
     assert (found.exhaustive, found.lost) == (False, 0)
@@ -206,7 +206,7 @@ def test_roberts_seven_bar_moves_and_has_six_rigid_assemblies():
 
 def test_another_seven_bar_is_rigid_in_eighteen_assemblies():
     points = np.random.default_rng(3).normal(size=(9, 2))
-    found = positions(planar(SEVEN_BAR, dict(zip(SEVEN_BAR.joints, points, strict=True))), {})
+    found = positions(planar(SEVEN_BAR, dict(zip(SEVEN_BAR.joints, points, strict=True))), drive={})
     assert (found.general, found.exhaustive, found.singular) == (18, True, 0)
     assert all(one.regular for one in found.positions)
 
@@ -222,9 +222,9 @@ def test_a_planar_loop_beside_a_spherical_one():
     axes = {j: ((*random.normal(size=2), 0.0), UP) for j in range(4)}
     point = axes[3][0]
     axes |= {j: (point, tuple(random.normal(size=3))) for j in (4, 5, 6)}
-    found = positions(linkage_of_axes(graph, axes), {0: radians(4)}, circuits=False)
+    found = positions(linkage_of_axes(graph, axes), drive={0: radians(4)}, circuits=False)
     assert (found.general, found.exhaustive) == (4, True)
-    four = positions(planar(FOUR_BAR, [axes[j][0][:2] for j in range(4)]), {0: radians(4)}, circuits=False)
+    four = positions(planar(FOUR_BAR, [axes[j][0][:2] for j in range(4)]), drive={0: radians(4)}, circuits=False)
     of_planar = {round(float(one.angles[3]), 8) for one in four.positions}
     assert {round(float(one.angles[3]), 8) for one in found.positions} <= of_planar
 
@@ -232,10 +232,10 @@ def test_a_planar_loop_beside_a_spherical_one():
 def test_loops_are_judged_by_their_axes():
     """Hinged solids without declared loops: axes that are parallel make a planar loop, skew ones are refused."""
     points = np.array([[0, 0], [0.3, 1], [2, 1.5], [2.2, 0]])
-    assert len(positions(planar(FOUR_BAR, points), {0: 0.3}).positions) == 2
+    assert len(positions(planar(FOUR_BAR, points), drive={0: 0.3}).positions) == 2
     skew = HingedSolids(FOUR_BAR, {j: ((*points[j].tolist(), 0.0), (0.1 * j * j, 0.3 * j, 1.0)) for j in range(4)})
     with pytest.raises(UnsolvableError, match="neither meet in a point nor are parallel"):
-        positions(skew, {0: 0.3})
+        positions(skew, drive={0: 0.3})
 
 
 def test_six_bars_in_other_planes():
@@ -249,6 +249,6 @@ def test_six_bars_in_other_planes():
         WATT,
         {j: (tuple(turn @ point + shift), tuple(turn @ axis)) for j, (point, axis) in flat.axes.items()},
     )
-    one, other = (positions(thing, {0: 0.2}, circuits=False) for thing in (flat, moved))
+    one, other = (positions(thing, drive={0: 0.2}, circuits=False) for thing in (flat, moved))
     assert len(one.positions) == len(other.positions) > 0
     assert all(is_among(position.angles, other.positions) for position in one.positions)

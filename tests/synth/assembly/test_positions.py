@@ -76,7 +76,7 @@ def test_eight_bars():
         graph = SCGraph(chain.nodes, list(chain.edges()))
         for joint in random.choice(10, 3, replace=False).tolist():
             linkage = spherical(graph, random)
-            found = positions(linkage, {joint: 0.3}, circuits=False)
+            found = positions(linkage, drive={joint: 0.3}, circuits=False)
             assert found.exhaustive
             assert all(
                 is_among(angles, found.positions) for angles in by_newton(linkage, {joint: 0.3}, random, 15)
@@ -90,7 +90,7 @@ def test_four_bars_by_their_closed_form(turn):
     """Input and output angles between links: of the ring's joints those beside the ground, link 3."""
     arcs = np.radians([60, 80, 75, 70])  # input, coupler, output, ground
     ring = spherical_ring(arcs)
-    found = positions(ring, {0: radians(turn)}, circuits=False)
+    found = positions(ring, drive={0: radians(turn)}, circuits=False)
     axes = np.array([along for _, along in ring.axes.values()])
 
     def dihedral(first, middle, last):
@@ -107,7 +107,7 @@ def test_four_bars_by_their_closed_form(turn):
 
 
 def test_inputs_out_of_reach_have_no_position():
-    found = positions(spherical_ring(np.radians([100, 40, 40, 40])), {0: radians(150)}, circuits=False)
+    found = positions(spherical_ring(np.radians([100, 40, 40, 40])), drive={0: radians(150)}, circuits=False)
     assert (found.positions, found.imaginary, found.exhaustive) == ((), 2, True)
     assert "0 positions" in str(found)
 
@@ -125,13 +125,13 @@ def test_circuits_and_branches_of_four_bars(arcs, driver, told):
 
     A rocker beside a crank turns back twice on each circuit.
     """
-    found = positions(spherical_ring(np.radians(arcs)), {driver: 0.0})
+    found = positions(spherical_ring(np.radians(arcs)), drive={driver: 0.0})
     assert [(one.circuit, one.branch) for one in found.positions] == told
     assert found.notes == ()
 
 
 def test_creases_of_a_vertex(data):
-    found = positions(read(data / "patterns" / "four-bar-vertex.fold"), {2: pi / 2}, circuits=False)
+    found = positions(read(data / "patterns" / "four-bar-vertex.fold"), drive={2: pi / 2}, circuits=False)
     assert [round(float(np.degrees(one.angles[0])), 4) for one in found.positions] == [-137.7883, -16.0831]
     told = found.to_json()
     assert (told["general"], told["exhaustive"], told["driven_deg"]) == (2, True, {"2": 90.0})
@@ -140,7 +140,7 @@ def test_creases_of_a_vertex(data):
 
 def test_several_inputs_and_another_seed():
     made = configuration_of(generate("five-bar").mechanism).linkage
-    found = [positions(made, {0: 0.2, 1: -0.1}, seed=seed) for seed in (0, 1)]
+    found = [positions(made, drive={0: 0.2, 1: -0.1}, seed=seed) for seed in (0, 1)]
     assert [len(one.positions) for one in found] == [2, 2]
     np.testing.assert_allclose(*([p.angles for p in one.positions] for one in found), atol=1e-9)
     assert found[0].positions[0].circuit is None
@@ -149,13 +149,13 @@ def test_several_inputs_and_another_seed():
 def test_what_cannot_be_answered_is_refused(data):
     ring = generate("four-bar").mechanism
     with pytest.raises(UnsolvableError, match=r"2 joints driven; expected .* M = 1 by count"):
-        positions(ring, {0: 0.1, 1: 0.1})
+        positions(ring, drive={0: 0.1, 1: 0.1})
     with pytest.raises(UnsolvableError, match="neither meet in a point nor are parallel"):
-        positions(generate("bennett").mechanism, {0: 0.1})
+        positions(generate("bennett").mechanism, drive={0: 0.1})
     with pytest.raises(InvariantError, match="9 is no joint of a loop"):
-        positions(ring, {9: 0.1})
+        positions(ring, drive={9: 0.1})
     with pytest.raises(InvariantError, match="the angle of joint 0 is nan"):
-        positions(ring, {0: float("nan")})
+        positions(ring, drive={0: float("nan")})
     stiff = SCGraph(6, [(0, 1), (1, 2), (2, 0), (0, 3), (3, 4), (4, 5), (5, 0)])  # a rigid loop of three
     with pytest.raises(UnsolvableError, match="do not determine the others"):
-        positions(spherical(stiff, np.random.default_rng(1)), {0: 0.1})
+        positions(spherical(stiff, np.random.default_rng(1)), drive={0: 0.1})

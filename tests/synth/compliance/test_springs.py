@@ -235,7 +235,7 @@ def test_what_springs_refuse():
     with pytest.raises(UnsolvableError, match="fold it a little first"):
         ElasticLinkage(flat, Springs({next(iter(flat.graph.joints)): 1.0}))
     with pytest.raises(UnsolvableError, match="require springs"):
-        synth.states(four_bar(), [0], drive=DrivenJoint(0, 1.0))
+        synth.states(four_bar(), joints=[0], drive=DrivenJoint(0, 1.0))
     rigid = replace(linkage, directions=np.array([[0.0, 0, 1], [0, 1, 0], [1, 0, 0], [0, 0.6, 0.8]]))
     with pytest.raises(UnsolvableError, match="nothing to move"):
         ElasticLinkage(rigid, Springs({0: 1.0}))

@@ -97,19 +97,19 @@ def polygon(sides, stretched=False):
 def test_the_three_classes():
     """Of rings in the plane: n joints that turn leave n - 3 freedoms."""
     four, six = polygon(4), polygon(6)
-    assert synth.states(four, [0]).classes == ("compliant mechanism",)
-    both = synth.states(four, [0, 1])
+    assert synth.states(four, joints=[0]).classes == ("compliant mechanism",)
+    both = synth.states(four, joints=[0, 1])
     assert both.classes == ("compliant mechanism", "compliant locking")
     assert [one.after.active.joints for one in both.transitions] == [(0, 1), (0,), (1,)]
-    varied = synth.states(six, [0, 1])
+    varied = synth.states(six, joints=[0, 1])
     assert varied.classes == ("variable mobility",)
     assert [one.freedoms for one in varied.sets] == [1, 2, 2, 3]
-    assert synth.states(six, [0, 1, 2, 3, 4]).classes == ("compliant mechanism", "compliant locking")
+    assert synth.states(six, joints=[0, 1, 2, 3, 4]).classes == ("compliant mechanism", "compliant locking")
 
 
 def test_a_limit_pose_moves_to_first_order_and_is_told_immobile():
     """Three joints of a triangle and one on its side, where two links are in line: rates close, nothing moves."""
-    found = synth.states(polygon(4, stretched=True), [0])
+    found = synth.states(polygon(4, stretched=True), joints=[0])
     assert [(one.freedoms, one.kind) for one in found.sets] == [(0, "rigid immobile"), (1, "compliant mobile")]
 
 
@@ -125,13 +125,13 @@ def test_what_is_refused():
     with pytest.raises(UnsolvableError, match="nothing is compliant"):
         synth.states(four)
     with pytest.raises(UnsolvableError, match="expected 10 at most"):
-        synth.states(polygon(12), range(11))
+        synth.states(polygon(12), joints=range(11))
     with pytest.raises(InvariantError, match="'9' is no joint"):
-        synth.states(four, ["9"])
+        synth.states(four, joints=["9"])
     with pytest.raises(InvariantError, match="hangs on one other"):
         synth.states(HingedSolids(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))}), links=[1])
     with pytest.raises(UnsolvableError, match="needs coordinates"):
-        synth.states(synth.read("k1:Cr"), [0])
+        synth.states(synth.read("k1:Cr"), joints=[0])
 
 
 def test_the_command(tmp_path):

@@ -18,7 +18,7 @@ from synth.folding.configuration import configuration_of_sheet
 from synth.realisation.drawing import drawings
 from synth.realisation.measures import crossings
 from synth.realisation.pattern import pattern_of
-from synth.realisation.realised import Realised, realise
+from synth.realisation.realised import Realisation, realise
 
 FOUR_BAR = "m1:a-b.ac-.b-d.cd-"
 EXPLICIT = "m1:a---b.ac-.bde.cef--.d-g.fg-"
@@ -33,7 +33,7 @@ def _is_explicit(scd):
     return all(scd.drawing.kind_of_face(face.index) is not FaceKind.IMPLICIT for face in scd.faces)
 
 
-def _read_back(found: Realised, folder) -> str | None:
+def _read_back(found: Realisation, folder) -> str | None:
     place = folder / "found.fold"
     write(found.sheet, place, force=True)
     return identify(read(place)).drawing
