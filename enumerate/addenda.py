@@ -25,8 +25,10 @@ import networkx as nx
 
 from enumerate.runner.job import Column, ListColumn, Row, RowCount, Unit, batches
 from enumerate.runner.running import rows_of
+from graphs.convert.table import graph_of
 from graphs.edit.edits import Edit, add_loop
 from graphs.errors import InvariantError
+from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.files.native import dumps
 from graphs.identity.chains import chain_id, class_code, symmetries_of_links
 from graphs.loops.classes import CentreClass
@@ -81,14 +83,14 @@ class Addendum:
     mobility: int
 
 
-def addenda(mechanism: SCGraph, delta_dof: int, *, workers: int = 1) -> Iterator[Addendum]:
+def addenda(mechanism: MechanismLike, delta_dof: int = 0, *, workers: int = 1) -> Iterator[Addendum]:
     """Yield every addendum that changes the mobility of a mechanism by a number, one of each orbit.
 
     Parameters
     ----------
-    mechanism : SCGraph
-        Connected. Of an SCD graph the SC graph is taken: addenda have no sides yet. Its ground link counts.
-    delta_dof : int
+    mechanism : Mechanism, str or Path
+        Connected. Its SC graph is taken: addenda have no sides yet. Its ground link counts.
+    delta_dof : int, optional
         dM; -2 or more: two links have K + 2 new ones between them, or K + 5 in a spatial loop.
     workers : int
         Processes.
@@ -109,7 +111,8 @@ def addenda(mechanism: SCGraph, delta_dof: int, *, workers: int = 1) -> Iterator
     >>> [(addendum.kind, len(addendum.through)) for addendum in addenda(four_bar, 0)]
     [('ride-along', 1), ('dyad', 3), ('spatial loop', 1), ('dyad', 2), ('spatial loop', 2)]
     """
-    for row in rows_of(AddendumJob(mechanism, delta_dof, as_rows=False), workers=workers):
+    graph = graph_of(mechanism_for("addenda", mechanism))
+    for row in rows_of(AddendumJob(graph, delta_dof, as_rows=False), workers=workers):
         yield row["addendum"]
 
 

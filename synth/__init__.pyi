@@ -1,30 +1,50 @@
+from enumerate.addenda import Addendum as Addendum, addenda as addenda
 from enumerate.chains.jobs import chains as chains, count_chains as count_chains
 from enumerate.sc.jobs import count_sc_graphs as count_sc_graphs, sc_graphs as sc_graphs
 from enumerate.scd.jobs import count_scd_graphs as count_scd_graphs, scd_graphs as scd_graphs
-from enumerate.strings.panel_strings import strings as strings
+from enumerate.strings.panel_strings import (
+    ChainString as ChainString,
+    count_strings as count_strings,
+    strings as strings,
+)
 from graphs.answer.conversion import convert as convert
 from graphs.answer.identity import identify as identify
 from graphs.answer.reconstruction import reconstruct as reconstruct
+from graphs.convert.table import Mechanism as Mechanism
 from graphs.errors import (
     FileError as FileError,
     InvariantError as InvariantError,
     SynthedraError as SynthedraError,
     UnsolvableError as UnsolvableError,
 )
+from graphs.files.accepted import MechanismLike as MechanismLike
 from graphs.files.formats import read as read, write as write
+from graphs.joints.linkage import (
+    JointedLinkage as JointedLinkage,
+    JointKind as JointKind,
+    JointPlace as JointPlace,
+)
 from graphs.loops.loop import Centre as Centre, Loop as Loop
 from graphs.mechanism.polyhedron import PolyhedronModel as PolyhedronModel
 from graphs.mechanism.sc import SCGraph as SCGraph
 from graphs.mechanism.scd import SCDGraph as SCDGraph
 from graphs.mechanism.sheet import Sheet as Sheet
-from graphs.mechanism.surfaces import SurfaceLinkage as SurfaceLinkage
+from graphs.mechanism.solids import HingedSolids as HingedSolids
+from graphs.mechanism.surfaces import Cone as Cone, Cylinder as Cylinder, SurfaceLinkage as SurfaceLinkage
 from graphs.mechanism.vertex_edge import VertexEdgeGraph as VertexEdgeGraph
 from graphs.reduce.ride_alongs import reduce as reduce
 from synth.advice.advice import advise as advise
 from synth.assembly.modes import positions as positions
 from synth.atlas.opened import open_atlas as open_atlas
-from synth.compliance.compliance_states import states as states
+from synth.candidates.job import Filter as Filter
+from synth.candidates.listing import (
+    conical_candidates as conical_candidates,
+    count_conical_candidates as count_conical_candidates,
+)
+from synth.compliance.compliance_states import DrivenJoint as DrivenJoint, states as states
+from synth.compliance.springs import Mass as Mass, Masses as Masses, Springs as Springs
 from synth.drawing.mechanisms.pictures import draw as draw
+from synth.editing import edit as edit
 from synth.folding.motion import fold as fold
 from synth.guidance.fourbars import four_bars as four_bars
 from synth.guidance.order import analyse_order as analyse_order
@@ -38,4 +58,8 @@ from synth.realisation.on_cone import realise_on_cone as realise_on_cone
 from synth.realisation.realised import realise as realise
 from synth.surfaces.linkages import map_linkage as map_linkage
 from synth.surfaces.loop_maps import map_to_cones as map_to_cones, map_to_cylinders as map_to_cylinders
+from synth.templates.hinges import Hinges as Hinges
+from synth.templates.of_mechanism import template as template
+from synth.templates.writing import write_template as write_template
 from synth.verdict.judged import mobility as mobility
+from synth.viewer.pages import view as view

@@ -7,10 +7,12 @@ from types import UnionType
 from typing import TypeAlias, TypeVar, overload
 
 from graphs.convert.table import Mechanism
-from graphs.errors import check_argument
+from graphs.errors import InvariantError, check_argument
 from graphs.files.formats import read
+from graphs.mechanism.precision import stated
+from graphs.mechanism.sheet import Sheet
 
-__all__ = ["MechanismLike", "mechanism_for"]
+__all__ = ["MechanismLike", "mechanism_for", "with_stated_precision"]
 
 MechanismLike: TypeAlias = Mechanism | str | Path
 """A mechanism as `read` returns it, the path of its file, or an id."""
@@ -36,3 +38,12 @@ def mechanism_for(verb: str, mechanism: object, kinds: type | UnionType = Mechan
     value = read(mechanism) if isinstance(mechanism, str | Path) else mechanism
     check_argument(verb, value, kinds)
     return value
+
+
+def with_stated_precision(mechanism: T, precision: float | None) -> T | Sheet:
+    """Return a crease pattern with a stated precision of its coordinates; InvariantError for anything else."""
+    if precision is None:
+        return mechanism
+    if not isinstance(mechanism, Sheet):
+        raise InvariantError("precision", f"a precision for {mechanism!r}", "the coordinates of a crease pattern")
+    return stated(mechanism, precision)

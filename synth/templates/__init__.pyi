@@ -1,3 +1,4 @@
+from synth.templates.hinges import Hinges as Hinges
 from synth.templates.pages import Paper as Paper, paper_named as paper_named
 from synth.templates.solids import write_solids as write_solids
 from synth.templates.template import (

@@ -9,17 +9,22 @@ from __future__ import annotations
 import json
 from base64 import b64encode
 from collections.abc import Sequence
+from dataclasses import dataclass
 from hashlib import sha256
 from html import escape
 from pathlib import Path
 from typing import Any
 
-from graphs.errors import UnsolvableError
+from graphs.errors import FileError, UnsolvableError
+from graphs.files.accepted import MechanismLike, mechanism_for, with_stated_precision
+from graphs.files.atomic import write_text
 from graphs.printing import plain
 from synth.viewer.building import BUILT
-from synth.viewer.shown import Shown
+from synth.viewer.shown import Shown, shown_of
 
-__all__ = ["check_built", "json_in_html", "page"]
+__all__ = ["ViewPage", "check_built", "json_in_html", "page", "view"]
+
+_SUFFIXES = (".html", ".htm")
 
 _SCRIPT, _STYLE = "page.js", "page.css"
 _MISSING = (
@@ -94,6 +99,91 @@ def page(shown: Sequence[Shown], title: str = "", *, workbench: bool = False, bu
         data=json_in_html({"shown": [mechanism.to_json() for mechanism in shown], "workbench": workbench}),
         script=script,
     )
+
+
+@dataclass(frozen=True, repr=False)
+class ViewPage:
+    """An interactive page of mechanisms, which opens in any browser, without a network.
+
+    Attributes
+    ----------
+    html : str
+        The page; a notebook shows it in a frame.
+    mechanisms : tuple of Shown
+        What it shows.
+
+    Methods
+    -------
+    save(path, force=False)
+        Write the page.
+    """
+
+    html: str
+    mechanisms: tuple[Shown, ...]
+
+    def save(self, path: str | Path, *, force: bool = False) -> None:
+        """Write the page to an .html file; FileError if it exists, or the extension is another."""
+        if Path(path).suffix.lower() not in _SUFFIXES:
+            raise FileError(path, "", "the extension is not known", _SUFFIXES[0])
+        write_text(Path(path), self.html, force=force)
+
+    def to_json(self) -> dict[str, object]:
+        """Return the data of the page."""
+        return {"shown": [mechanism.to_json() for mechanism in self.mechanisms]}
+
+    def __repr__(self) -> str:
+        return f"<ViewPage: {', '.join(mechanism.name or 'mechanism' for mechanism in self.mechanisms)}>"
+
+    def _repr_html_(self) -> str:
+        return f'<iframe srcdoc="{escape(self.html)}" width="100%" height="600"></iframe>'
+
+
+def view(
+    mechanism: MechanismLike,
+    *others: MechanismLike,
+    title: str = "",
+    motion: bool | None = None,
+    precision: float | None = None,
+) -> ViewPage:
+    """Make an interactive page of mechanisms, which fold on it with rigid panels.
+
+    Parameters
+    ----------
+    mechanism, *others : Mechanism, str or Path
+        One, or several to choose from on the page.
+    title : str, optional
+        By default the name of the first file.
+    motion : bool, optional
+        Look for the motion of a crease pattern; by default unless it is too large.
+    precision : float, optional
+        The error that a coordinate of crease patterns may have, in their unit.
+
+    Returns
+    -------
+    ViewPage
+
+    Raises
+    ------
+    UnsolvableError
+        If the script of pages was not built when synthedra was installed.
+    FileError
+        If a file cannot be read.
+
+    Examples
+    --------
+    ``view("miura.fold").save("miura.html")`` writes the page of a file.
+
+    >>> view("no such file.fold")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.OpenError: no such file.fold: no such file; expected a file
+    """
+    shown = []
+    for each in (mechanism, *others):
+        source = mechanism_for("view", each)
+        name = Path(each).name if isinstance(each, str | Path) else getattr(source, "title", "")
+        shown.append(shown_of(with_stated_precision(source, precision), name, motion=motion))
+    return ViewPage(page(shown, title), tuple(shown))
 
 
 def json_in_html(value: Any) -> str:
