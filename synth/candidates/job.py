@@ -49,7 +49,7 @@ class Filter:
     """
 
     column: str
-    value: Any = None
+    value: object = None
     least: int | None = None
     most: int | None = None
 

@@ -341,7 +341,7 @@ class Configuration:
         """Return the two ends of joints that are creases, in the unit of the coordinates; of others nothing."""
         return {}
 
-    def at(self, angles: Floats, points: Floats | None = None) -> Any:
+    def at(self, angles: Floats, points: Floats | None = None) -> Sheet | PosedLinkage:
         """Return the mechanism at joint angles float[J], radians: a linkage, or for a sheet the sheet."""
         return moved(self.linkage, angles)
 

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId, LinkId
@@ -105,7 +106,7 @@ class Motion(Printed):
         """The largest loop-closure residual of all frames."""
         return float(self.path.errors.max(initial=0.0))
 
-    def frames(self) -> list[Any]:
+    def frames(self) -> list[Sheet | PosedLinkage]:
         """Return the mechanism in each frame: a sheet with coordinates in space and fold angles, or a linkage."""
         every = zip(self.path.angles, self.places, strict=True)
         return [self.configuration.at(angles, points) for angles, points in every]

@@ -224,7 +224,7 @@ def write_motion(motion: Motion, path: str | Path, *, force: bool = False) -> li
     if is_picture:
         _draw(at.sheet, motion.places, path, force=force)
         return [path]
-    poses = motion.frames()
+    poses = [pose for pose in motion.frames() if isinstance(pose, Sheet)]
     if path.suffix.lower() == ".fold":
         write_text(path, fold_text_of_poses(at.sheet, poses), force=force)
         return [path]
