@@ -6,7 +6,8 @@ from importlib import import_module
 from inspect import getdoc
 from pathlib import Path
 from pkgutil import iter_modules
-from types import FunctionType
+from types import FunctionType, UnionType
+from typing import get_args
 
 from cross_links import with_links
 
@@ -33,7 +34,8 @@ def write_reference(folder: Path) -> list[tuple[str, object]]:
     (folder / "rooms").mkdir(parents=True, exist_ok=True)
     place_of: dict[int, str] = {}
     made = []
-    for module in (f"{package}.{room}" for package in _PACKAGES for room in _rooms_of(package)):
+    rooms = [f"{package}.{room}" for package in _PACKAGES for room in _rooms_of(package)]
+    for module in (*rooms, "synth"):  # the face last: what a room has is documented there
         names = _offered_by(module)
         if names:
             made.append(module)
@@ -81,12 +83,14 @@ def _directive(module: str, name: str, thing: object) -> str:
 def _front_door(place_of: dict[int, str], rooms: list[str]) -> str:
     """Return the first page: what `import synth` offers, and the rooms."""
     synth = import_module("synth")
-    rows = [_row(name, getattr(synth, name), place_of) for name in _offered_by("synth")]
+    rows = [_row(name, getattr(synth, name), place_of) for name in sorted(synth.__all__)]
     lines = [
         "# Reference",
         "",
         "```{eval-rst}",
         with_links(getdoc(synth) or ""),
+        "",
+        "What of this is stable, and how names are deprecated: :doc:`/stability`.",
         "",
         ".. list-table::",
         "   :widths: 25 75",
@@ -112,6 +116,8 @@ def _row(name: str, thing: object, place_of: dict[int, str]) -> str:
     place = place_of.get(id(thing))
     told = f":py:obj:`{name} <{place}>`" if place else f"``{name}``"
     first = (getdoc(thing) or "").partition("\n\n")[0].replace("\n", " ")
+    if isinstance(thing, UnionType):
+        first = "Type: " + ", ".join(f"``{part.__name__}``" for part in get_args(thing)) + "."
     return f"   * - {told}\n     - {first}"
 
 

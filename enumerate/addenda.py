@@ -74,6 +74,11 @@ class Addendum:
         Before and after.
     mobility : int
         By the exact rank, after.
+
+    Examples
+    --------
+    >>> next(addenda("k1:Cr")).kind
+    'ride-along'
     """
 
     kind: str

@@ -39,6 +39,12 @@ def load_ipython_extension(shell: Any) -> None:
     Parameters
     ----------
     shell : IPython.core.interactiveshell.InteractiveShell
+
+    Examples
+    --------
+    In a notebook, once, unless it imports synthedra itself::
+
+        %load_ext synth
     """
     formatter = shell.display_formatter.formatters["image/svg+xml"]
     for module, name in _SHOWN.items():

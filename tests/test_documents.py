@@ -2,6 +2,7 @@
 
 import inspect
 import re
+import sys
 import tomllib
 from dataclasses import is_dataclass
 from enum import Enum
@@ -9,10 +10,12 @@ from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
 from pkgutil import iter_modules
-from types import FunctionType
+from types import FunctionType, UnionType
 from typing import Protocol
 
 import pytest
+
+import synth
 
 ROOT = Path(__file__).resolve().parent.parent
 PAPERS = sorted(
@@ -172,6 +175,50 @@ def test_few_classes_that_rooms_offer_are_without_an_example():
     """Many are answers of functions that have one: there may be fewer, not more."""
     without = [name for name, cls in offered(type).items() if ">>> " not in sections(cls, "Examples")]
     assert len(without) <= 67, without
+
+
+@pytest.fixture(scope="module")
+def reference(tmp_path_factory):
+    """The pages of the reference, as `make docs` writes them, and the names documented in them."""
+    sys.path.insert(0, str(ROOT / "docs"))
+    try:
+        from reference_pages import write_reference
+    except ImportError:
+        pytest.skip("the reference requires sphinx")
+    finally:
+        sys.path.remove(str(ROOT / "docs"))
+    folder = tmp_path_factory.mktemp("reference")
+    return folder, dict(write_reference(folder))
+
+
+def test_the_reference_has_every_name_of_the_face(reference):
+    folder, documented = reference
+    front = (folder / "index.md").read_text(encoding="utf-8")
+    listed = re.findall(r"^   \* - (?::py:obj:`|``)(\w+)", front, re.MULTILINE)
+    assert listed == sorted(synth.__all__)
+    known = {id(thing) for thing in documented.values()}
+    without = {name for name in synth.__all__ if id(getattr(synth, name)) not in known}
+    assert without == {"Mechanism", "MechanismLike"}  # types: the table says of what
+    pages = "".join(page.read_text(encoding="utf-8") for page in (folder / "rooms").iterdir())
+    assert {name for name in documented if f":: {name}\n" not in pages} == set()
+
+
+def test_the_face_is_documented_whole():
+    """Functions and classes of the face say what they take or hold, and have an example that runs."""
+    face = {
+        name: getattr(synth, name) for name in synth.__all__ if not isinstance(getattr(synth, name), UnionType)
+    }
+    untold = {
+        name: (set(inspect.signature(one).parameters) if isinstance(one, FunctionType) else taken_or_held(one))
+        - told(one)
+        for name, one in face.items()
+        if not (isinstance(one, type) and issubclass(one, synth.SynthedraError))
+    }
+    assert not {name: names for name, names in untold.items() if names}
+    without = {name for name, one in face.items() if ">>> " not in sections(one, "Examples")}
+    assert without - {"SynthedraError", "FileError", "InvariantError", "UnsolvableError"} == {
+        "load_ipython_extension"
+    }
 
 
 def test_every_misprint_is_told_on_the_page_of_its_theory():

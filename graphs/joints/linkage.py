@@ -135,6 +135,11 @@ class JointPlace:
         For a revolute or cylindrical joint its axis, for a prismatic one the direction in which it slides, for a
         planar one the normal, for a universal one the axes that its first and its second link hold; none for a
         spherical one.
+
+    Examples
+    --------
+    >>> JointPlace((0.0, 0.0, 0.0), ((0.0, 0.0, 1.0),)).axes
+    ((0.0, 0.0, 1.0),)
     """
 
     point: Vector

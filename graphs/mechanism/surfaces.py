@@ -79,7 +79,22 @@ def joint_axes(places: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class Cone:
-    """A right cone, apex at the origin, its axis the y axis; `angle` is lambda, radians."""
+    """A right cone, apex at the origin, its axis the y axis.
+
+    Attributes
+    ----------
+    angle : float
+        lambda, between a ruling line and the plane perpendicular to the axis, radians.
+    kind, centre : "cone", Centre
+        The centre of each loop is its apex.
+    spans : (float, float)
+        Where ruling lines begin and end in a picture.
+
+    Examples
+    --------
+    >>> print(Cone(np.pi / 6))
+    lambda 30 degrees
+    """
 
     angle: float
     kind: ClassVar[str] = "cone"
@@ -149,7 +164,17 @@ class Cone:
 class Cylinder:
     """A right circular cylinder, its axis the y axis.
 
-    Raise InvariantError unless the radius is positive.
+    Attributes
+    ----------
+    radius : float
+        Positive, in the unit of the lengths.
+    kind, centre : "cylinder", Centre
+        The centre of each loop is at infinity.
+
+    Examples
+    --------
+    >>> print(Cylinder(2.5))
+    radius 2.5
     """
 
     radius: float

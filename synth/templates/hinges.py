@@ -48,9 +48,19 @@ _LETTERS: dict[Kind, str] = {"MOUNTAIN": "M", "VALLEY": "V"}
 
 @dataclass(frozen=True)
 class Hinges:
-    """The kind of the hinges made of folds, and their width in millimetres.
+    """Hinges in place of folds, for thick material.
 
-    Raise InvariantError if the kind is unknown, or the width is not positive.
+    Attributes
+    ----------
+    kind : {"offset", "living", "gap"}
+        Two folds per crease, rows of cuts, or panels apart.
+    width : float
+        Millimetres, positive.
+
+    Examples
+    --------
+    >>> Hinges("living", 8.0).width
+    8.0
     """
 
     kind: HingeKind
