@@ -28,7 +28,7 @@ from graphs.types import Floats
 from synth.motion.walk.step import Allowance
 from synth.realisation.conditions import (
     Condition,
-    Wishes,
+    DrawingConditions,
     agreeing_ratios,
     bent_line,
     bundles,
@@ -67,7 +67,7 @@ class SheetFamily:
     """
 
     name: str
-    wishes: Wishes
+    wishes: DrawingConditions
     bent: bool = False
     ratios: bool = False
 
@@ -107,12 +107,14 @@ def sheet_families(pattern: Pattern) -> list[SheetFamily]:
     families = []
     for flat in (True, False) if _can_fold_flat(pattern) else (False,):
         head = ("flat-foldable",) if flat else ()
-        families += [SheetFamily(", ".join((*head, name)), Wishes(flat, None, on)) for name, on in conditions]
+        families += [
+            SheetFamily(", ".join((*head, name)), DrawingConditions(flat, None, on)) for name, on in conditions
+        ]
         for group in groups:
             name = ", ".join((*head, str(group)))
-            families.append(SheetFamily(name, Wishes(flat, group)))
+            families.append(SheetFamily(name, DrawingConditions(flat, group)))
             if bendable:
-                families.append(SheetFamily(f"{name}, lines bent", Wishes(flat, group), bent=True))
+                families.append(SheetFamily(f"{name}, lines bent", DrawingConditions(flat, group), bent=True))
         if flat:
             families += _with_ratios(pattern)
     return families
@@ -120,12 +122,12 @@ def sheet_families(pattern: Pattern) -> list[SheetFamily]:
 
 def _with_ratios(pattern: Pattern) -> list[SheetFamily]:
     """Return the families of flat-foldable sheets without other conditions, or with ratios that agree."""
-    plain = SheetFamily("flat-foldable", Wishes(True))
+    plain = SheetFamily("flat-foldable", DrawingConditions(True))
     if not panels_between_vertices(pattern):
         return [plain]
     name = "flat-foldable, ratios that agree round panels"
-    bent = SheetFamily(f"{name}, lines bent", Wishes(True), bent=True, ratios=True)
-    return [plain, bent, SheetFamily(name, Wishes(True), ratios=True)]
+    bent = SheetFamily(f"{name}, lines bent", DrawingConditions(True), bent=True, ratios=True)
+    return [plain, bent, SheetFamily(name, DrawingConditions(True), ratios=True)]
 
 
 def _of_lines(pattern: Pattern) -> list[tuple[str, tuple[Condition, ...]]]:
