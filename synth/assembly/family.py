@@ -71,9 +71,8 @@ class Family:
     def followed(self, curves: Curves, values: Complexes, small: float = SMALL) -> TrackedPaths:
         """Follow solutions, complex[P, U], from members of the family to others.
 
-        Curves are three complex[P, parameters], start, end and bend of the parameters: at s, start + s (end -
-        start) + s (1 - s) bend. The smaller the allowed corrections (`small`, radians), the less likely a path
-        changes for another.
+        Curves are start, end and bend of the parameters, complex[P, parameters]: at s, start + s (end - start) + s
+        (1 - s) bend. The smaller the allowed corrections (`small`, radians), the surer each path stays its own.
         """
         solutions = values.astype(complex)
         ends = followed_all(self._type, curves, solutions, small)
@@ -234,27 +233,10 @@ class GeneralPositions(NamedTuple):
 
 
 def general_positions(family: Family, seed: int = 0) -> GeneralPositions:
-    """Return all positions of a random member of a family.
+    """Return all positions of a random member of a family; another seed is another member, and other curves.
 
-    Parameters
-    ----------
-    family : Family
-    seed : int, optional
-        Random seed; another seed is another member, and other curves.
-
-    Raises
-    ------
-    UnsolvableError
-        If the driven joints do not determine the others.
-    NumericalError
-        If the curves go on to bring new positions.
-
-    Examples
-    --------
-    >>> ring, directions = np.array([[0, 1, 2, 3]]), np.array([[0, 0], [1, 0], [2, 0], [3, 0]])
-    >>> four_bar = Family(ring, np.ones((1, 4)), directions, (0, 1, 2, 3), np.array([-1, 0, 1, 2]))
-    >>> len(general_positions(four_bar).values)
-    2
+    Raises `UnsolvableError` if the driven joints do not determine the others, `NumericalError` if the curves go on
+    to bring new positions.
     """
     # A curve of members that comes back to where it began takes each position to a position, perhaps a new one.
     # Curves are walked until many in a row bring nothing new: with one position missing, each curve would bring it

@@ -7,7 +7,7 @@ it without the driven joint turning back. Theory: docs/theory/positions.md.
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from math import degrees, isfinite
 from typing import Any, NamedTuple
@@ -31,7 +31,6 @@ from synth.assembly.family import (
     same,
 )
 from synth.assembly.kernel import CLOSED, Complexes
-from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
 from synth.motion.path import circuit_through
@@ -186,33 +185,6 @@ class PositionSet(Printed):
 
     def __repr__(self) -> str:
         return f"<PositionSet: {len(self.positions)} of {self.general}>"
-
-
-def members_of_circuits(
-    closure: ClosureEquations, positions: Sequence[Floats], driver: int
-) -> tuple[list[tuple[int, int]], list[str]]:
-    """Return circuit and branch of each position, from 0, branches counted in each circuit, and notes.
-
-    Positions, float[J] in radians, are closed, the linkage has one freedom; the driver is the place of the driven
-    joint. Raise `UnsolvableError` if a position has not exactly one infinitesimal freedom.
-    """
-    places: dict[int, tuple[int, int]] = {}
-    notes: list[str] = []
-    circuits = 0
-    for number, start in enumerate(positions):
-        if number in places:
-            continue
-        passed = _Passed({other: positions[other] for other in range(len(positions)) if other not in places})
-        circuit = circuit_through(closure, start, events=[TurningPoint(driver), passed])
-        if circuit.stopped:
-            notes.append(f"circuit {circuits + 1} was not traced all round: {circuit.stopped}")
-        if circuit.meets:
-            notes.append(f"circuit {circuits + 1} meets another one; it was traced straight on")
-        branches = len(circuit.turning) if not circuit.stopped and circuit.turning else len(circuit.turning) + 1
-        for other, frame in {**passed.frames, number: 0}.items():
-            places[other] = circuits, bisect_right(circuit.turning, frame) % branches
-        circuits += 1
-    return [places[number] for number in range(len(positions))], notes
 
 
 class _Passed(Event):
@@ -410,15 +382,26 @@ def _units(linkage: PosedLinkage) -> Floats:
 
 
 def _with_circuits(answer: PositionSet) -> PositionSet:
-    """Add circuits and branches, or a note why they are unknown."""
+    """Add circuits and branches, counted in each circuit, of a linkage of one freedom, or a note why not."""
+    closure, units = answer.configuration.closure, _units(answer.configuration.linkage)
     driver = answer.joints.index(next(iter(answer.driven)))
-    angles = [mode.angles / _units(answer.configuration.linkage) for mode in answer.positions]
-    try:
-        places, notes = members_of_circuits(answer.configuration.closure, angles, driver)
-    except SynthedraError as error:
-        return replace(answer, notes=(*answer.notes, f"circuits unknown: {error}"))
-    placed = tuple(
-        replace(mode, circuit=circuit, branch=branch)
-        for mode, (circuit, branch) in zip(answer.positions, places, strict=True)
-    )
-    return replace(answer, positions=placed, notes=(*answer.notes, *notes))
+    left = {number: mode.angles / units for number, mode in enumerate(answer.positions)}
+    modes, notes, circuits = list(answer.positions), list(answer.notes), 0
+    while left:
+        number, passed = next(iter(left)), _Passed(left)
+        try:
+            circuit = circuit_through(closure, left[number], events=[TurningPoint(driver), passed])
+        except SynthedraError as error:
+            return replace(answer, notes=(*answer.notes, f"circuits unknown: {error}"))
+        if circuit.stopped:
+            notes.append(f"circuit {circuits + 1} was not traced all round: {circuit.stopped}")
+        if circuit.meets:
+            notes.append(f"circuit {circuits + 1} meets another one; it was traced straight on")
+        # turning points part a closed circuit into as many branches, an open one into one more
+        branches = len(circuit.turning) if not circuit.stopped and circuit.turning else len(circuit.turning) + 1
+        for other, frame in {**passed.frames, number: 0}.items():
+            branch = bisect_right(circuit.turning, frame) % branches
+            modes[other] = replace(modes[other], circuit=circuits, branch=branch)
+            del left[other]
+        circuits += 1
+    return replace(answer, positions=tuple(modes), notes=tuple(notes))

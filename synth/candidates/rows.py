@@ -287,11 +287,9 @@ def placed_rows(
 def _link_sizes(places: Floats, pairs: Sequence[tuple[int, int]], surface: Surface) -> list[list[float]]:
     """Return the link angles, degrees, or lengths between joints of each link."""
     steps = _steps(places, pairs)
-    if isinstance(surface, Cone):
-        angles: list[list[float]] = np.degrees(link_angles(steps, surface.angle)).tolist()
-        return angles
-    lengths: list[list[float]] = chords(steps, surface.radius).tolist()
-    return lengths
+    is_cone = isinstance(surface, Cone)
+    sizes = np.degrees(link_angles(steps, surface.angle)) if is_cone else chords(steps, surface.radius)
+    return [list(map(float, row)) for row in sizes]
 
 
 def _placed_ways(candidate: CandidateChain, places: Floats) -> list[list[Any]]:

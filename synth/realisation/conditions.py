@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import networkx as nx
@@ -30,17 +31,14 @@ Condition = Callable[[Floats], tuple[Floats, Floats]]
 """Of unknowns float[n, 2] (vertices, centres across holes, hubs): float[c] to be 0, derivatives float[c, 2 n]."""
 
 
-def together(conditions: Sequence[Condition]) -> Condition:
+def together(*conditions: Condition) -> Condition:
     """Return several conditions as one."""
 
     def condition(unknowns: Floats) -> tuple[Floats, Floats]:
-        return _stacked([part(unknowns) for part in conditions])
+        off, by = zip(*(part(unknowns) for part in conditions), strict=True)
+        return np.concatenate(off), np.concatenate(by)
 
     return condition
-
-
-def _stacked(parts: Sequence[tuple[Floats, Floats]]) -> tuple[Floats, Floats]:
-    return np.concatenate([off for off, _ in parts]), np.concatenate([by for _, by in parts])
 
 
 def flat_folding(pattern: Pattern) -> Condition:
@@ -65,16 +63,16 @@ def flat_folding(pattern: Pattern) -> Condition:
             alternate[row, pattern.corner_before(vertex, crease)] = (-1.0) ** place
     round_holes = [[pattern.creases[crease] for crease in met] for met in pattern.rounds[len(inner) :]]
 
-    def condition(unknowns: Floats) -> tuple[Floats, Floats]:
+    def round_vertices(unknowns: Floats) -> tuple[Floats, Floats]:
         angles, by_places = opened_angles(pattern, unknowns[: pattern.vertices])
         by = np.zeros((len(inner), unknowns.size))
         by[:, : by_places.shape[1]] = alternate @ by_places
-        return _stacked([(alternate @ angles, by), *(_round_hole(unknowns, lines) for lines in round_holes)])
+        return alternate @ angles, by
 
-    return condition
+    return together(round_vertices, *(partial(_round_hole, lines) for lines in round_holes))
 
 
-def _round_hole(unknowns: Floats, lines: list[Edge]) -> tuple[Floats, Floats]:
+def _round_hole(lines: list[Edge], unknowns: Floats) -> tuple[Floats, Floats]:
     """Return rotation and translation of the reflections in some lines, in turn, and the derivatives."""
     mirrors = [_reflection(unknowns[a], unknowns[b]) for a, b in lines]
     before = [np.eye(3)]
@@ -286,7 +284,7 @@ class Symmetry:
 
     def condition(self, unknowns: Floats) -> tuple[Floats, Floats]:
         """Return by how much unknowns, float[n, 2], miss their images, and derivatives."""
-        return _stacked([generator.missed(unknowns) for generator in self._generators])
+        return together(*(generator.missed for generator in self._generators))(unknowns)
 
     def upright(self, places: Floats) -> Floats:
         """Return places rotated so that the first mirror is upright, if there is one."""

@@ -156,26 +156,16 @@ class _Cost:
     def merit(self) -> float:
         return float(self.residuals @ self.residuals + _OFF * np.abs(self.off).sum())
 
-    @property
-    def back(self) -> Floats:
-        """The shortest step by which each crease turns to its centre."""
-        return self._split[0]
-
-    @property
-    def free(self) -> Floats:
-        """Steps, in columns, by which no crease turns off its centre."""
-        return self._split[1]
-
     @cached_property
-    def by_free(self) -> Floats:
-        """Derivatives of the residuals along these."""
-        return np.asarray(self.by @ self.free)
+    def steps(self) -> tuple[Floats, Floats, Floats]:
+        """The shortest steps by which creases turn to their centres, and steps by which none turns off its own.
 
-    @cached_property
-    def _split(self) -> tuple[Floats, Floats]:
+        Both in columns, then the derivatives of the residuals along the second.
+        """
         parts = split(self.off_by)
         rank, right = parts.rank, parts.right
-        return (right[:rank].T / parts.values[:rank]) @ parts.left[:, :rank].T, right[rank:].T
+        back = (right[:rank].T / parts.values[:rank]) @ parts.left[:, :rank].T
+        return back, right[rank:].T, self.by @ right[rank:].T
 
 
 class _Aims(NamedTuple):
@@ -206,7 +196,7 @@ def improved(
     # step may turn a panel over. Each step goes to where creases meet their centres, as far as derivatives tell,
     # and within that to the better shape; it is accepted if the cost with its penalty for creases off their
     # centres falls.
-    exactly = together([partial(off_centres, pattern), *conditions])
+    exactly = together(partial(off_centres, pattern), *conditions)
     goal = _Aims(convex, np.zeros(len(pattern.edges)) if aims is None else aims, exactly)
     unknowns, cost = start, _cost(pattern, start, goal)
     damping = 1e-2
@@ -253,13 +243,14 @@ def _stepped(unknowns: Floats, cost: _Cost, damping: float, exactly: Condition) 
         step = -damped_least_squares(cost.by, cost.residuals, damping**0.5)
         return unknowns + step.reshape(unknowns.shape)
     part = 1.0 / (1.0 + damping)
-    there = -part * (cost.back @ cost.off)
-    within = cost.free @ damped_least_squares(cost.by_free, cost.residuals + cost.by @ there, damping**0.5)
+    back, free, by_free = cost.steps
+    there = -part * (back @ cost.off)
+    within = free @ damped_least_squares(by_free, cost.residuals + cost.by @ there, damping**0.5)
     trial = unknowns + (there - within).reshape(unknowns.shape)
     # Creases turn on the way, so that the step misses their centres in second order. That is taken back; else the
     # gain in shape would have to outweigh it, and steps would be short.
     missed = exactly(trial)[0] - (1.0 - part) * cost.off
-    trial -= (cost.back @ missed).reshape(unknowns.shape)
+    trial -= (back @ missed).reshape(unknowns.shape)
     return trial
 
 

@@ -190,9 +190,8 @@ def _around(best: Floats, folds: Floats, random: np.random.Generator) -> Iterato
 
 def _is_widest(places: Floats, pattern: Pattern) -> bool:
     """Check that the border encloses a larger area than every hole."""
-    border, *holes = (
-        float(np.linalg.norm(area_vector(places[list(ring)]))) for ring in (pattern.outer, *pattern.holes)
-    )
+    rings = (pattern.outer, *pattern.holes)
+    border, *holes = (float(np.linalg.norm(area_vector(places[list(ring)]))) for ring in rings)
     return all(hole * (1.0 + _WIDER) < border for hole in holes)
 
 
