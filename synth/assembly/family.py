@@ -1,12 +1,9 @@
 """A family of linkages with complex axes and inputs, and all positions of a general member of it.
 
 Joint angles, axes and inputs may be complex: then the number of positions is the same for all members but special
-ones, and can be followed from one to another. An axis through a finite centre has two angles, one across a plane
-its point there, so that everything is an entire function and no root has to choose a sign.
-
-A curve of members that comes back to where it began takes each position to a position, perhaps a new one. Curves
-are walked until many in a row bring nothing new: with one position missing, each curve would bring it unless it
-takes all known ones to known ones. Theory: docs/theory/positions.md.
+ones, and positions can be followed from one member to another. An axis through a finite centre has two angles, one
+across a plane its point there, so that everything is an entire function and no root has to choose a sign. Theory:
+docs/theory/positions.md.
 """
 
 from __future__ import annotations
@@ -14,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import atan2, hypot
+from typing import NamedTuple
 
 import numpy as np
 
@@ -45,14 +43,10 @@ SMALL = 3e-3
 
 @dataclass(frozen=True, slots=True)
 class Family:
-    """Linkages of one type with driven joints.
+    """Linkages of one type with driven joints; loops, signs, axes and column are those of `kernel.Type`.
 
-    Parameters of a member: two numbers for each axis, and the angle or length of each driven joint. Rows of
-    `loops`, int[L, K], are the axes of each loop in order, filled up with -1; `signs` is 1 or -1 by the way they
-    are passed. `axes`, int[A, 2], has the joint of each axis and the meaning of its parameters: DIRECTION in loops
-    with a finite centre, POINT or SLIDE in those with parallel axes (`synth.assembly.kernel`). `joints` are all
-    that are in loops; `column` is the place of each among the unknown ones, and for a driven one -1 - (its place
-    among the driven).
+    Parameters of a member: two numbers for each axis, and the angle or length of each driven joint. `joints` are
+    all that are in loops.
     """
 
     loops: Ints
@@ -67,11 +61,6 @@ class Family:
         return int((self.column >= 0).sum())
 
     @property
-    def driven(self) -> int:
-        """Number of joints that are driven."""
-        return len(self.column) - self.unknowns
-
-    @property
     def turning(self) -> Flags:
         """Whether an unknown is an angle, and not the length of a slide: bool[U]."""
         turning = np.ones(self.unknowns, dtype=bool)
@@ -82,9 +71,8 @@ class Family:
     def followed(self, curves: Curves, values: Complexes, small: float = SMALL) -> TrackedPaths:
         """Follow solutions, complex[P, U], from members of the family to others.
 
-        Curves are three complex[P, parameters], start, end and bend of the parameters: at s, start + s (end -
-        start) + s (1 - s) bend. The smaller the allowed corrections (`small`, radians), the less likely a path
-        changes for another.
+        Curves are start, end and bend of the parameters, complex[P, parameters]: at s, start + s (end - start) + s
+        (1 - s) bend. The smaller the allowed corrections (`small`, radians), the surer each path stays its own.
         """
         solutions = values.astype(complex)
         ends = followed_all(self._type, curves, solutions, small)
@@ -95,12 +83,8 @@ class Family:
         solutions = values.astype(complex)
         return solutions, corrected_all(self._type, parameters, solutions, steps)
 
-    def derivatives(self, parameters: Complexes, values: Complexes) -> Complexes:
-        """Return the derivatives of what does not close by the unknowns: complex[3 L, U]."""
-        return self.at(parameters, values)[1]
-
     def at(self, parameters: Complexes, values: Complexes) -> tuple[Complexes, Complexes]:
-        """Return what does not close, complex[3 L], and its derivatives by the unknowns, complex[3 L, U]."""
+        """Return the closure residual, complex[3 L], and its derivatives by the unknowns, complex[3 L, U]."""
         jacobian = np.empty((3 * len(self.loops), self.unknowns), dtype=complex)
         residual = np.empty(3 * len(self.loops), dtype=complex)
         evaluated(self._type, parameters, values, residual, jacobian)
@@ -111,8 +95,7 @@ class Family:
         return self.loops, self.signs, self.axes, self.column
 
 
-@dataclass(frozen=True, slots=True)
-class TrackedPaths:
+class TrackedPaths(NamedTuple):
     """Ends of paths: values, complex[P, U], and which arrived or are far, at infinity; the others stopped."""
 
     values: Complexes
@@ -127,28 +110,25 @@ def family_of(linkage: PosedLinkage, driven: Sequence[JointId]) -> tuple[Family,
     many driven joints do not determine the others by count, `InvariantError` if a driven joint is in no loop, or
     named twice.
     """
-    joints = _joints_of_loops(linkage)
+    names = list(linkage.graph.joints)
+    numbers_in_loops = sorted({joint for loop in linkage.loops for joint in loop.joints})
+    joints = tuple(names[joint] for joint in numbers_in_loops)
     _check_driven(joints, driven, len(joints) - 3 * len(linkage.loops))
     axes = _Axes(linkage)
     longest = max((len(loop.joints) for loop in linkage.loops), default=0)
     loops = np.full((len(linkage.loops), longest), -1, dtype=np.int64)
     signs = np.zeros(loops.shape)
     for row, loop in enumerate(linkage.loops):
-        numbers, ways = axes.of_loop(loop)
+        numbers, senses = axes.of_loop(loop)
         loops[row, : len(numbers)] = numbers
-        signs[row, : len(numbers)] = np.multiply(loop.signs, ways)
+        signs[row, : len(numbers)] = np.multiply(loop.signs, senses)
     column = np.empty(len(joints), dtype=np.int64)
     known = [joints.index(joint) for joint in driven]
     column[known] = -1 - np.arange(len(known))
     column[np.setdiff1d(np.arange(len(joints)), known)] = np.arange(len(joints) - len(known))
-    place = {list(linkage.graph.joints).index(joint): number for number, joint in enumerate(joints)}
+    place = {joint: number for number, joint in enumerate(numbers_in_loops)}
     kinds = np.array([(place[joint], kind) for joint, kind in axes.kinds], dtype=np.int64).reshape(-1, 2)
     return Family(loops, signs, kinds, joints, column), np.array(axes.parameters, dtype=float).ravel()
-
-
-def _joints_of_loops(linkage: PosedLinkage) -> tuple[JointId, ...]:
-    names = list(linkage.graph.joints)
-    return tuple(names[joint] for joint in sorted({joint for loop in linkage.loops for joint in loop.joints}))
 
 
 def _check_driven(joints: Sequence[JointId], driven: Sequence[JointId], freedoms: int) -> None:
@@ -180,10 +160,10 @@ class _Axes:
         directions = self._linkage.directions
         centre = self._centre(loop)
         if centre is Centre.FINITE:
-            angles = [_tilt_and_turn(directions[joint]) for joint in loop.joints]
-            numbers = [
-                self._added(joint, -1, DIRECTION, pair) for joint, pair in zip(loop.joints, angles, strict=True)
-            ]
+            numbers = []
+            for joint in loop.joints:
+                x, y, z = directions[joint].tolist()
+                numbers.append(self._added(joint, -1, DIRECTION, (atan2(hypot(x, y), z), atan2(y, x))))
             return numbers, [1] * len(loop.joints)
         if centre is not Centre.INFINITE:
             names = list(self._linkage.graph.joints)
@@ -193,17 +173,17 @@ class _Axes:
             )
         turning = [joint for joint in loop.joints if joint not in self._slides]
         plane, frame = self._plane(directions[turning])
-        numbers, ways = [], []
+        numbers, senses = [], []
         for joint in loop.joints:
             if joint in self._slides:
                 x, y = frame[:2] @ directions[joint]
                 numbers.append(self._added(joint, plane, SLIDE, (float(np.arctan2(y, x)), 0.0)))
-                ways.append(1)
+                senses.append(1)
             else:
                 x, y = frame[:2] @ self._linkage.points[joint]
                 numbers.append(self._added(joint, plane, POINT, (float(x), float(y))))
-                ways.append(1 if directions[joint] @ frame[2] > 0.0 else -1)
-        return numbers, ways
+                senses.append(1 if directions[joint] @ frame[2] > 0.0 else -1)
+        return numbers, senses
 
     def _centre(self, loop: PosedLoop) -> Centre:
         """Return the centre of a loop, found from its axes where it is not declared."""
@@ -211,12 +191,11 @@ class _Axes:
             return loop.centre
         turning = [joint for joint in loop.joints if joint not in self._slides]
         sliding = [joint for joint in loop.joints if joint in self._slides]
-        axes, ways = self._linkage.directions[turning], self._linkage.directions[sliding]
-        if (
-            len(axes)
-            and max(np.abs(np.cross(axes, axes[0])).max(), np.abs(ways @ axes[0]).max(initial=0.0)) <= DOUBLE.meant
-        ):
-            return Centre.INFINITE
+        axes, along = self._linkage.directions[turning], self._linkage.directions[sliding]
+        if len(axes):  # parallel axes, and slides across them
+            off = max(np.abs(np.cross(axes, axes[0])).max(), np.abs(along @ axes[0]).max(initial=0.0))
+            if off <= DOUBLE.meant:
+                return Centre.INFINITE
         if not sliding and float(lines_meet(self._linkage.points[turning], axes).off.max()) <= DOUBLE.meant:
             return Centre.FINITE
         return Centre.NONE
@@ -237,11 +216,6 @@ class _Axes:
         return number
 
 
-def _tilt_and_turn(direction: Floats) -> tuple[float, float]:
-    x, y, z = direction.tolist()
-    return atan2(hypot(x, y), z), atan2(y, x)
-
-
 _STARTS, _STEPS = 64, 25
 _QUIET = 6
 """Curves in a row that bring nothing new, before the positions are taken for all."""
@@ -250,8 +224,7 @@ _WIDE = 0.7
 """Imaginary parts of the angles of a general member's axes, at most, radians."""
 
 
-@dataclass(frozen=True, slots=True)
-class GeneralPositions:
+class GeneralPositions(NamedTuple):
     """All positions (complex[N, U]) of a general member, and how many closed curves were walked to find them."""
 
     parameters: Complexes
@@ -260,41 +233,28 @@ class GeneralPositions:
 
 
 def general_positions(family: Family, seed: int = 0) -> GeneralPositions:
-    """Return all positions of a random member of a family.
+    """Return all positions of a random member of a family; another seed is another member, and other curves.
 
-    Parameters
-    ----------
-    family : Family
-    seed : int, optional
-        Random seed; another seed is another member, and other curves.
-
-    Raises
-    ------
-    UnsolvableError
-        If the driven joints do not determine the others.
-    NumericalError
-        If the curves go on to bring new positions.
-
-    Examples
-    --------
-    >>> ring, directions = np.array([[0, 1, 2, 3]]), np.array([[0, 0], [1, 0], [2, 0], [3, 0]])
-    >>> four_bar = Family(ring, np.ones((1, 4)), directions, (0, 1, 2, 3), np.array([-1, 0, 1, 2]))
-    >>> len(general_positions(four_bar).values)
-    2
+    Raises `UnsolvableError` if the driven joints do not determine the others, `NumericalError` if the curves go on
+    to bring new positions.
     """
+    # A curve of members that comes back to where it began takes each position to a position, perhaps a new one.
+    # Curves are walked until many in a row bring nothing new: with one position missing, each curve would bring it
+    # unless it takes all known ones to known ones.
     random = np.random.default_rng(seed)
-    number, inputs = len(family.axes), family.driven
+    number, inputs = len(family.axes), len(family.joints) - family.unknowns
     here = np.concatenate([_random_axes(random, number), np.zeros(inputs, dtype=complex)])
     known = np.zeros((1, family.unknowns), dtype=complex)  # all joint angles are 0 where the axes were read
-    derivatives = family.derivatives(here, known[0])
-    parts = as_real(derivatives)
+    parts = as_real(family.at(here, known[0])[1])
     if rank_of(parts) < min(parts.shape):
         raise UnsolvableError("the driven joints do not determine the others: drive joints that do")
-    known = apart(np.concatenate([known, _by_newton(family, here, random)]), family.turning)
+    starts = _random(random, (_STARTS, family.unknowns), np.pi, 1.5)
+    values, error = family.corrected(np.tile(here, (_STARTS, 1)), starts, _STEPS)
+    known = apart(np.concatenate([known, values[error <= CLOSED]]), family.turning)
     quiet = 0
     for curves in range(1, _MOST_CURVES + 1):
         turn = np.concatenate([_random_axes(random, number), _random(random, inputs, np.pi, np.pi)])
-        # there and back on different curves: the closed curve permutes positions, and brings missing ones
+        # there and back on different curves: the closed curve permutes positions
         there = _carried(family, (here, turn), known, random)
         back = _carried(family, (turn, here), there, random)
         more = apart(np.concatenate([known, back]), family.turning)
@@ -316,27 +276,14 @@ def apart(values: Complexes, turning: Flags) -> Complexes:
 
 def same(values: Complexes, solution: Complexes, turning: Flags) -> Flags:
     """Return which of some solutions, complex[N, U], are one solution, complex[U]: bool[N]."""
-    return np.asarray(
-        np.abs(_unturned(values - solution, turning)).max(axis=1, initial=0.0) <= DOUBLE.same_configuration
-    )
+    off = values - solution
+    off = off - 2 * np.pi * np.where(turning, np.rint(off.real / (2 * np.pi)), 0.0)
+    return np.asarray(np.abs(off).max(axis=1, initial=0.0) <= DOUBLE.same_configuration)
 
 
 def as_real(matrix: Complexes) -> Floats:
     """Return a complex matrix as a real one of twice its size, and twice its rank."""
     return np.block([[matrix.real, -matrix.imag], [matrix.imag, matrix.real]])
-
-
-def _unturned(unknowns: Complexes, turning: Flags) -> Complexes:
-    """Return unknowns, angles without whole turns."""
-    return np.asarray(unknowns - 2 * np.pi * np.where(turning, np.rint(unknowns.real / (2 * np.pi)), 0.0))
-
-
-def _by_newton(family: Family, parameters: Complexes, random: np.random.Generator) -> Complexes:
-    """Return solutions that random starts come to."""
-    starts = _random(random, (_STARTS, family.unknowns), np.pi, 1.5)
-    many = np.tile(parameters, (_STARTS, 1))
-    values, error = family.corrected(many, starts, _STEPS)
-    return values[error <= CLOSED]
 
 
 def _carried(

@@ -1,9 +1,8 @@
 """Compiled: closure equations with complex unknowns, and solutions followed along parameters.
 
 A loop closes if the product of the quaternions of its joints is 1 or -1: its vector part is zero. About a finite
-centre these are the quaternions of rotations. A plane is a sphere without curvature: where x and y are measured in
-a very large radius, products of two of them vanish, and what is left are the motions of the plane.
-Theory: docs/theory/positions.md.
+centre these are the quaternions of rotations; a plane is a sphere without curvature. Theory:
+docs/theory/positions.md.
 """
 
 from __future__ import annotations
@@ -58,8 +57,7 @@ def placed_axes(kind: Type, parameters: Complexes, unknowns: Complexes) -> tuple
         else:  # a slide is a rotation by a small angle about an axis that is far away
             axes[i, 0], axes[i, 1], axes[i, 2] = -np.sin(first), np.cos(first), 0.0
             sine, quaternions[i, 0] = 0.5 * value, 1.0
-        for k in range(3):
-            quaternions[i, 1 + k] = sine * axes[i, k]
+        quaternions[i, 1:] = sine * axes[i]
     return axes, quaternions
 
 
@@ -70,10 +68,9 @@ def evaluated(
     """Write the closure residual, complex[3 L], and its derivatives by the unknowns, complex[3 L, U]."""
     loops, signs, axes_of, column = kind
     axes, quaternions = placed_axes(kind, parameters, unknowns)
-    for row in range(len(jacobian)):
-        for place in range(jacobian.shape[1]):
-            jacobian[row, place] = 0.0
+    jacobian[:] = 0.0
     for loop in range(len(loops)):
+        # in a plane x and y are measured in a very large radius: products of two of them vanish
         curved = 1.0 if axes_of[loops[loop, 0], 1] == DIRECTION else 0.0
         w, x, y, z = 1.0 + 0.0j, 0.0j, 0.0j, 0.0j
         for i in range(loops.shape[1]):
@@ -162,29 +159,21 @@ def corrected(kind: Type, parameters: Complexes, unknowns: Complexes, steps: int
 
 
 @compiled
-def parameters_at(start: Complexes, end: Complexes, bend: Complexes, s: float) -> Complexes:
-    """Return the parameters at a place of a curve."""
-    parameters = np.empty(len(start), np.complex128)
-    for i in range(len(start)):
-        parameters[i] = start[i] + s * (end[i] - start[i]) + s * (1.0 - s) * bend[i]
-    return parameters
+def parameters_at(curve: tuple[Complexes, Complexes, Complexes], s: float) -> Complexes:
+    """Return the parameters at a place of a curve of start, end and bend."""
+    start, end, bend = curve
+    return start + s * (end - start) + s * (1.0 - s) * bend
 
 
 @compiled
 def tangent(
-    kind: Type,
-    curve: tuple[Complexes, Complexes, Complexes],
-    s: float,
-    unknowns: Complexes,
-    rates: Complexes,
+    kind: Type, curve: tuple[Complexes, Complexes, Complexes], s: float, unknowns: Complexes, rates: Complexes
 ) -> bool:
-    """Write how the unknowns go on along a curve; False if that is not determined."""
+    """Write the derivatives of the unknowns along a curve; False if these are not determined."""
     n = len(unknowns)
     beside, jacobian = np.empty(n, np.complex128), np.empty((n, n), np.complex128)
-    ahead = parameters_at(curve[0], curve[1], curve[2], s + _NUDGE)
-    evaluated(kind, ahead, unknowns, beside, jacobian)
-    here = parameters_at(curve[0], curve[1], curve[2], s)
-    evaluated(kind, here, unknowns, rates, jacobian)
+    evaluated(kind, parameters_at(curve, s + _NUDGE), unknowns, beside, jacobian)
+    evaluated(kind, parameters_at(curve, s), unknowns, rates, jacobian)
     for i in range(n):
         rates[i] = (rates[i] - beside[i]) / _NUDGE
     return solved(jacobian, rates)
@@ -205,38 +194,30 @@ def gone_far(kind: Type, unknowns: Complexes) -> bool:
 
 
 @compiled
-def followed(
-    kind: Type,
-    curve: tuple[Complexes, Complexes, Complexes],
-    unknowns: Complexes,
-    small: float,
-) -> int:
+def followed(kind: Type, curve: tuple[Complexes, Complexes, Complexes], unknowns: Complexes, small: float) -> int:
     """Follow a solution along a curve, in place; return STOPPED, ARRIVED or FAR.
 
-    The tangent predicts each step (Runge and Kutta, fourth order); it is halved where the first correction is not
-    ``small``, radians.
+    A step is halved where the first correction is not ``small``, radians.
     """
     n = len(unknowns)
     rates, tried = np.empty((4, n), np.complex128), np.empty(n, np.complex128)
     s, step = 0.0, _FIRST
     for _ in range(_MOST):
         length = min(step, 1.0 - s)
+        # predictor: Runge and Kutta's method of fourth order on the tangents
         good = tangent(kind, curve, s, unknowns, rates[0])
         for stage in range(1, 4):
             part = length if stage == 3 else 0.5 * length
-            for i in range(n):
-                tried[i] = unknowns[i] + part * rates[stage - 1, i]
+            tried[:] = unknowns + part * rates[stage - 1]
             good = good and tangent(kind, curve, s + part, tried, rates[stage])
         if good:
-            for i in range(n):
-                change = rates[0, i] + 2.0 * rates[1, i] + 2.0 * rates[2, i] + rates[3, i]
-                tried[i] = unknowns[i] + length / 6.0 * change
+            change = rates[0] + 2.0 * rates[1] + 2.0 * rates[2] + rates[3]
+            tried[:] = unknowns + length / 6.0 * change
             onwards = 1.0 if length >= 1.0 - s else s + length
-            there = parameters_at(curve[0], curve[1], curve[2], onwards)
-            first, error = corrected(kind, there, tried, _CORRECTIONS)
+            # corrector: a first correction that is not small may lead to another path
+            first, error = corrected(kind, parameters_at(curve, onwards), tried, _CORRECTIONS)
             if first <= small and error <= CLOSED:
-                for i in range(n):
-                    unknowns[i] = tried[i]
+                unknowns[:] = tried
                 if gone_far(kind, unknowns):
                     return FAR
                 if onwards == 1.0:
@@ -251,10 +232,7 @@ def followed(
 
 @compiled
 def followed_all(
-    kind: Type,
-    curves: tuple[Complexes, Complexes, Complexes],
-    values: Complexes,
-    small: float,
+    kind: Type, curves: tuple[Complexes, Complexes, Complexes], values: Complexes, small: float
 ) -> Places:
     """Follow solutions along curves, each along its own, in place; return STOPPED, ARRIVED or FAR: int[P]."""
     ends = np.empty(len(values), np.int64)

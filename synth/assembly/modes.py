@@ -1,16 +1,16 @@
 """All assembly modes of a linkage at given inputs, with the circuits and branches they belong to.
 
-PositionSet of one *circuit* are reached from each other without taking the linkage apart; those of one *branch* of
+Positions of one *circuit* are reached from each other without taking the linkage apart; those of one *branch* of
 it without the driven joint turning back. Theory: docs/theory/positions.md.
 """
 
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from math import degrees, isfinite
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -31,7 +31,6 @@ from synth.assembly.family import (
     same,
 )
 from synth.assembly.kernel import CLOSED, Complexes
-from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
 from synth.motion.path import circuit_through
@@ -45,7 +44,7 @@ _OTHER_QUESTION = "positions finds all configurations at given angles of driven 
 
 @dataclass(frozen=True, slots=True)
 class AssemblyMode:
-    """One position.
+    """A configuration of a linkage at given angles of its driven joints.
 
     Attributes
     ----------
@@ -118,12 +117,12 @@ class PositionSet(Printed):
             **self._values(self.driven.items(), "driven_deg", "driven_lengths"),
             "positions": [
                 {
-                    **self._values(zip(self.joints, one.angles.tolist(), strict=True), "angles_deg", "lengths"),
-                    "regular": one.regular,
-                    "circuit": one.circuit,
-                    "branch": one.branch,
+                    **self._values(zip(self.joints, mode.angles.tolist(), strict=True), "angles_deg", "lengths"),
+                    "regular": mode.regular,
+                    "circuit": mode.circuit,
+                    "branch": mode.branch,
                 }
-                for one in self.positions
+                for mode in self.positions
             ],
             "general": self.general,
             "imaginary": self.imaginary,
@@ -153,27 +152,16 @@ class PositionSet(Printed):
         number = numbered(len(self.positions), "position")
         blocks: list[Block] = [f"{number} with {inputs}" if inputs else number]
         if self.positions:
-            all_rigid = all(position.regular for position in self.positions)
-            titles = (
-                "position",
-                *(() if all_rigid else ("rigid",)),
-                "circuit",
-                "branch",
-                *map(plain, self.joints),
-            )
-            rows = [
-                (
-                    str(number),
-                    *(() if all_rigid else ("yes" if one.regular else "no",)),
-                    _one_more(one.circuit),
-                    _one_more(one.branch),
-                    *(
-                        f"{(value if joint in self.slides else degrees(value)) + 0.0:.4f}"
-                        for joint, value in zip(self.joints, one.angles.tolist(), strict=True)
-                    ),
-                )
-                for number, one in enumerate(self.positions, start=1)
-            ]
+            all_rigid = all(mode.regular for mode in self.positions)
+            rigid = () if all_rigid else ("rigid",)
+            titles = ("position", *rigid, "circuit", "branch", *map(plain, self.joints))
+            rows = []
+            for number, mode in enumerate(self.positions, start=1):
+                values = zip(self.joints, mode.angles.tolist(), strict=True)
+                angles = (value if joint in self.slides else degrees(value) for joint, value in values)
+                is_rigid = () if all_rigid else ("yes" if mode.regular else "no",)
+                places = ("-" if place is None else str(place + 1) for place in (mode.circuit, mode.branch))
+                rows.append((str(number), *is_rigid, *places, *(f"{angle + 0.0:.4f}" for angle in angles)))
             blocks.append(TableBlock(titles, rows, titles))
         return [*blocks, self._evidence(), *(f"note: {note}" for note in self.notes)]
 
@@ -182,7 +170,7 @@ class PositionSet(Printed):
         parts = [f"{len(self.positions)} real", f"{self.imaginary} complex"]
         if self.far:
             parts.append(f"{self.far} at infinity")
-        movable = sum(not one.regular for one in self.positions)
+        movable = sum(not mode.regular for mode in self.positions)
         if movable:
             parts[0] += f" ({movable} of them singular)"
         if self.singular:
@@ -197,43 +185,6 @@ class PositionSet(Printed):
 
     def __repr__(self) -> str:
         return f"<PositionSet: {len(self.positions)} of {self.general}>"
-
-
-def _one_more(number: int | None) -> str:
-    return "-" if number is None else str(number + 1)
-
-
-@dataclass(frozen=True, slots=True)
-class CircuitMembership:
-    """The (circuit, branch) of each position, from 0, branches counted in each circuit; and notes."""
-
-    places: tuple[tuple[int, int], ...]
-    notes: tuple[str, ...]
-
-
-def members_of_circuits(closure: ClosureEquations, positions: Sequence[Floats], driver: int) -> CircuitMembership:
-    """Return the circuit and branch of each position of a linkage of one freedom.
-
-    PositionSet are closed, float[J], radians; the driver is the place of the driven joint. Raise `UnsolvableError`
-    if a position has not exactly one infinitesimal freedom.
-    """
-    places: dict[int, tuple[int, int]] = {}
-    notes: list[str] = []
-    circuits = 0
-    for number, start in enumerate(positions):
-        if number in places:
-            continue
-        passed = _Passed({other: positions[other] for other in range(len(positions)) if other not in places})
-        circuit = circuit_through(closure, start, events=[TurningPoint(driver), passed])
-        if circuit.stopped:
-            notes.append(f"circuit {circuits + 1} was not traced all round: {circuit.stopped}")
-        if circuit.meets:
-            notes.append(f"circuit {circuits + 1} meets another one; it was traced straight on")
-        branches = len(circuit.turning) if not circuit.stopped and circuit.turning else len(circuit.turning) + 1
-        for other, frame in {**passed.frames, number: 0}.items():
-            places[other] = circuits, bisect_right(circuit.turning, frame) % branches
-        circuits += 1
-    return CircuitMembership(tuple(places[number] for number in range(len(positions))), tuple(notes))
 
 
 class _Passed(Event):
@@ -255,7 +206,7 @@ _TOWARDS_SINGULAR, _LEVENBERG = 30, 1e-3
 _NEAR_END = 1e-2
 """A path that could not go on ended so near to a singular position, radians and units of the extent."""
 _SURER = (SMALL, SMALL / 30, SMALL / 1000)
-"""Corrections that are allowed: less, where two paths came to one place or one was lost."""
+"""Corrections that are allowed along paths: less, where one was lost, or two came to one place."""
 
 
 def positions(
@@ -309,7 +260,7 @@ def positions(
     member = np.concatenate([axes, inputs - linkage.angles[places]])
     ends = solutions(family, general, member, seed)
     real = np.abs(ends.values.imag).max(axis=1, initial=0.0) <= DOUBLE.same_configuration
-    angles = [_angles(linkage, family, member, one) for one in ends.values.real[real]]
+    angles = [_angles(linkage, family, member, unknowns) for unknowns in ends.values.real[real]]
     order = canonical_order(angles)
     answer = PositionSet(
         at,
@@ -326,9 +277,8 @@ def positions(
     return _with_circuits(answer) if circuits and len(drive) == 1 else answer
 
 
-@dataclass(frozen=True, slots=True)
-class Solutions:
-    """Where the positions of a general member came to in one member.
+class Solutions(NamedTuple):
+    """The ends of the paths from the positions of a general member to one member.
 
     `values`, complex[N, U], are the unknowns of the positions, real or not, each once; `regular`, bool[N], says
     where the closure equations are independent, so that the position is rigid at its inputs. Of the paths, `far`
@@ -344,13 +294,17 @@ class Solutions:
 
 
 def solutions(family: Family, general: GeneralPositions, member: Floats, seed: int = 0) -> Solutions:
-    """Return all positions of one member, real or not, by following those of a general one."""
+    """Return all positions of one member, real or not, by following those of a general one.
+
+    The path of members is bent at random into complex parameters, so that it meets no special member on the way.
+    """
     random = np.random.default_rng(seed)
     count = len(general.values)
     best = None
     for small in _SURER:
         bend = random.uniform(-1.0, 1.0, len(member)) + 1j * random.uniform(-1.0, 1.0, len(member))
-        start, end, bent = (np.tile(one, (count, 1)) for one in (general.parameters, member.astype(complex), bend))
+        curve = (general.parameters, member.astype(complex), bend)
+        start, end, bent = (np.tile(parameters, (count, 1)) for parameters in curve)
         followed = family.followed((start, end, bent), general.values, small)
         ends = _ends(family, end, followed)
         if best is None or ends.lost < best.lost:
@@ -361,21 +315,22 @@ def solutions(family: Family, general: GeneralPositions, member: Floats, seed: i
     return best
 
 
-def _ends(family: Family, end: Complexes, followed: TrackedPaths) -> Solutions:
+def _ends(family: Family, member: Complexes, followed: TrackedPaths) -> Solutions:
     """Return where paths ended."""
-    polished, parameters = _polished(family, end, followed), end[0]
+    polished, parameters = _polished(family, member, followed), member[0]
     values = apart(polished, family.turning)
-    regular = np.array([_is_regular(family, parameters, one) for one in values], dtype=bool)
-    paths = np.array([int(same(polished, one, family.turning).sum()) for one in values], dtype=int)
+    regular = np.array([_is_regular(family, parameters, solution) for solution in values], dtype=bool)
+    # several paths may end in one singular position; paths that stopped near one count as singular too
+    paths = np.array([int(same(polished, solution, family.turning).sum()) for solution in values], dtype=int)
     stopped = followed.values[~(followed.arrived | followed.far)]
-    singular = int((paths - 1)[~regular].sum()) + sum(_is_singular(family, parameters, one) for one in stopped)
+    singular = int((paths - 1)[~regular].sum()) + sum(_is_singular(family, parameters, end) for end in stopped)
     far = int(followed.far.sum())
-    return Solutions(values, regular, far, singular, len(end) - far - len(values) - singular)
+    return Solutions(values, regular, far, singular, len(member) - far - len(values) - singular)
 
 
 def _is_regular(family: Family, parameters: Complexes, values: Complexes, zero: float = DOUBLE.zero) -> bool:
     """Return whether the closure equations are independent of each other."""
-    parts = as_real(family.derivatives(parameters, values))
+    parts = as_real(family.at(parameters, values)[1])
     return bool(rank_of(parts, zero) == min(parts.shape))
 
 
@@ -427,18 +382,26 @@ def _units(linkage: PosedLinkage) -> Floats:
 
 
 def _with_circuits(answer: PositionSet) -> PositionSet:
-    """Add circuits and branches, or a note why they are unknown."""
+    """Add circuits and branches, counted in each circuit, of a linkage of one freedom, or a note why not."""
+    closure, units = answer.configuration.closure, _units(answer.configuration.linkage)
     driver = answer.joints.index(next(iter(answer.driven)))
-    try:
-        members = members_of_circuits(
-            answer.configuration.closure,
-            [one.angles / _units(answer.configuration.linkage) for one in answer.positions],
-            driver,
-        )
-    except SynthedraError as error:
-        return replace(answer, notes=(*answer.notes, f"circuits unknown: {error}"))
-    placed = tuple(
-        replace(position, circuit=circuit, branch=branch)
-        for position, (circuit, branch) in zip(answer.positions, members.places, strict=True)
-    )
-    return replace(answer, positions=placed, notes=(*answer.notes, *members.notes))
+    left = {number: mode.angles / units for number, mode in enumerate(answer.positions)}
+    modes, notes, circuits = list(answer.positions), list(answer.notes), 0
+    while left:
+        number, passed = next(iter(left)), _Passed(left)
+        try:
+            circuit = circuit_through(closure, left[number], events=[TurningPoint(driver), passed])
+        except SynthedraError as error:
+            return replace(answer, notes=(*answer.notes, f"circuits unknown: {error}"))
+        if circuit.stopped:
+            notes.append(f"circuit {circuits + 1} was not traced all round: {circuit.stopped}")
+        if circuit.meets:
+            notes.append(f"circuit {circuits + 1} meets another one; it was traced straight on")
+        # turning points part a closed circuit into as many branches, an open one into one more
+        branches = len(circuit.turning) if not circuit.stopped and circuit.turning else len(circuit.turning) + 1
+        for other, frame in {**passed.frames, number: 0}.items():
+            branch = bisect_right(circuit.turning, frame) % branches
+            modes[other] = replace(modes[other], circuit=circuits, branch=branch)
+            del left[other]
+        circuits += 1
+    return replace(answer, positions=tuple(modes), notes=tuple(notes))

@@ -8,7 +8,7 @@ docs/theory/conical-candidates.md.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from functools import cached_property
 from math import degrees
 from typing import Any
@@ -161,19 +161,17 @@ class CandidateJob:
             "seed": self.seed if self.samples is not None else None,
             "lambda_deg": round(degrees(self.surface.angle), 12) if isinstance(self.surface, Cone) else None,
             **({"radius": self.surface.radius} if isinstance(self.surface, Cylinder) else {}),
-            "filters": [[kept.column, kept.value, kept.least, kept.most] for kept in self.filters],
+            "filters": [list(astuple(condition)) for condition in self.filters],
         }
 
     def units(self) -> list[Unit]:
         """Units of some thousands of placements, or of orders with opposites, each."""
-        joints = len(self.chain.joints)
-        if self.slots is not None:
-            most = _PLACED
-        elif self.samples is not None:
-            most = max(_PLACED // self.samples, 1)
-        else:
-            most = _SETS if self.opposites else max(_SETS >> (joints - 1), 1)
+        most = max(_PLACED // (self.samples or 1), 1) if self.placed else self._orders_at_once
         return [Unit(portion, weight) for portion, weight in self.query.portions(most)]
+
+    @property
+    def _orders_at_once(self) -> int:
+        return _SETS if self.opposites else max(_SETS >> (len(self.chain.joints) - 1), 1)
 
     def work(self, payload: Portion) -> list[Row]:
         """Return the rows of a unit."""
@@ -182,7 +180,7 @@ class CandidateJob:
             return []
         candidate = self._candidate_chains[payload.ground]
         if not self.placed:
-            size = max(_SETS >> (0 if self.opposites else slots.shape[1] - 1), 1)
+            size = self._orders_at_once
             rows = [
                 row
                 for i in range(0, len(slots), size)
@@ -197,15 +195,14 @@ class CandidateJob:
             rows = placed_rows(candidate, places, slots, symmetry, True, self.surface)
         if self.filters:
             names = list(self.columns)
-            conditions = [(names.index(kept.column), kept) for kept in self.filters]
-            rows = [row for row in rows if all(kept.admits(row[place]) for place, kept in conditions)]
+            conditions = [(names.index(condition.column), condition) for condition in self.filters]
+            rows = [row for row in rows if all(condition.admits(row[place]) for place, condition in conditions)]
         return rows
 
     def _sampled(self, slots: Ints, payload: Portion) -> Floats:
         """Return random azimuths in some cyclic orders; the portion seeds them, so that runs agree."""
         assert self.samples is not None
-        place = self.grounds.index(payload.ground)
-        rng = np.random.default_rng([self.seed, place, *payload.prefix])
+        rng = np.random.default_rng([self.seed, self.grounds.index(payload.ground), *payload.prefix])
         count, joints = len(slots) * self.samples, slots.shape[1]
         gaps = rng.exponential(size=(count, joints)) + 1e-6
         ends = np.cumsum(gaps, axis=1)

@@ -36,24 +36,12 @@ from synth.surfaces.loop_maps import chords
 
 def loop_circuits(loops: Sequence[Sequence[int]], places: npt.ArrayLike) -> tuple[Circuits, ...]:
     """Return the circuits of loops, each its joints in loop order, at azimuths float[..., J], radians."""
-    t = np.asarray(places, dtype=float)
+    azimuths = np.asarray(places, dtype=float)
     of_loops = []
     for loop in loops:
-        mine = t[..., list(loop)]
-        of_loops.append(circuits(wrapped((np.roll(mine, -1, axis=-1) - mine).round(12))))
+        around = azimuths[..., list(loop)]
+        of_loops.append(circuits(wrapped((np.roll(around, -1, axis=-1) - around).round(12))))
     return tuple(of_loops)
-
-
-def half_turns(
-    chain: ConformedChain, places: npt.ArrayLike
-) -> tuple[list[tuple[int, int]], npt.NDArray[np.bool_]]:
-    """Return the pairs of joints that share a link, and which of these steps are a half turn, bool[..., pairs].
-
-    Such steps have no sign; azimuths are float[..., J], radians.
-    """
-    t = np.asarray(places, dtype=float)
-    pairs = sorted({pair for joints in chain.joints_of for pair in combinations(joints, 2)})
-    return pairs, np.abs(_steps(t, pairs)) > HALF_TURN
 
 
 def _steps(places: Floats, pairs: Sequence[tuple[int, int]]) -> Floats:
@@ -69,18 +57,12 @@ def four_bar_classes(
 
     The class depends on the cone; without a surface it is that on a cylinder. Azimuths are float[..., J]. A
     crossed loop is Grashof on a cylinder; on a steep cone it need not be (docs/misprints.md 000-6).
-
-    >>> places = np.radians([0, 150, 20, 160])
-    >>> [str(four_bar_classes([(0, 1, 2, 3)], places, surface)[0]) for surface in (None, Cone(0.3))]
-    ['Grashof', 'non-Grashof']
     """
-    t = np.asarray(places, dtype=float)
+    azimuths = np.asarray(places, dtype=float)
     classes = []
-    for loop in loops:
-        if len(loop) != 4:
-            continue
-        mine = t[..., list(loop)]
-        steps = wrapped(np.roll(mine, -1, axis=-1) - mine)
+    for loop in (loop for loop in loops if len(loop) == 4):
+        around = azimuths[..., list(loop)]
+        steps = wrapped(np.roll(around, -1, axis=-1) - around)
         if isinstance(surface, Cone):
             differences = spherical_differences(link_angles(steps, surface.angle))
         else:
@@ -89,18 +71,10 @@ def four_bar_classes(
     return classes
 
 
-_ALLOWED = {
-    Allowed.BOTH: "both ways",
-    Allowed.ONE: "one way",
-    Allowed.ANGLES: "by angles",
-    Allowed.UNKNOWN: "not known",
-}
-_WORD_OF_A_LINK = {
-    Allowed.BOTH: "both",
-    Allowed.ONE: "one",
-    Allowed.ANGLES: "angles",
-    Allowed.UNKNOWN: "not known",
-}
+_OF_LINKAGE = {
+    Allowed.BOTH: "both ways", Allowed.ONE: "one way", Allowed.ANGLES: "by angles", Allowed.UNKNOWN: "not known"
+}  # fmt: skip
+_OF_LINK = {Allowed.BOTH: "both", Allowed.ONE: "one", Allowed.ANGLES: "angles", Allowed.UNKNOWN: "not known"}
 
 _WORDS = ListColumn(" ", kind=str)
 _NUMBERS = ListColumn(" ")
@@ -146,16 +120,10 @@ class CandidateChain:
         """The data of the analysis over all angles."""
         return RateFormulas.of(self.chain)
 
-    @cached_property
-    def _turned(self) -> list[int]:
-        """Numbers of the chain's links, the ground first, in the order of rows."""
-        own = [str(link) for link in self.chain.links]
-        return [own.index(name) for name in self.links]
-
     def ways_of_links(self, words: Sequence[str]) -> tuple[tuple[str, str], ...]:
-        """Return (link, word) for each link, in the order of rows."""
-        words = ["fixed", *words[1:]]
-        return tuple((name, words[k]) for name, k in zip(self.links, self._turned, strict=True))
+        """Return (link, word) for each link, in the order of rows; words are in the order of the chain."""
+        word_of = dict(zip(map(str, self.chain.links), ["fixed", *words[1:]], strict=True))
+        return tuple((name, word_of[name]) for name in self.links)
 
     def columns(self, placed: bool, opposites: bool, surface: Surface | None, slots: bool) -> dict[str, Column]:
         """Return names and types of columns."""
@@ -176,9 +144,8 @@ class CandidateChain:
             rank: dict[str, Column] = {"full_rank": bool} if self.single else {}
             if opposites:
                 return {**common, **where, **circuits, "layers": int, **rank, **ways}
-            many: dict[str, Column] = (
-                {"one_way": int, "both_ways": int, "by_angles": int, "not_known": int} if ways else {}
-            )
+            counts = ("one_way", "both_ways", "by_angles", "not_known") if ways else ()
+            many: dict[str, Column] = dict.fromkeys(counts, int)
             return {**common, **where, **circuits, "layers": int, "most_layers": int, **rank, **ways, **many}
         evaluated: dict[str, Column] = {
             "azimuths_deg": ListColumn(" ", kind=float), "half_turns": _JOINTS, "half_turn_steps": int,
@@ -213,9 +180,9 @@ class CandidateChain:
         loops = tuple(tuple(self.names[i] for i in loop) for loop in self.loops)
         return [
             LoopCircuits(
-                loops, tuple("open" if is_open else "crossed" for is_open in o), sum(o), tuple(d), tuple(k)
+                loops, tuple("open" if is_open else "crossed" for is_open in row), sum(row), tuple(d), tuple(k)
             )
-            for o, d, k in zip(open_.tolist(), density.tolist(), turns.tolist(), strict=True)
+            for row, d, k in zip(open_.tolist(), density.tolist(), turns.tolist(), strict=True)
         ]
 
 
@@ -250,7 +217,7 @@ def order_rows(candidate: CandidateChain, slots: Ints, symmetry: Ints, opposites
 def _ways(candidate: CandidateChain, over: OverAngles, mine: slice, opposites: bool) -> list[Any]:
     links = [_together(over.links[mine, n]) for n in range(over.links.shape[1])]
     linkage = _together(over.linkage[mine])
-    words = [_WORD_OF_A_LINK[allowed] for allowed in links]
+    words = [_OF_LINK[allowed] for allowed in links]
     if opposites:
         certain = [over.signs[mine][0, list(joints)] for joints in candidate.chain.joints_of]
         signs = [int(row[np.abs(row).argmax()]) for row in certain]
@@ -261,11 +228,11 @@ def _ways(candidate: CandidateChain, over: OverAngles, mine: slice, opposites: b
             {1: "outward", -1: "inward"}[s * sense] if s and allowed == Allowed.ONE else word
             for s, allowed, word in zip(signs, links, words, strict=True)
         ]
-        return [candidate.ways_of_links(words), _ALLOWED[linkage]]
+        return [candidate.ways_of_links(words), _OF_LINKAGE[linkage]]
     counts = np.bincount(over.linkage[mine], minlength=4)
     return [
         candidate.ways_of_links(words),
-        _ALLOWED[linkage],
+        _OF_LINKAGE[linkage],
         *(int(counts[allowed]) for allowed in (Allowed.ONE, Allowed.BOTH, Allowed.ANGLES, Allowed.UNKNOWN)),
     ]
 
@@ -291,7 +258,8 @@ def placed_rows(
     rank = motion.rank()
     least = np.take_along_axis(motion.singular_values, rank[:, np.newaxis] - 1, -1)[:, 0]
     singular = rank < motion.singular_values.shape[-1]
-    pairs, half = half_turns(chain, places)
+    pairs = sorted({pair for joints in chain.joints_of for pair in combinations(joints, 2)})
+    half = np.abs(_steps(places, pairs)) > HALF_TURN  # such steps have no sign
     classes = four_bar_classes(candidate.loops, places, surface)
     circuits = candidate.circuits_of_loops(places)
     deep = layers(chain, places).tolist()
@@ -319,11 +287,9 @@ def placed_rows(
 def _link_sizes(places: Floats, pairs: Sequence[tuple[int, int]], surface: Surface) -> list[list[float]]:
     """Return the link angles, degrees, or lengths between joints of each link."""
     steps = _steps(places, pairs)
-    if isinstance(surface, Cone):
-        angles: list[list[float]] = np.degrees(link_angles(steps, surface.angle)).tolist()
-        return angles
-    lengths: list[list[float]] = chords(steps, surface.radius).tolist()
-    return lengths
+    is_cone = isinstance(surface, Cone)
+    sizes = np.degrees(link_angles(steps, surface.angle)) if is_cone else chords(steps, surface.radius)
+    return [list(map(float, row)) for row in sizes]
 
 
 def _placed_ways(candidate: CandidateChain, places: Floats) -> list[list[Any]]:
@@ -334,7 +300,7 @@ def _placed_ways(candidate: CandidateChain, places: Floats) -> list[list[Any]]:
     return [
         [
             candidate.ways_of_links([word[way] for way in ways]),
-            _ALLOWED[(Allowed.ONE if one_way else Allowed.BOTH) if is_known else Allowed.UNKNOWN],
+            _OF_LINKAGE[(Allowed.ONE if one_way else Allowed.BOTH) if is_known else Allowed.UNKNOWN],
         ]
         for ways, one_way, is_known in zip(behaviour.ways.tolist(), behaviour.one_way.tolist(), known, strict=True)
     ]

@@ -5,7 +5,7 @@ Theory: docs/theory/activating-constraints.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import asdict, dataclass
 from math import acos, atan2, degrees, inf, pi, tau
 from typing import Any, Literal
@@ -18,7 +18,7 @@ from graphs.printing import Block, Printed, TableBlock
 from graphs.rank.singular_values import spectrum
 from graphs.reduce.ride_alongs import ReductionStep, reduce
 from graphs.tolerances import DOUBLE, Tolerances
-from graphs.types import Floats, JointId, LinkId
+from graphs.types import JointId, LinkId
 from synth.compliance.members import NONE, Members, freedoms_text, number_or_unknown, released, state_of
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
@@ -233,9 +233,16 @@ def limits(mechanism: Movable, *, keep: Collection[LinkId] = ()) -> JointLimits:
     steps = [step for step in reduce(linkage.graph, keep=keep).steps if step.joint is not None]
     if not steps:
         raise UnsolvableError("there are no ride-alongs; expected two binary links on two adjacent ones")
+    ride_alongs = tuple(_ride_alongs(linkage, steps, Tolerances.of(at.precision.size)))
+    # the truss is what is left of the linkage with all ride-alongs rigid, as they are where they are straight
     middles = Members(tuple(step.joints[1] for step in steps))
-    tolerances = Tolerances.of(at.precision.size)
-    return JointLimits(at, tuple(_ride_alongs(linkage, steps, tolerances)), _truss(linkage, middles))
+    left = released(linkage, middles, NONE)
+    closure = ClosureEquations(left)
+    rank = spectrum(closure.at(left.angles)[1].toarray(), DOUBLE.derivative).rank
+    redundant = None if rank is None else closure.rows - rank
+    freedoms = state_of(linkage, middles, NONE).freedoms
+    truss = Truss(middles.joints, len(left.graph), len(left.angles), rank, redundant, freedoms)
+    return JointLimits(at, ride_alongs, truss)
 
 
 def _ride_alongs(linkage: PosedLinkage, steps: list[ReductionStep], tolerances: Tolerances) -> Iterator[RideAlong]:
@@ -263,36 +270,18 @@ def _corner(
     """Return the corner of a joint and the three of a ride-along, and the angle of its base links, 0 to 2 pi."""
     points, axes = linkage.points[list(places)], linkage.directions[list(places)]
     parallel = float(np.abs(np.cross(axes, axes[0])).max()) <= tolerances.parallel
-    rays = points - points[0] if parallel else _rays(points, axes, tolerances.same_point)
     along = axes[0]
     if parallel:
+        rays = points - points[0]
         rays = rays - np.outer(rays @ along, along)
-        corner = RideAlongCorner(*_pairs(rays, lambda a, b: float(np.linalg.norm(a - b))), parallel=True)
-    else:
-        corner = RideAlongCorner(*_pairs(rays, lambda a, b: float(angles_between(a, b))))
+    else:  # unit vectors from where the axes meet, towards their points where these lie off it
+        out = ((points - lines_meet(points, axes).point) * axes).sum(axis=1)
+        rays = axes * np.where(np.abs(out) > tolerances.same_point, np.sign(out), 1.0)[:, None]
+
+    def apart(one: int, other: int) -> float:
+        between = np.linalg.norm(rays[one] - rays[other]) if parallel else angles_between(rays[one], rays[other])
+        return float(between)
+
+    corner = RideAlongCorner((apart(0, 1), apart(0, 3)), (apart(1, 2), apart(2, 3)), parallel)
     first, last = (ray - (ray @ along) * along for ray in (rays[1], rays[3]))
     return corner, atan2(float(np.cross(first, last) @ along), float(first @ last)) % tau
-
-
-def _rays(points: Floats, axes: Floats, same: float) -> Floats:
-    """Return unit vectors along axes from where they meet, towards their points where these lie off it."""
-    out = ((points - lines_meet(points, axes).point) * axes).sum(axis=1)
-    return np.asarray(axes * np.where(np.abs(out) > same, np.sign(out), 1.0)[:, None])
-
-
-def _pairs(
-    rays: Floats, apart: Callable[[Floats, Floats], float]
-) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return how far axes are apart: of both base links, and of both links of the ride-along."""
-    joint, first, middle, last = rays
-    return (apart(joint, first), apart(joint, last)), (apart(first, middle), apart(middle, last))
-
-
-def _truss(linkage: PosedLinkage, middles: Members) -> Truss:
-    """Return what is left of a linkage with all ride-alongs rigid, as they are where they are straight."""
-    left = released(linkage, middles, NONE)
-    closure = ClosureEquations(left)
-    rank = spectrum(closure.at(left.angles)[1].toarray(), DOUBLE.derivative).rank
-    redundant = None if rank is None else closure.rows - rank
-    freedoms = state_of(linkage, middles, NONE).freedoms
-    return Truss(middles.joints, len(left.graph), len(left.angles), rank, redundant, freedoms)

@@ -15,7 +15,7 @@ import numpy as np
 
 from graphs.edit.named import known
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.loops.loop import Loop, signed_cycle
+from graphs.loops.loop import Centre, Loop, signed_cycle
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.exact import independent_cycles
 from graphs.rank.singular_values import spectrum
@@ -113,12 +113,8 @@ def _without(linkage: PosedLinkage, gone: Collection[LinkId]) -> PosedLinkage:
         if all(names[place] in joints for place in loop.joints)
     ]
     graph = SCGraph([link for link in linkage.graph.nodes if link not in gone], joints, whole)
-    column = {joint: place for place, joint in enumerate(joints)}
-    loops = []
-    for loop in independent_cycles(graph):
-        signed = list(signed_cycle(loop.joints, joints))
-        loops.append(PosedLoop(tuple(column[j] for j, _ in signed), tuple(s for _, s in signed), loop.centre))
-    return _restricted(linkage, graph, tuple(loops))
+    cycles = [(list(signed_cycle(loop.joints, joints)), loop.centre) for loop in independent_cycles(graph)]
+    return _restricted(linkage, graph, cycles)
 
 
 def _locked(linkage: PosedLinkage, held: Collection[JointId]) -> PosedLinkage:
@@ -130,23 +126,20 @@ def _locked(linkage: PosedLinkage, held: Collection[JointId]) -> PosedLinkage:
         joint: (bodies[a], bodies[b]) for joint, (a, b) in linkage.graph.joints.items() if bodies[a] != bodies[b]
     }
     graph = SCGraph([link for link in linkage.graph.nodes if bodies[link] == link], joints)
-    column = {joint: place for place, joint in enumerate(joints)}
     names = list(linkage.graph.joints)
-    loops = []
+    cycles = []
     for loop in linkage.loops:
-        turning = [
-            (column[names[place]], sign)
-            for place, sign in zip(loop.joints, loop.signs, strict=True)
-            if names[place] in joints
-        ]
-        if turning:
-            loops.append(PosedLoop(tuple(p for p, _ in turning), tuple(s for _, s in turning), loop.centre))
-    return _restricted(linkage, graph, tuple(loops))
+        signed = [(names[place], sign) for place, sign in zip(loop.joints, loop.signs, strict=True)]
+        cycles.append(([(joint, sign) for joint, sign in signed if joint in joints], loop.centre))
+    return _restricted(linkage, graph, cycles)
 
 
-def _restricted(linkage: PosedLinkage, graph: SCGraph, loops: tuple[PosedLoop, ...]) -> PosedLinkage:
-    """Return the axes of the joints of a smaller graph, with its loops."""
+def _restricted(
+    linkage: PosedLinkage, graph: SCGraph, cycles: list[tuple[list[tuple[JointId, int]], Centre]]
+) -> PosedLinkage:
+    """Return the linkage of a smaller graph, with loops of joints and signs, those without joints left out."""
     place = {joint: column for column, joint in enumerate(linkage.graph.joints)}
+    column = {joint: number for number, joint in enumerate(graph.joints)}
     kept: Ints = np.array([place[joint] for joint in graph.joints], dtype=np.int64)
     return replace(
         linkage,
@@ -154,7 +147,11 @@ def _restricted(linkage: PosedLinkage, graph: SCGraph, loops: tuple[PosedLoop, .
         points=linkage.points[kept],
         directions=linkage.directions[kept],
         angles=linkage.angles[kept],
-        loops=loops,
+        loops=tuple(
+            PosedLoop(tuple(column[joint] for joint, _ in cycle), tuple(sign for _, sign in cycle), centre)
+            for cycle, centre in cycles
+            if cycle
+        ),
     )
 
 

@@ -226,7 +226,9 @@ def equilibrium(elastic: ElasticLinkage, start: Floats | None = None, held: tupl
     angles = elastic.linkage.angles if start is None else start
     values = angles[list(held)]
     for _ in range(_STEPS):
-        along, expansion = _beside(elastic, angles, held)
+        tangent = elastic.tangent(angles)
+        along = tangent.rates @ null_space(tangent.rates[list(held)]) if held else tangent.rates
+        expansion = elastic.expansion(angles, tangent, along, held)
         off = float(np.abs(expansion.slope).max(initial=0.0))
         moments = np.abs([elastic.slopes(angles), elastic.moments])
         if off <= _BALANCED * max(float(moments.max(initial=0.0)), float(elastic.stiffness.max(initial=0.0))):
@@ -247,13 +249,6 @@ def load_path(elastic: ElasticLinkage, start: Floats, driver: int, values: npt.A
             break
         poses.append(equilibrium(elastic, path.angles[-1], (driver,)))
     return LoadPath(driver, tuple(poses), stopped)
-
-
-def _beside(elastic: ElasticLinkage, angles: Floats, held: tuple[int, ...]) -> tuple[Floats, EnergyExpansion]:
-    """Return the rates that leave held joints still, float[J, n], and how the energy bends along them."""
-    tangent = elastic.tangent(angles)
-    along = tangent.rates @ null_space(tangent.rates[list(held)]) if held else tangent.rates
-    return along, elastic.expansion(angles, tangent, along, held)
 
 
 def _downhill(expansion: EnergyExpansion) -> Floats:

@@ -89,14 +89,14 @@ class Explanation(Printed):
             "count": self.count,
             "h": self.idle,
             "active_at_second_order": self.active,
-            "sets": [one.to_json() for one in self.sets],
+            "sets": [loops.to_json() for loops in self.sets],
             "tolerances": [
                 {
-                    "joint": one.joint,
-                    "turn_deg": degrees(one.turn) if isfinite(one.turn) else None,
-                    "shift": one.shift if isfinite(one.shift) else None,
+                    "joint": axis.joint,
+                    "turn_deg": degrees(axis.turn) if isfinite(axis.turn) else None,
+                    "shift": axis.shift if isfinite(axis.shift) else None,
                 }
-                for one in self.tolerances
+                for axis in self.tolerances
             ],
             "smallest": self.smallest,
             "gap": self.gap if isfinite(self.gap) else None,
@@ -111,33 +111,33 @@ class Explanation(Printed):
         )
         blocks: list[Block] = [f"{head}   ({evidence})"]
         if not self.idle:
-            return [
-                *blocks,
-                "no closure equation is redundant: a generic realisation has these degrees of freedom too",
-            ]
+            general = "no closure equation is redundant: a generic realisation has these degrees of freedom too"
+            return [*blocks, general]
+        count = numbered(self.idle, "redundant closure equation")
         if self.active:
             blocks.append(
-                f"at second order {self.active} of {numbered(self.idle, 'redundant closure equation')} constrain "
-                "the motions: this configuration is singular, and a regular one shows more"
+                f"at second order {self.active} of {count} constrain the motions: "
+                "this configuration is singular, and a regular one shows more"
             )
         else:
-            count = numbered(self.idle, "redundant closure equation")
             blocks.append(f"{count}, at second order too")
-        for one in self.sets:
-            names = "; ".join(", ".join(map(shown, loop)) for loop in one.loops)
-            why = ", ".join(one.reasons) or "special geometry not recognised"
-            loops = numbered(len(one.loops), "loop")
-            blocks.append(f"{numbered(one.idle, 'redundant equation')} in {loops} of joints {names}: {why}")
+        for idle in self.sets:
+            names = "; ".join(", ".join(map(shown, loop)) for loop in idle.loops)
+            why = ", ".join(idle.reasons) or "special geometry not recognised"
+            loops = numbered(len(idle.loops), "loop")
+            blocks.append(f"{numbered(idle.idle, 'redundant equation')} in {loops} of joints {names}: {why}")
         return [*blocks, *self._tolerances()]
 
     def _tolerances(self) -> list[Block]:
         if not self.tolerances:
             return []
-        rows = [(plain(one.joint), _angle(one.turn), _length(one.shift)) for one in self.tolerances[:_LISTED]]
+        rows = [
+            (plain(axis.joint), _figure(degrees(axis.turn)), _figure(axis.shift))
+            for axis in self.tolerances[:_LISTED]
+        ]
         more = len(self.tolerances) - len(rows)
-        table = TableBlock(
-            ("axis", "rotation, degrees", "translation"), rows, ("rotation, degrees", "translation")
-        )
+        errors = ("rotation, degrees", "translation")
+        table = TableBlock(("axis", *errors), rows, errors)
         meaning = (
             "axis errors at which a redundant equation constrains as much as the weakest independent one; "
             "a hundredth of one requires play of a hundredth of the motion:"
@@ -149,12 +149,8 @@ class Explanation(Printed):
         return f"<Explanation: h = {self.idle}, {numbered(len(self.sets), 'set')} of loops>"
 
 
-def _angle(value: float) -> str:
-    return f"{degrees(value):.3g}" if isfinite(value) else "any"
-
-
-def _length(value: float) -> str:
-    return f"{value:.3g}" if isfinite(value) else "any"
+def _figure(error: float) -> str:
+    return f"{error:.3g}" if isfinite(error) else "any"
 
 
 def explain(mechanism: Movable, *, precision: float | None = None) -> Explanation:

@@ -122,7 +122,7 @@ def _of_vertices(linkage: PosedLinkage, loops: list[PosedLoop], near: list[float
 def _sectors(linkage: PosedLinkage, loop: PosedLoop) -> list[float]:
     """Return the angles between creases, as they go out from the vertex."""
     outwards = linkage.directions[list(loop.joints)] * np.array(loop.signs, dtype=float)[:, None]
-    return [float(one) for one in sectors(outwards)]
+    return [float(sector) for sector in sectors(outwards)]
 
 
 def _links(points: Floats, axes: Floats, near: float) -> tuple[Floats, Floats]:
@@ -160,10 +160,8 @@ _SCREW = 6
 def turning_reasons(
     linkage: PosedLinkage, order: FirstOrderClosure, loops: tuple[int, ...], tolerances: Tolerances = DOUBLE
 ) -> Iterator[str]:
-    """Yield why equations of turning in a set of spatial loops depend on each other, if only these do."""
-    if any(linkage.loops[loop].centre is not Centre.NONE for loop in loops):
-        return
-    if not _couples_only(order, loops):
+    """Yield why rotational equations of a set of spatial loops depend on each other, if only these do."""
+    if any(linkage.loops[loop].centre is not Centre.NONE for loop in loops) or not _couples_only(order, loops):
         return
     near = float(tolerances.parallel / axis_lengths(linkage).min()) * len(linkage.directions)
     if _legs_are_parallel(linkage, near):
@@ -179,16 +177,15 @@ def _couples_only(order: FirstOrderClosure, loops: tuple[int, ...]) -> bool:
     """Check whether self-stresses of some loops hold no forces, in loops that have none by themselves."""
     rows = np.flatnonzero(np.isin(order.loop_of, loops))
     stresses = null_space(order.matrix[rows].T, DOUBLE.singular)
-    shared = [loop for loop in loops if len(loops) == 1 or not _stressed(order, loop)]
+    shared = [
+        loop
+        for loop in loops
+        if len(loops) == 1 or not null_space(order.matrix[order.loop_of == loop].T, DOUBLE.singular).size
+    ]
     forces = [stresses[order.loop_of[rows] == loop][_SCREW // 2 :] for loop in shared]
     if not shared or not stresses.size:
         return False
     return bool(np.abs(np.concatenate(forces)).max() <= DOUBLE.singular)
-
-
-def _stressed(order: FirstOrderClosure, loop: int) -> bool:
-    """Check whether a loop has a self-stress of its own."""
-    return bool(null_space(order.matrix[order.loop_of == loop].T, DOUBLE.singular).size)
 
 
 def _legs_are_parallel(linkage: PosedLinkage, near: float) -> bool:

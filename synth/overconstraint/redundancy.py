@@ -1,9 +1,7 @@
 """Redundant closure equations: the smallest sets of loops that hold them, second order, errors of axes.
 
-A redundant equation is a self-stress, a sum of closure equations that is zero at the pose whatever joints do. An
-error of an axis leaves the loops closed at the pose, and makes of it an equation of the rates: its singular value
-grows from zero in proportion. Where it reaches the smallest one that counts, the linkage is locked by it as by any
-other equation. Theory: docs/theory/overconstraint.md.
+A redundant equation is a self-stress: a sum of closure equations that is zero at all joint rates. Theory:
+docs/theory/overconstraint.md.
 """
 
 from __future__ import annotations
@@ -75,7 +73,7 @@ def smallest_sets(linkage: PosedLinkage, order: FirstOrderClosure) -> list[tuple
             chosen = nearest[seed][:size]
             while (new := _new_stresses(order, chosen, known)).shape[1]:
                 for loop in chosen[::-1]:  # farthest first: the near ones are more likely to be the cause
-                    fewer = [one for one in chosen if one != loop]
+                    fewer = [other for other in chosen if other != loop]
                     if fewer and (left := _new_stresses(order, fewer, known)).shape[1]:
                         chosen, new = fewer, left
                 sets.append((tuple(sorted(chosen)), new.shape[1]))
@@ -91,8 +89,8 @@ def active_at_second_order(linkage: PosedLinkage, order: FirstOrderClosure) -> i
     """
     rates, stresses = order.rates, order.stresses
     forms = []
-    for k in range(rates.shape[1]):
-        ahead, back = (_by_loops(linkage, linkage.angles + way * _NUDGE * rates[:, k])[0] for way in (1.0, -1.0))
+    for rate in rates.T:
+        ahead, back = (_by_loops(linkage, linkage.angles + sign * _NUDGE * rate)[0] for sign in (1.0, -1.0))
         forms.append(stresses.T @ (ahead - back) / (2 * _NUDGE) @ rates)
     if not forms or not stresses.shape[1]:
         return 0
@@ -121,8 +119,8 @@ def _nearest_first(linkage: PosedLinkage) -> list[list[int]]:
     orders = []
     for seed in range(len(joints)):
         order, seen = [seed], {seed}
-        for one in order:
-            near = [other for other in range(len(joints)) if other not in seen and joints[one] & joints[other]]
+        for loop in order:
+            near = [other for other in range(len(joints)) if other not in seen and joints[loop] & joints[other]]
             near.sort(key=lambda other: (-sum(bool(joints[other] & joints[k]) for k in order), other))
             order += near
             seen.update(near)
@@ -135,14 +133,14 @@ def _new_stresses(order: FirstOrderClosure, loops: list[int], known: Floats) -> 
     inside = np.isin(order.loop_of, loops)
     part = order.matrix[inside]
     alone = split(part, order.tolerances.zero).cokernel
-    found = np.zeros((len(order.loop_of), alone.shape[1]))
-    found[inside] = alone
-    return row_space((found - known @ (known.T @ found)).T, order.tolerances.zero**0.5, scale=1.0)
+    stresses = np.zeros((len(order.loop_of), alone.shape[1]))
+    stresses[inside] = alone
+    return row_space((stresses - known @ (known.T @ stresses)).T, order.tolerances.zero**0.5, scale=1.0)
 
 
 @dataclass(frozen=True, slots=True)
 class Tolerance:
-    """Errors of one joint axis at which a freedom is as good as gone.
+    """Errors of one joint axis at which a redundant equation constrains as much as the weakest independent one.
 
     Attributes
     ----------
@@ -159,7 +157,11 @@ class Tolerance:
 
 
 def axis_tolerances(linkage: PosedLinkage, order: FirstOrderClosure) -> list[Tolerance]:
-    """Return how far each axis may err, least first; axes that may err alike in the order of the joints."""
+    """Return how far each axis may err, least first; axes that may err alike in the order of the joints.
+
+    An error of an axis leaves the loops closed at the pose, and makes a redundant equation one of the rates: its
+    singular value grows from zero in proportion. Where it reaches the smallest that counts, the linkage is locked.
+    """
     growth = growths(linkage, order)
     tolerances = []
     for place, joint in enumerate(linkage.graph.joints):
@@ -167,33 +169,26 @@ def axis_tolerances(linkage: PosedLinkage, order: FirstOrderClosure) -> list[Tol
         across = np.eye(3) - np.outer(axis, axis)
         turned, shifted = growth[:, 6 * place : 6 * place + 3], growth[:, 6 * place + 3 : 6 * place + 6]
         about_itself = (turned + shifted @ crossing(point)) @ across
-        tolerances.append(
-            Tolerance(
-                joint,
-                _allowed(order.smallest, about_itself),
-                _allowed(order.smallest, shifted @ across) * linkage.extent,
-            )
-        )
-    least = np.array([[min(one.turn, one.shift / linkage.extent)] for one in tolerances]).reshape(-1, 1)
+        turn, shift = (_allowed(order.smallest, error) for error in (about_itself, shifted @ across))
+        tolerances.append(Tolerance(joint, turn, shift * linkage.extent))
+    least = np.array([[min(axis.turn, axis.shift / linkage.extent)] for axis in tolerances]).reshape(-1, 1)
     return [tolerances[place] for place in canonical_order(list(np.log(np.clip(least, 1e-300, 1e300))))]
 
 
 def growths(linkage: PosedLinkage, order: FirstOrderClosure) -> Floats:
-    """Return what redundant equations say of the rates for small motions of the axes: float[idle f, 6 J].
+    """Return what redundant equations say of the f rates for small motions of the axes: float[idle f, 6 J].
 
-    By a rotation about the origin and a shift of each axis in turn; f rates.
+    By a rotation about the origin and a shift of each axis in turn.
     """
-    stresses, rates = order.stresses, order.rates
-    growth = []
-    for k in range(rates.shape[1]):
+    loops = [ClosureEquations(loop_alone(linkage, loop)) for loop in linkage.loops]
+    growth = [np.zeros((0, 6 * len(linkage.angles)))]
+    for rates in order.rates.T:
         ahead, back = (
-            np.vstack(
-                [ClosureEquations(loop_alone(linkage, loop)).by_axes(angles).toarray() for loop in linkage.loops]
-            )
-            for angles in (linkage.angles + way * _NUDGE * rates[:, k] for way in (1.0, -1.0))
+            np.vstack([loop.by_axes(linkage.angles + sign * _NUDGE * rates).toarray() for loop in loops])
+            for sign in (1.0, -1.0)
         )
-        growth.append(stresses.T @ (ahead - back) / (2 * _NUDGE))
-    return np.vstack([np.zeros((0, 6 * len(linkage.angles))), *growth])
+        growth.append(order.stresses.T @ (ahead - back) / (2 * _NUDGE))
+    return np.vstack(growth)
 
 
 def _allowed(smallest: float, growth: Floats) -> float:

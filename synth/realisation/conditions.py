@@ -1,24 +1,8 @@
 """Conditions on flat drawings: flat-foldable, symmetric, straight or parallel creases, agreeing ratios.
 
-A condition gives numbers that are to be 0, and their derivatives; `Wishes` says which are asked for, `Kept` how
-well a drawing meets them.
-
-Flat-foldable: reflected in the creases round a vertex or a hole in turn, the sheet closes. Round a vertex this is
-Kawasaki's condition: every other sector, added up, is 180 degrees. Round a hole the lines of the creases need not
-meet, and the reflections must give neither a rotation nor a translation. The order of layers is not considered.
-
-Lines: about a vertex of four creases two and two are opposite, and opposite ones follow each other along a *line*.
-Lines that enter a panel of four sides at opposite sides run side by side; those form *bundles*. A Miura sheet has
-one bundle of straight lines and one of zigzags, and parallel opposite creases.
-
-Ratios: at a flat-foldable vertex of four creases, sectors a and b on both sides of a crease, the half-angle
-tangent of that crease is cos((a + b) / 2) / cos((a - b) / 2) times those of its neighbours in one mode, sin((a +
-b) / 2) / sin((a - b) / 2) times them in the other, but for signs; the ratios stay constant while the vertex folds.
-They are consistent round a panel between such vertices if their product is 1.
-
-Symmetry: a drawing with a fixed outer face is mapped to itself by maps that rotate its border or reflect it. Drawn
-barycentrically in a regular border it has all of them; conditions keep them while the shape is improved. A centre
-at infinity across a hole that is mapped to itself leaves half turns and mirrors only.
+A condition gives numbers that are to be 0, and their derivatives. About a vertex of four creases opposite creases
+follow each other along a *line*; lines that enter a panel of four sides at opposite sides run side by side, and
+form a *bundle*. A Miura sheet has one bundle of straight lines and one of zigzags, and parallel opposite creases.
 
 Sources: T. Kawasaki, On the relation between mountain-creases and valley-creases of a flat origami (1989); T.
 Tachi, Generalization of rigid-foldable quadrilateral-mesh origami (2009); T. A. Evans, R. J. Lang, S. P. Magleby,
@@ -29,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import networkx as nx
@@ -40,79 +25,54 @@ from graphs.mechanism.sheet import Edge, sides_of_face
 from graphs.tolerances import DOUBLE
 from graphs.types import Flags, Floats, Ints
 from synth.realisation.measures import opened_angles
-from synth.realisation.pattern import Pattern, Sides, creases_round, sides_of
+from synth.realisation.pattern import Pattern, Sides
 
 Condition = Callable[[Floats], tuple[Floats, Floats]]
 """Of unknowns float[n, 2] (vertices, centres across holes, hubs): float[c] to be 0, derivatives float[c, 2 n]."""
 
 
-def together(conditions: Sequence[Condition]) -> Condition:
+def together(*conditions: Condition) -> Condition:
     """Return several conditions as one."""
 
     def condition(unknowns: Floats) -> tuple[Floats, Floats]:
-        return _stacked([part(unknowns) for part in conditions])
+        off, by = zip(*(part(unknowns) for part in conditions), strict=True)
+        return np.concatenate(off), np.concatenate(by)
 
     return condition
-
-
-def _stacked(parts: Sequence[tuple[Floats, Floats]]) -> tuple[Floats, Floats]:
-    return np.concatenate([off for off, _ in parts]), np.concatenate([by for _, by in parts])
 
 
 def flat_folding(pattern: Pattern) -> Condition:
-    """Return by how much the reflections round each inner vertex and each hole miss to close, with derivatives.
+    """Return by how much the reflections in the creases round each inner vertex and each hole miss to close.
 
-    Raises `UnsolvableError` if an odd number of creases goes round a vertex or a hole: so many reflections turn
-    the sheet over.
+    Round a vertex this is Kawasaki's condition: every other sector, added up, is 180 degrees. Round a hole the
+    lines of the creases need not meet, and the reflections must give neither a rotation nor a translation. Raises
+    `UnsolvableError` for an odd number of creases: so many reflections turn the sheet over.
     """
-    rounds = creases_round(pattern)
-    _check_even(pattern, rounds)
-    inner = len(pattern.inner)
-    alternate = _alternating(pattern, rounds[:inner])
-    round_holes = [[pattern.creases[crease] for crease in met] for met in rounds[inner:]]
-
-    def condition(unknowns: Floats) -> tuple[Floats, Floats]:
-        angles, by_places = opened_angles(pattern, unknowns[: pattern.vertices])
-        by = np.zeros((inner, unknowns.size))
-        by[:, : by_places.shape[1]] = alternate @ by_places
-        return _stacked([(alternate @ angles, by), *(_round_hole(unknowns, lines) for lines in round_holes)])
-
-    return condition
-
-
-def off_flat(pattern: Pattern, places: Floats) -> float:
-    """Return the largest error of flat-foldability of a drawing: radians, and units of length round holes."""
-    return float(np.abs(flat_folding(pattern)(places)[0]).max(initial=0.0))
-
-
-def _check_even(pattern: Pattern, rounds: list[tuple[int, ...]]) -> None:
-    odd = [place for place, met in enumerate(rounds) if len(met) % 2]
-    if odd:
-        creases = rounds[odd[0]]
-        where = "a vertex" if odd[0] < len(pattern.inner) else "a hole"
-        names = ", ".join(shown(pattern.joints[crease]) for crease in creases)
-        number = numbered(len(creases), "crease")
-        raise UnsolvableError(
-            f"the type cannot fold flat: {number}, an odd number, about {where} (joints {names})"
-        )
-
-
-def _alternating(pattern: Pattern, rounds: list[tuple[int, ...]]) -> Floats:
-    """Return float[I, K]: the corners round each inner vertex, + and - by turns."""
-    signs = np.zeros((len(rounds), len(pattern.corners)))
-    corner_of = _corners_by_side(pattern)
-    for row, (vertex, met) in enumerate(zip(pattern.inner.tolist(), rounds, strict=True)):
+    inner = pattern.inner.tolist()
+    for place, met in enumerate(pattern.rounds):
+        if len(met) % 2:
+            where = "a vertex" if place < len(inner) else "a hole"
+            names = ", ".join(shown(pattern.joints[crease]) for crease in met)
+            number = numbered(len(met), "crease")
+            raise UnsolvableError(
+                f"the type cannot fold flat: {number}, an odd number, about {where} (joints {names})"
+            )
+    alternate = np.zeros((len(inner), len(pattern.corners)))  # the corners round each vertex, + and - by turns
+    for row, (vertex, met) in enumerate(zip(inner, pattern.rounds, strict=False)):
         for place, crease in enumerate(met):
-            signs[row, corner_of[vertex, _far(pattern, crease, vertex)]] = (-1.0) ** place
-    return signs
+            alternate[row, pattern.corner_before(vertex, crease)] = (-1.0) ** place
+    round_holes = [[pattern.creases[crease] for crease in met] for met in pattern.rounds[len(inner) :]]
+
+    def round_vertices(unknowns: Floats) -> tuple[Floats, Floats]:
+        angles, by_places = opened_angles(pattern, unknowns[: pattern.vertices])
+        by = np.zeros((len(inner), unknowns.size))
+        by[:, : by_places.shape[1]] = alternate @ by_places
+        return alternate @ angles, by
+
+    return together(round_vertices, *(partial(_round_hole, lines) for lines in round_holes))
 
 
-def _corners_by_side(pattern: Pattern) -> dict[Edge, int]:
-    """Return the number of each corner by its vertex and the next one of its panel."""
-    return {(int(at), int(after)): number for number, (_, at, after) in enumerate(pattern.corners)}
-
-
-def _round_hole(unknowns: Floats, lines: list[Edge]) -> tuple[Floats, Floats]:
+def _round_hole(lines: list[Edge], unknowns: Floats) -> tuple[Floats, Floats]:
     """Return rotation and translation of the reflections in some lines, in turn, and the derivatives."""
     mirrors = [_reflection(unknowns[a], unknowns[b]) for a, b in lines]
     before = [np.eye(3)]
@@ -120,20 +80,17 @@ def _round_hole(unknowns: Floats, lines: list[Edge]) -> tuple[Floats, Floats]:
         before.append(before[-1] @ matrix)
     whole, after = before[-1], np.eye(3)
     by = np.zeros((3, *unknowns.shape))
+    square = whole[0, 0] ** 2 + whole[1, 0] ** 2
     for place in reversed(range(len(lines))):
         matrix, derivatives = mirrors[place]
         changes = before[place] @ derivatives @ after
+        turns = (changes[:, 1, 0] * whole[0, 0] - changes[:, 0, 0] * whole[1, 0]) / square
         for end, vertex in enumerate(lines[place]):
-            by[:, vertex] += np.stack([_read(whole, change) for change in changes[2 * end : 2 * end + 2]], axis=1)
+            here = slice(2 * end, 2 * end + 2)
+            by[:, vertex] += np.stack([turns[here], changes[here, 0, 2], changes[here, 1, 2]])
         after = matrix @ after
     off = np.array([np.arctan2(whole[1, 0], whole[0, 0]), whole[0, 2], whole[1, 2]])
     return off, by.reshape(3, -1)
-
-
-def _read(whole: Floats, change: Floats) -> Floats:
-    """Return the derivative of rotation and translation of a motion by that of its matrix."""
-    turn = (change[1, 0] * whole[0, 0] - change[0, 0] * whole[1, 0]) / (whole[0, 0] ** 2 + whole[1, 0] ** 2)
-    return np.array([turn, change[0, 2], change[1, 2]])
 
 
 def _reflection(a: Floats, b: Floats) -> tuple[Floats, Floats]:
@@ -159,24 +116,22 @@ def _reflection(a: Floats, b: Floats) -> tuple[Floats, Floats]:
 def straight_lines(pattern: Pattern, bundle: Iterable[int]) -> Condition:
     """Return that the lines of a bundle, creases by their numbers, are straight."""
     on_lines = set(bundle)
-    pairs = []
-    for vertex, crease, other in _opposite(pattern):
-        if crease in on_lines:
-            pairs.append(((vertex, _far(pattern, crease, vertex)), (vertex, _far(pattern, other, vertex))))
-    return _parallel(pairs)
+    return _parallel(
+        [
+            ((vertex, pattern.far_end(vertex, crease)), (vertex, pattern.far_end(vertex, other)))
+            for vertex, crease, other in _opposite(pattern)
+            if crease in on_lines
+        ]
+    )
 
 
 def bent_line(pattern: Pattern, angle: float) -> Condition | None:
-    """Return that a line is bent by an angle at the first vertex of four creases; None if there is no such vertex.
-
-    Radians. Where a sheet is symmetric, lines are bent alike at all vertices to which that one is mapped.
-    """
+    """Return that a line is bent by an angle, radians, at the first vertex of four creases; None without one."""
     opposite = _opposite(pattern)
     if not opposite:
         return None
     (vertex, first, _), (_, second, _) = opposite[:2]  # both pairs of creases of the first vertex
-    corner_of = _corners_by_side(pattern)
-    corners = [corner_of[vertex, _far(pattern, crease, vertex)] for crease in (first, second)]
+    corners = [pattern.corner_before(vertex, crease) for crease in (first, second)]
 
     def condition(unknowns: Floats) -> tuple[Floats, Floats]:
         angles, by_places = opened_angles(pattern, unknowns[: pattern.vertices])
@@ -204,13 +159,13 @@ def bundles(pattern: Pattern) -> list[tuple[int, ...]]:
 
 def _opposite(pattern: Pattern) -> list[tuple[int, int, int]]:
     """Return vertices of four creases with each pair of opposite creases."""
-    rounds = zip(pattern.inner.tolist(), creases_round(pattern), strict=False)
+    rounds = zip(pattern.inner.tolist(), pattern.rounds, strict=False)
     return [(vertex, met[k], met[k + 2]) for vertex, met in rounds if len(met) == 4 for k in (0, 1)]
 
 
 def _across(pattern: Pattern) -> list[tuple[int, int]]:
     """Return the pairs of opposite creases of panels with four sides."""
-    creases = sides_of(pattern).creases
+    creases = pattern.sides.creases
     pairs = []
     for panel in pattern.panels:
         if len(panel) == 4:
@@ -219,11 +174,6 @@ def _across(pattern: Pattern) -> list[tuple[int, int]]:
                 if crease is not None and other is not None:
                     pairs.append((crease, other))
     return pairs
-
-
-def _far(pattern: Pattern, crease: int, vertex: int) -> int:
-    a, b = pattern.creases[crease]
-    return b if a == vertex else a
 
 
 def _parallel(pairs: list[tuple[Edge, Edge]]) -> Condition:
@@ -247,25 +197,26 @@ def _parallel(pairs: list[tuple[Edge, Edge]]) -> Condition:
 
 def panels_between_vertices(pattern: Pattern) -> list[tuple[int, ...]]:
     """Return the panels all of whose corners are inner vertices of four creases."""
-    rounds = zip(pattern.inner.tolist(), creases_round(pattern), strict=False)
-    four = {vertex for vertex, met in rounds if len(met) == 4}
+    four = {vertex for vertex, _, _ in _opposite(pattern)}
     return [panel for panel in pattern.panels if four.issuperset(panel)]
 
 
 def agreeing_ratios(pattern: Pattern, modes: Sequence[bool]) -> Condition:
     """Return that the product of ratios round each panel between vertices of four creases is 1: its logarithm.
 
-    The modes are those of the inner vertices, in their order: True for sines.
+    At a flat-foldable vertex of four creases, sectors a and b on both sides of a crease, the half-angle tangent of
+    that crease is cos((a + b) / 2) / cos((a - b) / 2) times those of its neighbours in one mode, sin((a + b) / 2)
+    / sin((a - b) / 2) times them in the other, but for signs; the ratios stay while the vertex folds, and agree
+    round a panel if their product is 1. Modes are those of the inner vertices, in their order: True for sines.
     """
     mode_of = dict(zip(pattern.inner.tolist(), modes, strict=True))
     number_of = {(int(at), int(before)): number for number, (before, at, _) in enumerate(pattern.corners)}
     rows: list[list[tuple[int, int, bool]]] = []
     for panel in panels_between_vertices(pattern):
-        sides = list(sides_of_face(panel))
-        pairs = zip(sides, [*sides[1:], sides[0]], strict=True)
-        rows.append(
-            [(number_of[at, before], number_of[at, after], mode_of[at]) for (before, at), (_, after) in pairs]
-        )
+        rows.append([])
+        for before, at in sides_of_face(panel):
+            after = pattern.sides.after[before, at][1]
+            rows[-1].append((number_of[at, before], number_of[at, after], mode_of[at]))
 
     def condition(unknowns: Floats) -> tuple[Floats, Floats]:
         angles, by_places = opened_angles(pattern, unknowns[: pattern.vertices])
@@ -284,10 +235,10 @@ def _logarithm(sector: float, other: float, sines: bool) -> tuple[float, tuple[f
     """Return the logarithm of the ratio between two sectors, and its derivatives by both."""
     half, apart = (sector + other) / 2.0, (sector - other) / 2.0
     if sines:
-        first, second = 0.5 / np.tan(half), 0.5 / np.tan(apart)
-        return float(np.log(np.abs(np.sin(half) / np.sin(apart)))), (first - second, first + second)
-    first, second = -0.5 * np.tan(half), -0.5 * np.tan(apart)
-    return float(np.log(np.abs(np.cos(half) / np.cos(apart)))), (first - second, first + second)
+        ratio, first, second = np.sin(half) / np.sin(apart), 0.5 / np.tan(half), 0.5 / np.tan(apart)
+    else:
+        ratio, first, second = np.cos(half) / np.cos(apart), -0.5 * np.tan(half), -0.5 * np.tan(apart)
+    return float(np.log(np.abs(ratio))), (first - second, first + second)
 
 
 @dataclass(frozen=True, slots=True)
@@ -299,12 +250,26 @@ class _Map:
     matrix: Floats
     directions: Flags
 
+    def missed(self, unknowns: Floats) -> tuple[Floats, Floats]:
+        """Return by how much it misses to take each unknown to its image; a direction may be reversed."""
+        there = unknowns @ self.matrix.T
+        signs = np.where(self.directions & ((unknowns[self.rows] * there).sum(axis=1) < 0.0), -1.0, 1.0)
+        count = len(unknowns)
+        by = np.zeros((count, 2, count, 2))
+        at = np.arange(count)
+        by[at, :, at, :] -= signs[:, None, None] * self.matrix
+        for axis in range(2):
+            by[at, axis, self.rows, axis] += 1.0
+        off = unknowns[self.rows] - signs[:, None] * there
+        return off.ravel(), by.reshape(2 * count, 2 * count)
+
 
 @dataclass(frozen=True, slots=True)
 class Symmetry:
-    """A group of maps of a pattern to itself, by rotations and mirrors of the plane.
+    """A group of maps of a pattern to itself, by rotations and mirrors of the plane that keep its border.
 
-    `turns` is the order of the rotations, 1 for none; mirrors are none, or as many as turns.
+    `turns` is the order of the rotations, 1 for none; mirrors are none, or as many as turns. A barycentric drawing
+    in a regular border has all of them; as conditions they are kept while the shape is improved.
     """
 
     turns: int
@@ -319,7 +284,7 @@ class Symmetry:
 
     def condition(self, unknowns: Floats) -> tuple[Floats, Floats]:
         """Return by how much unknowns, float[n, 2], miss their images, and derivatives."""
-        return _stacked([_missed(generator, unknowns) for generator in self._generators])
+        return together(*(generator.missed for generator in self._generators))(unknowns)
 
     def upright(self, places: Floats) -> Floats:
         """Return places rotated so that the first mirror is upright, if there is one."""
@@ -328,28 +293,24 @@ class Symmetry:
         matrix = self._generators[-1].matrix
         angle = (np.pi - np.arctan2(matrix[1, 0], matrix[0, 0])) / 2
         cos, sin = np.cos(angle), np.sin(angle)
-        turned: Floats = places @ np.array([[cos, sin], [-sin, cos]])
-        return turned
+        return np.asarray(places @ np.array([[cos, sin], [-sin, cos]]))
 
     def evened(self, aims: Floats) -> Floats:
         """Return the mean of the aims of edges that are mapped to each other: float[E]."""
-        evened: Floats = np.mean([aims[map_.edges] for map_ in self._maps], axis=0)
-        return evened
+        return np.asarray(np.mean([aims[map_.edges] for map_ in self._maps], axis=0))
 
+    def error(self, places: Floats) -> float:
+        """Return the largest distance of a vertex from the image of another, in units of the extent.
 
-def off_symmetry(symmetry: Symmetry, places: Floats) -> float:
-    """Return the largest distance of a vertex from the image of another, in units of the extent.
-
-    The places may be rotated and translated in the plane.
-    """
-    count = len(places)
-    centred = places - places.mean(axis=0)
-    worst = 0.0
-    for map_ in symmetry._maps:
-        image = centred[map_.rows[:count]]
-        rotation, shift = rigid_motion(centred, image, mirrored=np.linalg.det(map_.matrix) < 0.0)
-        worst = max(worst, float(np.linalg.norm(centred @ rotation.T + shift - image, axis=1).max()))
-    return worst / float(np.ptp(places, axis=0).max())
+        The places may be rotated and translated in the plane.
+        """
+        centred = places - places.mean(axis=0)
+        worst = 0.0
+        for map_ in self._maps:
+            image = centred[map_.rows[: len(places)]]
+            rotation, shift = rigid_motion(centred, image, mirrored=np.linalg.det(map_.matrix) < 0.0)
+            worst = max(worst, float(np.linalg.norm(centred @ rotation.T + shift - image, axis=1).max()))
+        return worst / float(np.ptp(places, axis=0).max())
 
 
 def symmetries(pattern: Pattern) -> tuple[Symmetry, ...]:
@@ -377,36 +338,28 @@ def symmetries(pattern: Pattern) -> tuple[Symmetry, ...]:
 
 def _maps(pattern: Pattern, *, mirrored: bool) -> Iterator[tuple[int, _Map]]:
     """Yield where the border goes, and the map, for each that takes panels to panels and centres to centres."""
-    sides = sides_of(pattern)
     outer = pattern.outer
     for shift in range(len(outer)):
         ends = (outer[shift - 1], outer[shift]) if mirrored else (outer[shift], outer[(shift + 1) % len(outer)])
-        image = _image(sides, (outer[0], outer[1]), ends, mirrored=mirrored)
+        image = _image(pattern.sides, (outer[0], outer[1]), ends, mirrored=mirrored)
         if image is not None and len(set(image.values())) == pattern.vertices:
-            vertices = np.array([image[v] for v in range(pattern.vertices)])
-            map_ = _map_of(pattern, vertices, _motion(shift, outer, mirrored))
+            angle = 2.0 * np.pi * shift / len(outer)
+            cos, sin = np.cos(angle), np.sin(angle)
+            matrix = np.array([[cos, sin], [sin, -cos]] if mirrored else [[cos, -sin], [sin, cos]])
+            map_ = _map_of(pattern, np.array([image[v] for v in range(pattern.vertices)]), matrix)
             if map_ is not None:
                 yield shift, map_
 
 
-def _motion(shift: int, outer: tuple[int, ...], mirrored: bool) -> Floats:
-    """Return the rotation or the mirror that takes a regular border to itself."""
-    angle = 2.0 * np.pi * shift / len(outer)
-    cos, sin = np.cos(angle), np.sin(angle)
-    return np.array([[cos, sin], [sin, -cos]] if mirrored else [[cos, -sin], [sin, cos]])
-
-
 def _image(sides: Sides, first: Edge, to: Edge, *, mirrored: bool) -> dict[int, int] | None:
-    """Return the images of the vertices if a side goes to another; None if the panels do not fit.
-
-    In a mirror the side that follows goes to the one before.
-    """
+    """Return the images of the vertices if a side goes to another; None if the panels do not fit."""
     image = {first: to}
     work = [first]
-    for side in work:
+    for side in work:  # from one side to all: to the next of its panel, and across creases
         there = image[side]
         if (side in sides.creases) != (there in sides.creases):
             return None
+        # a mirror takes the side that follows to the one before
         steps = [(sides.after[side], (sides.before if mirrored else sides.after)[there])]
         if side in sides.creases:
             steps.append((side[::-1], there[::-1]))
@@ -451,45 +404,9 @@ def _map_of(pattern: Pattern, image: Ints, matrix: Floats) -> _Map | None:
     return _Map(np.array(rows), np.array(edges), matrix, directions)
 
 
-def _missed(map_: _Map, unknowns: Floats) -> tuple[Floats, Floats]:
-    """Return by how much a map misses to take each unknown to its image; a direction may be reversed."""
-    there = unknowns @ map_.matrix.T
-    signs = np.where(map_.directions & ((unknowns[map_.rows] * there).sum(axis=1) < 0.0), -1.0, 1.0)
-    count = len(unknowns)
-    by = np.zeros((count, 2, count, 2))
-    at = np.arange(count)
-    by[at, :, at, :] -= signs[:, None, None] * map_.matrix
-    for axis in range(2):
-        by[at, axis, map_.rows, axis] += 1.0
-    off = unknowns[map_.rows] - signs[:, None] * there
-    return off.ravel(), by.reshape(2 * count, 2 * count)
-
-
 @dataclass(frozen=True, slots=True)
-class Wishes:
-    """Further conditions on drawings: flat-foldable, symmetric under a group, or both, and others."""
-
-    flat_foldable: bool = False
-    symmetry: Symmetry | None = None
-    others: tuple[Condition, ...] = ()
-
-    def conditions(self, pattern: Pattern) -> list[Condition]:
-        """Return the conditions that drawings meet exactly."""
-        flat = [flat_folding(pattern)] if self.flat_foldable else []
-        return [*flat, *([self.symmetry.condition] if self.symmetry is not None else []), *self.others]
-
-    def kept(self, pattern: Pattern, places: Floats) -> Kept:
-        """Return how well a drawing meets them."""
-        return Kept(
-            off_flat(pattern, places) if self.flat_foldable else None,
-            off_symmetry(self.symmetry, places) if self.symmetry is not None else None,
-            "" if self.symmetry is None else str(self.symmetry),
-        )
-
-
-@dataclass(frozen=True, slots=True)
-class Kept:
-    """How well a drawing meets the wishes; None for what was not among them.
+class ConditionErrors:
+    """How well a drawing meets its conditions; None for what is not among them.
 
     `off_flat` is the largest error of flat-foldability, radians, and units of length round holes; `off_symmetry`
     the largest distance of a vertex from its image, in units of the extent.
@@ -500,7 +417,7 @@ class Kept:
     symmetry: str = ""
 
     def to_json(self) -> dict[str, Any]:
-        """Return the keys that scripts rely on, for the wishes only."""
+        """Return the keys that scripts rely on, for the conditions only."""
         flat = {} if self.off_flat is None else {"off_flat_folding": self.off_flat}
         if self.off_symmetry is None:
             return flat
@@ -519,16 +436,41 @@ class Kept:
         return lines
 
 
-def wishes_for(pattern: Pattern, *, flat_foldable: bool, symmetric: bool) -> tuple[Wishes, ...]:
-    """Return the wishes to try one after the other, the largest group of symmetries first.
+@dataclass(frozen=True, slots=True)
+class DrawingConditions:
+    """Further conditions on drawings: flat-foldable, symmetric under a group, or both, and others."""
+
+    flat_foldable: bool = False
+    symmetry: Symmetry | None = None
+    others: tuple[Condition, ...] = ()
+
+    def conditions(self, pattern: Pattern) -> list[Condition]:
+        """Return the conditions that drawings meet exactly."""
+        flat = [flat_folding(pattern)] if self.flat_foldable else []
+        return [*flat, *([self.symmetry.condition] if self.symmetry is not None else []), *self.others]
+
+    def errors(self, pattern: Pattern, places: Floats) -> ConditionErrors:
+        """Return how well a drawing meets them."""
+        off = None
+        if self.flat_foldable:
+            off = float(np.abs(flat_folding(pattern)(places)[0]).max(initial=0.0))
+        if self.symmetry is None:
+            return ConditionErrors(off)
+        return ConditionErrors(off, self.symmetry.error(places), str(self.symmetry))
+
+
+def choices_of_conditions(
+    pattern: Pattern, *, flat_foldable: bool, symmetric: bool
+) -> tuple[DrawingConditions, ...]:
+    """Return the conditions to try one after the other, the largest group of symmetries first.
 
     Raises `UnsolvableError` if it cannot be flat-foldable, or has no symmetry that keeps its border.
     """
     if flat_foldable:
         flat_folding(pattern)  # raises where an odd number of creases prevents it
     if not symmetric:
-        return (Wishes(flat_foldable),)
+        return (DrawingConditions(flat_foldable),)
     groups = symmetries(pattern)
     if not groups:
         raise UnsolvableError("the type has no symmetry that a drawing with its border could have")
-    return tuple(Wishes(flat_foldable, group) for group in groups)
+    return tuple(DrawingConditions(flat_foldable, group) for group in groups)

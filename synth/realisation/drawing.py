@@ -1,15 +1,8 @@
 """Drawings of a pattern in the plane, one after the other: each from another start, to other lengths.
 
-The start is barycentric, with a convex border. Tutte's theorem: in a convex border, with every other vertex in a
-weighted mean of its neighbours, the panels of a 3-connected pattern are strictly convex and none overlap. Rules S1
-and S2 of SCD graphs say that patterns are, with a *hub* in each hole joined to all vertices round it; the hub is
-where the centre across the hole begins. A panel that cannot be convex gets a hub too, and is a star round it.
-
-Then the shape is improved: corners neither sharp nor flat, edges alike, creases to their centres. The cost is a
-sum of squares that grow without bound where a corner closes or opens; no step may turn a panel over. Each step
-goes to where creases meet their centres, as far as derivatives tell, and within that to the better shape
-(Gauss-Newton, damped). A finite centre is a point, an infinite one a direction; both are unknowns beside the
-vertices.
+The start is barycentric, with a convex border, by Tutte's theorem. Then the shape is improved: corners neither
+sharp nor flat, edges alike, creases to their centres. The unknowns are the vertices, the centres across holes (a
+point for a finite centre, a direction for an infinite one), and *hubs* of panels that cannot be convex.
 
 Source: W. T. Tutte, How to draw a graph, Proc. London Math. Soc. 13 (1963). Theory: docs/theory/realisation.md.
 """
@@ -19,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,9 +22,17 @@ from graphs.rank.singular_values import split
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.motion.walk.step import Allowance
-from synth.realisation.conditions import Condition, Wishes, together
-from synth.realisation.measures import corner_angles, crossings, edge_lengths, is_drawn, opened_angles, sums_at
-from synth.realisation.pattern import Pattern, Pointing
+from synth.realisation.conditions import Condition, DrawingConditions, together
+from synth.realisation.measures import (
+    corner_angles,
+    crossings,
+    damped_least_squares,
+    edge_lengths,
+    is_drawn,
+    opened_angles,
+    sums_at,
+)
+from synth.realisation.pattern import Pattern
 
 _SPREAD = 0.5
 
@@ -42,6 +44,10 @@ def barycentric_start(
 
     Edges are about 1 long. The generator gives every edge a weight; without it all weights are equal.
     """
+    # Tutte: in a convex border, with every other vertex in a weighted mean of its neighbours, the panels of a
+    # 3-connected pattern are strictly convex and none overlap. Rules S1 and S2 of SCD graphs say that patterns
+    # are, with a hub in each hole joined to all vertices round it, where the centre across the hole begins. A
+    # panel that cannot be convex gets a hub too, and is a star round it.
     rings = [*pattern.holes, *(panel for place, panel in enumerate(pattern.panels) if pattern.bent[place])]
     spokes = [(v, pattern.vertices + hub) for hub, ring in enumerate(rings) for v in ring]
     pairs = np.concatenate([pattern.edges, np.array(spokes, np.int64).reshape(-1, 2)])
@@ -70,26 +76,27 @@ _LEFT, _RIGHT = np.array([-1.0, 1.0]), np.array([1.0, -1.0])
 
 
 def first_unknowns(pattern: Pattern, places: Floats, in_holes: Floats, in_panels: Floats) -> Floats:
-    """Return the unknowns of a drawing: vertices, a point for each centre that is no vertex, hubs of bent panels.
+    """Return the unknowns of a drawing, float[V + C + B, 2], from what `barycentric_start` returns.
 
-    The point of an infinite centre is its direction, of length 1. Points in holes are float[H, 2]; hubs of panels,
-    float[B, 2], are those of `barycentric_start`. Returns float[V + C + B, 2].
+    Vertices, a point for each centre that is no vertex, hubs of bent panels; the point of an infinite centre is
+    its direction, of length 1, the mean of its creases whichever way they run.
     """
-    points = [
-        _common_direction(pattern, places, pointing)
-        if pointing.infinite
-        else in_holes[list(pointing.holes)].mean(axis=0)
-        for pointing in pattern.free_centres
-    ]
+    points = []
+    for pointing in pattern.free_centres:
+        if pointing.infinite:
+            ends = places[[pattern.creases[crease] for crease in pointing.creases]]
+            points.append(common_direction(unit(ends[:, 1] - ends[:, 0])))
+        else:
+            points.append(in_holes[list(pointing.holes)].mean(axis=0))
     return np.concatenate([places, np.array(points).reshape(-1, 2), in_panels])
 
 
 def off_centres(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
     """Return the sine of the angle by which each crease misses its centre, and the derivatives.
 
-    Lengths are taken as constant in the derivatives, which are exact where nothing is off. There is a value for
-    each row of ``Pattern.aims``, then by how much the direction of each infinite centre is longer than 1: float[A
-    + D], with derivatives float[A + D, 2 (V + C + B)].
+    A value for each row of `Pattern.aims`, then by how much the direction of each infinite centre is longer than
+    1: float[A + D], with derivatives float[A + D, 2 (V + C + B)]; in these lengths are taken as constant, so that
+    they are exact where nothing is off.
     """
     a, b, centre, infinite = pattern.aims.T
     along = unknowns[b] - unknowns[a]
@@ -108,12 +115,6 @@ def off_centres(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
     off = (along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0]) / scale
     longer = ((unknowns[directions] ** 2).sum(axis=1) - 1.0) / 2
     return np.concatenate([off, longer]), derivatives.reshape(len(derivatives), unknowns.size)
-
-
-def _common_direction(pattern: Pattern, places: Floats, pointing: Pointing) -> Floats:
-    """Return the mean direction of creases, whichever way they run."""
-    ends = places[[pattern.creases[crease] for crease in pointing.creases]]
-    return common_direction(unit(ends[:, 1] - ends[:, 0]))
 
 
 _ROUNDS = 40
@@ -155,31 +156,19 @@ class _Cost:
     def merit(self) -> float:
         return float(self.residuals @ self.residuals + _OFF * np.abs(self.off).sum())
 
-    @property
-    def back(self) -> Floats:
-        """The shortest step by which each crease turns to its centre."""
-        return self._split[0]
-
-    @property
-    def free(self) -> Floats:
-        """Steps, in columns, by which no crease turns off its centre."""
-        return self._split[1]
-
     @cached_property
-    def by_free(self) -> Floats:
-        """Derivatives of the residuals along these."""
-        free: Floats = self.by @ self.free
-        return free
+    def steps(self) -> tuple[Floats, Floats, Floats]:
+        """The shortest steps by which creases turn to their centres, and steps by which none turns off its own.
 
-    @cached_property
-    def _split(self) -> tuple[Floats, Floats]:
+        Both in columns, then the derivatives of the residuals along the second.
+        """
         parts = split(self.off_by)
         rank, right = parts.rank, parts.right
-        return (right[:rank].T / parts.values[:rank]) @ parts.left[:, :rank].T, right[rank:].T
+        back = (right[:rank].T / parts.values[:rank]) @ parts.left[:, :rank].T
+        return back, right[rank:].T, self.by @ right[rank:].T
 
 
-@dataclass(frozen=True, slots=True)
-class _Aims:
+class _Aims(NamedTuple):
     """A convex border, logarithms of the lengths of edges, and the exact conditions."""
 
     convex: bool
@@ -200,11 +189,14 @@ def improved(
     """Return a drawing of better shape in which creases point to their centres; None if none was found.
 
     Drawings are float[V + C + B, 2], the first one with panels that are convex, or seen from their hubs; edges of
-    the result have the mean length 1, or that of the aims, float[E], logarithms of lengths, by default 0.
-    Conditions are met exactly, besides that creases point to their centres. The allowance counts steps: where it
-    is used up the shape that was reached is returned.
+    the result have the mean length 1, or that of the aims, float[E], logarithms of lengths. Conditions are met
+    exactly too. The allowance counts steps: where it is used up the shape that was reached is returned.
     """
-    exactly = together([partial(off_centres, pattern), *conditions])
+    # Gauss-Newton, damped. The cost is a sum of squares that grow without bound where a corner closes or opens; no
+    # step may turn a panel over. Each step goes to where creases meet their centres, as far as derivatives tell,
+    # and within that to the better shape; it is accepted if the cost with its penalty for creases off their
+    # centres falls.
+    exactly = together(partial(off_centres, pattern), *conditions)
     goal = _Aims(convex, np.zeros(len(pattern.edges)) if aims is None else aims, exactly)
     unknowns, cost = start, _cost(pattern, start, goal)
     damping = 1e-2
@@ -213,11 +205,11 @@ def improved(
             return None
         better, lower = None, 10.0
         while better is None and damping < 1e8 and (allowance is None or allowance.take()):
-            step = _tried(unknowns, cost, damping, exactly) - unknowns
+            step = _stepped(unknowns, cost, damping, exactly) - unknowns
             trial = np.round(unknowns + _held(pattern, unknowns, cost, step), _DIGITS)
-            tried = _cost(pattern, trial, goal)
-            if tried is not None and tried.merit < (1.0 - _LEAST) * cost.merit:
-                better = tried
+            trial_cost = _cost(pattern, trial, goal)
+            if trial_cost is not None and trial_cost.merit < (1.0 - _LEAST) * cost.merit:
+                better = trial_cost
             else:
                 damping, lower = damping * 6.0, 2.0
         if better is None:
@@ -245,29 +237,27 @@ def _closed(pattern: Pattern, unknowns: Floats, exactly: Condition) -> Floats | 
     return unknowns
 
 
-def _tried(unknowns: Floats, cost: _Cost, damping: float, exactly: Condition) -> Floats:
-    """Return where a step leads that goes to the least cost, and a part of the way to where nothing is off.
-
-    Creases turn on the way, so that the step misses their centres in second order. That is taken back; else the
-    gain in shape would have to outweigh it, and steps would be short.
-    """
+def _stepped(unknowns: Floats, cost: _Cost, damping: float, exactly: Condition) -> Floats:
+    """Return where a step leads that goes to the least cost, and a part of the way to where nothing is off."""
     if not len(cost.off):
-        step = -_least(cost.by, cost.residuals, damping)
+        step = -damped_least_squares(cost.by, cost.residuals, damping**0.5)
         return unknowns + step.reshape(unknowns.shape)
     part = 1.0 / (1.0 + damping)
-    there = -part * (cost.back @ cost.off)
-    within = cost.free @ _least(cost.by_free, cost.residuals + cost.by @ there, damping)
+    back, free, by_free = cost.steps
+    there = -part * (back @ cost.off)
+    within = free @ damped_least_squares(by_free, cost.residuals + cost.by @ there, damping**0.5)
     trial = unknowns + (there - within).reshape(unknowns.shape)
+    # Creases turn on the way, so that the step misses their centres in second order. That is taken back; else the
+    # gain in shape would have to outweigh it, and steps would be short.
     missed = exactly(trial)[0] - (1.0 - part) * cost.off
-    trial -= (cost.back @ missed).reshape(unknowns.shape)
+    trial -= (back @ missed).reshape(unknowns.shape)
     return trial
 
 
 def _held(pattern: Pattern, unknowns: Floats, cost: _Cost, step: Floats) -> Floats:
     """Return a step without the motions of the whole plane that change nothing.
 
-    There are none in it but for rounding, which the damping alone keeps small: it would turn the drawing by more
-    in each round.
+    Only rounding puts them there, but the damping alone keeps it small, and it would grow from round to round.
     """
     points = np.ones(len(unknowns))
     points[pattern.directions] = 0.0
@@ -281,22 +271,8 @@ def _held(pattern: Pattern, unknowns: Floats, cost: _Cost, step: Floats) -> Floa
     return step - (along @ (along.T @ step.ravel())).reshape(step.shape)
 
 
-def _least(by: Floats, residuals: Floats, damping: float) -> Floats:
-    """Return the damped solution of least squares.
-
-    It is found by a QR decomposition: where corners are sharp derivatives are large, and squares of them would
-    square the rounding errors too.
-    """
-    size = by.shape[1]
-    q, r = np.linalg.qr(np.vstack([by, damping**0.5 * np.eye(size)]))
-    return np.asarray(np.linalg.solve(r, q[: len(by)].T @ residuals), dtype=np.float64)
-
-
 def _cost(pattern: Pattern, unknowns: Floats, goal: _Aims) -> _Cost | None:
-    """Return the cost of a drawing.
-
-    None where vertices coincide, a panel is turned over or the border is not convex as it should be.
-    """
+    """Return the cost of a drawing; None where vertices coincide, a panel is turned over or the border is bent."""
     places = unknowns[: pattern.vertices]
     points = np.concatenate([places, unknowns[len(unknowns) - int(pattern.bent.sum()) :]])
     if len(np.unique(points, axis=0)) < len(points):
@@ -355,8 +331,8 @@ _APART = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
-    """A drawing: places of the vertices, with edges about 1 long, and angles of the corners of panels, radians.
+class PanelDrawing:
+    """A drawing: places of the vertices, edges about 1 long, and angles of the corners of panels, radians.
 
     `convex` says whether the border was kept convex, `number` which try it is.
     """
@@ -367,25 +343,23 @@ class Drawn:
     number: int
 
 
-_NONE = Wishes()
-
-
 def drawings(
     pattern: Pattern,
     seed: int,
     tries: int,
-    wishes: Wishes = _NONE,
+    wishes: DrawingConditions | None = None,
     allowance: Allowance | None = None,
     *,
     first: int = 0,
-) -> Iterator[Drawn]:
+) -> Iterator[PanelDrawing]:
     """Yield drawings without crossings, each panel strictly convex where it can be, creases to their centres.
 
     The first is as even as possible, every other aims at random lengths. The border is convex; where creases point
     to centres across holes every third drawing may have another. The allowance counts steps of improvement, of all
-    drawings together: where it is used up there is no other drawing. Tries are numbered from `first`.
+    drawings: where it is used up there is no other drawing. Tries are numbered from `first`.
     """
-    conditions, symmetry = wishes.conditions(pattern), wishes.symmetry
+    conditions = [] if wishes is None else wishes.conditions(pattern)
+    symmetry = None if wishes is None else wishes.symmetry
     for number in range(first, first + tries):
         if allowance is not None and number > first and allowance.left <= 0:
             return
@@ -404,16 +378,15 @@ def drawings(
             continue
         if symmetry is not None:
             places = symmetry.upright(places)
-        yield Drawn(places, opened_angles(pattern, places)[0], convex, number)
+        yield PanelDrawing(places, opened_angles(pattern, places)[0], convex, number)
 
 
 def _are_apart(pattern: Pattern, unknowns: Floats) -> bool:
     """Check that centres across holes are different from each other and from the vertices."""
     free = pattern.free_centres
+    points = unknowns[: pattern.vertices + len(free)]
+    least = _APART * np.ptp(unknowns[: pattern.vertices], axis=0).max()
     finite = [pattern.vertices + place for place, pointing in enumerate(free) if not pointing.infinite]
-    extent = np.ptp(unknowns[: pattern.vertices], axis=0).max()
-    for place in finite:
-        others = np.delete(unknowns[: pattern.vertices + len(free)], place, axis=0)
-        if np.linalg.norm(others - unknowns[place], axis=1).min() < _APART * extent:
-            return False
-    return True
+    return all(
+        np.linalg.norm(np.delete(points, place, axis=0) - points[place], axis=1).min() >= least for place in finite
+    )

@@ -24,7 +24,7 @@ from graphs.identity.drawings import map_id
 from graphs.mechanism.sheet import Sheet
 from synth.drawing.catalogue import CatalogueEntry, catalogue_entries
 from synth.drawing.mechanisms.chains import OrderOnCircle
-from synth.realisation.realised import NotFoundError, Realisation, realise
+from synth.realisation.realised import NotFoundError, realise
 
 
 def store_beside(folder: Path) -> Path:
@@ -35,8 +35,9 @@ def store_beside(folder: Path) -> Path:
 class RealisationFolder:
     """A sink: a FOLD file for each row that holds one, named by its number, and a store of all rows.
 
-    With `resume` it goes on with what is there; otherwise an existing folder or store is refused. `tell` receives
-    a line on the state of the store (`SqliteSink`), `looking` the part of the store that has been looked through.
+    With `resume` it continues an existing folder; otherwise an existing folder or store is refused. `tell`
+    receives a line on the state of the store (`SqliteSink`), `looking` the part of the store that has been looked
+    through.
     """
 
     def __init__(
@@ -52,10 +53,9 @@ class RealisationFolder:
         self._columns: tuple[str, ...] = ()
 
     def start(self, job: Job) -> Collection[int]:
-        """Open the store, make the folder; return the units that are there.
+        """Open the store, make the folder; return the units that are done.
 
-        Raise FileError if the folder cannot be made, or something else is at its place; StoreError if the store is
-        that of another job, or cannot be opened.
+        Raise FileError if the folder cannot be made, StoreError if the store is that of another job.
         """
         if not (self._resume and self._folder.is_dir()):
             check_new_folder(self._folder)
@@ -69,27 +69,25 @@ class RealisationFolder:
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Write the files of a unit, then its rows: every row of the store has its file."""
-        self._write(row_as_dict(self._columns, row) for row in rows)
+        for row in rows:
+            self._write(row)
         self._store.take(number, rows, seconds)
 
     def finish(self) -> None:
         """Mark the store complete; files that were removed since are written again."""
         self._store.finish()
-        if self._resume:
-            rows = (row_as_dict(self._columns, row) for row in read_rows(self._store.path))
-            self._write(row for row in rows if not self._place_of(row).exists())
+        for row in read_rows(self._store.path) if self._resume else ():
+            self._write(row, again=False)
 
     def abort(self) -> None:
         """Close the store; what is there stays."""
         self._store.abort()
 
-    def _write(self, rows: Iterable[Mapping[str, Any]]) -> None:
-        for row in rows:
-            if row["mechanism"] is not None:
-                write_text(self._place_of(row), row["mechanism"], force=True)
-
-    def _place_of(self, row: Mapping[str, Any]) -> Path:
-        return self._folder / f"{row['number']:07d}.fold"
+    def _write(self, row: Row, *, again: bool = True) -> None:
+        values = row_as_dict(self._columns, row)
+        path = self._folder / f"{values['number']:07d}.fold"
+        if values["mechanism"] is not None and (again or not path.exists()):
+            write_text(path, values["mechanism"], force=True)
 
 
 Outcome = Literal["realised", "not found", "refused"]
@@ -141,7 +139,7 @@ class RealisationJob:
     def key(self) -> dict[str, Any]:
         """The identity of the job: a digest of the types, and the options."""
         digest = sha256()
-        for entry in self._entries:
+        for entry in self._read[0]:
             digest.update(f"{entry.number} {entry.name}\n{_text_of(entry)}\n".encode())
         return {"realise": digest.hexdigest(), **dict(self.options)}
 
@@ -150,10 +148,6 @@ class RealisationJob:
         """Errors of the files of a folder that could not be read."""
         return self._read[1]
 
-    @property
-    def _entries(self) -> list[CatalogueEntry]:
-        return self._read[0]
-
     @cached_property
     def _read(self) -> tuple[list[CatalogueEntry], list[str]]:
         failures: list[str] = []
@@ -161,8 +155,8 @@ class RealisationJob:
 
     def units(self) -> list[Unit]:
         """Units of a few types each."""
-        starts = range(0, len(self._entries), _TYPES)
-        portions = (self._entries[start : start + _TYPES] for start in starts)
+        entries = self._read[0]
+        portions = (entries[start : start + _TYPES] for start in range(0, len(entries), _TYPES))
         return [Unit(portion, _WEIGHT * len(portion)) for portion in portions]
 
     def work(self, payload: Iterable[CatalogueEntry]) -> list[Row]:
@@ -180,26 +174,25 @@ def summary_of(rows: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
 
 def _row(entry: CatalogueEntry, options: dict[str, Any]) -> Row:
     outcome: Outcome
+    values: dict[str, Any]
     try:
         if isinstance(entry.mechanism, OrderOnCircle):
             raise UnsolvableError("an order of joints round a cone has no panels; try `synth template`")
-        values, outcome, reason = _values(realise(entry.mechanism, mode=entry.mode, **options)), "realised", ""
+        realised = realise(entry.mechanism, mode=entry.mode, **options)
+        outcome, reason = "realised", ""
+        values = {
+            "code": map_id(realised.scd),
+            "mobility": realised.mobility,
+            "freedoms": realised.freedoms,
+            "folds": realised.folds,
+            "try": realised.number,
+            "mechanism": fold_text(realised.sheet),
+            **realised.figures.to_json(),
+        }
     except SynthedraError as error:
         values, outcome, reason = {}, "not found" if isinstance(error, NotFoundError) else "refused", str(error)
     values |= {"number": entry.number, "name": entry.name, "outcome": outcome, "reason": reason}
     return tuple(values.get(column) for column in COLUMNS)
-
-
-def _values(realised: Realisation) -> dict[str, Any]:
-    return {
-        "code": map_id(realised.scd),
-        "mobility": realised.mobility,
-        "freedoms": realised.freedoms,
-        "folds": realised.folds,
-        "try": realised.number,
-        "mechanism": fold_text(realised.sheet),
-        **realised.figures.to_json(),
-    }
 
 
 def _text_of(entry: CatalogueEntry) -> str:

@@ -49,14 +49,13 @@ def edge_lengths(places: Floats, edges: Ints) -> tuple[Floats, Floats]:
 
 def sums_at(pattern: Pattern, vertices: Ints) -> Floats:
     """Return float[n, K], which sums the corners at each of some vertices."""
-    at: Floats = (pattern.corners[None, :, 1] == vertices[:, None]).astype(np.float64)
-    return at
+    return np.asarray(pattern.corners[None, :, 1] == vertices[:, None], dtype=np.float64)
 
 
 def is_drawn(pattern: Pattern, angles: Floats) -> bool:
-    """Return whether panels are strictly convex where they can be, lie one way up, and go once round vertices.
+    """Check that panels are strictly convex where they can be, lie one way up, and go once round inner vertices.
 
-    Those are the inner vertices; the angles of the corners are those of `opened_angles`.
+    The angles of the corners are those of `opened_angles`.
     """
     if not (np.isfinite(angles).all() and angles.min() > 0.0 and (angles < pattern.widest).all()):
         return False
@@ -73,6 +72,16 @@ def opened_angles(pattern: Pattern, places: Floats) -> tuple[Floats, Floats]:
     """
     angles, by = corner_angles(places, pattern.corners)
     return np.where((angles < 0.0) & (pattern.widest > np.pi), angles + 2 * np.pi, angles), by
+
+
+def damped_least_squares(by: Floats, residuals: Floats, weight: float) -> Floats:
+    """Return the solution x of least squares of by x - residuals and weight x.
+
+    It is found by a QR decomposition: where corners are sharp derivatives are large, and squares of them would
+    square the rounding errors too.
+    """
+    q, r = np.linalg.qr(np.vstack([by, weight * np.eye(by.shape[1])]))
+    return np.asarray(np.linalg.solve(r, q[: len(by)].T @ residuals), dtype=np.float64)
 
 
 _SHARP, _RATIO = float(np.radians(15.0)), 0.15
@@ -101,7 +110,7 @@ class ShapeFigures:
 
     @property
     def quality(self) -> float:
-        """1 where the sharpest corner has 15 degrees and the edge ratio is 0.15, or the worse of the two less."""
+        """The worse of sharpest corner and edge ratio; 1 at 15 degrees, and at 0.15."""
         return min(self.least_angle / _SHARP, self.edge_ratio / _RATIO)
 
     def to_json(self) -> dict[str, Any]:
@@ -116,10 +125,7 @@ class ShapeFigures:
 
 
 def figures_of(pattern: Pattern, sheet: Sheet, bent: Floats) -> ShapeFigures:
-    """Return the figures of a placed pattern, a sheet with coordinates.
-
-    The angles of the corners in the drawing, float[K], say which of them are bent inward.
-    """
+    """Return the figures of a placed pattern; corners bent inward are those of the drawing's angles, float[K]."""
     points = np.zeros((sheet.vertices, 3))
     coordinates = np.asarray(sheet.coordinates, dtype=float)
     points[:, : coordinates.shape[1]] = coordinates
@@ -146,22 +152,15 @@ def crossings(pattern: Pattern, places: Floats) -> int:
     c, d = (places[ends] for ends in pattern.edges[second].T)
     same = DOUBLE.same_point
     crossing = (_side(a, b, c) * _side(a, b, d) < -same) & (_side(c, d, a) * _side(c, d, b) < -same)
-    return int(crossing.sum()) + int((_from_edges(pattern, places) < same * extent_of(places)).sum())
-
-
-def _side(a: Floats, b: Floats, c: Floats) -> Floats:
-    """Return how far a point is to the left of a line, times the length of the line."""
-    side: Floats = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
-    return side
-
-
-def _from_edges(pattern: Pattern, places: Floats) -> Floats:
-    """Return the distance of each vertex from each edge that does not end in it."""
     start = places[pattern.edges[:, 0]]
     along = places[pattern.edges[:, 1]] - start
     to = places[:, None] - start[None]
     part = np.clip((to * along).sum(axis=2) / (along**2).sum(axis=1), 0.0, 1.0)
-    distance: Floats = np.linalg.norm(to - part[:, :, None] * along, axis=2)
+    distance = np.linalg.norm(to - part[:, :, None] * along, axis=2)
     own = (pattern.edges[None] == np.arange(len(places))[:, None, None]).any(axis=2)
-    others: Floats = distance[~own]
-    return others
+    return int(crossing.sum()) + int((distance[~own] < same * extent_of(places)).sum())
+
+
+def _side(a: Floats, b: Floats, c: Floats) -> Floats:
+    """Return how far a point is to the left of a line, times the length of the line."""
+    return np.asarray((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]))

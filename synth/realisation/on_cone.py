@@ -25,6 +25,7 @@ from graphs.types import Floats
 from synth.conformed.rates import ConformedChain, first_order
 from synth.moving.made import configuration_of
 from synth.realisation.measures import first_order_freedoms
+from synth.realisation.pattern import check_search
 from synth.surfaces.circuit import link_pairs, loop_steps, wrapped
 from synth.surfaces.linkages import by_sizes, map_linkage
 
@@ -115,7 +116,10 @@ class ConeRealisation(Printed):
         chain = self.linkage.chain
         azimuths = zip(chain.joints, self.linkage.places(), strict=True)
         link_of = link_pairs(chain)
-        rows = [(plain(link_of[pair]), _names(pair), f"{degrees(arc):.6g}") for pair, arc in self.arcs.items()]
+        rows = [
+            (plain(link_of[pair]), plain(" ".join(map(str, pair))), f"{degrees(arc):.6g}")
+            for pair, arc in self.arcs.items()
+        ]
         return [
             f"a linkage on a cone of lambda {degrees(self.cone_angle):.6g} degrees: {chain}",
             "azimuths (deg)  " + ", ".join(f"{plain(joint)} {degrees(t):.6g}" for joint, t in azimuths),
@@ -123,14 +127,11 @@ class ConeRealisation(Printed):
             "circuits " + ", ".join(self.circuits) + f"; steps of links {degrees(self.clear):.3g} degrees or more "
             "from zero and from a half turn",
             f"mobility {self.mobility}, exact; {first_order_freedoms(self.freedoms)} at this configuration",
-            self._mapped(),
+            f"cones with these arcs were not searched for: a loop has more than {_MAPPED} links"
+            if self.cones is None
+            else f"the arcs alone lead to {numbered(self.cones, 'cone')}, this one among them",
             f"try {self.number + 1} of {self.tries}",
         ]
-
-    def _mapped(self) -> str:
-        if self.cones is None:
-            return f"cones with these arcs were not searched for: a loop has more than {_MAPPED} links"
-        return f"the arcs alone lead to {numbered(self.cones, 'cone')}, this one among them"
 
     def __repr__(self) -> str:
         return f"<ConeRealisation: lambda {degrees(self.cone_angle):.6g} degrees, {self.linkage.chain!r}>"
@@ -172,7 +173,11 @@ def realise_on_cone(
     (('open',), 1, 4)
     """
     mechanism = mechanism_for("realise_on_cone", mechanism)
-    _check(cone_angle, seed, tries)
+    if not (isfinite(cone_angle) and 0.0 < cone_angle < pi / 2):
+        raise InvariantError(
+            "cone angle", f"lambda is {degrees(cone_angle):.6g} degrees", "more than 0 and less than 90"
+        )
+    check_search(seed, tries)
     chain = _about_one_centre(to_sc(mechanism))
     conformed, mobility = ConformedChain.of(chain), exact_mobility(chain).mobility
     best: ConeRealisation | None = None
@@ -194,15 +199,6 @@ def realise_on_cone(
             break
     assert best is not None
     return replace(best, cones=_cones(best.linkage, cone_angle))
-
-
-def _check(cone_angle: float, seed: int, tries: int) -> None:
-    if not (isfinite(cone_angle) and 0.0 < cone_angle < pi / 2):
-        raise InvariantError(
-            "cone angle", f"lambda is {degrees(cone_angle):.6g} degrees", "more than 0 and less than 90"
-        )
-    if seed < 0 or tries < 1:
-        raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, 1 try or more")
 
 
 def _about_one_centre(sc: SCGraph) -> SCGraph:
@@ -259,7 +255,3 @@ def _cones(linkage: SurfaceLinkage, angle: float) -> int | None:
     if not (np.abs(angles - angle) < DOUBLE.same_configuration).any():
         raise UnsolvableError(f"the link arcs do not lead back to lambda {degrees(angle):.6g} degrees")
     return 1 + int((np.diff(angles) > DOUBLE.same_configuration).sum())  # two roots near each other: one cone
-
-
-def _names(pair: Pair) -> str:
-    return plain(" ".join(map(str, pair)))

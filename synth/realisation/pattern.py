@@ -1,14 +1,15 @@
 """The panels, creases and borders of a type in numbers, and which creases point to which centre.
 
 A bounded face without open edges is an inner vertex; one with open edges is a hole; the outer face is the border.
-Also walks round vertices and holes, the simplest type with a drawing, and a check for types without a flat sheet.
 Theory: docs/theory/realisation.md.
 """
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import networkx as nx
 import numpy as np
@@ -16,7 +17,7 @@ import numpy as np
 from enumerate.scd.jobs import mechanism_of, scd_graphs_of
 from graphs.convert.panels import rings_of
 from graphs.convert.table import Mechanism, to_scd
-from graphs.errors import UnsolvableError, numbered, shown
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.loops.loop import Centre
 from graphs.mechanism.drawing import FaceKind
 from graphs.mechanism.sc import SCGraph
@@ -37,6 +38,18 @@ class Pointing:
     infinite: bool
     vertex: int | None
     holes: tuple[int, ...]
+
+
+class Sides(NamedTuple):
+    """Which side follows which along its panel, counter-clockwise (`after`) and clockwise (`before`).
+
+    A side is a pair of vertices, directed so that its panel is on the left. `creases` gives the crease that a side
+    is, in both directions; sides of the border are not in it.
+    """
+
+    after: dict[Edge, Edge]
+    before: dict[Edge, Edge]
+    creases: dict[Edge, int]
 
 
 @dataclass(frozen=True)
@@ -74,8 +87,13 @@ class Pattern:
         At most two sides of a convex panel have lines through a point outside it, or through one of its vertices:
         a link with three axes through a centre is no convex panel.
         """
-        links = [self._links_at(pointing) for pointing in self.pointings]
-        return np.array([any(row.count(panel) > 2 for row in links) for panel in range(len(self.panels))])
+        sides = [{frozenset(side) for side in sides_of_face(panel)} for panel in self.panels]
+        bent = np.zeros(len(self.panels), dtype=bool)
+        for pointing in self.pointings:
+            through = [frozenset(self.creases[crease]) for crease in pointing.creases]
+            through += [frozenset(crease) for crease in self.creases if pointing.vertex in crease]
+            bent |= np.array([sum(crease in row for crease in through) > 2 for row in sides])
+        return bent
 
     @property
     def free_centres(self) -> list[Pointing]:
@@ -90,15 +108,7 @@ class Pattern:
     @cached_property
     def widest(self) -> Floats:
         """float[K]: upper bounds of the angles of corners: pi, or 2 pi in a panel that cannot be convex."""
-        widest: Floats = np.where(self.bent[self.panel_of_corner], 2 * np.pi, np.pi)
-        return widest
-
-    def _links_at(self, pointing: Pointing) -> list[int]:
-        """Return the panels of all creases through a centre, once for each crease."""
-        ends = [set(self.creases[crease]) for crease in pointing.creases]
-        ends += [set(crease) for crease in self.creases if pointing.vertex in crease]
-        sides = [[set(side) for side in sides_of_face(panel)] for panel in self.panels]
-        return [place for end in ends for place, row in enumerate(sides) if end in row]
+        return np.asarray(np.where(self.bent[self.panel_of_corner], 2 * np.pi, np.pi))
 
     @cached_property
     def edges(self) -> Ints:
@@ -130,13 +140,60 @@ class Pattern:
         border = {vertex for ring in (self.outer, *self.holes) for vertex in ring}
         return np.array([v for v in range(self.vertices) if v not in border], np.int64)
 
+    @cached_property
+    def sides(self) -> Sides:
+        """Which side of a panel follows which."""
+        after: dict[Edge, Edge] = {}
+        for panel in self.panels:
+            sides = list(sides_of_face(panel))
+            after.update(zip(sides, [*sides[1:], sides[0]], strict=True))
+        creases = {side: number for number, (a, b) in enumerate(self.creases) for side in ((a, b), (b, a))}
+        return Sides(after, {second: first for first, second in after.items()}, creases)
+
+    @cached_property
+    def rounds(self) -> list[tuple[int, ...]]:
+        """The creases in the order in which a walk meets them, round each inner vertex, then each hole."""
+        after, creases = self.sides.after, self.sides.creases
+        starts = [next(side for side in after if side[0] == vertex) for vertex in self.inner.tolist()]
+        starts += [next(side for side in sides_of_face(ring[::-1]) if side in after) for ring in self.holes]
+        rounds = []
+        for start in starts:
+            met, side = [], start
+            while True:
+                if side in creases:
+                    met.append(creases[side])
+                    side = side[::-1]  # the same crease, seen from the next panel
+                side = after[side]
+                if side == start:
+                    break
+            rounds.append(tuple(met))
+        return rounds
+
+    def far_end(self, vertex: int, crease: int) -> int:
+        """Return the other end of a crease from a vertex."""
+        a, b = self.creases[crease]
+        return b if a == vertex else a
+
+    @cached_property
+    def _corner_of_side(self) -> dict[Edge, int]:
+        return {(int(at), int(after)): number for number, (_, at, after) in enumerate(self.corners)}
+
+    def corner_before(self, vertex: int, crease: int) -> int:
+        """Return the corner at a vertex whose second side is a crease."""
+        return self._corner_of_side[vertex, self.far_end(vertex, crease)]
+
 
 def pattern_of(scd: SCDGraph) -> Pattern:
     """Return the pattern of a type.
 
     Raises `UnsolvableError` if the panels close to a surface without a border.
     """
-    rings = _rings(scd)
+    # the vertices along each face with open edges, the face on the left
+    after = {}
+    for link, sides in scd.rotation.items():
+        around = scd.vertices[link]
+        after.update({around[i]: around[i - 1] for i, side in enumerate(sides) if side is None})
+    rings = rings_of(after)
     outer_vertex = _border_vertex(scd, scd.drawing.outer_face)
     if outer_vertex is None:
         raise UnsolvableError("the panels form a closed surface without a border, which cannot lie flat")
@@ -154,6 +211,18 @@ def pattern_of(scd: SCDGraph) -> Pattern:
     )
 
 
+def listed(word: str, names: Iterable[Hashable]) -> str:
+    """Return names after a word for them: "panel 1", "panels 1, 2"."""
+    texts = [shown(name) for name in names]
+    return f"{word if len(texts) == 1 else word + 's'} {', '.join(texts)}"
+
+
+def check_search(seed: int, tries: int) -> None:
+    """Raise `InvariantError` for a seed or a number of tries that a search cannot have."""
+    if seed < 0 or tries < 1:
+        raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, 1 try or more")
+
+
 def sheet_of_places(pattern: Pattern, places: Floats) -> Sheet:
     """Return the panels of a pattern at places, float[V, 2] or float[V, 3], their creases unassigned."""
     creases = len(pattern.creases)
@@ -164,15 +233,6 @@ def sheet_of_places(pattern: Pattern, places: Floats) -> Sheet:
         pattern.panels,
         tuple(tuple(map(float, row)) for row in places),
     )
-
-
-def _rings(scd: SCDGraph) -> list[tuple[int, ...]]:
-    """Return the vertices along each face with open edges, the face on the left."""
-    after = {}
-    for link, sides in scd.rotation.items():
-        around = scd.vertices[link]
-        after.update({around[i]: around[i - 1] for i, side in enumerate(sides) if side is None})
-    return rings_of(after)
 
 
 def _border_vertex(scd: SCDGraph, face: int) -> int | None:
@@ -197,7 +257,9 @@ def _pointings(scd: SCDGraph, holes: tuple[tuple[int, ...], ...]) -> list[Pointi
         loops = [frozenset(scd.drawing.loops[loop].joints) for loop in centre_class.loops]
         faces = [face for joints in loops for face in faces_of[joints]]
         implicit = [face for face in faces if scd.drawing.kind_of_face(face) is FaceKind.IMPLICIT]
-        vertex = _explicit_vertex(scd, faces)
+        explicit = [face for face in faces if scd.drawing.kind_of_face(face) is FaceKind.EXPLICIT]
+        corners = [scd.faces[face].corners[0] for face in explicit[:1]]
+        vertex = scd.vertices[corners[0].link][corners[0].last_side] if corners else None
         ends = {joint: scd.drawing.ends_of_joint(joint) for joint in centre_class.joints}
         creases = tuple(sorted(number[joint] for joint in centre_class.joints if vertex not in ends[joint]))
         if not creases:
@@ -208,76 +270,22 @@ def _pointings(scd: SCDGraph, holes: tuple[tuple[int, ...], ...]) -> list[Pointi
     return pointings
 
 
-def _explicit_vertex(scd: SCDGraph, faces: list[int]) -> int | None:
-    """Return the vertex that the centre of one of some faces is, if one is explicit."""
-    for face in faces:
-        if scd.drawing.kind_of_face(face) is FaceKind.EXPLICIT:
-            corner = scd.faces[face].corners[0]
-            return scd.vertices[corner.link][corner.last_side]
-    return None
-
-
-@dataclass(frozen=True, slots=True)
-class Sides:
-    """Which side follows which along its panel, counter-clockwise (`after`) and clockwise (`before`).
-
-    A side is a pair of vertices, directed so that its panel is on the left. `creases` gives the crease that a side
-    is, in both directions; sides of the border are not in it.
-    """
-
-    after: dict[Edge, Edge]
-    before: dict[Edge, Edge]
-    creases: dict[Edge, int]
-
-
-def sides_of(pattern: Pattern) -> Sides:
-    """Return which side of a pattern follows which."""
-    after: dict[Edge, Edge] = {}
-    for panel in pattern.panels:
-        sides = list(sides_of_face(panel))
-        after.update(zip(sides, [*sides[1:], sides[0]], strict=True))
-    creases = {side: number for number, (a, b) in enumerate(pattern.creases) for side in ((a, b), (b, a))}
-    return Sides(after, {second: first for first, second in after.items()}, creases)
-
-
-def creases_round(pattern: Pattern) -> list[tuple[int, ...]]:
-    """Return the creases in the order in which a walk meets them, round each inner vertex, then each hole."""
-    sides = sides_of(pattern)
-    starts = [next(side for side in sides.after if side[0] == vertex) for vertex in pattern.inner.tolist()]
-    starts += [next(side for side in sides_of_face(ring[::-1]) if side in sides.after) for ring in pattern.holes]
-    return [_walk(sides, start) for start in starts]
-
-
-def _walk(sides: Sides, start: Edge) -> tuple[int, ...]:
-    """Return the creases that a walk crosses which keeps an inner vertex, or a hole, on one hand."""
-    crossed = []
-    side = start
-    while True:
-        if side in sides.creases:
-            crossed.append(sides.creases[side])
-            side = side[::-1]  # the same crease, seen from the next panel
-        side = sides.after[side]
-        if side == start:
-            return tuple(crossed)
-
-
 def check_holes(pattern: Pattern) -> None:
     """Raise `UnsolvableError` for a hole round which creases cannot turn once, their centre being outside it.
 
-    Round a hole the directions in which creases leave it turn once, against the rays from a centre outside it too.
-    In a panel with k sides between two such creases, away from the hole, they turn by at most k - 1 half turns
-    against the rays, and by none where they meet in the centre: along a side the direction crosses rays one way,
-    at each corner it turns by less than half a turn. The message names the panels round the hole and what each
-    allows.
+    The message names the panels round the hole and by how many half turns creases can turn in each.
     """
+    # Round a hole the directions in which creases leave it turn once, against the rays from a centre outside it
+    # too. In a panel with k sides between two such creases, away from the hole, they turn by at most k - 1 half
+    # turns against the rays, and by none where they meet in the centre: along a side the direction crosses rays
+    # one way, at each corner it turns by less than half a turn.
     for pointing in pattern.pointings:
         turns_round = (half_turns(pattern, pointing, hole) for hole in pointing.holes)
         short = [turns for turns in turns_round if turns is not None and sum(turns.values()) < 2]
         # A finite centre that is no vertex may lie in one of the holes.
         if len(short) > (not pointing.infinite and pointing.vertex is None):
             turns = short[-1]
-            names = ", ".join(shown(pattern.links[panel]) for panel in turns)
-            panels = f"panel {names}" if len(turns) == 1 else f"panels {names}"
+            panels = listed("panel", (pattern.links[panel] for panel in turns))
             parts = " + ".join(map(str, turns.values()))
             raise UnsolvableError(
                 "in a flat sheet the directions of creases would turn by 2 half turns round the hole between "
@@ -286,14 +294,15 @@ def check_holes(pattern: Pattern) -> None:
 
 
 def half_turns(pattern: Pattern, pointing: Pointing, hole: int) -> dict[int, int] | None:
-    """Return by how many half turns at most creases turn in each panel round a hole.
+    """Return by how many half turns at most creases turn in each panel round a hole, whose centre is outside it.
 
-    The pointing is to a centre outside the hole, which is a place in ``pattern.holes``. None where something hangs
-    into the hole: the panels round it are not just those between its creases.
+    The hole is a place in `Pattern.holes`. None where something hangs into it: the panels round it are not just
+    those between its creases.
     """
     ring = pattern.holes[hole]
-    inside = {panel: _sides_in(around, ring) for panel, around in enumerate(pattern.panels)}
-    inside = {panel: sides for panel, sides in inside.items() if sides}
+    border = {frozenset(side) for side in sides_of_face(ring)}
+    open_edges = (sum(frozenset(side) in border for side in sides_of_face(panel)) for panel in pattern.panels)
+    inside = {panel: sides for panel, sides in enumerate(open_edges) if sides}
     reaching = [place for place, ends in enumerate(pattern.creases) if pointing.vertex in ends]
     creases = [crease for crease in (*pointing.creases, *reaching) if set(pattern.creases[crease]) & set(ring)]
     if len(creases) != len(inside):
@@ -301,21 +310,14 @@ def half_turns(pattern: Pattern, pointing: Pointing, hole: int) -> dict[int, int
     return {panel: max(len(pattern.panels[panel]) - 2 - sides - 1, 0) for panel, sides in inside.items()}
 
 
-def _sides_in(panel: tuple[int, ...], ring: tuple[int, ...]) -> int:
-    """Return the number of open edges that a panel has round a hole."""
-    border = {frozenset(side) for side in sides_of_face(ring)}
-    return sum(frozenset(side) in border for side in sides_of_face(panel))
-
-
 _MORE_SIDES = 4
 """Links have at most so many more sides than the link with the most joints has joints."""
 
 
 def simplest_drawn(mechanism: Mechanism) -> tuple[SCDGraph, tuple[str, ...]]:
-    """Return the SCD graph of a mechanism, and notes on how it was chosen.
+    """Return the SCD graph of a mechanism, with notes: for an SC graph the first with the fewest open edges.
 
-    For an SC graph it is the first with the fewest open edges. Raises `UnsolvableError` if it has no
-    drawing, or no valid placement of open edges.
+    Raises `UnsolvableError` if it has no drawing, or no valid placement of open edges.
     """
     if isinstance(mechanism, SCDGraph) or not isinstance(mechanism, SCGraph):
         return to_scd(mechanism), ()

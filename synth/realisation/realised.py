@@ -28,10 +28,18 @@ from graphs.types import Floats
 from synth.folding.configuration import SheetConfiguration, configuration_of_sheet
 from synth.motion.branches import first_branch, search_for
 from synth.motion.walk.step import Allowance
-from synth.realisation.conditions import Kept, Wishes, wishes_for
-from synth.realisation.drawing import Drawn, drawings
+from synth.realisation.conditions import ConditionErrors, DrawingConditions, choices_of_conditions
+from synth.realisation.drawing import PanelDrawing, drawings
 from synth.realisation.measures import ShapeFigures, figures_of, first_order_freedoms
-from synth.realisation.pattern import Pattern, check_holes, pattern_of, sheet_of_places, simplest_drawn
+from synth.realisation.pattern import (
+    Pattern,
+    check_holes,
+    check_search,
+    listed,
+    pattern_of,
+    sheet_of_places,
+    simplest_drawn,
+)
 from synth.realisation.space import lifted, receded, with_finite_centres
 from synth.realisation.special.search import OTHER_TYPE, SpecialSearch, SpecialWishes, search_special, turns_all
 from synth.realisation.strips import drawn_string, folded_strip, is_strip, strips
@@ -48,14 +56,13 @@ vertices never use it up, one of a thousand does at once. Each realisation has s
 _SMALLEST, _LARGEST = 1e2 * LEAST, 1e-2 * MOST
 """Sizes: a folded sheet is not quite as large as its drawing."""
 _OTHER_QUESTION = "realise gives a type new coordinates, those of a sheet, and takes no branch"
-_USED_UP = "the search ended early: its allowance of work was used up"
 
 
 class NotFoundError(UnsolvableError):
     """None of the drawings that were tried is of the type: more tries, or another seed, may find one."""
 
 
-Raised = Callable[[Pattern, Floats, np.random.Generator], tuple[Floats, Floats]]
+Lift = Callable[[Pattern, Floats, np.random.Generator], tuple[Floats, Floats]]
 """From a drawing to a configuration in space: places, and numbers above 0 at valleys."""
 
 
@@ -85,8 +92,8 @@ class Realisation(Printed):
         Number of this try, and the largest number of tries.
     notes : tuple of str
         Choices that the input leaves open.
-    kept : Kept
-        How well the drawing is flat-foldable and symmetric, if this was asked for.
+    condition_errors : ConditionErrors
+        How well the drawing is flat-foldable and symmetric, where this was required.
     """
 
     kind: Kind
@@ -101,7 +108,7 @@ class Realisation(Printed):
     number: int
     tries: int
     notes: tuple[str, ...] = ()
-    kept: Kept = field(default_factory=Kept)
+    condition_errors: ConditionErrors = field(default_factory=ConditionErrors)
 
     @property
     def sheet(self) -> Sheet:
@@ -115,8 +122,8 @@ class Realisation(Printed):
     @property
     def rank(self) -> tuple[bool, bool, float]:
         """Key of the choice: whether it moves as the type, whether it folds, its quality."""
-        quality = self.figures.quality
-        return self.kind == "sheet" or self.freedoms == self.mobility, self.folds is not False, quality
+        moves = self.kind == "sheet" or self.freedoms == self.mobility
+        return moves, self.folds is not False, self.figures.quality
 
     @property
     def good(self) -> bool:
@@ -139,7 +146,7 @@ class Realisation(Printed):
             "try": self.number,
             "tries": self.tries,
             "notes": list(self.notes),
-            **self.kept.to_json(),
+            **self.condition_errors.to_json(),
         }
 
     def blocks(self) -> list[Block]:
@@ -154,25 +161,18 @@ class Realisation(Printed):
             f"extent apart, panels planar to {shape.planarity:.0e}",
         ]
         if self.bent:
-            names = ", ".join(shown(link) for link in self.bent)
-            panels = f"panel {names}" if len(self.bent) == 1 else f"panels {names}"
-            lines.append(f"not convex: {panels}, with three axes or more through one centre")
+            lines.append(f"not convex: {listed('panel', self.bent)}, with three axes or more through one centre")
         if not self.convex:
             lines.append("the border is not convex")
         lines.append(
             f"mobility {self.mobility}, exact; {first_order_freedoms(self.freedoms)} at this configuration"
         )
-        if self.folds is not None:
-            lines.append(self._folding())
-        lines += self.kept.lines()
-        lines.append(f"try {self.number + 1} of {self.tries}")
-        return list(lines)
-
-    def _folding(self) -> str:
         if self.folds:
-            return "folds with every crease turning, with these mountains and valleys"
-        tries = numbered(self.tries, "try", "tries")
-        return f"no folding drawing found in {tries}: on each some creases stay flat"
+            lines.append("folds with every crease turning, with these mountains and valleys")
+        elif self.folds is False:
+            tries = numbered(self.tries, "try", "tries")
+            lines.append(f"no folding drawing found in {tries}: on each some creases stay flat")
+        return [*lines, *self.condition_errors.lines(), f"try {self.number + 1} of {self.tries}"]
 
     def __repr__(self) -> str:
         return f"<Realisation: {self.kind}, {self.sheet!r}>"
@@ -280,7 +280,8 @@ def realise(
     (<Sheet: 4 faces, 4 creases, 5 vertices, flat>, True, 1)
     """
     source: Mechanism | ChainString = mechanism_for("realise", mechanism, Mechanism | ChainString)
-    _check(kind, size, seed, tries)
+    _check(kind, size)
+    check_search(seed, tries)
     if freedoms is not None:
         if flat_foldable or symmetric or size != 1.0 or mode:
             what = "freedoms with flat_foldable, symmetric, size or mode"
@@ -302,22 +303,23 @@ def realise(
     else:
         scd, notes = simplest_drawn(source)
     pattern = pattern_of(scd)
-    raised: Raised = lifted
+    lift: Lift = lifted
     if kind == "sheet":
         check_holes(pattern)
-    elif any(pointing.infinite for pointing in pattern.pointings):
-        pattern, raised = with_finite_centres(pattern), partial(_receded, pattern)
+    elif infinite := [pointing for pointing in pattern.pointings if pointing.infinite]:
+        # centres at infinity are drawn as points, and recede in space
+        pattern, lift = with_finite_centres(pattern), partial(receded, infinite)
     allowance = Allowance(max(_STEPS, _WORK // (2 * pattern.vertices) ** 3))
-    task = _Task(kind, scd, pattern, map_id(scd), size, seed, tries, notes, raised, allowance)
+    task = _Task(kind, scd, pattern, map_id(scd), size, seed, tries, notes, lift, allowance)
     if not (flat_foldable or symmetric) and is_strip(pattern):
-        return _best(replace(task, raised=folded_strip), [(Wishes(), strips(pattern, seed, tries))])
-    choices = wishes_for(pattern, flat_foldable=flat_foldable, symmetric=symmetric)
+        return _best(replace(task, lift=folded_strip), [(DrawingConditions(), strips(pattern, seed, tries))])
+    choices = choices_of_conditions(pattern, flat_foldable=flat_foldable, symmetric=symmetric)
     return _best(task, [(choice, drawings(pattern, seed, tries, choice, allowance)) for choice in choices])
 
 
 @dataclass(frozen=True, slots=True)
 class _Task:
-    """A type to be realised, with the options; in space, centres at infinity are drawn as points."""
+    """A type to be realised, with the options."""
 
     kind: Kind
     scd: SCDGraph
@@ -327,44 +329,41 @@ class _Task:
     seed: int
     tries: int
     notes: tuple[str, ...]
-    raised: Raised
+    lift: Lift
     allowance: Allowance
 
     @property
     def ended(self) -> tuple[str, ...]:
         """A note on a search that ended too early."""
-        return (_USED_UP,) if self.allowance.left <= 0 else ()
+        used_up = "the search ended early: its allowance of work was used up"
+        return (used_up,) if self.allowance.left <= 0 else ()
 
 
-def _receded(
-    original: Pattern, pattern: Pattern, places: Floats, random: np.random.Generator
-) -> tuple[Floats, Floats]:
-    """Return a configuration in which centres drawn as points are at infinity, as in the original pattern."""
-    return receded(pattern, [pointing for pointing in original.pointings if pointing.infinite], places, random)
-
-
-def _best(task: _Task, sources: Sequence[tuple[Wishes, Iterable[Drawn]]]) -> Realisation:
+def _best(task: _Task, sources: Sequence[tuple[DrawingConditions, Iterable[PanelDrawing]]]) -> Realisation:
     """Return the best realisation of the first source of drawings that gives one which folds, or else any."""
     reasons: dict[str, None] = {}
-    first: Realisation | None = None
+    best: Realisation | None = None
     for wishes, drawn in sources:
-        best = _best_of(task, wishes, drawn, reasons)
+        of_source = _best_of(task, wishes, drawn, reasons)
+        if best is None or (of_source is not None and of_source.folds is not False):
+            best = of_source
         if best is not None and best.folds is not False:
-            return replace(best, notes=(*best.notes, *task.ended))
-        first = first or best
-    if first is not None:
-        return replace(first, notes=(*first.notes, *task.ended))
-    why = "; ".join(reasons) or "no drawing without crossings in which creases point to their centres"
-    why = "; ".join((why, *task.ended))
+            break
+    if best is not None:
+        return replace(best, notes=(*best.notes, *task.ended))
+    reasons = reasons or {"no drawing without crossings in which creases point to their centres": None}
+    why = "; ".join((*reasons, *task.ended))
     tries = numbered(task.tries * len(sources), "try", "tries")
     raise NotFoundError(f"no realisation was found in {tries}: {why}")
 
 
-def _best_of(task: _Task, wishes: Wishes, tried: Iterable[Drawn], reasons: dict[str, None]) -> Realisation | None:
+def _best_of(
+    task: _Task, wishes: DrawingConditions, tried: Iterable[PanelDrawing], reasons: dict[str, None]
+) -> Realisation | None:
     best: Realisation | None = None
     for drawn in tried:
         try:
-            realised = replace(_shaped(task, drawn), kept=wishes.kept(task.pattern, drawn.places))
+            realised = replace(_shaped(task, drawn), condition_errors=wishes.errors(task.pattern, drawn.places))
         except UnsolvableError as error:
             reasons[str(error)] = None
             continue
@@ -382,18 +381,18 @@ def _is_better(realised: Realisation, other: Realisation) -> bool:
     return verdict > other_verdict or (verdict == other_verdict and quality > other_quality + MARGIN)
 
 
-def _shaped(task: _Task, drawn: Drawn) -> Realisation:
+def _shaped(task: _Task, drawn: PanelDrawing) -> Realisation:
     """Return the realisation of a drawing; in space the first of good shape, steep ones first, or the best."""
     best = _realised(task, drawn, 1.0)
     for height in _HEIGHTS:
-        if best.good or task.kind == "sheet" or task.raised is folded_strip:
+        if best.good or task.kind == "sheet" or task.lift is folded_strip:
             break
         lower = _realised(task, drawn, height)
         best = lower if _is_better(lower, best) else best
     return best
 
 
-def _realised(task: _Task, drawn: Drawn, height: float) -> Realisation:
+def _realised(task: _Task, drawn: PanelDrawing, height: float) -> Realisation:
     """Return the realisation of a drawing; refuse one that is of another type when it is read back."""
     sheet = _placed(task, drawn, height)
     if map_id(to_scd(sheet)) != task.code:
@@ -417,38 +416,34 @@ def _realised(task: _Task, drawn: Drawn, height: float) -> Realisation:
     )
 
 
-def _check(kind: str, size: float, seed: int, tries: int) -> None:
+def _check(kind: str, size: float) -> None:
     if kind not in get_args(Kind):
         raise InvariantError("kind", f"the kind is {shown(kind)}", " or ".join(get_args(Kind)))
     if not _SMALLEST <= size <= _LARGEST:
         raise InvariantError("size", f"the size is {size:g}", f"a number from {_SMALLEST:g} to {_LARGEST:g}")
-    if seed < 0 or tries < 1:
-        raise InvariantError("tries", f"seed {seed}, tries {tries}", "a seed of 0 or more, 1 try or more")
 
 
-def _placed(task: _Task, drawn: Drawn, height: float) -> Sheet:
+def _placed(task: _Task, drawn: PanelDrawing, height: float) -> Sheet:
     """Return the panels with coordinates of the requested size; in space, heights times a number."""
     pattern = task.pattern
     places = drawn.places - drawn.places.min(axis=0)
     places = places * (1.0 / places.max())
     turns = None
     if task.kind == "space":
-        places, turns = task.raised(pattern, places, np.random.default_rng((task.seed, drawn.number)))
+        places, turns = task.lift(pattern, places, np.random.default_rng((task.seed, drawn.number)))
         places[:, 2] *= height
     sheet = sheet_of_places(pattern, task.size * places)
     return sheet if turns is None else _lettered(sheet, turns)
 
 
 def _folded(at: SheetConfiguration) -> tuple[SheetConfiguration, bool]:
-    """Return a flat sheet with the mountains and valleys of a folding branch on which every crease turns, if any.
-
-    It folds as well to the other side: the first crease is a valley.
-    """
+    """Return a flat sheet with the assignment of a folding branch on which every crease turns, if there is one."""
     joints = len(at.joints)
     branch = first_branch(at.linkage, turns_all, search_for(joints, np.ones(joints)))
     if branch is None:
         return at, False
-    drawn, sheet = (_lettered(panels, signed(branch.rates)) for panels in (at.drawn, at.sheet))
+    rates = signed(branch.rates)  # it folds as well to the other side: the first crease is a valley
+    drawn, sheet = (_lettered(panels, rates) for panels in (at.drawn, at.sheet))
     return replace(at, given=drawn, drawn=drawn, sheet=sheet), True
 
 

@@ -1,14 +1,12 @@
 """From drawings to configurations in space: lifts, and projective maps by which centres recede to infinity.
 
-A lift gives every vertex a height, and keeps every panel planar. A panel is the plane z = a x + b y + c over its
-drawing. Two panels agree along their crease; so round a centre all axes meet above the point where the creases of
-the drawing meet, and are parallel above parallel creases. What is left is linear: the lifts of a drawing are its
-first-order flexes, J - 2 C - 3 S of them or more, C the number of centres and S of spatial loops.
+A lift gives every vertex a height, and keeps every panel planar: the plane z = a x + b y + c over its drawing. Two
+panels agree along their crease; so round a centre all axes meet above the point where the creases of the drawing
+meet, and are parallel above parallel creases. The lifts of a drawing are a linear space, its first-order flexes.
 
 A projective map keeps planar panels planar, axes that meet meeting, and first-order freedoms. One that takes a
 plane through centres to infinity makes the axes through each of them parallel; panels stay bounded if the plane
-meets none. Whether a drawing has such a lift is a linear program: heights of vertices and centres are linear in
-it.
+meets none. Whether a drawing has such a lift is a linear program.
 
 Source: H. Crapo and W. Whiteley, Statics of frameworks and motions of panel structures, Structural Topology 6
 (1982). Theory: docs/theory/realisation.md.
@@ -22,12 +20,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy.optimize
 
-from graphs.errors import UnsolvableError, shown
+from graphs.errors import UnsolvableError
 from graphs.geometry import area_vector, lines_meet, unit
 from graphs.rank.singular_values import null_space
 from graphs.tolerances import DOUBLE, MARGIN
 from graphs.types import Floats
-from synth.realisation.pattern import Pattern, Pointing
+from synth.realisation.pattern import Pattern, Pointing, listed
 
 _STEEPEST = 0.8
 """Difference in slope of the two panels at the crease that is folded most: 39 degrees if one is level."""
@@ -43,15 +41,22 @@ def lifted(pattern: Pattern, places: Floats, random: np.random.Generator) -> tup
     middle = places.mean(axis=0)
     planes = planes_over(pattern, places - middle)
     folds = folds_of(pattern, places, planes)
-    still = np.abs(folds).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
-    if still.any():
-        names = ", ".join(shown(pattern.joints[place]) for place in np.flatnonzero(still))
-        joints = f"joint {names}" if still.sum() == 1 else f"joints {names}"
+    coplanar = np.flatnonzero(np.abs(folds).max(axis=1, initial=0.0) <= DOUBLE.zero_rate)
+    if len(coplanar):
+        joints = listed("joint", (pattern.joints[place] for place in coplanar))
         raise UnsolvableError(f"in every configuration above this drawing the panels at {joints} are coplanar")
     weights = evenly_folded(folds, random)
     weights *= _STEEPEST / np.abs(folds @ weights).max(initial=DOUBLE.zero_rate)
     chosen = (planes @ weights).reshape(-1, 3)
-    return _above(pattern, places, places - middle, chosen), folds @ weights
+    heights, count = (
+        np.zeros(pattern.vertices),
+        np.zeros(pattern.vertices),
+    )  # the mean of the panels that meet there
+    for panel, plane in zip(pattern.panels, chosen, strict=True):
+        around = list(panel)
+        heights[around] += (places - middle)[around] @ plane[:2] + plane[2]
+        count[around] += 1
+    return np.column_stack([places, heights / count]), folds @ weights
 
 
 def planes_over(pattern: Pattern, places: Floats) -> Floats:
@@ -100,16 +105,6 @@ def evenly_folded(folds: Floats, random: np.random.Generator) -> Floats:
     return best
 
 
-def _above(pattern: Pattern, places: Floats, centred: Floats, planes: Floats) -> Floats:
-    """Return the vertices at the mean height of the panels that meet there."""
-    heights, count = np.zeros(pattern.vertices), np.zeros(pattern.vertices)
-    for panel, plane in zip(pattern.panels, planes, strict=True):
-        around = list(panel)
-        heights[around] += centred[around] @ plane[:2] + plane[2]
-        count[around] += 1
-    return np.column_stack([places, heights / count])
-
-
 _MIXED = (1.0, 0.5, 0.25, 0.1)
 """Parts of another lift that are added to the one farthest below the plane, the largest first."""
 _OTHERS = 4
@@ -156,13 +151,13 @@ class _Heights:
 
 
 def receded(
-    pattern: Pattern, centres: Sequence[Pointing], places: Floats, random: np.random.Generator
+    centres: Sequence[Pointing], pattern: Pattern, places: Floats, random: np.random.Generator
 ) -> tuple[Floats, Floats]:
     """Return places in space of panels drawn with centres that are points, these centres at infinity.
 
-    Places in the drawing are float[V, 2]; those in space, float[V, 3], have an extent of 1 in each direction. The
-    folds, float[J], are above 0 at valleys, as those of `lifted`: such maps keep the sign. Raises
-    `UnsolvableError` if no plane through the centres misses all panels, or a hole becomes wider than the border.
+    Places in space, float[V, 3], have an extent of 1 in each direction. The folds, float[J], are above 0 at
+    valleys, as those of `lifted`: such maps keep the sign. Raises `UnsolvableError` if no plane through the
+    centres misses all panels, or a hole becomes wider than the border.
     """
     places = (places - places.mean(axis=0)) / np.ptp(places, axis=0).max()
     planes = planes_over(pattern, places)
@@ -174,14 +169,17 @@ def receded(
     for weights in _around(best, folds, random):
         scale, plane, room = heights.plane(weights[:, None])
         if room >= _ROOM * most:
-            mapped = _mapped(heights, heights.vertices @ plane - heights.of_vertices @ (weights * scale))
+            below = heights.vertices @ plane - heights.of_vertices @ (weights * scale)
+            across = (heights.vertices[:, :2] - heights.centres[0, :2]) / below[:, None]
+            mapped = np.column_stack([across, 1.0 / below])
+            mapped = (mapped - mapped.min(axis=0)) / np.ptp(mapped, axis=0)
             if _is_widest(mapped, pattern):
                 return mapped, folds @ (weights * scale)
     raise UnsolvableError("with centres at infinity a hole is wider than the border")
 
 
 def _around(best: Floats, folds: Floats, random: np.random.Generator) -> Iterator[Floats]:
-    """Yield lifts about one, more and less evenly folded."""
+    """Yield lifts about one, more and less evenly folded, and that one last."""
     others = [evenly_folded(folds, random), *random.standard_normal((_OTHERS, len(best)))]
     for other in others:
         for part in _MIXED:
@@ -192,9 +190,8 @@ def _around(best: Floats, folds: Floats, random: np.random.Generator) -> Iterato
 
 def _is_widest(places: Floats, pattern: Pattern) -> bool:
     """Check that the border encloses a larger area than every hole."""
-    border, *holes = (
-        float(np.linalg.norm(area_vector(places[list(ring)]))) for ring in (pattern.outer, *pattern.holes)
-    )
+    rings = (pattern.outer, *pattern.holes)
+    border, *holes = (float(np.linalg.norm(area_vector(places[list(ring)]))) for ring in rings)
     return all(hole * (1.0 + _WIDER) < border for hole in holes)
 
 
@@ -202,7 +199,8 @@ def _heights(pattern: Pattern, centres: Sequence[Pointing], places: Floats, plan
     over = planes.reshape(len(pattern.panels), 3, -1)
     of_panel = {vertex: panel for panel, around in enumerate(pattern.panels) for vertex in around}
     vertices = np.column_stack([places, np.ones(len(places))])
-    points = np.array([[*_meeting(pattern, pointing, places), 1.0] for pointing in centres])
+    ends = [places[[pattern.creases[crease] for crease in pointing.creases]] for pointing in centres]
+    points = np.array([[*lines_meet(pair[:, 0], pair[:, 1] - pair[:, 0]).point, 1.0] for pair in ends])
     first_creases = [set(pattern.creases[pointing.creases[0]]) for pointing in centres]
     at = [next(i for i, around in enumerate(pattern.panels) if ends <= set(around)) for ends in first_creases]
     return _Heights(
@@ -211,17 +209,3 @@ def _heights(pattern: Pattern, centres: Sequence[Pointing], places: Floats, plan
         np.array([vertices[vertex] @ over[of_panel[vertex]] for vertex in range(len(places))]),
         np.array([point @ over[panel] for point, panel in zip(points, at, strict=True)]),
     )
-
-
-def _meeting(pattern: Pattern, pointing: Pointing, places: Floats) -> Floats:
-    """Return the point in which creases meet."""
-    ends = places[[pattern.creases[crease] for crease in pointing.creases]]
-    return lines_meet(ends[:, 0], ends[:, 1] - ends[:, 0]).point
-
-
-def _mapped(heights: _Heights, below: Floats) -> Floats:
-    """Return vertices at distances below the plane that goes to infinity, mapped and scaled to an extent of 1."""
-    across = (heights.vertices[:, :2] - heights.centres[0, :2]) / below[:, None]
-    mapped = np.column_stack([across, 1.0 / below])
-    scaled: Floats = (mapped - mapped.min(axis=0)) / np.ptp(mapped, axis=0)
-    return scaled

@@ -16,7 +16,7 @@ from graphs.geometry import rotated, unit
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, sides_of_face
 from graphs.types import Floats
-from synth.realisation.drawing import Drawn
+from synth.realisation.drawing import PanelDrawing
 from synth.realisation.measures import opened_angles, sums_at
 from synth.realisation.pattern import Pattern
 
@@ -31,11 +31,7 @@ bodies of RR-RR-RR have five freedoms, not six."""
 
 
 def drawn_string(chain: ChainString, mode: str | None = None) -> tuple[SCDGraph, tuple[str, ...]]:
-    """Return the SCD graph of a string, its two bodies quadrilaterals, and notes on it.
-
-    The mode is one that `enumerate.strings.panel_strings.chain_scd` accepts; all on one side without it. Raises
-    `InvariantError` if the string has no such mode.
-    """
+    """Return the SCD graph of a string in a mode of `chain_scd`, both ends quadrilaterals, and notes on it."""
     scd = chain_scd(chain, mode, ends=(4, 4))
     between = f"{numbered(chain.dof, 'freedom')} between the first and the last panel of a generic realisation"
     notes = [f"{chain.text}: joints {chain.mechanism}, {between}"]
@@ -58,13 +54,16 @@ def is_strip(pattern: Pattern) -> bool:
     return in_order and all((size, met) in ((3, 1), (4, 0)) for size, met in zip(inner, common, strict=True))
 
 
-def strips(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
+def strips(pattern: Pattern, seed: int, tries: int) -> Iterator[PanelDrawing]:
     """Yield strips: panels between parallel creases are rectangles, creases of a cluster meet in a point.
 
     The first has panels that are all alike, every other has its own widths and angles. The first and last panel of
     the pattern may have any number of sides.
     """
-    fan = _fan_angle(pattern)
+    # the greatest angle of triangles with which no part of the strip turns round to another
+    apices = [_apex(pattern, panel) for panel in range(len(pattern.panels))]
+    turned = np.cumsum([0, *(0 if apex is None else apex[1] for apex in apices)])
+    fan = float(min(_FAN, _TURNED / max(np.ptp(turned), 1)))
     for number in range(tries):
         random = np.random.default_rng((seed, number))
         spread = _VARIED if number or seed else 0.0
@@ -72,13 +71,13 @@ def strips(pattern: Pattern, seed: int, tries: int) -> Iterator[Drawn]:
         places = _placed(pattern, fan * parts, parts)
         angles, _ = opened_angles(pattern, places)
         round_border = sums_at(pattern, np.array(pattern.outer)) @ angles
-        yield Drawn(places, angles, bool((round_border <= np.pi).all()), number)
+        yield PanelDrawing(places, angles, bool((round_border <= np.pi).all()), number)
 
 
 def folded_strip(pattern: Pattern, places: Floats, random: np.random.Generator) -> tuple[Floats, Floats]:
     """Return a strip with its creases folded up and down by turns, each by an angle of its own: rectangles stay.
 
-    Returns places float[V, 3], and the fold angles, radians; above 0 at valleys, seen from above.
+    Returns places float[V, 3], and the fold angles, radians, above 0 at valleys.
     """
     points = np.column_stack([places, np.zeros(len(places))])
     least, most = _FOLDED
@@ -107,13 +106,6 @@ def _apex(pattern: Pattern, panel: int) -> tuple[int, int] | None:
     return apex, 1 if _directed(pattern, panel, pattern.creases[panel - 1])[0] == apex else -1
 
 
-def _fan_angle(pattern: Pattern) -> float:
-    """Return the greatest angle of triangles with which no part of a strip turns round to another."""
-    apices = [_apex(pattern, panel) for panel in range(len(pattern.panels))]
-    turned = np.cumsum([0, *(0 if apex is None else apex[1] for apex in apices)])
-    return float(min(_FAN, _TURNED / max(np.ptp(turned), 1)))
-
-
 def _placed(pattern: Pattern, fans: Floats, widths: Floats) -> Floats:
     """Return float[V, 2]: places, each panel attached to the crease that it shares with the one before."""
     places = np.zeros((pattern.vertices, 2))
@@ -126,10 +118,10 @@ def _placed(pattern: Pattern, fans: Floats, widths: Floats) -> Floats:
         if apex_and_turn is None:
             _add_panel(pattern, panel, shared, widths[panel], places)
             continue
-        apex, way = apex_and_turn
+        apex, turn = apex_and_turn
         far = shared[1] if apex == shared[0] else shared[0]
         (new,) = set(pattern.panels[panel]) - set(shared)
-        cos, sin = np.cos(fans[panel]), way * np.sin(fans[panel])
+        cos, sin = np.cos(fans[panel]), turn * np.sin(fans[panel])
         places[new] = places[apex] + np.array([[cos, -sin], [sin, cos]]) @ (places[far] - places[apex])
     return places
 

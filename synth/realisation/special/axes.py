@@ -1,14 +1,9 @@
 """Axes in space that meet conditions, and configurations that close along one motion, by damped least squares.
 
-The unknowns are rows of six numbers: a point and a direction for each joint, then a point and a direction for each
-centre, of which a finite one uses the point, one at infinity the direction. Conditions are polynomials that are to
-be zero; they take complex numbers and leading dimensions, so that all derivatives come from one call (a complex
-step, exact for polynomials).
-
-The axes at the reference, and the joint angles of configurations along one motion, are unknowns of one problem:
-one joint is driven by twelve degrees from one to the next, and all loops close at all of them. A configuration is
-added when those before close. Conditions may be dependent where they hold, so steps are damped (Levenberg,
-Marquardt). Theory: docs/theory/realisation.md.
+The unknowns are rows of six numbers: a point and a direction for each joint, then for each centre, of which a
+finite one uses the point, one at infinity the direction. Conditions are polynomials that are to be zero; they take
+complex numbers and leading dimensions, so that all derivatives come from one call (a complex step, exact for
+polynomials). Theory: docs/theory/realisation.md.
 """
 
 from __future__ import annotations
@@ -29,6 +24,7 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.derivatives import dependence_on_axes
 from synth.motion.linkage import PosedLinkage, linkage_of_axes
 from synth.motion.walk.step import Allowance
+from synth.realisation.measures import damped_least_squares
 
 Unknowns = npt.NDArray[Any]
 """Float or complex [..., rows, 6]."""
@@ -155,12 +151,7 @@ def linkage_at(graph: SCGraph, axes: Floats) -> PosedLinkage:
 
 def axes_meeting(conditions: Sequence[AxisCondition], start: Floats, work: Allowance) -> Floats | None:
     """Return unknowns near a start, float[rows, 6], that meet conditions; None if none were found."""
-
-    def system(unknowns: Floats) -> tuple[Floats, Floats]:
-        rows = unknowns.reshape(start.shape)
-        return _stacked(conditions, rows)
-
-    solution = _solved(system, start.ravel(), work)
+    solution = _solved(lambda unknowns: _stacked(conditions, unknowns.reshape(start.shape)), start.ravel(), work)
     return None if solution is None else solution.reshape(start.shape)
 
 
@@ -171,6 +162,8 @@ def axes_along_a_motion(
 
     The start, float[rows, 6], meets the conditions. None if not all configurations closed.
     """
+    # The axes at the reference, and the joint angles of the configurations, are unknowns of one problem: one joint
+    # is driven by twelve degrees from one configuration to the next. One is added when those before close.
     joints = len(graph.joints)
     closure = ClosureEquations(linkage_at(graph, start[:joints]))
     jacobian = closure.at(np.zeros(joints))[1].toarray()
@@ -178,7 +171,10 @@ def axes_along_a_motion(
     poses = _Poses(graph, conditions, start.shape, leading(rates))
     rates = rates / rates[poses.driver]
     rows, angles = start, np.zeros((1, joints))
-    for number in range(1, _needed(closure) + 1):
+    # each configuration adds equations: after so many no dimension, or a few, is left to choose
+    each = closure.rows - (closure.joints - 1)
+    needed = min(_POSES, ceil((4 * closure.joints - 7) / max(each, 1)) + 1)
+    for number in range(1, needed + 1):
         angles = np.vstack([angles, angles[-1] + rates * _TURN])
         solution = _solved(poses.system(number), poses.joined(rows, angles[1:]), work)
         if solution is None:
@@ -187,12 +183,6 @@ def axes_along_a_motion(
         angles = np.vstack([np.zeros((1, joints)), at_poses])
         rates = (angles[-1] - angles[-2]) / _TURN
     return rows
-
-
-def _needed(closure: ClosureEquations) -> int:
-    """Return the number of configurations after which no dimension, or a few, is left to choose."""
-    each = closure.rows - (closure.joints - 1)
-    return min(_POSES, ceil((4 * closure.joints - 7) / max(each, 1)) + 1)
 
 
 @dataclass(frozen=True)
@@ -249,7 +239,10 @@ def _stacked(conditions: Sequence[AxisCondition], rows: Floats) -> tuple[Floats,
 
 
 def _solved(system: System, start: Floats, work: Allowance) -> Floats | None:
-    """Return unknowns at which all is zero, near a start; None if the search came to rest elsewhere."""
+    """Return unknowns at which all is zero, near a start; None if the search came to rest elsewhere.
+
+    Conditions may be dependent where they hold, so steps are damped (Levenberg, Marquardt).
+    """
     unknowns, damping = start, _DAMPING
     off, by = system(unknowns)
     for _ in range(_ROUNDS):
@@ -257,7 +250,7 @@ def _solved(system: System, start: Floats, work: Allowance) -> Floats | None:
             break
         better = None
         while better is None and damping <= _MOST and work.take(max(1.0, len(unknowns) / _UNIT)):
-            step = _damped(by, off, damping)
+            step = -damped_least_squares(by, off, np.sqrt(damping))
             tried = system(unknowns + step)
             if tried[0] @ tried[0] < (1.0 - _GAIN) * (off @ off):
                 better = tried
@@ -267,10 +260,3 @@ def _solved(system: System, start: Floats, work: Allowance) -> Floats | None:
             break
         unknowns, (off, by), damping = unknowns + step, better, max(damping / 8.0, _LEAST)
     return unknowns if np.abs(off).max(initial=0.0) <= DOUBLE.closed else None
-
-
-def _damped(by: Floats, off: Floats, damping: float) -> Floats:
-    """Return the damped step of least squares, by a QR decomposition."""
-    size = by.shape[1]
-    q, r = np.linalg.qr(np.vstack([by, np.sqrt(damping) * np.eye(size)]))
-    return np.asarray(-np.linalg.solve(r, q[: len(by)].T @ off))

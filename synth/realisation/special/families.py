@@ -2,9 +2,7 @@
 
 A family of sheets draws the type with further conditions: flat-foldable vertices, a symmetry, straight lines,
 parallel creases. A family of axes adds conditions to those of the type: a symmetry, groups of axes that are
-parallel or meet, equal links, configurations along a motion that close. Starts are random, and symmetric where the
-family is. Symmetries of a type become symmetries of the axes: half turns, mirrors, rotations about a line. Theory:
-docs/theory/realisation.md.
+parallel or meet, equal links, configurations along a motion that close. Theory: docs/theory/realisation.md.
 """
 
 from __future__ import annotations
@@ -28,7 +26,7 @@ from graphs.types import Floats
 from synth.motion.walk.step import Allowance
 from synth.realisation.conditions import (
     Condition,
-    Wishes,
+    DrawingConditions,
     agreeing_ratios,
     bent_line,
     bundles,
@@ -67,22 +65,22 @@ class SheetFamily:
     """
 
     name: str
-    wishes: Wishes
+    wishes: DrawingConditions
     bent: bool = False
     ratios: bool = False
 
     def members(self, pattern: Pattern, seed: int, tries: int, work: Allowance) -> Iterator[tuple[int, Sheet]]:
         """Yield drawings as sheets, the longer side about 1, with the number of the try."""
         if not (self.bent or self.ratios):
-            for drawn in drawings(pattern, seed, tries, self.wishes, work):
-                yield drawn.number, _sheet(pattern, drawn.places)
+            for drawing in drawings(pattern, seed, tries, self.wishes, work):
+                yield drawing.number, _sheet(pattern, drawing.places)
             return
         for number in range(_MODES * tries if self.ratios else tries):
             random = np.random.default_rng((seed, number))
             wishes = replace(self.wishes, others=(*self.wishes.others, *self._random(pattern, random)))
             first = number + self.ratios  # the most even drawing has ratios of nothing
-            for drawn in drawings(pattern, seed, 1, wishes, work, first=first):
-                yield number, _sheet(pattern, drawn.places)
+            for drawing in drawings(pattern, seed, 1, wishes, work, first=first):
+                yield number, _sheet(pattern, drawing.places)
             if work.used_up:
                 return
 
@@ -107,12 +105,14 @@ def sheet_families(pattern: Pattern) -> list[SheetFamily]:
     families = []
     for flat in (True, False) if _can_fold_flat(pattern) else (False,):
         head = ("flat-foldable",) if flat else ()
-        families += [SheetFamily(", ".join((*head, name)), Wishes(flat, None, on)) for name, on in conditions]
+        families += [
+            SheetFamily(", ".join((*head, name)), DrawingConditions(flat, None, on)) for name, on in conditions
+        ]
         for group in groups:
             name = ", ".join((*head, str(group)))
-            families.append(SheetFamily(name, Wishes(flat, group)))
+            families.append(SheetFamily(name, DrawingConditions(flat, group)))
             if bendable:
-                families.append(SheetFamily(f"{name}, lines bent", Wishes(flat, group), bent=True))
+                families.append(SheetFamily(f"{name}, lines bent", DrawingConditions(flat, group), bent=True))
         if flat:
             families += _with_ratios(pattern)
     return families
@@ -120,12 +120,12 @@ def sheet_families(pattern: Pattern) -> list[SheetFamily]:
 
 def _with_ratios(pattern: Pattern) -> list[SheetFamily]:
     """Return the families of flat-foldable sheets without other conditions, or with ratios that agree."""
-    plain = SheetFamily("flat-foldable", Wishes(True))
+    plain = SheetFamily("flat-foldable", DrawingConditions(True))
     if not panels_between_vertices(pattern):
         return [plain]
     name = "flat-foldable, ratios that agree round panels"
-    bent = SheetFamily(f"{name}, lines bent", Wishes(True), bent=True, ratios=True)
-    return [plain, bent, SheetFamily(name, Wishes(True), ratios=True)]
+    bent = SheetFamily(f"{name}, lines bent", DrawingConditions(True), bent=True, ratios=True)
+    return [plain, bent, SheetFamily(name, DrawingConditions(True), ratios=True)]
 
 
 def _of_lines(pattern: Pattern) -> list[tuple[str, tuple[Condition, ...]]]:
@@ -161,8 +161,8 @@ Image = tuple[int, ...]
 def named_motions(graph: SCGraph) -> list[tuple[str, AxisSymmetry]]:
     """Return isometries by which a realisation may be symmetric, for each kind of symmetry of the type.
 
-    A symmetry of order two is a half turn about a line, or a mirror; others are rotations about a line. Images are
-    those of the joints, then of the centre classes, in their order.
+    Images are those of the joints, then of the centre classes. A symmetry of order two is a half turn about a
+    line, or a mirror; others are rotations about a line.
     """
     joints = len(graph.joints)
     motions = []
@@ -170,7 +170,9 @@ def named_motions(graph: SCGraph) -> list[tuple[str, AxisSymmetry]]:
         order = _order(image)
         if order > 2:
             name = f"turns by {360 / order:.6g} degrees about a line"
-            motions.append((name, AxisSymmetry(image, _turn(order))))
+            angle = 2.0 * pi / order
+            turn = np.array([[cos(angle), -sin(angle), 0.0], [sin(angle), cos(angle), 0.0], [0.0, 0.0, 1.0]])
+            motions.append((name, AxisSymmetry(image, turn)))
             continue
         fixed = f"{numbered(sum(image[place] == place for place in range(joints)), 'joint')} and "
         fixed += f"{numbered(_links_kept(graph, image), 'link')} on themselves"
@@ -179,22 +181,15 @@ def named_motions(graph: SCGraph) -> list[tuple[str, AxisSymmetry]]:
     return motions
 
 
-def _turn(order: int) -> Floats:
-    angle = 2.0 * pi / order
-    return np.array([[cos(angle), -sin(angle), 0.0], [sin(angle), cos(angle), 0.0], [0.0, 0.0, 1.0]])
-
-
 def _automorphisms(graph: SCGraph) -> list[Image]:
     """Return the images of joints and centre classes in every symmetry but the identity."""
     joints, classes, links = list(graph.joints), graph.centre_classes(), list(graph.nodes)
-    whole = nx.Graph()
-    for place in range(len(joints)):
-        whole.add_node(place, kind="joint")
-    for number, centre_class in enumerate(classes):
-        whole.add_node(len(joints) + number, kind=centre_class.centre.value)
     first = len(joints) + len(classes)
-    for number in range(len(links)):
-        whole.add_node(first + number, kind="link")
+    kinds = (
+        ["joint"] * len(joints) + [centre_class.centre.value for centre_class in classes] + ["link"] * len(links)
+    )
+    whole = nx.Graph()
+    whole.add_nodes_from((node, {"kind": kind}) for node, kind in enumerate(kinds))
     number_of = {link: first + number for number, link in enumerate(links)}
     for place, ends in enumerate(graph.joints.values()):
         whole.add_edges_from((place, number_of[link]) for link in ends)
@@ -203,8 +198,8 @@ def _automorphisms(graph: SCGraph) -> list[Image]:
         whole.add_edges_from((len(joints) + number, place) for place in members)
     same_kind = nx.isomorphism.categorical_node_match("kind", None)
     matcher = nx.isomorphism.GraphMatcher(whole, whole, same_kind)
-    found = islice(matcher.isomorphisms_iter(), _MOST)
-    images = {tuple(mapping[place] for place in range(first)) for mapping in found}
+    mappings = islice(matcher.isomorphisms_iter(), _MOST)
+    images = {tuple(mapping[place] for place in range(first)) for mapping in mappings}
     return sorted(images - {tuple(range(first))})
 
 
@@ -214,8 +209,7 @@ def _kinds(images: list[Image]) -> list[Image]:
     for image in images:
         if image in left:
             chosen.append(image)
-            left -= {_conjugate(image, by) for by in images}
-            left.discard(image)
+            left -= {_conjugate(image, by) for by in images} | {image}
 
     def key(image: Image) -> tuple[int, int, Image]:
         return sum(to == place for place, to in enumerate(image)), _order(image), image
@@ -224,10 +218,7 @@ def _kinds(images: list[Image]) -> list[Image]:
 
 
 def _conjugate(image: Image, by: Image) -> Image:
-    moved = [0] * len(image)
-    for place, to in enumerate(image):
-        moved[by[place]] = by[to]
-    return tuple(moved)
+    return tuple(to for _, to in sorted((by[place], by[to]) for place, to in enumerate(image)))
 
 
 def _links_kept(graph: SCGraph, image: Image) -> int:
@@ -239,14 +230,7 @@ def _links_kept(graph: SCGraph, image: Image) -> int:
 
 def _order(image: Image) -> int:
     """Return the order of a permutation: the least common multiple of the lengths of its cycles."""
-    lengths, seen = [1], set()
-    for place in range(len(image)):
-        length = 0
-        while place not in seen:
-            seen.add(place)
-            place, length = image[place], length + 1  # noqa: PLW2901
-        lengths.append(max(length, 1))
-    return lcm(*lengths)
+    return lcm(*(len(cycle) for cycle in nx.strongly_connected_components(nx.DiGraph(enumerate(image)))))
 
 
 _TRIPLES = (
@@ -262,7 +246,10 @@ _APART = 0.02
 
 @dataclass(frozen=True)
 class TypeOfAxes:
-    """The conditions of a type on axes: which meet in which centre, and which loops have none."""
+    """The conditions of a type on axes: which meet in which centre, and which loops have none.
+
+    These begin at their least place, and go on to the lesser of its neighbours.
+    """
 
     graph: SCGraph
     meetings: tuple[AxisGroup, ...]
@@ -276,20 +263,14 @@ def type_of_axes(graph: SCGraph) -> TypeOfAxes:
         AxisGroup(tuple(sorted(place[joint] for joint in centre_class.joints)), centre_class.centre)
         for centre_class in graph.centre_classes()
     )
-    spatial = tuple(
-        tuple(place[joint] for joint, _ in signed_cycle(loop.joints, graph.joints))
-        for loop in independent_cycles(graph)
-        if loop.centre is Centre.NONE
-    )
-    return TypeOfAxes(graph, meetings, tuple(_from_least(loop) for loop in spatial))
-
-
-def _from_least(loop: tuple[int, ...]) -> tuple[int, ...]:
-    """Return a cycle from its least place on, towards the lesser of its neighbours."""
-    first = loop.index(min(loop))
-    turned = loop[first:] + loop[:first]
-    back = turned[:1] + turned[:0:-1]
-    return min(turned, back)
+    spatial = []
+    for loop in independent_cycles(graph):
+        if loop.centre is Centre.NONE:
+            cycle = tuple(place[joint] for joint, _ in signed_cycle(loop.joints, graph.joints))
+            first = cycle.index(min(cycle))
+            turned = cycle[first:] + cycle[:first]
+            spatial.append(min(turned, turned[:1] + turned[:0:-1]))
+    return TypeOfAxes(graph, meetings, tuple(spatial))
 
 
 @dataclass(frozen=True)
@@ -297,7 +278,7 @@ class AxisFamily:
     """Realisations of a type whose axes obey further conditions.
 
     `meetings` are axes that are parallel, or meet, besides those of the type; `motion` is a symmetry, `equal` are
-    loops of equal links; `poses` says whether loops have to close at several configurations.
+    loops of equal links; `poses`: loops have to close at several configurations.
     """
 
     name: str
@@ -317,17 +298,14 @@ class AxisFamily:
             start = _carried(start, self.motion)
         for loop in self.equal:
             conditions.append(equal_links(loop))
-            start[list(loop), :3] = _round_a_circle(len(loop)) + _NOISE * start[list(loop), :3]
+            angles = 2.0 * np.pi * np.arange(len(loop)) / len(loop)
+            circle = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(len(loop))])
+            start[list(loop), :3] = circle + _NOISE * start[list(loop), :3]
         start[:, 3:] = unit(start[:, 3:])
         rows = axes_meeting(conditions, start, work)
         if rows is not None and self.poses:
             rows = axes_along_a_motion(of.graph, conditions, rows, work)
         return None if rows is None else rows[:joints]
-
-
-def _round_a_circle(count: int) -> Floats:
-    angles = 2.0 * np.pi * np.arange(count) / count
-    return np.column_stack([np.cos(angles), np.sin(angles), np.zeros(count)])
 
 
 def _carried(start: Floats, motion: AxisSymmetry) -> Floats:
@@ -348,8 +326,8 @@ def axis_families(of: TypeOfAxes) -> Iterator[AxisFamily]:
     """Yield the families to try, in order: groups of axes, equal links, symmetries, configurations that close."""
     for number, loop in enumerate(of.spatial):
         where = f" in loop {number}" if len(of.spatial) > 1 else ""
-        if len(loop) == 6:
-            yield from _triples(loop, where)
+        for name, first, second in _TRIPLES if len(loop) == 6 else ():
+            yield AxisFamily(name + where, meetings=(AxisGroup(loop[:3], first), AxisGroup(loop[3:], second)))
     if of.spatial and all(len(loop) > 5 for loop in of.spatial):
         yield AxisFamily("equal links, right twists and no offsets", equal=of.spatial)
     motions = named_motions(of.graph)
@@ -361,11 +339,6 @@ def axis_families(of: TypeOfAxes) -> Iterator[AxisFamily]:
     yield AxisFamily("poses that close", poses=True)
 
 
-def _triples(loop: tuple[int, ...], where: str) -> Iterator[AxisFamily]:
-    for name, first, second in _TRIPLES:
-        yield AxisFamily(name + where, meetings=(AxisGroup(loop[:3], first), AxisGroup(loop[3:], second)))
-
-
 def solids_of(of: TypeOfAxes, axes: Floats) -> HingedSolids:
     """Return a member as a linkage of hinged solids."""
     pairs = zip(of.graph.joints, axes.tolist(), strict=True)
@@ -373,7 +346,7 @@ def solids_of(of: TypeOfAxes, axes: Floats) -> HingedSolids:
 
 
 def degenerate(of: TypeOfAxes, axes: Floats) -> str | None:
-    """Return why axes float[J, 6] are of no member of the type, or of one with links of no length; else None."""
+    """Return why axes, float[J, 6], are of no member of the type, or of one with links of no length; else None."""
     points, directions = axes[:, :3], unit(axes[:, 3:])
     turned = np.linalg.norm(np.cross(directions[:, None], directions[None]), axis=2)
     apart = np.linalg.norm(np.cross(points[:, None] - points[None], directions[None]), axis=2)
@@ -385,10 +358,6 @@ def degenerate(of: TypeOfAxes, axes: Floats) -> str | None:
             return "the axes of a spatial loop are parallel"
         if lines_meet(points[on], directions[on]).off.max() < _APART:
             return "the axes of a spatial loop meet in a point"
-    return _one_centre(of, points, directions)
-
-
-def _one_centre(of: TypeOfAxes, points: Floats, directions: Floats) -> str | None:
     finite, infinite = [], []
     for group in of.meetings:
         on = list(group.joints)

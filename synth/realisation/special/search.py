@@ -32,7 +32,7 @@ from synth.motion.linkage import moved
 from synth.motion.walk.step import Allowance
 from synth.moving.made import configuration_of
 from synth.overconstraint.explanation import explain
-from synth.realisation.pattern import Pattern, check_holes, pattern_of
+from synth.realisation.pattern import Pattern, check_holes, check_search, pattern_of
 from synth.realisation.special.families import (
     AxisFamily,
     TypeOfAxes,
@@ -43,15 +43,38 @@ from synth.realisation.special.families import (
     type_of_axes,
 )
 
+_SHARE = 0.02
+"""A joint that turns by less than this part of the largest turn hardly moves."""
+OTHER_TYPE = "axes of a loop meet although they do not in the type"
+"""Why a drawing is of another type when it is read back."""
+
+
+def _least_share(at: Configuration, branch: Branch) -> float:
+    """Return the least turn of a joint, up to where the branch was followed, as a part of the largest."""
+    turned = np.abs(branch.sample - at.linkage.angles)
+    return float(turned.min(initial=np.inf) / turned.max(initial=0.0))
+
+
+def turns_all(rates: Floats) -> bool:
+    """Check that no joint rate is zero."""
+    return bool(np.abs(rates).min(initial=1.0) > DOUBLE.zero_rate)
+
+
+def _degrees_of_freedom(number: int) -> str:
+    return numbered(number, "degree of freedom", "degrees of freedom")
+
 
 @dataclass(frozen=True)
-class Moving:
-    """A member that moves: its configuration, the number of its branch, and what is special there.
+class SpecialMember:
+    """A member with special dimensions that moves.
 
-    `h` is the number of redundant closure equations on the branch, ten degrees from where it begins; `reasons` are
-    those that were recognised there.
+    `family` names the conditions that it obeys, `start` is the number of the random start in its family, from 0,
+    `number` that of its branch. `h` is the number of redundant closure equations on the branch, ten degrees from
+    where it begins; `reasons` are those that `synth.explain` recognises there.
     """
 
+    family: str
+    start: int
     configuration: Configuration
     number: int
     h: int
@@ -64,104 +87,26 @@ class Moving:
         assert branch is not None
         return branch
 
-
-_SHARE = 0.02
-"""A joint that turns by less than this part of the largest turn hardly moves."""
-OTHER_TYPE = "axes of a loop meet although they do not in the type"
-"""Why a drawing is of another type when it is read back."""
-
-
-def judged(member: Sheet | HingedSolids, freedoms: int, *, all_joints: bool = True) -> Moving | str:
-    """Return how a member moves, or why it does not qualify.
-
-    Only branches count that were followed by a finite motion and have the freedoms there; of those the first on
-    which all joints turn is chosen.
-    """
-    try:
-        at = configuration_of(member, mend=False)  # coordinates are exact
-        search = search_for(len(at.joints), None)
-        if all_joints and first_branch(at.linkage, turns_all, search) is None:
-            return "no motion of all joints"  # without a proof that nothing moves, which would take long
-        if at.branches is None:
-            return "too large to look for all branches"
-        branches = at.branches.branches
-        moving = [place for place, branch in enumerate(branches) if branch.certainty != "not known"]
-        if not moving:
-            return "nothing moves"
-        whole = [place for place in moving if not (all_joints and branches[place].still)]
-        if not whole:
-            return "some joints do not move"
-        whole = [place for place in whole if not all_joints or _least_share(at, branches[place]) >= _SHARE]
-        if not whole:
-            return "some joints hardly move"
-        fitting = [place for place in whole if branches[place].freedoms == freedoms]
-        if not fitting:
-            least = min((branches[place].freedoms or 0 for place in whole), default=0)
-            return f"moves with {numbered(least, 'freedom')}"
-        explanation = explain(moved(at.linkage, branches[fitting[0]].sample))
-        reasons = dict.fromkeys(reason for equations in explanation.sets for reason in equations.reasons)
-        return Moving(at, fitting[0], explanation.idle, tuple(reasons))
-    except SynthedraError as error:
-        return str(error)
-
-
-def turns_all(rates: Floats) -> bool:
-    """Check that no joint rate is zero."""
-    return bool(np.abs(rates).min(initial=1.0) > DOUBLE.zero_rate)
-
-
-def _least_share(at: Configuration, branch: Branch) -> float:
-    """Return the least turn of a joint, up to where the branch was followed, as a part of the largest."""
-    turned = np.abs(branch.sample - at.linkage.angles)
-    return float(turned.min(initial=np.inf) / turned.max(initial=0.0))
-
-
-def _degrees_of_freedom(number: int) -> str:
-    return numbered(number, "degree of freedom", "degrees of freedom")
-
-
-@dataclass(frozen=True)
-class SpecialMember:
-    """A member with special dimensions that moves.
-
-    `family` names the conditions it was made from, `start` is the number of the random start in its family, from
-    0.
-    """
-
-    family: str
-    start: int
-    moving: Moving
-
-    @property
-    def configuration(self) -> Configuration:
-        """The configuration of the member."""
-        return self.moving.configuration
-
     @property
     def mechanism(self) -> Mechanism:
         """A flat sheet with the mountains and valleys of its branch, or hinged solids."""
-        drawn = self.configuration.given
-        assert isinstance(drawn, Sheet | HingedSolids)
-        if isinstance(drawn, HingedSolids):
-            return drawn
-        signs = self.moving.branch.signs  # creases come first among the edges of the drawing
+        mechanism = self.configuration.given
+        assert isinstance(mechanism, Sheet | HingedSolids)
+        if isinstance(mechanism, HingedSolids):
+            return mechanism
+        signs = self.branch.signs  # creases come first among the edges of the drawing
         letters = "".join({"+": "V", "-": "M"}.get(sign, "U") for sign in signs)
-        return replace(drawn, assignments=letters + drawn.assignments[len(letters) :])
+        return replace(mechanism, assignments=letters + mechanism.assignments[len(letters) :])
 
     @property
     def freedoms(self) -> int:
         """Degrees of freedom of the finite motion."""
-        return self.moving.branch.freedoms or 0
-
-    @property
-    def reasons(self) -> tuple[str, ...]:
-        """The reasons that `synth.explain` recognises on the branch."""
-        return self.moving.reasons
+        return self.branch.freedoms or 0
 
     @property
     def residual(self) -> float:
         """Loop-closure residual after ten degrees."""
-        return self.moving.branch.error
+        return self.branch.error
 
     @property
     def mark(self) -> SpecialGeometry:
@@ -170,7 +115,7 @@ class SpecialMember:
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on."""
-        branch = self.moving.branch
+        branch = self.branch
         return {
             "family": self.family,
             "start": self.start,
@@ -180,17 +125,17 @@ class SpecialMember:
             "certainty": branch.certainty,
             "followed_deg": degrees(branch.followed),
             "closure": self.residual,
-            "h": self.moving.h,
+            "h": self.h,
             "reasons": list(self.reasons),
         }
 
     def lines(self) -> list[Block]:
         """Return the lines that are printed."""
-        branch = self.moving.branch
+        branch = self.branch
         return [
             f"found: {self.family} (start {self.start + 1})",
             f"  {_degrees_of_freedom(self.freedoms)}, {branch.certainty}: traced to "
-            f"{degrees(branch.followed):.0f}°, loop-closure residual {self.residual:.0e}, h = {self.moving.h}",
+            f"{degrees(branch.followed):.0f}°, loop-closure residual {self.residual:.0e}, h = {self.h}",
             f"  reasons: {', '.join(self.reasons) or 'none recognised'}",
         ]
 
@@ -201,7 +146,7 @@ class FamilyTrial:
 
     `starts` are the random starts; `work` counts steps of least squares with 60 unknowns, and of improved
     drawings. `member` is the first that moves as required, `reasons` are those against other starts, with their
-    numbers; `used_up` says that the allowance of work ended the search.
+    numbers; `used_up`: the allowance of work ended the search.
     """
 
     name: str
@@ -314,21 +259,9 @@ _WORK, _DRAWING = 200.0, 1000.0
 class SpecialWishes:
     """Which members to search for, and how long.
 
-    Attributes
-    ----------
-    freedoms : int
-        Of finite motion.
-    flat : bool
-        Whether flat sheets are tried, before axes in space.
-    seed : int
-    tries : int
-        Largest number of random starts of each family.
-    geometry : str
-        Only families with this in their name.
-    every : bool
-        Go on through all families after the first that moves.
-    all_joints : bool
-        Whether all joints have to move.
+    Members move with `freedoms`, in `all_joints` or in some; `flat` says whether flat sheets are tried, before
+    axes in space, `geometry` is part of the names of the families. Each has up to `tries` random starts; with
+    `every` the search continues after the first that moves.
     """
 
     freedoms: int
@@ -343,36 +276,23 @@ class SpecialWishes:
 def search_special(mechanism: Mechanism, wishes: SpecialWishes) -> SpecialSearch:
     """Search for members of a type that move with more freedoms than a generic realisation has.
 
-    Parameters
-    ----------
-    mechanism : SCGraph, SCDGraph, or a mechanism that has one
-        A type. Flat sheets are tried for an SCD graph only.
-    wishes : SpecialWishes
-
-    Returns
-    -------
-    SpecialSearch
-        With every family that was tried; that none moves proves nothing, unless `proof` says so.
-
-    Raises
-    ------
-    InvariantError
-        If a generic realisation has so many freedoms, or an option is out of its range.
-    UnsolvableError
-        If no family has the name in `wishes`, or the type has no loop.
-
-    Examples
-    --------
-    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
-    >>> search_special(ring, SpecialWishes(1)).members[0].reasons[0]
-    'opposite links equal, lengths proportional to the sines of the twists (Bennett)'
+    Flat sheets are tried for an SCD graph only. That none moves proves nothing, unless the `proof` of the result
+    says so. Raises `InvariantError` if a generic realisation has so many freedoms, or an option is out of its
+    range, `UnsolvableError` if no family has the name in `wishes`, or the type has no loop.
     """
     check_argument("realise", mechanism, Mechanism)
-    if isinstance(mechanism, SCGraph):
-        graph = mechanism
+    graph: SCGraph
+    if isinstance(mechanism, SCGraph | HingedSolids):
+        graph = mechanism if isinstance(mechanism, SCGraph) else to_sc(mechanism)
     else:
-        graph = to_sc(mechanism) if isinstance(mechanism, HingedSolids) else to_scd(mechanism)
-    _check(graph, wishes)
+        graph = to_scd(mechanism)
+    if wishes.freedoms < 1:
+        raise InvariantError("freedoms", f"{wishes.freedoms} freedoms", "1 or more")
+    check_search(wishes.seed, wishes.tries)
+    if not graph.independent_loops:
+        raise UnsolvableError("the type has no loops, so every realisation moves; expected a type with a loop")
+    if graph.components > 1:
+        raise UnsolvableError(f"the type has {graph.components} parts; expected a connected type")
     general = exact_mobility(graph).mobility
     if general >= wishes.freedoms:
         what = f"a generic realisation of the type has {general} already"
@@ -391,23 +311,9 @@ def search_special(mechanism: Mechanism, wishes: SpecialWishes) -> SpecialSearch
     return SpecialSearch(graph, wishes.freedoms, mobility, wishes.seed, tuple(trials), proof)
 
 
-def _check(graph: SCGraph, wishes: SpecialWishes) -> None:
-    if wishes.freedoms < 1:
-        raise InvariantError("freedoms", f"{wishes.freedoms} freedoms", "1 or more")
-    if wishes.seed < 0 or wishes.tries < 1:
-        what = f"seed {wishes.seed}, tries {wishes.tries}"
-        raise InvariantError("tries", what, "a seed of 0 or more, 1 try or more")
-    if not graph.independent_loops:
-        raise UnsolvableError("the type has no loops, so every realisation moves; expected a type with a loop")
-    if graph.components > 1:
-        raise UnsolvableError(f"the type has {graph.components} parts; expected a connected type")
-
-
 def _rigid_loop(graph: SCGraph) -> str | None:
-    """Return the loop of three joints that no geometry moves, if there is one.
-
-    Three distinct axes about a point, or parallel, close one triangle; three skew axes close one too.
-    """
+    """Return the loop of three joints that no geometry moves, if there is one."""
+    # three distinct axes about a point, or parallel, close one triangle; three skew axes close one too
     for loop in independent_cycles(graph):
         if len(loop.joints) <= 3:
             names = ", ".join(shown(joint) for joint in loop.joints)
@@ -417,17 +323,18 @@ def _rigid_loop(graph: SCGraph) -> str | None:
 
 
 def _trials(graph: SCGraph, wishes: SpecialWishes) -> Iterator[FamilyTrial]:
+    """Yield the result of each family with the name in `wishes`: flat sheets first, then axes in space."""
     pattern = _pattern(graph) if wishes.flat else None
-    if pattern is not None:
-        for family in sheet_families(pattern):
-            if wishes.geometry in family.name:
-                work = Allowance(_DRAWING)
-                sheets = family.members(pattern, wishes.seed, wishes.tries, work)
-                read = (
-                    (number, sheet if map_id(to_scd(sheet)) == map_id(graph) else OTHER_TYPE)
-                    for number, sheet in sheets
-                )
-                yield _trial(f"flat sheet: {family.name}", read, work, wishes)
+    for family in [] if pattern is None else sheet_families(pattern):
+        if pattern is not None and wishes.geometry in family.name:
+            work = Allowance(_DRAWING)
+            sheets = family.members(pattern, wishes.seed, wishes.tries, work)
+            # of a drawing with further conditions the type may be another: it is read back
+            read = (
+                (number, sheet if map_id(to_scd(sheet)) == map_id(graph) else OTHER_TYPE)
+                for number, sheet in sheets
+            )
+            yield _trial(f"flat sheet: {family.name}", read, work, wishes)
     of = type_of_axes(graph if not isinstance(graph, SCDGraph) else graph.sc_graph())
     for axis_family in axis_families(of):
         if wishes.geometry in axis_family.name:
@@ -472,17 +379,49 @@ def _trial(
     starts = 0
     for number, member in members:
         starts = number + 1
-        verdict: Moving | str
-        if isinstance(member, str):
-            verdict = member
-        else:
-            verdict = judged(member, wishes.freedoms, all_joints=wishes.all_joints)
-        if isinstance(verdict, Moving):
-            moving = SpecialMember(name, number, verdict)
-            return FamilyTrial(name, starts, begun - work.left, moving, tuple(reasons.items()))
+        verdict = member if isinstance(member, str) else _judged(member, name, number, wishes)
+        if isinstance(verdict, SpecialMember):
+            return FamilyTrial(name, starts, begun - work.left, verdict, tuple(reasons.items()))
         reasons[verdict] += 1
     missing = wishes.tries - sum(reasons.values())
     if missing > 0 and not work.used_up:
         reasons["no drawing was found"] += missing
     starts = max(starts, wishes.tries)
     return FamilyTrial(name, starts, begun - work.left, None, tuple(reasons.items()), work.used_up)
+
+
+def _judged(
+    realisation: Sheet | HingedSolids, family: str, start: int, wishes: SpecialWishes
+) -> SpecialMember | str:
+    """Return a member that moves as required, or why it does not.
+
+    Only branches count that were followed by a finite motion and have the freedoms there; of those the first on
+    which all joints turn is chosen.
+    """
+    try:
+        at = configuration_of(realisation, mend=False)  # coordinates are exact
+        search = search_for(len(at.joints), None)
+        if wishes.all_joints and first_branch(at.linkage, turns_all, search) is None:
+            return "no motion of all joints"  # without a proof that nothing moves, which would take long
+        if at.branches is None:
+            return "too large to look for all branches"
+        branches = at.branches.branches
+        places = [place for place, branch in enumerate(branches) if branch.certainty != "not known"]
+        if not places:
+            return "nothing moves"
+        if wishes.all_joints:
+            places = [place for place in places if not branches[place].still]
+            if not places:
+                return "some joints do not move"
+            places = [place for place in places if _least_share(at, branches[place]) >= _SHARE]
+            if not places:
+                return "some joints hardly move"
+        fitting = [place for place in places if branches[place].freedoms == wishes.freedoms]
+        if not fitting:
+            least = min((branches[place].freedoms or 0 for place in places), default=0)
+            return f"moves with {numbered(least, 'freedom')}"
+        explanation = explain(moved(at.linkage, branches[fitting[0]].sample))
+        reasons = dict.fromkeys(reason for equations in explanation.sets for reason in equations.reasons)
+        return SpecialMember(family, start, at, fitting[0], explanation.idle, tuple(reasons))
+    except SynthedraError as error:
+        return str(error)

@@ -11,8 +11,8 @@ from graphs.joints.linkage import JointedLinkage, JointPlace
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
-from synth.assembly import general_positions, positions
-from synth.assembly.family import family_of
+from synth.assembly import positions
+from synth.assembly.family import family_of, general_positions
 from synth.assembly.modes import solutions
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_axes

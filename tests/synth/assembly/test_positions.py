@@ -10,8 +10,8 @@ from enumerate.chains.jobs import chains
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.mechanism.sc import SCGraph
-from synth.assembly import general_positions, positions
-from synth.assembly.family import family_of
+from synth.assembly import positions
+from synth.assembly.family import family_of, general_positions
 from synth.assembly.modes import solutions
 from synth.fourbar.position import output_spherical
 from synth.moving.made import configuration_of

@@ -66,7 +66,7 @@ def test_alternate_sectors_sum_to_180_degrees_and_the_sheet_folds_flat(code, tmp
     assert map_id(to_scd(sheet)) == code
     assert np.abs(_alternate_sums(sheet)).max(initial=0.0) < 1e-12
     assert max(np.abs(places - places[0]).max() for places in _folded_flat(sheet).values()) < 1e-12
-    assert found.kept.off_flat < 1e-12
+    assert found.condition_errors.off_flat < 1e-12
     assert found.folds
     assert found.figures.greatest_angle < np.pi
     assert crossings(pattern, np.array(sheet.coordinates)) == 0
@@ -114,4 +114,4 @@ def test_every_type_of_even_explicit_centres_is_found():
     types = [scd for scd in scd_graphs(6, 1, 5) if len(pattern_of(scd).holes) == 0 and _all_even(scd)]
     assert len(types) > 30
     for scd in types:
-        assert realise(scd, flat_foldable=True).kept.off_flat < 1e-12
+        assert realise(scd, flat_foldable=True).condition_errors.off_flat < 1e-12

@@ -51,9 +51,9 @@ def test_coordinates_are_mapped_to_themselves(name, order, data):
     scd = read(data / "wiener" / f"{name}.json")
     found = realise(scd, symmetric=True, tries=1)
     assert _maps(found.sheet) == order
-    assert found.kept.off_symmetry < 1e-13
+    assert found.condition_errors.off_symmetry < 1e-13
     assert map_id(to_scd(found.sheet)) == map_id(scd)
-    assert found.kept.symmetry in str(found)
+    assert found.condition_errors.symmetry in str(found)
 
 
 def test_without_it_they_are_not(data):

@@ -38,8 +38,8 @@ def found(graph, geometry="", **options):
     assert answer.mobility <= 0
     assert member.freedoms == 1
     assert member.residual < 1e-12
-    assert not member.moving.branch.still
-    moved = synth.move(member.mechanism, frames=4, branch=member.moving.number)
+    assert not member.branch.still
+    moved = synth.move(member.mechanism, frames=4, branch=member.number)
     assert moved.closure < 1e-11
     assert np.ptp(moved.path.angles, axis=0).min() > 1e-3, "a joint does not move"
     return member
@@ -144,7 +144,7 @@ def test_ratios_that_agree_round_a_pentagon():
     scd = scd_from_panels(pentagon)
     assert not synth.realise(scd, freedoms=1, geometry="flat-foldable, lines", tries=2).members
     member = found(scd, "ratios that agree round panels, lines bent")
-    angles = synth.move(member.mechanism, frames=4, branch=member.moving.number).path.angles
+    angles = synth.move(member.mechanism, frames=4, branch=member.number).path.angles
     tangents = np.tan(angles[1:-1] / 2)
     ratios = tangents / tangents[:, :1]
     assert ratios == pytest.approx(np.broadcast_to(ratios[0], ratios.shape), rel=1e-7)
@@ -199,7 +199,7 @@ def test_trivial_motions_are_refused_unless_asked_for():
     options = {"freedoms": 2, "geometry": "flat-foldable, turns by 90 degrees, 4", "tries": 1}
     assert not synth.realise(scd, **options).members
     (member,) = synth.realise(scd, **options, all_joints=False).members
-    assert member.moving.branch.still
+    assert member.branch.still
 
 
 def test_the_type_stays_the_same_and_the_mark_is_written(tmp_path):
