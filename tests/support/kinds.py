@@ -17,10 +17,11 @@ import pytest
 
 KINDS = ("unit", "law", "world")
 DURATIONS = Path(__file__).resolve().parent.parent / "durations.json"
-"""Of each test that takes a second or more: seconds of processor time; of each kind, those of all its quick tests."""
+"""Seconds of processor time: of each test from `STORED_FROM` on, and of all tests of a kind that are not slow."""
 NIGHT = 600.0
 """Slow tests that take longer, in seconds of processor time, run with `make test-night` only."""
-STORED_FROM = 1.0
+STORED_FROM = 0.1
+"""Tests that take longer, in seconds of processor time, are no unit tests."""
 
 WORLD = (
     "tests/enumerate/runner",
@@ -57,16 +58,13 @@ def is_below(path: str, places: Iterable[str]) -> bool:
 
 
 def kind_of(item: pytest.Item) -> str:
-    """Return the kind of a test: by its place, then law for properties and for what takes a second or more."""
+    """Return the kind of a test: by its place, then law for properties and for what takes long."""
     path = item.nodeid.partition("::")[0]
-    if is_below(path, WORLD):
+    if is_below(path, WORLD) or item.get_closest_marker("web") is not None:
         return "world"
     by_examples = getattr(getattr(item, "obj", None), "is_hypothesis_test", False)
-    slow = item.get_closest_marker("slow") is not None or _seconds(item) >= STORED_FROM
-    web = item.get_closest_marker("web") is not None
-    if web:
-        return "world"
-    return "law" if by_examples or slow or is_below(path, LAW) else "unit"
+    long = item.get_closest_marker("slow") is not None or _seconds(item) >= STORED_FROM
+    return "law" if by_examples or long or is_below(path, LAW) else "unit"
 
 
 _KNOWN = stored()["tests"]
@@ -78,7 +76,9 @@ def _seconds(item: pytest.Item) -> float:
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Add the option that writes the durations anew."""
-    parser.addoption("--store-durations", action="store_true", help="Write tests/durations.json anew from this run.")
+    parser.addoption(
+        "--store-durations", action="store_true", help="Write tests/durations.json anew from this run."
+    )
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -141,7 +141,7 @@ def _store(by_test: dict[str, float], kinds: dict[str, int], config: pytest.Conf
     """Replace the durations of the tests that ran, and of kinds where the quick tests did."""
     known = stored()
     kept = {test: value for test, value in known["tests"].items() if test not in by_test}
-    kept |= {test: round(value, 1) for test, value in by_test.items() if value >= STORED_FROM}
+    kept |= {test: round(value, 2) for test, value in by_test.items() if value >= STORED_FROM}
     whole = "not slow" in config.option.markexpr
     answer = {"kinds": kinds if whole else known["kinds"], "tests": dict(sorted(kept.items()))}
     DURATIONS.write_text(json.dumps(answer, indent=1) + "\n", encoding="utf-8")
