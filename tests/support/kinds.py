@@ -37,6 +37,7 @@ WORLD = (
     "tests/test_makefile.py",
     "tests/test_notebook.py",
     "tests/test_notebooks.py",
+    "tests/test_typed_script.py",
 )
 LAW = (
     "tests/agreement",
