@@ -58,7 +58,7 @@ _PAIRS = 50
 """Pairs of links of a unit."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Addendum:
     """A mechanism with an addendum.
 
@@ -86,6 +86,9 @@ class Addendum:
     through: tuple[JointId, ...]
     edit: Edit
     mobility: int
+
+    def __repr__(self) -> str:
+        return f"<Addendum: {self.kind} on {self.ends[0]!r} and {self.ends[1]!r}, M = {self.mobility}>"
 
 
 def addenda(mechanism: MechanismLike, delta_dof: int = 0, *, workers: int = 1) -> Iterator[Addendum]:

@@ -274,6 +274,29 @@ def test_short_descriptions(data):
     assert repr(synth.read(data / "wampler" / "fig9.json")) == "<PolyhedronModel: 5 vertices, 8 rods>"
 
 
+def test_results_have_short_descriptions(data):
+    pattern, ring = data / "patterns" / "four-bar-vertex.fold", synth.generate("four-bar").mechanism
+    orientations = oriented()
+    dyads = synth.guiding_dyads(orientations)
+    results = [
+        *(synth.mobility(pattern), synth.identify(pattern), synth.reconstruct(pattern), synth.reduce(FOUR_BAR)),
+        *(
+            synth.edit(FOUR_BAR, lock=[0]),
+            synth.explain(ring),
+            synth.advise(pattern, 0),
+            synth.fold(pattern, frames=2),
+        ),
+        *(synth.positions(ring, drive={0: 0.1}), synth.states(ring, joints=[0]), synth.generate("miura")),
+        *(next(synth.addenda(FOUR_BAR)), next(synth.strings(4)), synth.template(pattern, size=100)),
+        *(synth.realise("m1:a-b.ac-.b-d.cd-"), synth.realise_on_cone(FOUR_BAR), dyads),
+        *(synth.map_to_cones([2.1, 1.7, 0.8, 1.5]), synth.map_to_cylinders([4, 3, 5, 1])),
+        *(synth.four_bars(orientations, dyads.dyads[:4])[0], synth.analyse_order(orientations, (0, 0, 1))),
+    ]
+    for result in results:
+        assert len(repr(result)) <= 130, result
+        assert "\n" not in repr(result)
+
+
 def test_importing_costs_next_to_nothing():
     code = (
         "import synth, sys; heavy = {'networkx', 'numpy', 'rich', 'numba', 'scipy', 'click'} & set(sys.modules);"

@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from graphs.errors import UnsolvableError
+from graphs.errors import UnsolvableError, numbered
 from graphs.geometry import across, angles_between, rotated, unit
 from graphs.tolerances import DOUBLE, canonical_order
 from graphs.types import Floats
@@ -38,7 +38,7 @@ __all__ = ["BodyMotion", "ConicalForm", "GuidedFourBar", "conical_forms", "four_
 _TURN = 2.0 * np.pi
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class GuidedFourBar:
     """A spherical four-bar whose coupler is guided through orientations.
 
@@ -95,6 +95,12 @@ class GuidedFourBar:
         """Names of its defects: ``circuit``, ``branch``, ``order``."""
         defects = {"circuit": self.circuit_defect, "branch": self.branch_defect, "order": self.order_defect}
         return tuple(name for name, here in defects.items() if here)
+
+    def __repr__(self) -> str:
+        angles = ", ".join(f"{degrees(angle):.1f}" for angle in self.link_angles)
+        return (
+            f"<GuidedFourBar: {self.kind.name}, links {angles} degrees, {numbered(len(self.defects), 'defect')}>"
+        )
 
     def to_json(self) -> dict[str, Any]:
         """Return the four-bar as plain data, with the keys that scripts rely on (docs/command-json.md)."""

@@ -215,7 +215,7 @@ TABS = 8.0
 _OTHER_QUESTION = "a template shows the links as they are drawn, and no branch of their motion"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Template:
     """The pieces to cut out and fold, and how they are put together.
 
@@ -243,6 +243,9 @@ class Template:
     not_shown: tuple[str, ...] = ()
     steps: tuple[str, ...] = ()
     picture: Scene | None = None
+
+    def __repr__(self) -> str:
+        return f"<Template: {numbered(len(self.pieces), 'piece')} of {self.mechanism!r}>"
 
     @cached_property
     def configuration(self) -> Configuration | None:
