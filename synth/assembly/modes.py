@@ -149,8 +149,8 @@ class PositionSet(Printed):
             else f"joint {plain(joint)} at {degrees(value):g}°"
             for joint, value in self.driven.items()
         )
-        number = numbered(len(self.positions), "position")
-        blocks: list[Block] = [f"{number} with {inputs}" if inputs else number]
+        count = numbered(len(self.positions), "position")
+        blocks: list[Block] = [f"{count} with {inputs}" if inputs else count]
         if self.positions:
             all_rigid = all(mode.regular for mode in self.positions)
             rigid = () if all_rigid else ("rigid",)

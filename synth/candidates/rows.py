@@ -287,8 +287,10 @@ def placed_rows(
 def _link_sizes(places: Floats, pairs: Sequence[tuple[int, int]], surface: Surface) -> list[list[float]]:
     """Return the link angles, degrees, or lengths between joints of each link."""
     steps = _steps(places, pairs)
-    is_cone = isinstance(surface, Cone)
-    sizes = np.degrees(link_angles(steps, surface.angle)) if is_cone else chords(steps, surface.radius)
+    if isinstance(surface, Cone):
+        sizes = np.degrees(link_angles(steps, surface.angle))
+    else:
+        sizes = chords(steps, surface.radius)
     return [list(map(float, row)) for row in sizes]
 
 

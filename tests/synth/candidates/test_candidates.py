@@ -27,6 +27,7 @@ from graphs.geometry import angles_between
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import Cone, Cylinder
 from synth.candidates.job import CandidateJob, Filter
+from synth.candidates.rows import four_bar_classes
 from synth.conformed.behaviours import link_arcs
 from synth.conformed.pose import joint_axes
 from synth.conformed.rates import ConformedChain, loops_of_chain
@@ -280,3 +281,9 @@ def test_candidates_on_a_cylinder_have_lengths(data):
         "one of them"
         in run("enumerate", "conical", "--chain", "watt", "--radius", 3, "--lambda", 3, code=2).output
     )
+
+
+def test_a_crossed_loop_need_not_be_grashof_on_a_steep_cone():
+    places = np.radians([0, 150, 20, 160])
+    classes = [str(four_bar_classes([(0, 1, 2, 3)], places, surface)[0]) for surface in (None, Cone(0.3))]
+    assert classes == ["Grashof", "non-Grashof"]
