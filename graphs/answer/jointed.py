@@ -46,18 +46,7 @@ __all__ = [
 
 
 def report_of_joints(linkage: JointedLinkage) -> MobilityReport:
-    """Report the mobility of a linkage by count of its joints, each with its freedoms.
-
-    A slider-crank in space, and in a plane, where loops with a centre count three equations each:
-
-    >>> from graphs.loops.loop import Loop
-    >>> joints = [(0, 1), (1, 2), (2, 3), (3, 0)]
-    >>> for loops in ((), (Loop(range(4), "infinite"),)):
-    ...     crank = JointedLinkage(SCGraph(4, joints, loops), {3: JointKind.PRISMATIC})
-    ...     report_of_joints(crank).equations["traditional_cgk"].value
-    -2
-    1
-    """
+    """Report the mobility of a linkage by count of its joints, each with its freedoms."""
     chain = linkage.chain
     kind = mechanism_class(chain)
     freedoms = [one.freedoms for one in linkage.kinds.values()]

@@ -188,11 +188,7 @@ def _equations_table(answer: MobilityAnswer) -> TableBlock:
 
 
 def power_of_ten(number: float) -> str:
-    """Return a number to one digit, its power of ten without sign and zeros that say nothing.
-
-    >>> power_of_ten(6.2e14), power_of_ten(3e-6)
-    ('6e14', '3e-6')
-    """
+    """Return a number to one digit, its power of ten without sign and zeros that say nothing: ``6e14``."""
     digit, power = f"{number:.0e}".split("e")
     return f"{digit}e{int(power)}"
 

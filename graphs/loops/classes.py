@@ -254,17 +254,7 @@ def centre_classes(loops: Sequence[Loop]) -> tuple[CentreClass, ...]:
 
 
 def class_of_loop(classes: Sequence[CentreClass]) -> dict[int, int]:
-    """Return the index of the class of each loop that has a centre, in the order of the classes.
-
-    Parameters
-    ----------
-    classes : sequence of CentreClass
-
-    Examples
-    --------
-    >>> class_of_loop(centre_classes([Loop((0, 1, 2), "none"), Loop((2, 3, 4))]))
-    {1: 0}
-    """
+    """Return the index of the class of each loop that has a centre, in the order of the classes."""
     return {loop: index for index, one in enumerate(classes) for loop in one.loops}
 
 

@@ -41,21 +41,9 @@ Rotation = Mapping[LinkId, tuple[Side, ...]]
 class Corner:
     """The part of a link between two successive joints of its rotation; it lies in one face.
 
-    Attributes
-    ----------
-    link : link id
-    arriving, leaving : joint id or None
-        The joints by which a walk round the face enters and leaves; None on a link without joints.
-    open_edges : int
-        Number of open edges between them.
-    first_side, last_side : int
-        Indices in the rotation of the entering and the leaving joint (of the first open edge, without joints).
-
-    Examples
-    --------
-    >>> faces, _ = trace_faces({"a": (0, 1), "b": (0, 1)}, {0: ("a", "b", None), 1: ("b", "a")})
-    >>> [(corner.link, corner.arriving, corner.leaving) for corner in faces[0].corners]
-    [(1, 'a', 'b'), (0, 'b', 'a')]
+    A walk round the face enters by the joint ``arriving`` and leaves by ``leaving`` (None on a link without
+    joints), ``open_edges`` lie between them. ``first_side`` and ``last_side`` are the indices in the rotation of
+    the entering and the leaving joint (of the first open edge, without joints).
     """
 
     link: LinkId
@@ -199,11 +187,6 @@ def face_cycles(face: Face) -> list[tuple[JointId, ...]]:
 
     A face of a 2-connected graph has one. There are more where a sub-mechanism hangs inside the face (thesis
     3.4.2) and none on the face of a tree; joints with the face on both their sides belong to no cycle.
-
-    >>> triangle = {"a": (0, 1), "b": (1, 2), "c": (2, 0)}
-    >>> faces, _ = trace_faces(triangle, {0: ("a", "c", None), 1: ("b", "a", None), 2: ("c", "b", None)})
-    >>> [face_cycles(face) for face in faces]
-    [[('a', 'b', 'c')], [('a', 'c', 'b')]]
     """
     cycles: list[tuple[JointId, ...]] = []
     path: list[tuple[LinkId, JointId]] = []  # links entered and not yet closed off, and the joint crossed

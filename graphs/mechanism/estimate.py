@@ -363,16 +363,7 @@ class Estimate:
 
 
 def estimate_of(sheet: Sheet) -> Estimate | None:
-    """Return how precise the coordinates of a sheet are by its geometry; None where nothing can be estimated.
-
-    >>> from math import cos, sin
-    >>> grid = [(x * cos(.6) - y * sin(.6), x * sin(.6) + y * cos(.6)) for x in range(4) for y in range(4)]
-    >>> places = tuple((round(x, 4), round(y, 4)) for x, y in grid)
-    >>> faces = tuple((k, k + 4, k + 5, k + 1) for k in range(11) if k % 4 < 3)
-    >>> found = estimate_of(Sheet(16, (), "", faces, places))
-    >>> 1e-5 < found.size < 1e-4
-    True
-    """
+    """Return how precise the coordinates of a sheet are by its geometry; None where nothing can be estimated."""
     if sheet.coordinates is None or not sheet.faces:
         return None
     points = np.zeros((len(sheet.coordinates), 3))

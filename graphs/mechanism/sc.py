@@ -388,14 +388,7 @@ _REPEATED = 3
 
 
 def arrangement_of(sc: SCGraph) -> Arrangement:
-    """Return the class of the arrangement of a mechanism's centres.
-
-    Watt's six-bar chain has two centres on one joint:
-
-    >>> watt = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
-    >>> arrangement_of(SCGraph(6, watt, [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))]))
-    'coupled'
-    """
+    """Return the class of the arrangement of a mechanism's centres, a key of `ARRANGEMENTS`."""
     graph = centre_graph(sc)
     if len(graph) < 2:
         return "single" if len(graph) else "none"

@@ -51,25 +51,8 @@ K = TypeVar("K", bound=Hashable)
 def check_rules(drawing: Drawing, classes: Sequence[CentreClass]) -> None:
     """Refuse a drawing that breaks a rule of the table above; link degree is checked when it is made.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        With its loops placed.
-    classes : sequence of CentreClass
-        Of these loops.
-
-    Raises
-    ------
-    InvariantError
-        ``rule`` is the first column of the table.
-
-    Examples
-    --------
-    Four triangles round a vertex obey the rules:
-
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
-    >>> check_rules(fan.drawing, fan.centre_classes())
+    The drawing has its loops placed, the classes are those of these loops; ``rule`` of the `InvariantError` is the
+    first column of the table.
     """
     for face in drawing.faces:
         _check_face(drawing, face)
@@ -83,52 +66,16 @@ def check_rules(drawing: Drawing, classes: Sequence[CentreClass]) -> None:
 def points_of_joints(drawing: Drawing, classes: Sequence[CentreClass]) -> dict[JointId, frozenset[int]]:
     """Return the points on the axis of each joint: its two ends and the centres it passes through.
 
-    Points below ``drawing.vertex_count`` are vertices, from there on the centres that are no vertices.
-
-    Parameters
-    ----------
-    drawing : Drawing
-        With its loops placed.
-    classes : sequence of CentreClass
-        The classes of these loops.
-
-    Raises
-    ------
-    InvariantError
-        If a class has two explicit centres.
-
-    Examples
-    --------
-    The axes of four triangles round a vertex have it in common:
-
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
-    >>> len(frozenset.intersection(*points_of_joints(fan.drawing, fan.centre_classes()).values()))
-    1
+    Points below ``drawing.vertex_count`` are vertices, from there on the centres that are no vertices. The drawing
+    has its loops placed, the classes are those of these loops. Raises `InvariantError` if a class has two explicit
+    centres.
     """
     ends = {joint: drawing.ends_of_joint(joint) for joint in drawing.joints}
     return _with_centres(ends, classes, _centre_points(drawing, classes))
 
 
 def points_of_links(drawing: Drawing, classes: Sequence[CentreClass]) -> dict[LinkId, frozenset[int]]:
-    """Return the points of each link: its vertices and the centres on the axes of its joints.
-
-    Errors and numbers of points are those of `points_of_joints`.
-
-    Parameters
-    ----------
-    drawing, classes
-        As for `points_of_joints`.
-
-    Examples
-    --------
-    Four triangles round a vertex have no point besides their own corners:
-
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
-    >>> [len(points) for points in points_of_links(fan.drawing, fan.centre_classes()).values()]
-    [3, 3, 3, 3]
-    """
+    """Return the points of each link: its vertices and the centres on the axes of its joints."""
     points = {link: set(here) for link, here in drawing.vertices.items()}
     for one, point in zip(classes, _centre_points(drawing, classes), strict=True):
         for joint in one.joints:

@@ -56,10 +56,8 @@ def joint_axes(places: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
 
     Parameters
     ----------
-    places : float[..., J]
-        Azimuths, radians.
-    cone_angle : float[...]
-        lambda of each linkage.
+    places, cone_angle : float[..., J], float[...]
+        Azimuths, and lambda of each linkage, radians.
 
     Raises
     ------
@@ -108,11 +106,7 @@ class Cone:
         return c * row[:, 2], c * row[:, 0], s * (1.0 - row[:, 1])
 
     def place(self, azimuth: npt.ArrayLike, along: npt.ArrayLike, height: npt.ArrayLike) -> Floats:
-        """Return points in space, float[..., 3]: on the ruling line, and outward from it.
-
-        >>> Cone(0.0).place(0.0, 2.0, 1.0).tolist()
-        [0.0, 1.0, 2.0]
-        """
+        """Return points in space, float[..., 3]: on the ruling line, and outward from it."""
         t = np.asarray(azimuth, dtype=float)
         rulings = joint_axes(t[..., None], np.full(t.shape, self.angle))[..., 0, :]
         c, s = np.cos(self.angle), np.sin(self.angle)
@@ -124,9 +118,6 @@ class Cone:
         """Return points of the surface unrolled and seen from outside, float[..., 2]; azimuth 0 points upwards.
 
         The surface at a height is a cone whose apex is height / cos(lambda) higher.
-
-        >>> (Cone(np.radians(60)).flat(np.pi, 2.0, 0.0).round(9) + 0.0).tolist()
-        [-2.0, 0.0]
         """
         turn = np.asarray(azimuth, dtype=float) * cos(self.angle)
         radius = np.asarray(along, dtype=float) + height * tan(self.angle)
@@ -184,20 +175,12 @@ class Cylinder:
         return turned[:, 1], turned[:, 0], (shift**2).sum(axis=1) / 2
 
     def place(self, azimuth: npt.ArrayLike, along: npt.ArrayLike, height: npt.ArrayLike) -> Floats:
-        """Return points in space, float[..., 3], as `Cone.place` does.
-
-        >>> Cylinder(5.0).place(0.0, 2.0, 1.0).tolist()
-        [0.0, -2.0, 6.0]
-        """
+        """Return points in space, float[..., 3], as `Cone.place` does."""
         t, up, out = np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in (azimuth, along, height)))
         return np.stack([(self.radius + out) * np.sin(t), -up, (self.radius + out) * np.cos(t)], axis=-1)
 
     def flat(self, azimuth: npt.ArrayLike, along: npt.ArrayLike, height: float) -> Floats:
-        """Return points of the surface unrolled and seen from outside, float[..., 2].
-
-        >>> Cylinder(5.0).flat(2.0, 3.0, 1.0).tolist()
-        [12.0, -3.0]
-        """
+        """Return points of the surface unrolled and seen from outside, float[..., 2]."""
         t, up = np.broadcast_arrays(np.asarray(azimuth, dtype=float), np.asarray(along, dtype=float))
         return np.stack([(self.radius + height) * t, -up], axis=-1)
 
@@ -349,21 +332,13 @@ def _shorter_way(step: float) -> float:
 
 
 def ring(links: int) -> SCGraph:
-    """Return a loop whose link i lies between joints i and i + 1, counted from 1.
-
-    >>> dict(ring(4).joints)
-    {'1': (4, 1), '2': (1, 2), '3': (2, 3), '4': (3, 4)}
-    """
+    """Return a loop whose link i lies between joints i and i + 1, counted from 1."""
     joints = {str(i + 1): ((i - 1) % links + 1, i + 1) for i in range(links)}
     return SCGraph(range(1, links + 1), joints, [Loop(tuple(joints))])
 
 
 def as_planar(chain: SCGraph) -> SCGraph:
-    """Return a chain with the centres of all loops at infinity: all axes are parallel.
-
-    >>> as_planar(ring(4)).loops[0].centre.value
-    'infinite'
-    """
+    """Return a chain with the centres of all loops at infinity: all axes are parallel."""
     return chain.with_loops([replace(loop, centre=Centre.INFINITE) for loop in chain.loops])
 
 

@@ -49,17 +49,7 @@ _SPATIAL = [*_FINITE, (1, 0), (1, 1), (1, 2)]
 
 @dataclass(frozen=True, slots=True)
 class Closure:
-    """The closure equations, row by row.
-
-    Attributes
-    ----------
-    joints : tuple of joint ids
-        The unknowns: columns.
-    rows : tuple of dict
-        Column to coefficient; zeros are left out.
-    loops : tuple of tuple of joint ids
-        The loop of each row.
-    """
+    """The closure equations: a column per joint, rows that map columns to coefficients, the loop of each row."""
 
     joints: tuple[JointId, ...]
     rows: tuple[dict[int, Any], ...]
@@ -67,17 +57,7 @@ class Closure:
 
 
 def independent_cycles(sc: SCGraph) -> tuple[Loop, ...]:
-    """Return the loops of a mechanism, then cycles that complete them to a basis; these have no centre.
-
-    Parameters
-    ----------
-    sc : SCGraph or SCDGraph
-
-    Examples
-    --------
-    >>> [loop.centre.value for loop in independent_cycles(SCGraph(3, [(0, 1), (1, 2), (2, 0)]))]
-    ['none']
-    """
+    """Return the loops of a mechanism, then cycles that complete them to a basis; these have no centre."""
     missing = sc.independent_loops - len(sc.loops)
     if not missing:
         return sc.loops
@@ -106,24 +86,7 @@ def independent_cycles(sc: SCGraph) -> tuple[Loop, ...]:
 def closure_of(sc: SCGraph, axes: Mapping[JointId, Line], centres: Mapping[int, Point], field: Field) -> Closure:
     """Return the closure equations of a placed mechanism: 3 rows for a loop with a centre, 6 for one without.
 
-    Parameters
-    ----------
-    sc : SCGraph
-    axes : mapping of joint id to (u, m)
-    centres : mapping of loop index to (x, y, z, w)
-        The centre of each loop that has one.
-    field : Field
-
-    Examples
-    --------
-    A random spherical four-bar, modulo a prime: three equations of four rates.
-
-    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> field = PrimeField(101)
-    >>> placed = realise(four_bar, field)
-    >>> closure = closure_of(four_bar, placed.axes, {0: placed.points[0]}, field)
-    >>> len(closure.rows), closure.joints
-    (3, (0, 1, 2, 3))
+    Axes map joints to (u, m), centres the index of each loop that has one to (x, y, z, w).
     """
     joints = sc.joints
     column = {joint: i for i, joint in enumerate(joints)}

@@ -349,11 +349,6 @@ def arc_choices(chain: ConformedChain, places: npt.ArrayLike) -> Ints:
     A link takes all the circle but one gap between its joints: the one that is half the circle or wider, either of
     two halves, or, where none is so wide, any. Azimuths, float[r, J], are between 0 and 2 pi, all different. Bit i
     is the gap after the joint that comes i-th from azimuth 0 on; a mask is 0 where a link has fewer choices.
-
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> chain = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
-    >>> arc_choices(chain, np.radians([[0, 40, 90, 140]]))[0].max(axis=-1).tolist()
-    [7, 1, 2, 4]
     """
     t = np.asarray(places, dtype=float)
     joints = t.shape[-1]

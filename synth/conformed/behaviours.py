@@ -123,30 +123,7 @@ def behaviour(chain: ConformedChain, places: npt.ArrayLike, arcs: npt.ArrayLike 
 def behaviour_of_motion(
     chain: ConformedChain, places: npt.ArrayLike, motion: FirstOrder, arcs: npt.ArrayLike
 ) -> Behaviour:
-    """Return the behaviour that a motion gives to links on known arcs.
-
-    Parameters
-    ----------
-    chain : ConformedChain
-    places : float[..., J]
-        Azimuths of the joints, radians.
-    motion : FirstOrder
-        At these places.
-    arcs : float[..., N, 2]
-        Start and length of each link's arc, radians.
-
-    Examples
-    --------
-    The longest link of this four-bar moves outward over its joints, and both ways if it goes all round the cone.
-
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> chain = ConformedChain.of(SCGraph(4, {"O": (0, 1), "A": (1, 2), "B": (2, 3), "C": (3, 0)}))
-    >>> places = np.radians([40, 90, 140, 0])
-    >>> arcs = np.stack([link_arcs(chain, places)] * 2)
-    >>> arcs[1, 3] = 0, 2 * np.pi
-    >>> [Way(behaviour_of_motion(chain, places, first_order(chain, places), arc).ways[3]).name for arc in arcs]
-    ['OUTWARD', 'BOTH']
-    """
+    """Return the behaviour that a motion at places float[..., J] gives to links on arcs, float[..., N, 2]."""
     t = np.asarray(places, dtype=float)
     ways, ranges, small = _ways_and_ranges(motion.motions, np.asarray(arcs, dtype=float))
     one_sided = np.abs(ways) == 1
@@ -205,22 +182,9 @@ def _tangent(chain: ConformedChain, t: Floats, motion: FirstOrder, small: Floats
 def link_arcs(chain: ConformedChain, places: npt.ArrayLike, begins: Mapping[int, int] | None = None) -> Floats:
     """Return the shortest arc over the joints of each link: all the circle but the largest gap between them.
 
-    Start and length in radians, float[..., N, 2]. A binary link has its minor arc; of two halves, either
-    (`half_turn_arcs`).
-
-    Parameters
-    ----------
-    chain : ConformedChain
-    places : float[..., J]
-    begins : mapping of int to int, optional
-        Number of a link that spans half a turn to the number of the joint at which its arc begins.
-
-    Examples
-    --------
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
-    >>> np.degrees(link_arcs(four_bar, np.radians([0, 40, 90, 180]), {0: 3})).round(9).tolist()
-    [[180.0, 180.0], [0.0, 40.0], [40.0, 50.0], [90.0, 90.0]]
+    Start and length in radians, float[..., N, 2], at places float[..., J]. A binary link has its minor arc; of two
+    halves, either (`half_turn_arcs`), or the one that ``begins`` names: number of the link to that of the joint at
+    which its arc begins.
     """
     t = np.asarray(places, dtype=float)
     arcs = []
@@ -243,11 +207,6 @@ def half_turn_arcs(
     """Return the links that span half a turn and may curve either way, at places float[J]: each with its two arcs.
 
     An arc is the numbers of the joints at which it begins and ends, azimuths growing.
-
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
-    >>> half_turn_arcs(four_bar, np.radians([0, 40, 90, 180]))
-    {0: ((0, 3), (3, 0))}
     """
     t = np.remainder(np.asarray(places, dtype=float), 2 * np.pi)
     halves = {}

@@ -46,21 +46,10 @@ ILL_CONDITIONED = "ill-conditioned"
 
 
 def rounding_of(terms: npt.ArrayLike) -> Floats:
-    """Return how far rounding may take sums of terms, whatever their signs: float[...].
+    """Return how far rounding may take sums of terms, float[..., n], whatever their signs: float[...].
 
     (n + 4) eps of the sum of absolute values: a last digit for each term, three for what was computed of it, and
     one for each addition.
-
-    Parameters
-    ----------
-    terms : float[..., n]
-        Any one unit.
-
-    Examples
-    --------
-    >>> sides = np.array([0.3, 0.1, 0.1, 0.1])
-    >>> bool(abs(sides @ [1, -1, -1, -1]) <= rounding_of(sides))
-    True
     """
     sizes = np.abs(np.asarray(terms, dtype=float))
     return np.asarray((sizes.shape[-1] + 4) * np.finfo(float).eps * sizes.sum(axis=-1))
@@ -285,24 +274,9 @@ def _swing(passes_zero: bool, passes_pi: bool) -> str:
 
 
 def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Floats:
-    """Return link angles, those over pi replaced by the other way round; refuse what no closed loop has.
+    """Return link angles, float[n], those over pi replaced by the other way round; refuse what no closed loop has.
 
-    Parameters
-    ----------
-    angles : float[n]
-        Radians, between 0 and 2 pi. A link of more than pi has the joint axes of one of 2 pi less its angle.
-    links : int, optional
-        Required number of links.
-
-    Raises
-    ------
-    InvariantError
-        Naming the angle that is out of range, or the links that cannot close.
-
-    Examples
-    --------
-    >>> np.degrees(checked_link_angles(np.radians([10, 20, 340]))).round(9).tolist()
-    [10.0, 20.0, 20.0]
+    Angles are radians between 0 and 2 pi; a link of more than pi has the joint axes of one of 2 pi less its angle.
     """
     values = _listed(angles, "link angles", links)
     for place, angle in enumerate(values):
@@ -325,25 +299,7 @@ def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Floa
 
 
 def checked_link_lengths(lengths: npt.ArrayLike, links: int | None = None) -> Floats:
-    """Return link lengths, float[n]; refuse what no closed loop has.
-
-    Parameters
-    ----------
-    lengths : float[n]
-        Any unit.
-    links : int, optional
-        Required number of links.
-
-    Raises
-    ------
-    InvariantError
-        Naming the length that is not positive, or the links that cannot close.
-
-    Examples
-    --------
-    >>> checked_link_lengths([1, 2, 2]).tolist()
-    [1.0, 2.0, 2.0]
-    """
+    """Return link lengths, float[n], in any unit; refuse what no closed loop has."""
     values = _listed(lengths, "lengths", links)
     for place, length in enumerate(values):
         if not length > 0.0:

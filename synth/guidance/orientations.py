@@ -202,22 +202,7 @@ class Orientations:
 def unit_vector(vector: npt.ArrayLike, name: str = "axis") -> Floats:
     """Return a vector of length one in the direction of another: float[3].
 
-    Parameters
-    ----------
-    vector : float[3]
-        Of any length but zero.
-    name : str, optional
-        Its name in messages.
-
-    Raises
-    ------
-    InvariantError
-        If it is not three finite numbers, or zero.
-
-    Examples
-    --------
-    >>> unit_vector((0, 3, 4)).tolist()
-    [0.0, 0.6, 0.8]
+    Raises `InvariantError`, with its name, if it is not three finite numbers, or zero.
     """
     v = np.array(vector, dtype=float)
     if v.shape != (3,) or not np.isfinite(v).all():

@@ -115,18 +115,7 @@ def table1(steps: npt.ArrayLike) -> npt.NDArray[np.bool_]:
 
 
 def wrapped(angles: npt.ArrayLike) -> Floats:
-    """Return angles in (-pi, pi]: float[...].
-
-    Parameters
-    ----------
-    angles : float[...]
-        Radians.
-
-    Examples
-    --------
-    >>> np.degrees(wrapped(np.radians([190, -180, 540, 30]))).round(9).tolist()
-    [-170.0, 180.0, 180.0, 30.0]
-    """
+    """Return angles, float[...], in (-pi, pi]."""
     angles = np.asarray(angles, dtype=float)
     turned = np.remainder(angles + np.pi, 2 * np.pi) - np.pi
     return np.where(turned <= -np.pi + 1e-15, np.pi, turned)
@@ -201,17 +190,7 @@ class LoopSteps:
 
 
 def link_pairs(chain: SCGraph) -> dict[Pair, object]:
-    """Return all pairs of joints that share a link, and the link.
-
-    Parameters
-    ----------
-    chain : SCGraph
-
-    Examples
-    --------
-    >>> len(link_pairs(SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)])))  # Watt: 4 + 2 * 3
-    10
-    """
+    """Return all pairs of joints that share a link, and the link."""
     at_link: dict[object, list[JointId]] = {link: [] for link in chain}
     for joint, ends in chain.joints.items():
         for link in ends:

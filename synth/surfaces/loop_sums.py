@@ -56,25 +56,13 @@ _MOST_SENSITIVE = 1.0 / np.sqrt(8.0 * np.finfo(float).eps)
 
 @dataclass(frozen=True, slots=True)
 class LoopRoots:
-    """All circles of many loops, in the order of loops and sign patterns.
+    """All circles of many loops, in the order of loops and sign patterns: M roots, and F families.
 
-    Attributes
-    ----------
-    loop, turns : int[M]
-        Which loop, and k: the steps sum to 2 pi k.
-    signs : int8[M, n]
-        Signs of its steps; the first is +.
-    size : float[M]
-        z, with z = tan(lambda)^2 on a cone and 1 / (2 R)^2 on a cylinder.
-    residual : float[M]
-        Loop sum less 2 pi k, radians.
-    double : bool[M]
-        Whether the sum, within its rounding, touches 2 pi k without crossing it, or is there at an end of the
-        interval.
-    family_loop, family_signs : int[F], int8[F, n]
-        Sums that vanish for every z (k = 0).
-    family_exact : bool[F]
-        Whether links pair off with equal ones of the other sign; else the sums vanish within their rounding.
+    A root has the number of its ``loop``, the ``signs`` of its steps, int8[M, n], the first +, ``turns`` k, its
+    ``size`` z, and the ``residual``, the loop sum less 2 pi k, radians. It is ``double`` where the sum, within its
+    rounding, touches 2 pi k without crossing it, or is there at an end of the interval. Families are sums that
+    vanish for every z (k = 0), exactly if links pair off with equal ones of the other sign, else within their
+    rounding.
     """
 
     loop: npt.NDArray[np.intp]
@@ -134,11 +122,7 @@ def sum_rounding(size: npt.ArrayLike, reach: npt.ArrayLike, weights: npt.ArrayLi
 
 
 def put_together(signs: npt.ArrayLike, reach: npt.ArrayLike) -> tuple[Floats, Floats]:
-    """Return the weights of one loop, the signs of equal links added up, and their reaches in rising order.
-
-    >>> [values.tolist() for values in put_together([1, -1, -1, 1], [2.0, 1.0, 2.0, 1.0])]
-    [[0.0, 0.0], [1.0, 2.0]]
-    """
+    """Return the weights of one loop, the signs of equal links added up, and their reaches in rising order."""
     distinct, which = np.unique(np.asarray(reach, dtype=float), return_inverse=True)
     weights: Floats = np.bincount(which, weights=np.asarray(signs, dtype=float)).astype(float)
     return weights, distinct
@@ -153,25 +137,9 @@ def sign_patterns(links: int) -> npt.NDArray[np.int8]:
 def loop_roots(reach: npt.ArrayLike, base: Base) -> LoopRoots:
     """Return every circle on which each of many loops closes, for all sign patterns and all k.
 
-    Parameters
-    ----------
-    reach : float[n] or float[B, n]
-        Reaches of the links of each loop, in loop order.
-    base : {0, 1}
-        0 on a cylinder (z = 0, an infinite radius, is no root), 1 on a cone (z = 0 is the flat one and is a root).
-
-    Raises
-    ------
-    UnsolvableError
-        If the loops have fewer than three links, or more than MOST_LINKS.
-
-    Examples
-    --------
-    Hyatt et al. 2021, Fig. 10: links 4, 3, 5, 1 on a cylinder.
-
-    >>> roots = loop_roots(1 / np.array([4.0, 3, 5, 1]) ** 2, 0)
-    >>> roots.signs.tolist(), roots.turns.tolist(), (0.5 / np.sqrt(roots.size)).round(2).tolist()
-    ([[1, 1, 1, 1], [1, 1, -1, -1]], [1, 0], [2.54, 2.59])
+    Reaches, float[n] or float[B, n], are in loop order. On a cylinder (base 0) z = 0, an infinite radius, is no
+    root; on a cone (base 1) z = 0 is the flat one and is a root. Raises `UnsolvableError` if the loops have fewer
+    than three links, or more than MOST_LINKS.
     """
     reaches = np.atleast_2d(np.asarray(reach, dtype=float))
     n = reaches.shape[1]
