@@ -11,7 +11,7 @@ from typing import Any
 from graphs.convert.panels import VertexStep, vertex_steps
 from graphs.convert.table import Mechanism, to_polyhedron, to_scd
 from graphs.count.equations import mobility_of_model
-from graphs.errors import check_argument
+from graphs.errors import check_argument, numbered
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.scd import FeatureCounts
 from graphs.printing import Block, Printed, TableBlock, plain
@@ -79,7 +79,7 @@ class Reconstruction(Printed):
         ]
 
     def __repr__(self) -> str:
-        return f"<Reconstruction: {self.model!r}>"
+        return f"<Reconstruction: {numbered(len(self.model), 'vertex', 'vertices')}, M = {self.mobility}>"
 
 
 def reconstruct(mechanism: Mechanism) -> Reconstruction:
@@ -99,7 +99,7 @@ def reconstruct(mechanism: Mechanism) -> Reconstruction:
     --------
     >>> from graphs.convert.panels import scd_from_panels
     >>> reconstruct(scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")]))
-    <Reconstruction: <PolyhedronModel: 4 vertices, 6 rods>>
+    <Reconstruction: 4 vertices, M = 0>
     """
     check_argument("reconstruct", mechanism, Mechanism)
     scd = to_scd(mechanism)

@@ -13,7 +13,7 @@ from itertools import chain
 from math import isfinite
 from typing import Any, Literal, Protocol, TypeAlias, TypeVar
 
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError, numbered, shown
 from graphs.limits import check_area, check_extent
 from graphs.mechanism.polyhedron import PolyhedronModel
 
@@ -248,7 +248,8 @@ class Sheet:
         if self.coordinates is not None:
             heights = {place[2:] for place in self.coordinates}
             lies = "flat" if len(heights) < 2 else "in space"
-        return f"<Sheet: {len(self.faces)} faces, {creases} creases, {self.vertices} vertices, {lies}>"
+        parts = [numbered(len(self.faces), "face"), numbered(creases, "crease")]
+        return f"<Sheet: {', '.join(parts)}, {numbered(self.vertices, 'vertex', 'vertices')}, {lies}>"
 
 
 def sheet_from_model(model: PolyhedronModel) -> Sheet:

@@ -17,7 +17,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 import numpy.typing as npt
 
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError, numbered, shown
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.types import Floats, JointId
@@ -308,10 +308,9 @@ class SurfaceLinkage:
         return self.lengths if self.angles is None else self.angles
 
     def __repr__(self) -> str:
-        sizes = "steps between its axes"
-        if self.steps is None:
-            sizes = "link angles" if self.lengths is None else "lengths"
-        return f"<SurfaceLinkage: {self.chain!r}, {sizes}>"
+        sizes = "steps" if self.steps is not None else "lengths" if self.lengths is not None else "link angles"
+        links, joints = numbered(len(self.chain), "link"), numbered(len(self.chain.joints), "joint")
+        return f"<SurfaceLinkage: {links}, {joints}, on a {self.kind}, by {sizes}>"
 
     def places(self) -> list[float]:
         """Return the azimuths of the joints, radians, in the order of the chain's joints.

@@ -102,6 +102,9 @@ class Orientations:
     def __len__(self) -> int:
         return len(self.quaternions)
 
+    def __repr__(self) -> str:
+        return f"<Orientations: {numbered(len(self), 'orientation')}>"
+
     @classmethod
     def from_matrices(cls, matrices: npt.ArrayLike) -> Orientations:
         """Return the orientations that rotation matrices describe.

@@ -108,7 +108,8 @@ class LinkageMap(Printed):
         return blocks
 
     def __repr__(self) -> str:
-        return f"<LinkageMap: {self.linkage!r}, {numbered(len(self.surfaces), self.linkage.kind)}>"
+        links = numbered(len(self.linkage.chain), "link")
+        return f"<LinkageMap: {links}, {numbered(len(self.surfaces), self.linkage.kind)}>"
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data (docs/command-json.md): circuit, signs and k are lists with one item per loop."""
