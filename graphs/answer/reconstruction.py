@@ -32,13 +32,6 @@ class Reconstruction(Printed):
         Vertex by vertex: in what kind of face it lies, and which links meet there.
     counts : FeatureCounts
         V, C, E_ext, E_int of the SCD graph.
-
-    Examples
-    --------
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> found = reconstruct(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))))
-    >>> found.model, [step.kind.value for step in found.steps]
-    (<PolyhedronModel: 5 vertices, 8 rods>, ['outer', 'outer', 'outer', 'outer', 'explicit'])
     """
 
     model: PolyhedronModel

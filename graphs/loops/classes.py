@@ -227,12 +227,8 @@ def centre_classes(loops: Sequence[Loop]) -> tuple[CentreClass, ...]:
 
     Examples
     --------
-    Watt's chain: two four-bars with one joint in common. Stephenson's: they share two.
-
-    >>> len(centre_classes([Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))]))
+    >>> len(centre_classes([Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))]))  # Watt's chain: two loops share a joint
     2
-    >>> len(centre_classes([Loop((0, 1, 2, 3)), Loop((2, 3, 4, 5, 6))]))
-    1
     """
     if _nothing_forced(loops):
         return tuple(

@@ -107,8 +107,7 @@ class Loop:
 def cyclic_order(loop: Loop, joints: Joints) -> tuple[JointId, ...]:
     """Return the joints of a loop in cyclic order; refuse what is not one cycle.
 
-    A set of joints that is a cycle has one cyclic order up to start and direction. The first joint stays first,
-    and the direction is kept where the joints are in cyclic order already.
+    The first joint stays first, and the direction is kept where the joints are in cyclic order already.
 
     Parameters
     ----------

@@ -69,13 +69,8 @@ class Face:
 
     Examples
     --------
-    The two faces of a ring of three links with an open edge each:
-
-    >>> ring = {0: ("a", "b"), 1: ("b", "c"), 2: ("c", "a")}
-    >>> joints = {"a": (2, 0), "b": (0, 1), "c": (1, 2)}
-    >>> faces, _ = trace_faces(joints, {link: (*sides, None) for link, sides in ring.items()})
-    >>> [(len(face.joints), face.open_edges) for face in faces]
-    [(3, 3), (3, 0)]
+    >>> Face(0, (Corner("plate", None, None, 3, 0, 0),)).open_edges
+    3
     """
 
     index: int
@@ -235,19 +230,15 @@ class FaceKind(Enum):
 
     Attributes
     ----------
-    EXPLICIT
-        A centre that is a vertex of the links themselves.
-    IMPLICIT
-        A remote centre: the axes meet there, the links do not reach it.
+    EXPLICIT, IMPLICIT
+        A centre that is a vertex of the links themselves; a remote centre, which the links do not reach.
     SPATIAL, OUTER
         No centre; the rest of the sphere, without a centre.
 
     Examples
     --------
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 1)])
-    >>> sorted(fan.drawing.kind_of_face(face.index).name for face in fan.faces)
-    ['EXPLICIT', 'OUTER']
+    >>> FaceKind("outer").name
+    'OUTER'
     """
 
     EXPLICIT = "explicit"
@@ -267,23 +258,17 @@ class Drawing:
     outer : (joint, "left" or "right"), optional
         The outer face: the one on that side of the joint, looking from its first link to its second. May be left
         out where there is only one face (trees).
-    loops : sequence of Loop, optional
-        Independent loops; they belong to bounded faces.
-    closing : sequence of Loop, optional
-        Loops that depend on them; one belongs to the outer face.
+    loops, closing : sequence of Loop, optional
+        Independent loops, which belong to bounded faces; loops that depend on them, of which one belongs to the
+        outer face.
 
     Attributes
     ----------
     faces : tuple of Face
-    vertex_count : int
-        V = open edges + faces without open edges.
-    outer : (joint, side) or None
-    outer_face : int
-        Index of the outer face.
-    loops : tuple of Loop
-        Independent ones, then closing ones.
+    outer_face, vertex_count : int
+        Index of the outer face; V = open edges + faces without open edges.
     face_loops : tuple of int or None
-        For each face the index of its loop in ``loops``.
+        For each face the index of its loop in ``loops``, which holds the closing ones too.
 
     Raises
     ------
@@ -294,9 +279,8 @@ class Drawing:
     --------
     >>> triangle = {"a": (0, 1), "b": (1, 2), "c": (2, 0)}
     >>> sides = {0: ("a", "c", None), 1: ("b", "a", None), 2: ("c", "b", None)}
-    >>> drawing = Drawing(triangle, sides, ("a", "right"))
-    >>> drawing.vertices[0], drawing.ends_of_joint("a"), drawing.kind_of_face(drawing.outer_face)
-    ((0, 2, 1), (1, 0), <FaceKind.OUTER: 'outer'>)
+    >>> Drawing(triangle, sides, ("a", "right")).vertices[0]
+    (0, 2, 1)
     """
 
     def __init__(

@@ -225,22 +225,11 @@ class FeatureCounts:
 
     Attributes
     ----------
-    vertices : int
-        V = open edges + faces without open edges.
-    implicit_centres : int
-        C, loops (not classes) with an implicit centre.
-    external_edges : int
-        E_ext = joints + open edges.
-    internal_edges : int
-        E_int, the sum of 2n - 6 over the links of n >= 4 sides.
+    vertices, implicit_centres : int
+        V = open edges + faces without open edges; C, loops (not classes) with an implicit centre.
+    external_edges, internal_edges : int
+        E_ext = joints + open edges; E_int, the sum of 2n - 6 over the links of n >= 4 sides.
     open_edges, faces : int
-
-    Examples
-    --------
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> counts = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 1)]).counts
-    >>> counts.vertices, counts.external_edges, counts.internal_edges
-    (4, 6, 0)
     """
 
     vertices: int
@@ -266,8 +255,8 @@ class SCDGraph(SCGraph):
     rotation : mapping of link to sequence of sides
         The sides of each link counter-clockwise: joint ids, and None for an open edge.
     outer : (joint, "left" or "right"), optional
-        The outer face: the one on that side of the joint, looking from its first link to its second. May be
-        left out where there is one face only (trees).
+        The outer face: the one on that side of the joint, looking from its first link to its second. May be left
+        out where there is one face only (trees).
 
     Attributes
     ----------
@@ -281,18 +270,12 @@ class SCDGraph(SCGraph):
 
     Examples
     --------
-    A spherical four-bar of four triangles round one explicit centre:
+    Three triangles round one explicit centre:
 
-    >>> from graphs.loops.loop import Loop
-    >>> fourbar = SCDGraph(
-    ...     4,
-    ...     [(0, 1), (1, 2), (2, 3), (3, 0)],
-    ...     [Loop((0, 1, 2, 3))],
-    ...     rotation={0: (0, 3, None), 1: (1, 0, None), 2: (2, 1, None), 3: (3, 2, None)},
-    ...     outer=(0, "right"),
-    ... )
-    >>> fourbar.counts.vertices, fourbar.counts.edges
-    (5, 8)
+    >>> sides = {0: (0, 2, None), 1: (1, 0, None), 2: (2, 1, None)}
+    >>> fan = SCDGraph(3, [(0, 1), (1, 2), (2, 0)], [Loop((0, 1, 2))], rotation=sides, outer=(0, "right"))
+    >>> fan.counts.vertices, fan.counts.edges
+    (4, 6)
     """
 
     drawing: Drawing

@@ -258,12 +258,7 @@ def sheet_from_model(model: PolyhedronModel) -> Sheet:
     Parameters
     ----------
     model : PolyhedronModel
-        Rods between two links become unassigned creases.
-
-    Raises
-    ------
-    InvariantError
-        If the model does not know its links.
+        Rods between two links become unassigned creases; raises `InvariantError` if it does not know its links.
 
     Examples
     --------

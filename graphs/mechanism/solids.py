@@ -41,9 +41,7 @@ class HingedSolids:
 
     Examples
     --------
-    A door:
-
-    >>> HingedSolids(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
+    >>> HingedSolids(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})  # a door
     <HingedSolids: 2 links, 1 joint>
     """
 

@@ -248,13 +248,8 @@ class SurfaceLinkage:
         Parameters
         ----------
         sizes : float[n]
-            In loop order: link angles, radians; on a cylinder lengths.
+            In loop order: link angles, radians, or on a cylinder lengths; `InvariantError` if one is out of range.
         kind : {"cone", "cylinder"}, optional
-
-        Raises
-        ------
-        InvariantError
-            If a link angle is none between two axes, or a length is not positive.
 
         Examples
         --------
@@ -315,10 +310,7 @@ class SurfaceLinkage:
     def places(self) -> list[float]:
         """Return the azimuths of the joints, radians, in the order of the chain's joints.
 
-        Raises
-        ------
-        InvariantError
-            If the steps disagree, or do not lead to every joint.
+        Raises `InvariantError` if the steps disagree, or do not lead to every joint.
         """
         placed = places_of_steps(self.steps or {})
         return [placed[joint] for joint in self.chain.joints]

@@ -99,20 +99,13 @@ def sc_from_vertex_edge(graph: VertexEdgeGraph) -> SCGraph:
     Parameters
     ----------
     graph : VertexEdgeGraph
-        Its creases name the joints, its vertices the loops.
-
-    Raises
-    ------
-    InvariantError
-        If a crease has the same link on both sides.
+        Its creases name the joints, its vertices the loops; `InvariantError` if a crease has one link on both
+        sides.
 
     Examples
     --------
-    Two vertices of degree four with a crease in common: Watt's chain, two centres.
-
-    >>> sc = sc_from_vertex_edge(VertexEdgeGraph({"A": ("a", "b", "c", "d"), "B": ("a", "e", "f", "g")}))
-    >>> len(sc), len(sc.joints), len(sc.centre_classes())
-    (6, 7, 2)
+    >>> sc_from_vertex_edge(VertexEdgeGraph({"A": ("a", "b", "c", "d"), "B": ("a", "e", "f", "g")}))
+    <SCGraph: 6 links, 7 joints, 2 centres>
     """
     place = {(v, crease): i for v, creases in graph.vertices.items() for i, crease in enumerate(creases)}
 

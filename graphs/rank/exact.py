@@ -125,11 +125,8 @@ class ExactMobility:
 
     Attributes
     ----------
-    mobility : int
-        M = unknowns - rank.
-    unknowns : int
-        Joint rates J; of a polyhedron model 3V - 6 velocities.
-    rank : int
+    mobility, unknowns, rank : int
+        M = unknowns - rank; the unknowns are the J joint rates, of a polyhedron model 3V - 6 velocities.
     primes : tuple of int
         The primes modulo which the rank was found, each time at another random realisation.
     forced : bool
@@ -177,9 +174,7 @@ def exact_mobility(
 
     Examples
     --------
-    >>> stephenson = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (2, 4), (4, 5), (5, 0)],
-    ...                      [Loop((0, 1, 2, 3)), Loop((2, 3, 6, 5, 4))])
-    >>> exact_mobility(stephenson).mobility
+    >>> exact_mobility(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])).mobility
     1
     """
     ranks = [closure_modulo(mechanism, prime, forced=forced, seed=seed)[1].rank() for prime in primes]
@@ -231,10 +226,8 @@ class Diagnosis:
 
     Attributes
     ----------
-    mobility : int
-        Exact generic mobility.
-    idle : int
-        Redundant closure equations: they follow from others.
+    mobility, idle : int
+        Exact generic mobility; redundant closure equations: they follow from others.
     circuits : tuple of tuple of loops
         Smallest dependent sets of equations, one for each redundant equation: the loops they come from, each a
         tuple of joint ids.
@@ -245,9 +238,7 @@ class Diagnosis:
 
     Examples
     --------
-    Three links round a centre do not move:
-
-    >>> diagnosis = diagnose(SCGraph(3, [(0, 1), (1, 2), (2, 0)], [Loop((0, 1, 2))]))
+    >>> diagnosis = diagnose(SCGraph(3, [(0, 1), (1, 2), (2, 0)], [Loop((0, 1, 2))]))  # three links do not move
     >>> diagnosis.mobility, diagnosis.idle, diagnosis.immobile
     (0, 0, (0, 1, 2))
     """
@@ -279,22 +270,14 @@ def diagnose(mechanism: SCGraph, prime: int = PRIMES[0], *, forced: bool = True,
     ----------
     mechanism : SCGraph or SCDGraph
     prime : int, optional
-    forced : bool, optional
-        As for `graphs.rank.exact.exact_mobility`.
-    seed : int, optional
-
-    Raises
-    ------
-    UnsolvableError
-        If the type could not be placed.
+    forced, seed
+        As for `exact_mobility`, as is the `UnsolvableError` of a type that could not be placed.
 
     Examples
     --------
-    A square twist of nine panels: as many equations as joints, none redundant, so it is rigid.
-
     >>> from graphs.files.formats import read
     >>> from graphs.convert.table import to_sc
-    >>> diagnosis = diagnose(to_sc(read("data/wiener/square-twist.fold")))
+    >>> diagnosis = diagnose(to_sc(read("data/wiener/square-twist.fold")))  # rigid, no equation redundant
     >>> diagnosis.mobility, diagnosis.idle, len(diagnosis.immobile), len(diagnosis.clusters)
     (0, 0, 12, 1)
     """
@@ -348,8 +331,7 @@ def _clusters(
 def mobility_without(mechanism: SCGraph, joint: JointId, *, forced: bool = True, seed: int = 0) -> int:
     """Return the generic mobility once a joint is cut, all other axes left where they are.
 
-    A joint is *critical* if that changes the mobility, *redundant* if not. Links that fall apart count as in
-    `graphs.rank.exact.exact_mobility`: a fixed link for each part.
+    A joint is *critical* if that changes the mobility, *redundant* if not. Each part has a fixed link.
 
     Parameters
     ----------
@@ -360,8 +342,7 @@ def mobility_without(mechanism: SCGraph, joint: JointId, *, forced: bool = True,
 
     Examples
     --------
-    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> mobility_without(four_bar, 0)
+    >>> mobility_without(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]), 0)
     3
     """
     field = PrimeField(PRIMES[0], seed)

@@ -68,15 +68,6 @@ class PoseMobility:
         Of the coordinates; singular values are judged by it.
     flat_loops : int
         Loops with a centre whose axes lie in one plane, which gives them one freedom more than when folded.
-
-    Examples
-    --------
-    Flat, a vertex of four creases has one freedom more than when it is folded:
-
-    >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
-    >>> flat = pose_mobility(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
-    >>> flat.dof, flat.self_stresses, flat.flat
-    (2, 1, True)
     """
 
     dof: int | None
@@ -124,12 +115,12 @@ def pose_mobility(
 
     Examples
     --------
-    A vertex of four creases, folded: three freedoms are taken by its loop.
+    Flat, a vertex of four creases has one freedom more than when it is folded:
 
-    >>> sheet = Sheet(5, ((0, 1), (0, 2), (0, 3), (0, 4)), "MVVV", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)),
-    ...               ((0, 0, 0), (1, 0, 0), (0, 1, .2), (-1, 0, .1), (0, -1, .3)))
-    >>> pose_mobility(sheet).dof
-    1
+    >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
+    >>> flat = pose_mobility(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
+    >>> flat.dof, flat.self_stresses, flat.flat
+    (2, 1, True)
     """
     mechanism = mechanism or mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
     closure = closure_at_pose(sheet, mechanism)
@@ -158,22 +149,15 @@ def pose_mobility_of_axes(
     ----------
     sc : SCGraph
     axes : mapping of joint id to (point, direction)
-        Three coordinates each, any unit of length.
+        Three coordinates each, any unit of length; `InvariantError` if an axis has no direction.
     precision : Precision, optional
         Of points, in units of their extent, and of directions; without it as many digits as they have.
 
-    Raises
-    ------
-    InvariantError
-        If an axis has no direction.
-
     Examples
     --------
-    A planar four-bar:
-
-    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
+    >>> planar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
     >>> places = [(0, 0, 0), (3, 0, 0), (4, 2, 0), (0, 1, 0)]
-    >>> pose_mobility_of_axes(four_bar, {i: (place, (0, 0, 1)) for i, place in zip(range(4), places)}).dof
+    >>> pose_mobility_of_axes(planar, {i: (place, (0, 0, 1)) for i, place in enumerate(places)}).dof
     1
     """
     points = np.array([axes[joint][0] for joint in sc.joints], dtype=float).reshape(-1, 3)
@@ -211,11 +195,8 @@ def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
 
     Examples
     --------
-    A square of four rods shears in its plane, and folds along a diagonal:
-
-    >>> corners = {0: (0, 0, 0), 1: (1, 0, 0), 2: (1, 1, 0), 3: (0, 1, 0)}
-    >>> square = PolyhedronModel(4, [(0, 1), (1, 2), (2, 3), (3, 0)], coordinates=corners)
-    >>> pose_mobility_of_model(square).dof
+    >>> corners = {0: (0, 0, 0), 1: (1, 0, 0), 2: (1, 1, 0), 3: (0, 1, 0)}  # a square shears, and folds
+    >>> pose_mobility_of_model(PolyhedronModel(4, [(0, 1), (1, 2), (2, 3), (3, 0)], coordinates=corners)).dof
     2
     """
     if not model.coordinates:

@@ -40,25 +40,19 @@ def exact_mobility_of_model(
     ----------
     model : PolyhedronModel
         Without a ground link six freedoms of the whole are taken off.
-    primes : sequence of int, optional
-    seed : int, optional
-        Random seed; another seed gives another random realisation.
+    primes, seed
+        As for `graphs.rank.exact.exact_mobility`, as is the `NumericalError`.
 
     Raises
     ------
     UnsolvableError
         If its vertices could not be placed, a remote centre does not say which rods meet there, lines make one
         point of several vertices, or the bars of a scissors element do not cross.
-    NumericalError
-        If the primes give different ranks, which all but never happens.
 
     Examples
     --------
-    A spherical four-bar of four triangles:
-
-    >>> exact_mobility_of_model(
-    ...     PolyhedronModel(5, [(0, 1), (0, 3), (0, 4), (1, 2), (1, 4), (2, 3), (2, 4), (3, 4)])
-    ... ).mobility
+    >>> rods = [(0, 1), (0, 3), (0, 4), (1, 2), (1, 4), (2, 3), (2, 4), (3, 4)]  # four triangles round a point
+    >>> exact_mobility_of_model(PolyhedronModel(5, rods)).mobility
     1
     """
     ranks, freedoms = [], 0

@@ -139,15 +139,11 @@ def over_angles(
     Parameters
     ----------
     chain : ConformedChain or RateFormulas
+        `UnsolvableError` if it has not one freedom by its count.
     places : int64[..., J]
         Orders with opposites: places on 2 J slots.
     samples : int, optional
         Sets of angles for signs that are not certain; sixteen times as many where these are alike.
-
-    Raises
-    ------
-    UnsolvableError
-        If the chain has not one freedom by its count.
 
     Examples
     --------
@@ -248,8 +244,6 @@ def never_singular(chain: ConformedChain | RateFormulas, places: npt.ArrayLike) 
 
     Examples
     --------
-    A four-bar has full rank if no two of its joints coincide:
-
     >>> from graphs.mechanism.sc import SCGraph
     >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     >>> never_singular(four_bar, [[0.0, 1, 2, 3], [0, 2, 1, 3]]).tolist()
@@ -385,14 +379,9 @@ def links_in_layers(
     ----------
     chain : ConformedChain
     places : float[J]
-        Azimuths, radians.
+        Azimuths, radians; `UnsolvableError` if there are more than 62 joints.
     begins : mapping of int to int, optional
         Number of a link that spans half a turn to the number of the joint at which its arc begins.
-
-    Raises
-    ------
-    UnsolvableError
-        If there are more than 62 joints.
 
     Examples
     --------

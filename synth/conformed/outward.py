@@ -51,7 +51,8 @@ _BASES = 12
 _PATHS = 12
 _TERMS = 400
 """Choices of loops, of paths, and terms of a formula that are looked at."""
-_Term = tuple[int, tuple[tuple[int, int, int], ...]]
+_Triples = tuple[tuple[int, int, int], ...]
+_Term = tuple[int, _Triples]
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,12 +161,7 @@ def joint_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     Parameters
     ----------
     chain : ConformedChain
-        Of one freedom: J = 3 L + 1.
-
-    Raises
-    ------
-    UnsolvableError
-        If the number of joints is another.
+        Of one freedom: J = 3 L + 1, else `UnsolvableError`.
 
     Examples
     --------
@@ -178,16 +174,9 @@ def joint_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     formulas = []
     for joint in range(len(chain.joints)):
         choices = {tuple(kernel[joint]) for kernel in kernels if kernel[joint]}
+        ordered = sorted(choices, key=lambda terms: (len(terms), terms))
         formulas.append(
-            tuple(
-                OutwardRate(
-                    joint,
-                    np.array([factor for factor, _ in terms], np.int64),
-                    None,
-                    np.array([triples for _, triples in terms], np.int64),
-                )
-                for terms in sorted(choices, key=lambda terms: (len(terms), terms))
-            )
+            tuple(_rate(joint, [(factor, None, triples) for factor, triples in terms]) for terms in ordered)
         )
     return tuple(formulas)
 
@@ -208,20 +197,13 @@ def outward_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     Parameters
     ----------
     chain : ConformedChain
-        Of one freedom: J = 3 L + 1.
-
-    Raises
-    ------
-    UnsolvableError
-        If the number of joints is another.
+        Of one freedom: J = 3 L + 1, else `UnsolvableError`.
 
     Examples
     --------
-    A four-bar with ground link C O: joint A turns about O.
-
     >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))))
-    >>> [formulas[0].text(chain.joints) for formulas in outward_rates(chain) if formulas]
+    >>> [formulas[0].text(chain.joints) for formulas in outward_rates(chain) if formulas]  # ground link C O
     ['sin(A - O) [A B C]', 'sin(B - C) [O A B]']
     """
     kernels = _kernels(_checked(chain))
@@ -234,7 +216,7 @@ def outward_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
 def _formulas(
     chain: ConformedChain, joint: int, kernels: Sequence[Sequence[list[_Term]]]
 ) -> tuple[OutwardRate, ...]:
-    sums: dict[tuple[tuple[int, int, tuple[tuple[int, int, int], ...]], ...], None] = {}
+    sums: dict[tuple[tuple[int, int, _Triples], ...], None] = {}
     for kernel in kernels:
         for path in _paths(chain, joint):
             terms = tuple(
@@ -245,15 +227,13 @@ def _formulas(
             )
             if terms and len(terms) <= _TERMS:
                 sums[terms] = None
-    return tuple(
-        OutwardRate(
-            joint,
-            np.array([factor for factor, _, _ in terms], np.int64),
-            np.array([i for _, i, _ in terms], np.int64),
-            np.array([triples for _, _, triples in terms], np.int64),
-        )
-        for terms in sorted(sums, key=len)
-    )
+    return tuple(_rate(joint, terms) for terms in sorted(sums, key=len))
+
+
+def _rate(joint: int, terms: Sequence[tuple[int, int | None, _Triples]]) -> OutwardRate:
+    factors, sines, triples = (list(column) for column in zip(*terms, strict=True))
+    of_sines = None if sines[0] is None else np.array(sines, np.int64)
+    return OutwardRate(joint, np.array(factors, np.int64), of_sines, np.array(triples, np.int64))
 
 
 def _paths(chain: ConformedChain, joint: int) -> list[dict[int, int]]:

@@ -60,19 +60,10 @@ class ConformedChain:
 
     @classmethod
     def of(cls, chain: SCGraph, ground: LinkId | None = None) -> ConformedChain:
-        """Prepare a chain.
+        """Prepare a chain; its loops' centres do not matter: all axes are ruling lines of one surface.
 
-        Parameters
-        ----------
-        chain : SCGraph
-            Its loops' centres do not matter: all axes are ruling lines of one surface.
-        ground : link id, optional
-            By default that of the chain, or its first link.
-
-        Raises
-        ------
-        InvariantError
-            If the ground is no link, or the chain is not connected.
+        The ground is by default that of the chain, or its first link. Raises `InvariantError` if it is no link, or
+        the chain is not connected.
         """
         if ground is None:
             ground = chain.ground if chain.ground is not None else next(iter(chain.nodes), None)
@@ -158,14 +149,10 @@ def first_order(chain: ConformedChain, places: npt.ArrayLike, error: float = DOU
     ----------
     chain : ConformedChain
     places : float[..., J]
-        Azimuths of the joints, radians, in the order of the chain's joints.
+        Azimuths of the joints, radians, in the order of the chain's joints; `InvariantError` if they are another
+        number.
     error : float, optional
         Of the azimuths, radians: singular values are judged by it (`graphs.rank.singular_values`).
-
-    Raises
-    ------
-    InvariantError
-        If the number of azimuths is not that of the joints.
 
     Examples
     --------

@@ -181,12 +181,7 @@ def kind_of_planar(lengths: npt.ArrayLike) -> FourBarKind:
     Parameters
     ----------
     lengths : float[4]
-        g, a, h, b.
-
-    Raises
-    ------
-    InvariantError
-        If a length is not positive, or the links cannot close.
+        g, a, h, b, positive and able to close, else `InvariantError`.
 
     Examples
     --------
@@ -203,12 +198,7 @@ def kind_of_spherical(angles: npt.ArrayLike) -> FourBarKind:
     Parameters
     ----------
     angles : float[4]
-        gamma, alpha, eta, beta, radians.
-
-    Raises
-    ------
-    InvariantError
-        If an angle is out of range, or the links cannot close.
+        gamma, alpha, eta, beta, radians, in range and able to close, else `InvariantError`.
 
     Examples
     --------

@@ -35,18 +35,14 @@ def output_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.Arra
 
     Parameters
     ----------
-    lengths : float[..., 4]
-        g, a, h, b.
-    theta : float[...]
-        Input angle, radians.
+    lengths, theta : float[..., 4], float[...]
+        g, a, h, b; input angle, radians.
     branch : {1, -1} [...]
         Which of the two positions.
 
     Examples
     --------
-    A parallelogram, and crossed:
-
-    >>> np.degrees(output_planar([2, 1, 2, 1], np.pi / 3, [-1, 1])).round(6).tolist()
+    >>> np.degrees(output_planar([2, 1, 2, 1], np.pi / 3, [-1, 1])).round(6).tolist()  # a parallelogram
     [60.0, -120.0]
     """
     g, a, h, b = np.moveaxis(np.asarray(lengths, dtype=float), -1, 0)
@@ -62,13 +58,11 @@ def output_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.Ar
     ----------
     angles : float[..., 4]
         gamma, alpha, eta, beta, radians.
-    theta : float[...]
-    branch : {1, -1} [...]
+    theta, branch : float[...], {1, -1} [...]
 
     Examples
     --------
-    >>> links = np.radians([70, 60, 80, 75])
-    >>> np.degrees(output_spherical(links, np.radians(50), [-1, 1])).round(4).tolist()
+    >>> np.degrees(output_spherical(np.radians([70, 60, 80, 75]), np.radians(50), [-1, 1])).round(4).tolist()
     [22.3481, -156.663]
     """
     gamma, alpha, eta, beta = np.moveaxis(np.asarray(angles, dtype=float), -1, 0)
@@ -140,8 +134,7 @@ def transmission_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike) -> Floats:
 
     Parameters
     ----------
-    lengths : float[..., 4]
-    theta : float[...]
+    lengths, theta : float[..., 4], float[...]
 
     Examples
     --------
@@ -158,9 +151,8 @@ def transmission_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike) -> Float
 
     Parameters
     ----------
-    angles : float[..., 4]
+    angles, theta : float[..., 4], float[...]
         Radians.
-    theta : float[...]
 
     Examples
     --------

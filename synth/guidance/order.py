@@ -68,9 +68,7 @@ class Hoop:
 
     Examples
     --------
-    >>> from scipy.spatial.transform import Rotation
-    >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
-    >>> hoop(Orientations.from_rotation(body), (0, 0, 1)).required
+    >>> hoop(Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7]), (3, 1, 2)).required
     ((1, 3), (2, 3))
     """
 
@@ -121,16 +119,14 @@ def hoop(orientations: Orientations, axis: npt.ArrayLike, direction: Direction =
     ----------
     orientations : Orientations
     axis : float[3]
-        The fixed axis G in the fixed frame, any length.
+        The fixed axis G in the fixed frame, any length but zero.
     direction : "ccw" or "cw", optional
         Seen from the tip of the axis: -axis and the other direction give the same.
 
     Raises
     ------
-    InvariantError
-        If the axis has no direction.
     UnsolvableError
-        If it lies on a relative axis, which the hoop then holds all the way.
+        If the axis lies on a relative axis, which the hoop then holds all the way.
 
     Examples
     --------
@@ -208,10 +204,8 @@ class OrderAnalysis(Printed):
         The fixed axis as the user wrote it.
     hoop : Hoop
         The hoop turned in the required direction; its verdict is ``in_order``.
-    kept : "ccw", "cw" or None
-        The direction in which the order is kept, if there is one, by the hoop.
-    by_inequalities, by_crank_angles : "ccw", "cw" or None
-        The same by the other two checks.
+    kept, by_inequalities, by_crank_angles : "ccw", "cw" or None
+        The direction in which the order is kept, if there is one: by the hoop, and by the other two checks.
     moving_axis : float[3]
         The moving axis W, in the body, of the dyad about this axis that fits best.
     crank_angles : float[n]
@@ -222,10 +216,8 @@ class OrderAnalysis(Printed):
 
     Examples
     --------
-    >>> from scipy.spatial.transform import Rotation
-    >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
-    >>> analyse_order(Orientations.from_rotation(body), (0, 0, 1)).kept
-    'ccw'
+    >>> analyse_order(Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7]), (3, 1, 2))
+    <OrderAnalysis: counter-clockwise, order kept>
     """
 
     axis: tuple[float, ...]
@@ -314,18 +306,8 @@ def analyse_order(orientations: Orientations, axis: npt.ArrayLike, direction: Di
 
     Parameters
     ----------
-    orientations : Orientations
-    axis : float[3]
-        The fixed axis G in the fixed frame, any length.
-    direction : "ccw" or "cw", optional
-        The direction of the crank, seen from the tip of the axis.
-
-    Raises
-    ------
-    InvariantError
-        If the axis has no direction.
-    UnsolvableError
-        If it lies on a relative axis.
+    orientations, axis, direction
+        As for `hoop`, as are the errors; the direction is that of the crank.
 
     Examples
     --------

@@ -107,12 +107,9 @@ class Orientations:
 
     @classmethod
     def from_matrices(cls, matrices: npt.ArrayLike) -> Orientations:
-        """Return the orientations that rotation matrices describe.
+        """Return the orientations that rotation matrices describe, float[n, 3, 3].
 
-        Parameters
-        ----------
-        matrices : float[n, 3, 3]
-            Each orthogonal to within 1e-3, else `InvariantError`; the nearest rotation is taken.
+        Each is orthogonal to within 1e-3, else `InvariantError`; the nearest rotation is taken.
         """
         from scipy.spatial.transform import Rotation
 
@@ -133,12 +130,9 @@ class Orientations:
 
     @classmethod
     def from_axis_angles(cls, axes: npt.ArrayLike, angles: npt.ArrayLike) -> Orientations:
-        """Return the orientations that are rotations about axes by angles.
+        """Return the orientations that are rotations about axes, float[n, 3], by angles, float[n], radians.
 
-        Parameters
-        ----------
-        axes, angles : float[n, 3], float[n]
-            Axes of any length but zero, else `InvariantError`; radians.
+        Raises `InvariantError` if an axis is zero.
         """
         unit = np.array([unit_vector(axis) for axis in np.asarray(axes, dtype=float)]).reshape(-1, 3)
         half = np.asarray(angles, dtype=float)[:, None] / 2.0
@@ -223,20 +217,12 @@ def read_orientations(path: str | Path) -> Orientations:
     Parameters
     ----------
     path : str or Path
-
-    Raises
-    ------
-    FileError
-        If the file cannot be read, or does not hold three or more different rotations.
+        `FileError` if it cannot be read, or does not hold three or more different rotations.
 
     Examples
     --------
-    >>> from tempfile import TemporaryDirectory
-    >>> with TemporaryDirectory() as folder:
-    ...     path = Path(folder, "turned.json")
-    ...     write_orientations(np.array([[1, 0, 0, 0], [0.6, 0.8, 0, 0], [0.8, 0, 0.6, 0]]), path)
-    ...     len(read_orientations(path))
-    3
+    >>> read_orientations("data/orientations/tipparthi.json")
+    <Orientations: 5 orientations>
     """
     key, rows = orientation_rows(path)
     try:
@@ -256,13 +242,9 @@ def write_orientations(quaternions: Floats, path: str | Path, *, force: bool = F
     quaternions : float[n, 4]
         Unit quaternions, scalar first.
     path : str or Path
+        `FileError` if it cannot be written, or exists already.
     force : bool, optional
         Overwrite an existing file.
-
-    Raises
-    ------
-    FileError
-        If it cannot be written, or exists already.
 
     Examples
     --------

@@ -89,9 +89,8 @@ def dyads_of_five(orientations: Orientations) -> DyadsOfFive:
     Examples
     --------
     >>> from scipy.spatial.transform import Rotation
-    >>> angles = [(0, 0), (40, 10), (70, 60), (120, 100), (200, 170)]
-    >>> orientations = Orientations.from_rotation(Rotation.from_euler("ZX", angles, degrees=True))
-    >>> every = dyads_of_five(orientations)
+    >>> turned = Rotation.from_euler("ZX", [(0, 0), (40, 10), (70, 60), (120, 100), (200, 170)], degrees=True)
+    >>> every = dyads_of_five(Orientations.from_rotation(turned))
     >>> len(every.dyads) + every.complex_solutions
     6
     """
@@ -273,19 +272,14 @@ def dyads_by_least_squares(orientations: Orientations) -> tuple[Dyad, ...]:
     Parameters
     ----------
     orientations : Orientations
-        Five or more.
-
-    Raises
-    ------
-    UnsolvableError
-        If there are fewer than five, which have infinitely many dyads without error, or if more have as many.
+        Five or more; `UnsolvableError` if infinitely many dyads take them without error.
 
     Examples
     --------
     >>> from scipy.spatial.transform import Rotation
     >>> angles = [(0, 0), (40, 10), (70, 60), (120, 100), (200, 170), (300, 10), (330, 99)]
-    >>> orientations = Orientations.from_rotation(Rotation.from_euler("ZX", angles, degrees=True))
-    >>> dyads_by_least_squares(orientations)[0].misfit < 1e-9
+    >>> turned = Orientations.from_rotation(Rotation.from_euler("ZX", angles, degrees=True))
+    >>> dyads_by_least_squares(turned)[0].misfit < 1e-9
     True
     """
     if len(orientations) < 5:
@@ -423,22 +417,14 @@ def guiding_dyads(
     orientations : Orientations
         Three or more.
     axes : sequence of (x, y, z), optional
-        Fixed axes to take, for three orientations, and for no other number.
+        Fixed axes to take, for three orientations, and for no other number, else `InvariantError`.
     samples : int, optional
         Dyads on each curve, for four orientations.
 
-    Raises
-    ------
-    InvariantError
-        If axes are missing for three orientations, or named for more.
-
     Examples
     --------
-    >>> from scipy.spatial.transform import Rotation
-    >>> angles = [(0, 0), (40, 10), (70, 60), (120, 100), (200, 170)]
-    >>> five = Orientations.from_rotation(Rotation.from_euler("ZX", angles, degrees=True))
-    >>> len(guiding_dyads(five).dyads) > 0
-    True
+    >>> guiding_dyads(Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7]), [(3, 1, 2)])
+    <GuidingDyads: 3 orientations, 1 dyad>
     """
     if axes and len(orientations) != 3:
         raise InvariantError("axes", f"fixed axes require 3 orientations, got {len(orientations)}")

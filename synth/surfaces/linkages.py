@@ -35,9 +35,10 @@ from synth.surfaces.loop_maps import (
     is_flat,
     joint_coordinates,
     map_to_cones,
+    unit_of,
 )
 from synth.surfaces.loop_sums import LoopRoots, loop_roots, put_together, sign_patterns, sum_rounding
-from synth.surfaces.mapping import SizedLinks, in_degrees, joints_text, signs_text, size_of
+from synth.surfaces.mapping import SizedLinks, in_degrees, interval_json, joints_text, signs_text, size_of
 
 __all__ = [
     "CommonFamily",
@@ -131,11 +132,7 @@ class LinkageMap(Printed):
             ],
             "families": [
                 {
-                    **(
-                        {"lambda_deg": [degrees(x) for x in family.interval]}
-                        if on_cone
-                        else {"radius": [None if x == inf else x for x in family.interval]}
-                    ),
+                    **interval_json(family.interval, angular=on_cone),
                     "signs": [list(signs) for signs in family.signs],
                     "k": list(family.turns),
                     "caution": family.caution or None,
@@ -201,23 +198,15 @@ def by_sizes(linkage: SurfaceLinkage) -> SurfaceLinkage:
     Parameters
     ----------
     linkage : SurfaceLinkage
-
-    Raises
-    ------
-    UnsolvableError
-        If it has no surface.
+        `UnsolvableError` if it has steps and no surface.
 
     Examples
     --------
-    Four quarter turns round a cone of lambda 45 degrees are links of 60 degrees:
-
     >>> from graphs.mechanism.sc import SCGraph
-    >>> from graphs.mechanism.surfaces import Cone
-    >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
     >>> steps = {(0, 1): np.pi / 2, (1, 2): np.pi / 2, (2, 3): np.pi / 2}
-    >>> linkage = by_sizes(SurfaceLinkage(chain, steps=steps, surface=Cone(np.pi / 4)))
-    >>> {round(degrees(angle), 9) for angle in linkage.angles.values()}
-    {60.0}
+    >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
+    >>> round(degrees(by_sizes(SurfaceLinkage(chain, steps=steps, surface=Cone(np.pi / 4))).angles[1, 2]), 9)
+    60.0
     """
     if linkage.steps is None:
         return linkage
@@ -244,12 +233,8 @@ def map_linkage(linkage: SurfaceLinkage, tolerance: float = 1e-7) -> LinkageMap:
 
     Examples
     --------
-    >>> from graphs.loops.loop import Loop
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> steps = {(i, i + 1): np.pi / 2 for i in range(3)}
-    >>> [family.interval[0] for family in map_linkage(SurfaceLinkage(chain, steps=steps)).families]
-    [0.0]
+    >>> map_linkage(SurfaceLinkage.loop(np.radians([120, 95, 45, 85])))
+    <LinkageMap: 4 links, 2 cones>
     """
     check_argument("map_linkage", linkage, SurfaceLinkage)
     if linkage.sizes is not None:
@@ -353,16 +338,14 @@ def common_surfaces(
 
     Examples
     --------
-    >>> from graphs.loops.loop import Loop
-    >>> chain = SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)])), [Loop(tuple("OABC"))])
-    >>> pairs = [("O", "A"), ("A", "B"), ("B", "C"), ("C", "O")]
-    >>> cones, _ = common_surfaces(chain, dict(zip(pairs, np.radians([120, 95, 45, 85]))))
+    >>> linkage = SurfaceLinkage.loop(np.radians([120, 95, 45, 85]))
+    >>> cones, _ = common_surfaces(linkage.chain, linkage.angles)
     >>> [round(float(np.degrees(cone.surface.angle)), 4) for cone in cones]
     [13.9984, 29.0445]
     """
     pairs, values = _checked_pairs(chain, sizes, lengths=lengths)
     cycles = _cycles(chain, pairs, "length" if lengths else "angle")
-    unit = float(2.0 ** np.frexp(values.max())[1]) if lengths and len(values) else 1.0
+    unit = unit_of(values) if lengths and len(values) else 1.0
     links = SizedLinks(cylinder_reach(values / unit), 0) if lengths else SizedLinks(cone_reach(values), 1)
     roots = [loop_roots(links.reach[cycle.pairs], links.base) for cycle in cycles]
     end = float(links.reach[np.concatenate([cycle.pairs for cycle in cycles])].min())
@@ -581,8 +564,8 @@ class SupplementaryLinkages(Printed):
 
     Examples
     --------
-    >>> supplementary_linkages(np.radians([85, 120, 95, 45])).turned[3]
-    (3, 4)
+    >>> supplementary_linkages(np.radians([85, 120, 95, 45]))
+    <SupplementaryLinkages: 16 linkages, 8 different>
     """
 
     turned: tuple[tuple[int, ...], ...]
@@ -650,12 +633,7 @@ def supplementary_linkages(angles: npt.ArrayLike) -> SupplementaryLinkages:
     Parameters
     ----------
     angles : float[4]
-        Link angles in loop order, radians.
-
-    Raises
-    ------
-    InvariantError
-        If there are not four, or they are out of range or cannot close.
+        Link angles in loop order, radians, in range and able to close, else `InvariantError`.
 
     Examples
     --------

@@ -339,31 +339,23 @@ def _bisected(value: object, low: Floats, high: Floats, number: npt.NDArray[np.i
 
 
 @dataclass(frozen=True, slots=True)
-class CyclicQuadrilaterals:
-    """Circumradii, float[...], of open and crossed quadrilaterals with sides float[..., 4]; or nan."""
+class Quadrilaterals:
+    """Circumradii, or cone angles in [0, pi/2), float[...], of open and crossed four-bars; or nan.
+
+    Links, float[..., 4], are lengths, or angles (`angular`).
+    """
 
     open: Floats
     crossed: Floats
-    sides: Floats
+    links: Floats
+    angular: bool
 
     @property
     def ill_conditioned(self) -> Flags:
-        """Whether a sum of sides with signs is within their rounding of zero, and so decides: bool[...]."""
-        return _nearly_zero(self.sides, angular=False)
-
-
-@dataclass(frozen=True, slots=True)
-class ConicalQuadrilaterals:
-    """Cone angles, float[...] in [0, pi/2), of open and crossed four-bars with angles float[..., 4]; or nan."""
-
-    open: Floats
-    crossed: Floats
-    angles: Floats
-
-    @property
-    def ill_conditioned(self) -> Flags:
-        """Whether a sum of angles with signs, or all less a turn, is within rounding of zero: bool[...]."""
-        return _nearly_zero(self.angles, angular=True)
+        """Whether links with signs, or angles less a turn, sum to zero within rounding, which decides."""
+        turn = 2.0 * np.pi * np.eye(8)[0] if self.angular else np.zeros(8)  # the first pattern is that of all +
+        sums = self.links @ sign_patterns(4).T - turn
+        return np.asarray((np.abs(sums) <= rounding_of(self.links)[..., np.newaxis]).any(axis=-1))
 
 
 def _sides(values: npt.ArrayLike) -> tuple[Floats, Floats, Floats, Floats]:
@@ -382,25 +374,16 @@ def _sixteen_area_squared(a: Floats, b: Floats, c: Floats, d: Floats, mu: int) -
     return np.asarray((b + c + d - a) * (a + c + d - b) * (a + b + d - c) * (a + b + c - d))
 
 
-def _nearly_zero(links: Floats, *, angular: bool) -> Flags:
-    """Check whether links with signs, or angles less a turn, sum to less than their rounding."""
-    turn = 2.0 * np.pi * np.eye(8)[0] if angular else np.zeros(8)  # the first pattern is that of all +
-    sums = links @ sign_patterns(4).T - turn
-    return np.asarray((np.abs(sums) <= rounding_of(links)[..., np.newaxis]).any(axis=-1))
-
-
-def circumradii(sides: npt.ArrayLike) -> CyclicQuadrilaterals:
+def circumradii(sides: npt.ArrayLike) -> Quadrilaterals:
     """Return the circles of planar quadrilaterals (Hyatt et al. 2021, Eq. 12; Eqs. 4 and 5).
+
+    Eq. 12 with mu = -1 also gives real radii where numerator and denominator are both negative; no quadrilateral
+    has them. Where both vanish (two pairs of equal sides) there are infinitely many crossed circles: nan.
 
     Parameters
     ----------
     sides : float[..., 4]
         Positive lengths; their order does not matter.
-
-    Notes
-    -----
-    Eq. 12 with mu = -1 also gives real radii where numerator and denominator are both negative; no quadrilateral
-    has them. Where both vanish (two pairs of equal sides) there are infinitely many crossed circles: nan.
 
     Examples
     --------
@@ -416,10 +399,10 @@ def circumradii(sides: npt.ArrayLike) -> CyclicQuadrilaterals:
         with np.errstate(invalid="ignore", divide="ignore"):
             there = (numerator > 0) & (denominator > 0)
             radii.append(np.where(there, np.sqrt(numerator / denominator), np.nan))
-    return CyclicQuadrilaterals(radii[0], radii[1], lengths)
+    return Quadrilaterals(radii[0], radii[1], lengths, angular=False)
 
 
-def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
+def cone_angles(angles: npt.ArrayLike) -> Quadrilaterals:
     """Return the cones on which spherical four-bars lie (Hyatt et al. 2021, Eqs. 12 to 14).
 
     lambda = 0 where a crossed linkage folds flat; nan where two pairs of angles are equal and there are infinitely
@@ -432,11 +415,9 @@ def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
 
     Examples
     --------
-    Hyatt et al. 2020, Fig. 10(a) and (b):
-
-    >>> cones = cone_angles(np.radians([[120, 95, 45, 85], [155, 50, 65, 80]]))
-    >>> np.degrees(cones.open).round(3), np.degrees(cones.crossed).round(3)
-    (array([13.998,  8.864]), array([29.044,    nan]))
+    >>> cones = cone_angles(np.radians([120, 95, 45, 85]))  # Hyatt et al. 2020, Fig. 10(a)
+    >>> float(np.degrees(cones.open).round(3)), float(np.degrees(cones.crossed).round(3))
+    (13.998, 29.044)
     """
     links = np.asarray(angles, dtype=float)
     half = [angle / 2.0 for angle in _sides(links)]
@@ -457,7 +438,7 @@ def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
         with np.errstate(invalid="ignore", divide="ignore"):
             there = (numerator > 0) & (product >= 0)
             cones.append(np.where(there, np.arctan(np.sqrt(256.0 * product / numerator)), np.nan))
-    return ConicalQuadrilaterals(cones[0], cones[1], links)
+    return Quadrilaterals(cones[0], cones[1], links, angular=True)
 
 
 def crossed_area(sides: npt.ArrayLike) -> Floats:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from math import cos, degrees, fsum, pi
+from math import cos, degrees, fsum, inf, pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -75,9 +75,17 @@ class MappedLoop:
     bounds: tuple[float, float]
     caution: str
 
-    def to_json(self) -> dict[str, Any]:
-        """Return the loop as plain data, but for size and bounds, which a cone and a cylinder name differently."""
+    def to_json(self, *, angular: bool) -> dict[str, Any]:
+        """Return the loop as plain data: on a cone (angular) or a cylinder."""
+        size: dict[str, Any] = {
+            "radius": self.size,
+            "radius_bounds": [None if x == inf else x for x in self.bounds],
+        }
+        if angular:
+            bounds = [degrees(x) for x in self.bounds]
+            size = {"lambda_deg": degrees(self.size), "lambda_bounds_deg": bounds, "R": cos(self.size)}
         return {
+            **size,
             "circuit": self.circuit,
             "signs": list(self.signs),
             "k": self.turns,
@@ -121,14 +129,22 @@ class FamilyOfCircles:
     turns: int
     caution: str
 
-    def to_json(self) -> dict[str, Any]:
-        """Return the family as plain data, but for its interval."""
+    def to_json(self, *, angular: bool) -> dict[str, Any]:
+        """Return the family as plain data: of cones (angular) or cylinders."""
         return {
+            **interval_json(self.interval, angular=angular),
             "circuit": self.circuit,
             "signs": list(self.signs),
             "k": self.turns,
             "caution": self.caution or None,
         }
+
+
+def interval_json(interval: tuple[float, float], *, angular: bool) -> dict[str, Any]:
+    """Return an interval of cones (angular) or of cylinders as plain data."""
+    if angular:
+        return {"lambda_deg": [degrees(x) for x in interval]}
+    return {"radius": [None if x == inf else x for x in interval]}
 
 
 def cautions_of(
