@@ -20,7 +20,6 @@ __all__ = [
     "Centre",
     "Loop",
     "added_independent",
-    "check_independent",
     "cut_into_cycles",
     "cyclic_order",
     "dependent_loop",
@@ -112,14 +111,10 @@ def cyclic_order(loop: Loop, joints: Joints) -> tuple[JointId, ...]:
     Parameters
     ----------
     loop : Loop
-        A loop; its joints may come in any order.
+        Its joints may come in any order; `InvariantError` if one is unknown or repeated, or they are not one
+        cycle.
     joints : mapping of joint id to (link, link)
         The joints of the graph.
-
-    Raises
-    ------
-    InvariantError
-        If a joint is unknown or repeated, or the joints are not one cycle.
 
     Examples
     --------
@@ -194,24 +189,12 @@ def _walk(
         link = b if a == link else a
 
 
-def check_independent(loops: Sequence[Loop]) -> None:
-    """Refuse loops that are not independent over GF(2): an `InvariantError` names a loop that is a sum of others.
-
-    Loops that own a joint no other loop has are peeled off first, again and again; this settles the bounded faces
-    of an embedding in linear time. Only what is left is eliminated.
-    """
-    culprit = dependent_loop([loop.joints for loop in loops])
-    if culprit is not None:
-        raise InvariantError(
-            "independent loops",
-            f"{loops[culprit].label} is the sum of others",
-            "independent loops",
-            ("loops", culprit),
-        )
-
-
 def dependent_loop(cycles: Sequence[Sequence[JointId]]) -> int | None:
-    """Return the index of a cycle that is a GF(2) sum of others, or None if they are independent."""
+    """Return the index of a cycle that is a GF(2) sum of others, or None if they are independent.
+
+    Cycles that own a joint no other has are peeled off first, again and again; this settles the bounded faces of
+    an embedding in linear time. Only what is left is eliminated.
+    """
     rest = _peel(cycles)
     if not rest:
         return None

@@ -1,10 +1,9 @@
 """How precise a drawing is, estimated from its geometry.
 
-Drawings consist of straight lines, right angles, vertices that obey Kawasaki's theorem, equal angles and lengths,
-planes. Each relation that a sheet may have been drawn to hold comes with its deviation, as the displacement of one
-coordinate that would make it exact: deviations over the norms of their gradients. The deviations of relations that
-were meant are alike, those of relations that hold by chance are of any size; so the former are a cluster far below
-the others. Theory: docs/theory/precision.md.
+Each relation that a sheet may have been drawn to hold (straight lines, right angles, Kawasaki's theorem, equal
+angles and lengths, planes) comes with its deviation, as the displacement of one coordinate that would make it
+exact. The deviations of relations that were meant are alike, those of relations that hold by chance are of any
+size; so the former are a cluster far below the others. Theory: docs/theory/precision.md.
 """
 
 from __future__ import annotations

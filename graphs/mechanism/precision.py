@@ -1,9 +1,8 @@
 """How precise coordinates are, and whether a sheet lies in one plane to that precision.
 
-The precision is stated, or the digits say it, or points that nearly coincide or nearly lie in one plane; the
-evidence of the whole geometry (`graphs.mechanism.estimate`) is weighed against that. A program rounds all
-coordinates alike: to so many decimals, to so many significant digits, or to single precision. Which it was is seen
-by the numbers themselves, whose shortest text is what was written, but for zeros at its end. Theory:
+The precision is stated, or the digits say it (a program rounds all coordinates alike, to so many decimals,
+significant digits, or to single precision), or points that nearly coincide or nearly lie in one plane; the
+evidence of the whole geometry (`graphs.mechanism.estimate`) is weighed against that. Theory:
 docs/theory/precision.md.
 """
 

@@ -20,7 +20,7 @@ import networkx as nx
 
 from graphs.errors import InvariantError, numbered, shown
 from graphs.loops.classes import CentreClass, centre_classes
-from graphs.loops.loop import Centre, Loop, check_independent, cyclic_order, dependent_loop
+from graphs.loops.loop import Centre, Loop, cyclic_order, dependent_loop
 from graphs.types import JointId, LinkId
 
 __all__ = ["ARRANGEMENTS", "Arrangement", "SCGraph", "SpecialGeometry", "arrangement_of", "centre_graph"]
@@ -195,7 +195,13 @@ class SCGraph(nx.MultiGraph):
         return tuple(ordered)
 
     def _check_loops(self) -> None:
-        check_independent(self.loops)
+        if (culprit := dependent_loop([x.joints for x in self.loops])) is not None:
+            raise InvariantError(
+                "independent loops",
+                f"{self.loops[culprit].label} is the sum of others",
+                "independent loops",
+                ("loops", culprit),
+            )
         for index, loop in enumerate(self.closing):
             self._check_closing(loop, ("closing", index))
         if (culprit := dependent_loop([x.joints for x in self.closing])) is not None:

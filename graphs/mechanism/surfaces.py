@@ -1,9 +1,8 @@
 """Right cones and circular cylinders, and linkages on them by their links' sizes, or by steps between joint axes.
 
-A place is an azimuth, a length along the ruling line there, a height outward. A cylinder is the limit of cones:
-its apex, in which all axes meet, is at infinity, and linkages on it are planar. How a linkage lies on surfaces is
-worked out in ``synth.surfaces``. Theory: docs/theory/mapping.md, docs/theory/multiloop.md,
-docs/theory/templates.md.
+A place is an azimuth, a length along the ruling line there, a height outward. A cylinder is the limit of cones,
+its apex at infinity, and linkages on it are planar. How a linkage lies on surfaces: ``synth.surfaces``. Theory:
+docs/theory/mapping.md, docs/theory/multiloop.md, docs/theory/templates.md.
 """
 
 from __future__ import annotations
@@ -219,19 +218,16 @@ class SurfaceLinkage:
     ----------
     chain : SCGraph
         On a cylinder all its loops have their centre at infinity.
-    angles : mapping of (joint, joint) to float, or None
-        Link angles, radians: on a cone.
+    angles, lengths : mapping of (joint, joint) to float, or None
+        Link angles, radians: on a cone; distances of joints, any one unit: on a cylinder.
     steps : mapping of (joint, joint) to float, or None
         Signed projected angles, radians; they lead to every joint.
     surface : Cone, Cylinder or None
         With steps, where it is known.
-    lengths : mapping of (joint, joint) to float, or None
-        Distances of joints, any one unit: on a cylinder.
 
     Examples
     --------
-    >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
-    >>> SurfaceLinkage(chain, steps={(0, 1): 1.0, (1, 2): 0.5, (0, 3): -1.0}).places()
+    >>> SurfaceLinkage(ring(4), steps={("1", "2"): 1.0, ("2", "3"): 0.5, ("1", "4"): -1.0}).places()
     [0.0, 1.0, 1.5, -1.0]
     """
 

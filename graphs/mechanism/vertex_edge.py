@@ -1,10 +1,8 @@
 """Vertex-edge graphs: spherical centres as vertices, creases as edges.
 
-Bowen and others draw an origami mechanism with a vertex for each spherical centre and an edge for each
-crease between two of them; Wiener 2016, Tables 4 and 5, turn such a graph into an SC graph and back. It is
-the dual of the SC graph: the sectors between creases are the links. Creases that run to the border of the
-sheet end free. The cyclic order of the creases round each vertex makes the graph definite.
-Theory: docs/theory/vertex-edge-graphs.md.
+It is the dual of the SC graph (Bowen and others; Wiener 2016, Tables 4 and 5): the sectors between creases are the
+links. Creases that run to the border of the sheet end free. The cyclic order of the creases round each vertex
+makes the graph definite. Theory: docs/theory/vertex-edge-graphs.md.
 """
 
 from __future__ import annotations
@@ -31,13 +29,9 @@ class VertexEdgeGraph:
     Parameters
     ----------
     vertices : mapping of vertex to sequence of crease ids
-        The creases that end in each vertex, counter-clockwise. A crease named at two vertices joins them; one
-        named once runs to the border.
-
-    Raises
-    ------
-    InvariantError
-        If a vertex has fewer than two creases, or a crease is named twice at one vertex or at three vertices.
+        The creases that end in each vertex, counter-clockwise, two or more. A crease named at two vertices joins
+        them; one named once runs to the border. `InvariantError` if one is named twice at one vertex or at three
+        vertices.
 
     Examples
     --------
@@ -139,12 +133,8 @@ def vertex_edge_from_sc(sc: SCGraph) -> VertexEdgeGraph:
     Parameters
     ----------
     sc : SCGraph
-
-    Raises
-    ------
-    UnsolvableError
-        If the mechanism is not a sheet of finite centres: a loop is spatial or planar, or a joint lies in no loop
-        or in more than two.
+        A sheet of finite centres; `UnsolvableError` if a loop is spatial or planar, or a joint lies in no loop or
+        in more than two.
 
     Examples
     --------

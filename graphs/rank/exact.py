@@ -1,13 +1,10 @@
 """Exact generic mobility: loop closure of a random realisation, its rank modulo two primes, and overconstraint.
 
-Round every independent loop the twists of the joints add up to zero. A loop whose axes all pass through one point
-says that with three equations (no other point of space has to close), any other loop with six. M = J - rank. The
-rank is the arbiter where counts are conjectures (Wampler, Larson, Erdman 2007, on Eqs. 1 and 2). It is computed
-exactly, over a field of about 2^61 numbers: never too large, and too small with a probability of about (number of
-joints) / 2^58 per prime.
-
-Each smallest dependent set of closure equations is an overconstrained sub-mechanism, named by the joints of its
-loops. The kernel shows immobile joints and links that move as one. Theory: docs/theory/exact-mobility.md.
+Round every independent loop the twists of the joints add up to zero: three equations if all axes pass through one
+point, else six. M = J - rank, computed exactly over a field of about 2^61 numbers: never too large, and too small
+with a probability of about (number of joints) / 2^58 per prime. It is the arbiter where counts are conjectures
+(Wampler, Larson, Erdman 2007, on Eqs. 1 and 2). Each smallest dependent set of equations is an overconstrained
+sub-mechanism; the kernel shows immobile joints and links that move as one. Theory: docs/theory/exact-mobility.md.
 """
 
 from __future__ import annotations
@@ -22,7 +19,6 @@ import networkx as nx
 from flint import nmod_mat
 
 from graphs.errors import NumericalError
-from graphs.loops.classes import class_of_loop
 from graphs.loops.loop import Centre, Loop, added_independent, signed_cycle
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.realisation import PRIMES, Field, Line, Point, PrimeField, Realisation, realise
@@ -202,8 +198,8 @@ def closure_modulo(mechanism: SCGraph, prime: int, *, forced: bool = True, seed:
 
 def centres_of_loops(mechanism: SCGraph, placed: Realisation) -> dict[int, Any]:
     """Return the centre of each of the independent loops that has one."""
-    classes = class_of_loop(mechanism.centre_classes())
-    return {loop: placed.points[index] for loop, index in classes.items() if loop < len(mechanism.loops)}
+    classes = zip(placed.points, mechanism.centre_classes(), strict=False)  # vertices of SCD graphs follow
+    return {loop: point for point, one in classes for loop in one.loops if loop < len(mechanism.loops)}
 
 
 def matrix_modulo(closure: Closure, prime: int) -> Any:

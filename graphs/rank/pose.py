@@ -1,10 +1,9 @@
 """Mobility at a pose: infinitesimal freedoms where the coordinates are, with the evidence.
 
-The closure equations at the axes as they lie have a rank that special geometry may lower: what is gained over the
-generic mobility is the overconstraint h = M_actual - M (Wiener 2016, Eq. 8). Freedoms found here are
-infinitesimal; a vertex whose creases lie in one plane has more of them than it can use. Directions are taken as
-they are and lengths in units of the extent, so that the precision of the coordinates says what each singular value
-may owe to errors. Theory: docs/theory/pose.md.
+Special geometry may lower the rank of the closure equations at the axes as they lie: what is gained over the
+generic mobility is the overconstraint h (Wiener 2016, Eq. 8). A vertex whose creases lie in one plane has more
+infinitesimal freedoms than it can use. Lengths are in units of the extent, so that the precision of the
+coordinates says what each singular value may owe to errors. Theory: docs/theory/pose.md.
 """
 
 from __future__ import annotations
@@ -108,18 +107,14 @@ def pose_mobility(
 
     Raises
     ------
-    UnsolvableError
-        If the sheet has no coordinates.
-    InvariantError
-        If a hinge has no length.
+    UnsolvableError, InvariantError
+        If the sheet has no coordinates; if a hinge has no length.
 
     Examples
     --------
-    Flat, a vertex of four creases has one freedom more than when it is folded:
-
     >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
     >>> flat = pose_mobility(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
-    >>> flat.dof, flat.self_stresses, flat.flat
+    >>> flat.dof, flat.self_stresses, flat.flat  # one freedom more than folded
     (2, 1, True)
     """
     mechanism = mechanism or mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
@@ -188,10 +183,8 @@ def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
 
     Raises
     ------
-    UnsolvableError
-        If it has no coordinates, or the bars of a scissors element do not cross there.
-    InvariantError
-        If a rod has no length.
+    UnsolvableError, InvariantError
+        If it has no coordinates, or the bars of a scissors element do not cross there; if a rod has no length.
 
     Examples
     --------

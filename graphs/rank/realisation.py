@@ -1,14 +1,10 @@
 """A random realisation of a type: centres and joint axes placed at random, as general as the type allows.
 
-A joint axis passes through the centres of the classes of its loops: the join of two of them, of one and a random
-point, or of two random points. Three centres on one axis are in line, so later ones are placed on the lines that
-earlier ones fix. Points are homogeneous (x, y, z, w), w = 0 for a centre at infinity; axes are Pluecker lines (u,
-p x u). An SCD graph has more points on its axes than centres, its vertices, and is placed with these: its *forced
-geometry*.
-
-Coordinates are of a prime field, where ranks are exact, or real. Over a field of about 2^61 numbers a random
-realisation has the generic rank but for a probability of about (number of joints) / 2^58 (Schwartz 1980): a
-smaller rank is possible, a larger one is not. Theory: docs/theory/exact-mobility.md.
+A joint axis passes through the centres of the classes of its loops. Three centres on one axis are in line, so
+later ones are placed on the lines that earlier ones fix. Points are homogeneous (x, y, z, w), w = 0 for a centre
+at infinity; axes are Pluecker lines (u, p x u). An SCD graph is placed with its vertices: its *forced geometry*.
+Over a prime field of about 2^61 numbers a realisation has the generic rank but for a probability of about (number
+of joints) / 2^58 (Schwartz 1980), and never a larger one. Theory: docs/theory/exact-mobility.md.
 """
 
 from __future__ import annotations

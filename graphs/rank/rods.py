@@ -1,11 +1,9 @@
 """Generic mobility a second way: vertices, rods and Wampler's terms, ranked at a random realisation.
 
 M = 3V - rank - 6, the rank that of the velocities' constraints: one for each rod, one for a point on a plane, two
-for a point on a line, five for a scissors element. Vertices are placed so that the rods of a remote centre meet in
-a point. There the vertices of a link are coplanar and its rods alone misreport, so links of four vertices or more
-get a virtual apex, a random point joined to all their vertices.
-
-Source: Wampler, Larson, Erdman 2007, Eqs. 5 to 10. Theory: docs/theory/exact-mobility.md.
+for a point on a line, five for a scissors element. Where the vertices of a link are coplanar its rods alone
+misreport, so links of four vertices or more get a virtual apex. Source: Wampler, Larson, Erdman 2007, Eqs. 5 to
+10. Theory: docs/theory/exact-mobility.md.
 """
 
 from __future__ import annotations

@@ -1,13 +1,10 @@
 """Numerical rank with its evidence: which singular values are zero, which only nearly, and what cannot be decided.
 
-A singular value s with right vector v is changed by errors of the coordinates by no more than a few times s0, the
-length of (error of column j) v_j: its *floor*. Values up to six floors are noise, never equations; values a little
-above may be either, and then the rank is indeterminate; a value that an error of a thousandth of the size would
-explain is counted, and reported as nearly zero.
-
-Rank, kernel and cokernel of matrices that are known to a relative zero have the same rule: a singular value up to
-``zero`` times the largest is zero. Where one lies a little above, the evidence says so and the value is counted.
-Bases are canonical (`graphs.tolerances.canonical_basis`). Theory: docs/theory/pose.md.
+A singular value is changed by errors of the coordinates by no more than a few times its *floor*, the length of
+(error of column j) v_j, v its right vector. Values up to six floors are noise; values a little above may be
+either, and then the rank is indeterminate; a value that an error of a thousandth of the size would explain is
+counted, and reported as nearly zero. For matrices known to a relative zero, that part of the largest value is the
+bound. Bases are canonical (`graphs.tolerances.canonical_basis`). Theory: docs/theory/pose.md.
 """
 
 from __future__ import annotations

@@ -1,12 +1,10 @@
 """What an order of the joints alone decides, and what is left to the angles.
 
-An order *with opposites* says how the joints and the points opposite to them follow each other round the circle;
-a cyclic order of J joints is that of 2^(J-1) of them. It fixes which of its two arcs a binary link takes, so the
-sign of every step, how often loops wind, and how many layers of links there are. Ways of links follow from the
-signs of outward rates (`synth.conformed.outward`): certain where the terms of a formula agree, or are smaller than
-others, or other signs refute the opposite; else both are looked for by samples.
-
-Theory: docs/theory/conical-candidates.md.
+An order *with opposites* says how the joints and the points opposite to them follow each other round the circle; a
+cyclic order of J joints is that of 2^(J-1) of them. It fixes the sign of every step, how often loops wind, and how
+many layers of links there are. Ways of links follow from the signs of outward rates (`synth.conformed.outward`):
+certain where a formula decides, or other signs refute the opposite; else samples are tried. Theory:
+docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
@@ -147,10 +145,8 @@ def over_angles(
 
     Examples
     --------
-    Hyatt et al. 2021, Table 4: a four-bar with all joints on half the circle, ground and coupler two sides.
-
     >>> from graphs.mechanism.sc import SCGraph
-    >>> chain = ConformedChain.of(SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))))
+    >>> chain = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     >>> [Allowed(allowed).name for allowed in over_angles(chain, [[1, 2, 3, 0], [0, 1, 2, 3]]).linkage]
     ['ONE', 'BOTH']
     """

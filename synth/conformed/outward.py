@@ -1,33 +1,10 @@
 """Outward rates of joints in closed form, and what the places of joints alone say of their signs.
 
-Let e_i = (sin t_i, 1, cos t_i). The rates of a linkage of one freedom are the maximal minors of its closure
-equations, and a minor is a sum of products of brackets, one for each independent loop,
-
-    [a b c] = det(e_a, e_b, e_c) = 4 sin((t_b - t_a) / 2) sin((t_c - t_b) / 2) sin((t_c - t_a) / 2),
-
-so that joint j of a link moves outward at the rate
-
-    rho_j = sum over i of +-q_i sin(t_j - t_i) = sum of +-sin(t_j - t_i) [a b c] [d e f] ...,
-
-i running along a path from the ground to the link. The sign of a bracket follows from the cyclic order of its
-joints, that of the sine from the order of joint j, joint i and the point opposite to i. Where all terms have one
-sign, so has rho_j, whatever the angles. There is a formula for every choice of independent loops and of the path;
-one whose terms agree is enough.
-
-Chords. The J joints and the points opposite to them cut the circle into 2 J fine gaps, opposite ones equal; an
-arc shorter than half the circle is a set of the J sizes. Half its chord is sin(arc / 2), and grows with the arc;
-so does a product of chords if each arc lies, as a set of sizes, within one of another product. sin(x) is
-2 sin(x / 2) sin((pi - x) / 2), and pi - x is the other sizes: every term is a product of chords. A sum has the
-sign of its positive terms if each negative term has a larger positive one of its own.
-
-Relations (`SignRelations`). The rate rho(n, x) that link n, thought of as all round the circle, has at the
-azimuth of joint x, and the rates q_i of the joints obey
-
-    rho(n, x) sin(y - z) + rho(n, y) sin(z - x) + rho(n, z) sin(x - y) = 0     for any joints x, y, z,
-    rho(n, x) - rho(m, x) = +-q_i sin(x - i)                                  for links m, n that joint i joins,
-
-and an order with opposites knows the sign of every sine. Where two terms of such a sum have one sign the third
-has the other. Theory: docs/theory/conical-candidates.md.
+Rates are the maximal minors of the closure equations: sums of products of brackets, [a b c] = det(e_a, e_b, e_c)
+with e = (sin t, 1, cos t). Joint j of a link moves outward at rho_j = sum of +-q_i sin(t_j - t_i), i running along
+a path from the ground. The cyclic order gives the signs of brackets, orders with opposites those of sines; where
+terms differ in sign, chords are compared as sets of gaps (`signs_by_chords`), or three-term relations followed
+(`SignRelations`). Theory: docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
@@ -450,6 +427,10 @@ def _follow_all(
 @dataclass(frozen=True, slots=True)
 class SignRelations:
     """What the rates of a chain obey: R relations of three unknowns each.
+
+    With the outward rate rho(n, x) of link n, thought of as all round the circle, at joint x, and the rates q_i,
+    rho(n, x) sin(y - z) + rho(n, y) sin(z - x) + rho(n, z) sin(x - y) = 0 for any joints x, y, z, and rho(n, x) -
+    rho(m, x) = +-q_i sin(x - i) for links m, n that joint i joins. An order with opposites has all signs of sines.
 
     An unknown is multiplied by a factor and the sine of two joints, none where these are -1. `zero` marks unknowns
     that are always zero; rho(n, x) has number n J + x, q_i has N J + i.

@@ -1,14 +1,10 @@
 """Four-bars, planar and spherical: types, Grashof's condition, which links close, supplementary linkages.
 
-Links come in loop order from the fixed one: ground, input, coupler, output, (g, a, h, b) in the plane and
-(gamma, alpha, eta, beta) on the sphere. All functions take many linkages at a time. Sources: Hyatt et al. 2020,
-section 2.3, Eqs. 1 to 4; Hyatt et al. 2021, Table 1, Eqs. 1 to 3; the types are those of McCarthy, *Geometric
-Design of Linkages*. Theory: docs/theory/four-bars.md.
-
-Link angles and lengths are known to the last digit that a float holds, so a sum of them with signs is known to
-some last digits of the sum of their sizes, however small it comes out itself (`rounding_of`). There is no other
-zero: a bound that does not shrink with the links takes small linkages for folding ones. Theory:
-docs/theory/rounding.md.
+Links come in loop order from the fixed one: ground, input, coupler, output, (g, a, h, b) in the plane and (gamma,
+alpha, eta, beta) on the sphere. All functions take many linkages at a time; what is zero is a sum of links within
+its own rounding (`rounding_of`), nothing absolute. Sources: Hyatt et al. 2020, section 2.3, Eqs. 1 to 4; Hyatt et
+al. 2021, Table 1, Eqs. 1 to 3; the types are those of McCarthy, *Geometric Design of Linkages*. Theory:
+docs/theory/four-bars.md, docs/theory/rounding.md.
 """
 
 from __future__ import annotations
@@ -158,8 +154,7 @@ def grashof_class(differences: npt.ArrayLike, scale: float = 2.0 * np.pi) -> npt
     ----------
     differences : float[..., 3 or 4]
     scale : float, optional
-        Sum of the links, for what rounding may leave of a zero. The default is for link angles made of azimuths,
-        which are known to the last digits of a turn.
+        Sum of the links, for what rounding may leave of a zero. The default is for link angles made of azimuths.
 
     Examples
     --------
@@ -350,9 +345,9 @@ def _degrees(angle: float) -> str:
 def supplementary(angles: npt.ArrayLike) -> Floats:
     """Return the 16 linkages that have the same joint lines, the linkage itself first: float[..., 16, 4].
 
-    A joint line has two ends. To take the other end of a joint changes the two links there to their supplements.
-    Taking the other end of all four changes no angle, so there are eight different ones at most; their T4 are plus
-    and minus T1 to T4, and the product T1 T2 T3 T4 is the same for all (Hyatt et al. 2020, section 2.3).
+    To take the other end of a joint line changes the two links there to their supplements. Taking the other end of
+    all four changes no angle, so there are eight different ones at most; their T4 are plus and minus T1 to T4, and
+    the product T1 T2 T3 T4 is the same for all (Hyatt et al. 2020, section 2.3).
 
     Parameters
     ----------

@@ -1,11 +1,9 @@
-"""Positions of four-bars: input and output angles, limits, transmission angle.
+"""Positions of four-bars: input and output angles, limits, transmission angle, of many at a time.
 
-Angles as in McCarthy: theta at O from the ground link O C to the input link O A; psi at C from the ground link
-prolonged to the output link C B. On the sphere they are dihedral angles, right-handed about the outward axes:
-theta = theta_{gamma, alpha} and psi = 180 - theta_{beta, gamma} (Hyatt et al. 2020, section 6, put right:
-docs/misprints.md 000-5). A position has two branches, which are the circuits of linkages whose input turns
-fully. Links: ground, input, coupler, output. All functions take many positions at a time. Theory:
-docs/theory/four-bars.md.
+Links are ground, input, coupler, output; angles as in McCarthy: theta at O from the ground link O C to the input
+link O A; psi at C from the ground link prolonged to the output link C B. On the sphere they are dihedral angles,
+right-handed about the outward axes (Hyatt et al. 2020, section 6, put right: docs/misprints.md 000-5). A position
+has two branches, which are the circuits of linkages whose input turns fully. Theory: docs/theory/four-bars.md.
 """
 
 from __future__ import annotations

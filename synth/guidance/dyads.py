@@ -1,13 +1,10 @@
 """Spherical RR dyads that guide a body through orientations: one dyad, and those of three and four orientations.
 
-A dyad has a fixed axis G and a moving axis W of the body; it guides the body through orientations M_1, ..., M_n if
-the angle between G and M_i W, that of its link, stays the same: G . (M_i - M_1) W = 0. Of three orientations the
-fixed axis may be chosen; four leave a curve; five and more: ``synth.guidance.synthesis``.
-
-Four orientations. A direction G is that of a fixed axis (centre axis) if the three vectors (M_i - M_1)^T G,
-i = 2, 3, 4, lie in a plane: their determinant, a cubic form in G, is zero. The cubic cone passes through the
-relative axis S_12, so each plane through it meets the cone in two more lines, the roots of a quadratic. A plane
-that turns by 180 degrees about S_12 finds the whole cone; no part of it is missed. Theory: docs/theory/dyads.md.
+A dyad with fixed axis G and moving axis W of the body guides it through orientations M_1, ..., M_n if the angle of
+its link stays the same: G . (M_i - M_1) W = 0. Of three orientations the fixed axis may be chosen. Of four, G is
+on a cubic cone, where the determinant of the vectors (M_i - M_1)^T G vanishes; planes through the relative axis
+S_12 meet it in two more lines each, and find the whole cone. Five and more: ``synth.guidance.synthesis``. Theory:
+docs/theory/dyads.md.
 """
 
 from __future__ import annotations
@@ -127,13 +124,8 @@ def dyads_of_three(orientations: Orientations, fixed_axes: Iterable[npt.ArrayLik
     orientations : Orientations
         Three of them.
     fixed_axes : iterable of float[3]
-        Of any length but zero.
-
-    Raises
-    ------
-    UnsolvableError
-        If there are not three orientations, or if a fixed axis lies on a relative axis: a whole plane of moving
-        axes keeps its angle with it.
+        Of any length but zero; `UnsolvableError` if one lies on a relative axis: a whole plane of moving axes
+        keeps its angle with it.
 
     Examples
     --------

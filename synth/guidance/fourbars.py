@@ -2,12 +2,8 @@
 
 One dyad is driven (link alpha, fixed axis G_1, moving axis W_1), the other follows (beta, G_2, W_2); the ground is
 gamma, the body is the coupler eta. The angle theta of the driver is counted about G_1 from the plane of G_1 and
-G_2. `synth.fourbar.position` gives the ends of the driver's range and the follower; circuits and branches follow.
-
-A dyad fixes the lines of its two axes, not which end of an axis a link reaches. With the other end of an axis the
-two links there have the supplements of their angles: up to eight linkages with the same joint lines, and the same
-motion of the body (Hyatt et al. 2020, section 2.3). Each is mapped to cones apart.
-Theory: docs/theory/guidance.md.
+G_2. A dyad fixes the lines of its two axes, not which end of an axis a link reaches: up to eight linkages have the
+same joint lines (Hyatt et al. 2020, section 2.3), each mapped to cones apart. Theory: docs/theory/guidance.md.
 """
 
 from __future__ import annotations

@@ -1,19 +1,16 @@
 """The order of orientations: the hoop method, and two more checks, by inequalities and by crank angles.
 
-A *hoop* is half a great circle through the ends of the fixed axis G. It starts at the relative axis S_12 and turns
-about G by 180 degrees; on its way it crosses every other relative axis S_ij once. The crank of any dyad about G
-takes the orientations 1, 2, ..., n in this order, turning as the hoop turns, if and only if the hoop crosses
-S_13, S_14, ..., S_1n, S_2n in this order (Tipparthi and Larochelle 2011, Theorem 1, Eqs. 1 and 2).
-
-The three checks share no step but the orientations. The crank angles are those of a dyad, so they need its moving
-axis; hoop and inequalities need the fixed axis only. Theory: docs/theory/order.md.
+A *hoop* is half a great circle through the ends of the fixed axis G that starts at the relative axis S_12 and
+turns about G by 180 degrees. The crank of any dyad about G takes the orientations 1, 2, ..., n in this order,
+turning as the hoop turns, if and only if the hoop crosses S_13, S_14, ..., S_1n, S_2n in this order (Tipparthi and
+Larochelle 2011, Theorem 1, Eqs. 1 and 2). The three checks share no step but the orientations. Theory:
+docs/theory/order.md.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cmp_to_key
 from math import degrees, radians
 from typing import Any, Literal, TypeAlias
 
@@ -119,22 +116,16 @@ def hoop(orientations: Orientations, axis: npt.ArrayLike, direction: Direction =
     ----------
     orientations : Orientations
     axis : float[3]
-        The fixed axis G in the fixed frame, any length but zero.
+        The fixed axis G in the fixed frame, any length but zero; `UnsolvableError` if it lies on a relative axis,
+        which the hoop then holds all the way.
     direction : "ccw" or "cw", optional
         Seen from the tip of the axis: -axis and the other direction give the same.
 
-    Raises
-    ------
-    UnsolvableError
-        If the axis lies on a relative axis, which the hoop then holds all the way.
-
     Examples
     --------
-    A crank about z turns to 90 and 200 degrees, while the body turns about x, the moving axis, too:
-
     >>> from scipy.spatial.transform import Rotation
     >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
-    >>> turned = hoop(Orientations.from_rotation(body), (0, 0, 1))
+    >>> turned = hoop(Orientations.from_rotation(body), (0, 0, 1))  # the crank turns to 90 and 200 degrees
     >>> [(pair_name(c.pair), round(float(np.degrees(c.angle)), 6)) for c in turned.crossings], turned.in_order
     ([('S13', 55.0), ('S23', 100.0)], True)
     """
@@ -151,30 +142,6 @@ def hoop(orientations: Orientations, axis: npt.ArrayLike, direction: Direction =
     required = required_sequence(len(orientations))
     turned = [0.0, *(angles[pair] for pair in required)]
     return Hoop(direction, crossings, required, bool(np.all(np.diff(turned) > 0.0)))
-
-
-def hoop_sequence(
-    orientations: Orientations, axis: npt.ArrayLike, direction: Direction = "ccw"
-) -> tuple[Pair, ...]:
-    """Return all relative axes but S_12 in the order of crossing: the geometric form, without angles.
-
-    The end of each axis line that lies ahead of the plane of the hoop at its start is the one that the hoop meets;
-    of two such ends that one is met first from which the other lies ahead. Both are signs of triple products.
-    """
-    g = unit_vector(axis, "fixed axis") * (1.0 if direction == "ccw" else -1.0)
-    lines = _lines_off_axis(orientations, g)
-    start = lines.pop((1, 2))
-    met = {pair: s * np.copysign(1.0, _ahead(g, start, s)) for pair, s in lines.items()}
-
-    def later(a: Pair, b: Pair) -> int:
-        return int(-np.sign(_ahead(g, met[a], met[b])))
-
-    return tuple(sorted(met, key=cmp_to_key(later)))
-
-
-def _ahead(g: Floats, here: Floats, there: Floats) -> float:
-    """Return [G, here, there], positive if a turn about G by less than 180 degrees leads there."""
-    return float(g @ np.cross(here, there))
 
 
 def _lines_off_axis(orientations: Orientations, g: Floats) -> dict[Pair, Floats]:

@@ -47,12 +47,8 @@ class Orientations:
     Attributes
     ----------
     quaternions : float[n, 4]
-        Of norm one, scalar first. Read only.
-
-    Raises
-    ------
-    InvariantError
-        If there are fewer than three, if a norm is further than 1e-3 from one, or if two are equal.
+        Of norm one, scalar first. Read only. `InvariantError` if there are fewer than three, if a norm is further
+        than 1e-3 from one, or if two are equal.
 
     Examples
     --------

@@ -1,13 +1,10 @@
 """The dyads of orientations, by the method that their number requires: five exactly, more by least squares.
 
-Five orientations. The four conditions G . (M_i - M_1) W = 0 are bilinear in the directions G and W. Multiplied by
-the three components of G they are twelve linear equations in the eighteen products G_a G_b W_j. At every solution
-(G, W) the vector of these products is in the kernel, which has six dimensions; cut into its three blocks
-(j = 1, 2, 3) the kernel becomes a matrix pencil of size six whose eigenvectors are the solutions. The pencil is
-regular whenever the solutions are finitely many, so that none is missed.
-
-More than five. The error at an orientation is how far the angle between G and M_i W, that of the dyad's link, is
-from its mean. Theory: docs/theory/dyads.md.
+Five: the four conditions G . (M_i - M_1) W = 0, multiplied by the components of G, are twelve linear equations in
+the eighteen products G_a G_b W_j. Their kernel, of six dimensions, cut into three blocks by j, is a matrix pencil
+whose eigenvectors are the solutions; it is regular whenever these are finitely many, so that none is missed. More:
+the error at an orientation is how far the angle between G and M_i W is from its mean. Theory:
+docs/theory/dyads.md.
 """
 
 from __future__ import annotations

@@ -38,7 +38,15 @@ from synth.surfaces.loop_maps import (
     unit_of,
 )
 from synth.surfaces.loop_sums import LoopRoots, loop_roots, put_together, sign_patterns, sum_rounding
-from synth.surfaces.mapping import SizedLinks, in_degrees, interval_json, joints_text, signs_text, size_of
+from synth.surfaces.mapping import (
+    SizedLinks,
+    in_a_family,
+    in_degrees,
+    interval_json,
+    joints_text,
+    signs_text,
+    size_of,
+)
 
 __all__ = [
     "CommonFamily",
@@ -358,7 +366,7 @@ def common_surfaces(
         half = steps > HALF_TURN  # half a turn has no sign
         patterns = [_closing(cycle, size, links, tolerance) for cycle in cycles]
         for signs in _agreeing(cycles, patterns, len(values)):
-            if not (signs[half] < 0).any() and not _in_a_family(signs, half, closing):
+            if not (signs[half] < 0).any() and not in_a_family(signs, half, closing):
                 caution = _caution(cycles, signs, links, tolerance)
                 circle = size_of(size, links.base)
                 surface = Cylinder(unit * circle) if lengths else Cone(circle)
@@ -540,14 +548,6 @@ def _common_surface(
         float(max(abs(one.residual) for one in loop_circuits)),
         caution,
     )
-
-
-def _in_a_family(
-    signs: npt.NDArray[np.int8], half: npt.NDArray[np.bool_], families: Sequence[npt.NDArray[np.int8]]
-) -> bool:
-    """Check whether signs, or their mirror image, are those of a family but for steps of half a turn."""
-    rest = ~half
-    return any((signs[rest] == turn * family[rest]).all() for family in families for turn in (1, -1))
 
 
 @dataclass(frozen=True, slots=True)

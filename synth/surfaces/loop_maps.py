@@ -1,10 +1,9 @@
 """Loops on cones and cylinders: every right cone of a spherical loop, every cylinder of a planar one.
 
-On a cone the apex is the spherical centre, joint axes are ruling lines. The cone angle lambda is the angle between
-a ruling line and the plane across the axis: 0 is a flat disk, 90 degrees a needle, which no linkage has. A link of
-angle phi spans the projected angle phi_0 with sin(phi / 2) = cos(lambda) sin(phi_0 / 2). Across the axis of a
-cylinder, the joints of a planar loop lie on a circle. Sources: Hyatt, Magleby, Howell 2020; Hyatt et al. 2021,
-sections 3 and 4. Theory: docs/theory/mapping.md.
+On a cone joint axes are ruling lines, and lambda is the angle between these and the plane across the axis: 0 is a
+flat disk. A link of angle phi spans the projected angle phi_0 with sin(phi / 2) = cos(lambda) sin(phi_0 / 2).
+Across the axis of a cylinder, the joints of a planar loop lie on a circle. Sources: Hyatt, Magleby, Howell 2020;
+Hyatt et al. 2021, sections 3 and 4. Theory: docs/theory/mapping.md.
 """
 
 from __future__ import annotations

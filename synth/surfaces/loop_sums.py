@@ -1,32 +1,12 @@
 """Loop sums: every circle on which the joints of a loop can lie, for any number of links.
 
-Seen along its axis, a cone or a cylinder is a circle, and a link spans a signed *step* of it. A loop closes where
-its steps sum to 360 k degrees (Hyatt et al. 2020, Eq. 12; Hyatt et al. 2021, Eq. 20). Both surfaces have one
-form. Write a link by its *reach* C and the surface by its *size* z:
-
-    cone       C = cot(angle / 2)^2,   z = tan(lambda)^2,   base 1
-    cylinder   C = 1 / length^2,       z = 1 / (2 R)^2,     base 0
-
-Then half a step is atan2(sqrt(base + z), sqrt(C - z)), real for 0 <= z <= min C, and along z the derivative of a
-loop sum has the sign of g = sum s_i (C_i - z)^(-1/2).
-
-No root is missed. With the reaches in rising order, multiply g by (C_j - z)^(1/2), where the sign changes
-between s_j and the next, and differentiate: the result has the sign of sum s_i (C_j - C_i) (C_i - z)^(-3/2), one
-sign change fewer. After as many steps as there are sign changes no zero is left; going back, each function is
-monotone (up to a positive factor) between the zeros of the one after it. So g has at most as many zeros as there
-are sign changes, and a loop sum at most one root more, all found by bisection. A loop sum is compared with its
-own rounding (`sum_rounding`), nothing absolute. Theory: docs/theory/loop-sums.md, docs/theory/rounding.md.
-
-Four links have closed forms. They fit on two circles at most: one with the quadrilateral open (convex), one with
-it crossed (Hyatt et al. 2021, Eqs. 4, 5 and 12). On a cylinder the sides are the links; on a cone they are the
-chords 2 sin(angle / 2) of the unit sphere, and R = cos(lambda) (Eqs. 13, 14). The circle does not depend on the
-order of the links. Near lambda = 0 a cosine has few digits. With half angles x_i, their sum S and T_j the three
-differences of pairs of them,
-
-    open     16 K^2 (1 - R^2) = 256 cos(S/2) prod sin(S/2 - x_i) prod cos(T_j / 2)
-    crossed  16 K^2 (1 - R^2) = 256 sin(S/2) prod cos(S/2 - x_i) prod sin(T_j / 2)
-
-which loses no digits: tan(lambda)^2 is this by the numerator of Eq. 12. Theory: docs/theory/mapping.md.
+A loop closes where its signed steps sum to 360 k degrees (Hyatt et al. 2020, Eq. 12; Hyatt et al. 2021, Eq. 20). A
+link is its *reach* C, the surface its *size* z: C = cot(angle / 2)^2, z = tan(lambda)^2, base 1 on a cone; C = 1 /
+length^2, z = 1 / (2 R)^2, base 0 on a cylinder. Half a step is atan2(sqrt(base + z), sqrt(C - z)), and along z the
+derivative of a loop sum has the sign of g = sum s_i (C_i - z)^(-1/2). No root is missed: a tower of functions,
+each with one sign change fewer, brackets the zeros of g, and these the roots, found by bisection. A loop sum is
+compared with its own rounding (`sum_rounding`), nothing absolute. Four links have closed forms (Hyatt et al. 2021,
+Eqs. 4, 5, 11 to 14). Theory: docs/theory/loop-sums.md, docs/theory/mapping.md, docs/theory/rounding.md.
 """
 
 from __future__ import annotations
@@ -426,6 +406,7 @@ def cone_angles(angles: npt.ArrayLike) -> Quadrilaterals:
     middle = (x + y + z + w) / 2.0
     pairs = [(x + y - z - w) / 2.0, (x + z - y - w) / 2.0, (y + z - x - w) / 2.0]
     less = [middle - angle for angle in half]
+    # 16 K^2 (1 - R^2) / 256 as products of half angles, which near lambda = 0 lose no digits, as a cosine would
     convex: Any = np.cos(middle)
     crossed: Any = np.sin(middle)
     for angle in less:
