@@ -59,13 +59,10 @@ class FileError(SynthedraError, ValueError):
     Parameters
     ----------
     file : str or Path
-        The file.
     place : str
         Where in the file: a JSON path such as ``joints[3][0]``, ``line 7``, or empty for the file as a whole.
-    found : str
-        What is there.
-    expected : str
-        What should have been there.
+    found, expected : str
+        What is there, and what should have been there.
 
     Examples
     --------
@@ -93,15 +90,14 @@ class InvariantError(SynthedraError, ValueError):
 
     Parameters
     ----------
-    rule : str
-        Short name of the rule that is broken, such as ``"loop is a cycle"`` or ``"S1"``.
-    offender : str
-        What breaks it, named as in the input.
+    rule, offender : str
+        Short name of the rule that is broken, such as ``"loop is a cycle"`` or ``"S1"``; what breaks it, named as
+        in the input.
     expected : str, optional
         What would satisfy the rule.
     part : (str, object), optional
-        Which part of the object: ``("joints", id)``, ``("loops", index)``, ... A reader of files turns it into
-        the place in the file.
+        Which part of the object: ``("joints", id)``, ``("loops", index)``, ... A reader of files turns it into the
+        place in the file.
 
     Examples
     --------
@@ -129,12 +125,8 @@ class UnsolvableError(SynthedraError):
 
     Examples
     --------
-    >>> from graphs.convert.table import to_scd
-    >>> from graphs.files.formats import mechanism_of_id
-    >>> to_scd(mechanism_of_id("k1:Cr"))
-    Traceback (most recent call last):
-    ...
-    graphs.errors.UnsolvableError: the order of the sides of the links is not known: write an SCD graph or a sheet
+    >>> print(UnsolvableError("a tree has no loop"))
+    a tree has no loop
     """
 
 

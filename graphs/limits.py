@@ -1,10 +1,9 @@
 """What a file may ask for: how far coordinates reach, and how much work it calls for.
 
 Coordinates beyond 1e50 would overflow in the sixth powers that ranks, areas and normals are made of, so they are
-refused when an object is built. A file of a few bytes can call for hours of work: a number of links, shapes that
-use shapes, lines that all cross. Such work is refused with the name of its limit; ``SYNTHEDRA_MOST`` in the
-environment raises (or lowers) limits, as in ``crossings=1000000``, with commas between several. The table is in
-docs/files.md.
+refused when an object is built. A file of a few bytes can call for hours of work, which is refused with the name
+of its limit; ``SYNTHEDRA_MOST`` in the environment raises (or lowers) limits, as in ``crossings=1000000``, with
+commas between several. The table is in docs/files.md.
 """
 
 from __future__ import annotations
@@ -52,10 +51,6 @@ def check_extent(points: Sequence[Sequence[float]]) -> float:
 
     >>> check_extent([(0.0, 0.0), (3.0, 1.0)])
     3.0
-    >>> check_extent([(0.0, 0.0), (1e160, 1.0)])
-    Traceback (most recent call last):
-    ...
-    graphs.errors.InvariantError: a coordinate is 1e+160; expected an extent of 1e-50 to 1e+50 [extent]
     """
     if not in_reach(chain.from_iterable(points)):
         farthest = next(x for x in chain.from_iterable(points) if not in_reach((x,)))
@@ -67,13 +62,7 @@ def check_extent(points: Sequence[Sequence[float]]) -> float:
 
 
 def check_area(points: Sequence[Sequence[float]]) -> None:
-    """Refuse points that all lie in one line, with `InvariantError`; `check_extent` has accepted them.
-
-    >>> check_area([(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)])
-    Traceback (most recent call last):
-    ...
-    graphs.errors.InvariantError: the pattern has no area: all its vertices lie in one line [area]
-    """
+    """Refuse points that all lie in one line, with `InvariantError`; `check_extent` has accepted them."""
     if not points:
         return
     first = points[0]
@@ -139,11 +128,6 @@ def check_work(name: str, needed: int, what: str) -> None:
     """Refuse more work than a limit allows, with `InvariantError`, which a reader of files makes a `FileError`.
 
     ``name`` is a key of `LIMITS`, ``what`` the plural noun of what is counted.
-
-    >>> check_work("basis", 4950, "joints")
-    Traceback (most recent call last):
-    ...
-    graphs.errors.InvariantError: 4950 joints; expected at most 250 (SYNTHEDRA_MOST=basis=4950 allows more) [limit]
     """
     if needed > most(name):
         raise InvariantError("limit", f"{needed} {what}", how_to_raise(name, needed))

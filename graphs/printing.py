@@ -1,12 +1,9 @@
 """Text that leaves: printable and not too long, as lines and tables, for a terminal, a file, a page.
 
-Names come from files. They may span lines, carry escape sequences, carriage returns and marks that change the
-direction of writing, hold millions of letters, or dollar signs that a picture takes for formulas. Whatever is
-printed, drawn or put into an error or a title goes through this file; data that are written to be read again
-(native files, stores, JSON) keep names as they are.
-
-An answer has *blocks*, lines of text and `TableBlock`; the command line prints them with rich, ``str`` and
-``_repr_html_`` of the answer make text and HTML of them.
+Names come from files: they may span lines, carry escape sequences, hold millions of letters. Whatever is printed,
+drawn or put into an error or a title goes through this file; data that are written to be read again (native files,
+stores, JSON) keep names as they are. An answer has *blocks*, lines of text and `TableBlock`; the command line
+prints them with rich, ``str`` and ``_repr_html_`` of the answer make text and HTML of them.
 """
 
 from __future__ import annotations
@@ -28,7 +25,6 @@ __all__ = [
     "TableBlock",
     "html_of",
     "plain",
-    "plain_label",
     "plain_lines",
     "rich_table",
     "shown",
@@ -61,15 +57,6 @@ def plain_lines(text: str) -> str:
     'one\\r\ntwo\\x07'
     """
     return text if text.isprintable() else "\n".join(map(_escaped, text.split("\n")))
-
-
-def plain_label(value: object, widest: int = _WIDEST) -> str:
-    r"""Return text for a picture, as `plain` makes it, with dollar signs that begin no formula.
-
-    >>> print(plain_label("$a$"))
-    \$a\$
-    """
-    return plain(value, widest).replace("$", r"\$")
 
 
 def shown(value: object) -> str:

@@ -1,14 +1,10 @@
 """What is zero and what is equal: tolerances, and choices that do not depend on the last bit.
 
 Every length, angle, rate and singular value that is compared with zero is compared with a field of `Tolerances`,
-which is made from the precision of the coordinates and the size of a mechanism. Lengths are in units of the
-extent, angles in radians, rates as parts of the largest. Numbers of double precision that come from no file are
-judged by `DOUBLE`.
-
-A singular value decomposition returns one of many bases of a null space, and the last bits of a processor decide
-which; of several equal numbers they decide which is the largest. Canonical choices depend on the space and on the
-numbers alone: two numbers that agree to a millionth are equal, and of equals the first comes first. Theory:
-docs/theory/rounding.md.
+made from the precision of the coordinates and the size of a mechanism: lengths in units of the extent, angles in
+radians, rates as parts of the largest. Canonical choices (of a basis of a null space, of one of several equal
+numbers) depend on the space and on the numbers alone: two numbers that agree to a millionth are equal, and of
+equals the first comes first. Theory: docs/theory/rounding.md.
 """
 
 from __future__ import annotations
@@ -88,13 +84,6 @@ class Tolerances:
         Lines that pass a point, or are off parallel, by less are meant to meet there or to be parallel.
     flat : float
         Points that are this close to one plane, in units of their own extent, are meant to lie in it.
-
-    Examples
-    --------
-    >>> Tolerances.of(1e-5).same_point, Tolerances.of(0.0).same_point
-    (4e-05, 1e-09)
-    >>> DOUBLE.zero
-    1e-09
     """
 
     precision: float

@@ -1,5 +1,6 @@
 """Paths, links and names in the project's papers resolve; nothing cites what is not in the project."""
 
+import doctest
 import inspect
 import re
 import sys
@@ -99,7 +100,7 @@ def test_every_theory_page_is_in_its_index():
 def offered(kind):
     """What faces of rooms offer of a kind, functions or classes of the project, once each: name to thing.
 
-    Single files of ``graphs`` have no face: what they hold is for other rooms.
+    Single files of ``graphs`` have no face: what they hold is for other rooms, and has tests of its own below.
     """
     found = {}
     for package in ("graphs", "enumerate", "synth"):
@@ -165,7 +166,6 @@ def test_classes_that_rooms_offer_say_what_they_hold():
     # these have methods only, each with a docstring of its own, or what their base class says
     without = {name for name, cls in classes.items() if not told(cls)}
     assert without == {
-        "graphs.rank.Field",
         "enumerate.runner.Sink",
         "synth.atlas.ExpressionError",
     }
@@ -219,6 +219,18 @@ def test_the_face_is_documented_whole():
     assert without - {"SynthedraError", "FileError", "InvariantError", "UnsolvableError"} == {
         "load_ipython_extension"
     }
+
+
+@pytest.mark.parametrize(
+    "name", [info.name for info in iter_modules(import_module("graphs").__path__) if not info.ispkg]
+)
+def test_single_files_of_graphs_say_what_they_hold(name):
+    """All that they offer has a docstring, and their examples hold."""
+    module = import_module(f"graphs.{name}")
+    held = {word: getattr(module, word) for word in module.__all__}
+    own = {word: one for word, one in held.items() if getattr(one, "__module__", "") == module.__name__}
+    assert not [word for word, one in own.items() if isinstance(one, FunctionType | type) and not one.__doc__]
+    assert doctest.testmod(module).failed == 0
 
 
 def test_every_misprint_is_told_on_the_page_of_its_theory():

@@ -272,6 +272,13 @@ def test_short_descriptions(data):
     )
     assert repr(synth.convert(FOUR_BAR, "vertex-edge")) == "<VertexEdgeGraph: 1 vertex, 4 creases>"
     assert repr(synth.read(data / "wampler" / "fig9.json")) == "<PolyhedronModel: 5 vertices, 8 rods>"
+    assert repr(synth.read(data / "linkages" / "bennett.json")) == "<HingedSolids: 4 links, 4 joints>"
+    assert repr(synth.read(data / "joints" / "rssr.json")) == "<JointedLinkage: 4 links, 4 joints: 2R 2S, a type>"
+    assert repr(synth.read(data / "surfaces" / "fig10-four-bar.json")) == (
+        "<SurfaceLinkage: 4 links, 4 joints, on a cylinder, by steps>"
+    )
+    turns = synth.Orientations.from_axis_angles([(0, 0, 1)] * 3, [0, 1, 2])
+    assert repr(turns) == "<Orientations: 3 orientations>"
 
 
 def test_results_have_short_descriptions(data):

@@ -29,19 +29,16 @@ class Identity(Printed):
 
     Attributes
     ----------
-    chain : str or None
-        ``k1:...``, of the link-joint graph; a chain without centres.
-    drawing : str or None
-        ``m1:...``, of the mechanism drawn on the sphere, with its centres and, where they are known, the sides of
-        its links; mirror images have one id.
+    chain, drawing : str or None
+        ``k1:...``, of the link-joint graph, without centres; ``m1:...``, of the mechanism drawn on the sphere,
+        with its centres and, where they are known, the sides of its links; mirror images have one id.
     notes : tuple of str
         Why an id is missing.
 
     Examples
     --------
-    >>> from graphs.files.formats import mechanism_of_id
-    >>> identify(mechanism_of_id("m1:ab.ac.bd.cd")).chain
-    'k1:Cr'
+    >>> identify(nx.cycle_graph(4)).to_json()
+    {'chain': 'k1:Cr', 'drawing': None}
     """
 
     chain: str | None
@@ -70,9 +67,6 @@ def identify(mechanism: MechanismLike | nx.Graph) -> Identity:
     --------
     >>> identify(nx.cycle_graph(4)).chain
     'k1:Cr'
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> identify(scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])).drawing
-    'm1:a-b.ac-.b-d.cd-'
     """
     mechanism = mechanism_for("identify", mechanism, Mechanism | nx.Graph)
     chain, no_chain = _id_or_reason(lambda: chain_id(graph_of(mechanism)))

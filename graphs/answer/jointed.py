@@ -1,10 +1,9 @@
 """Linkages with joints of all kinds: mobility by count, at a configuration, and their passive degrees of freedom.
 
-Wiener's Eq. 1 holds the freedoms of each joint; his Eqs. 2 and 3 are for joints of one freedom, Eq. 4 for
-revolutes. Wampler's count takes joints of all kinds as vertices, rods, and points on lines and planes
-(`graphs.joints.as_points`). Loops are planar if their revolutes are across a plane, their slides and planar joints
-along it. A freedom is *passive* if it moves links of one leg, a row of binary links, and nothing else: the
-spinning of a leg between two spherical joints. Theory: docs/theory/joints.md, docs/theory/mobility-by-count.md.
+Wiener's Eq. 1 holds the freedoms of each joint; Wampler's count takes joints of all kinds as vertices, rods, and
+points on lines and planes (`graphs.joints.as_points`). Loops are planar if their revolutes are across a plane,
+their slides and planar joints along it. A freedom is *passive* if it moves links of one leg, a row of binary
+links, and nothing else. Theory: docs/theory/joints.md, docs/theory/mobility-by-count.md.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ import numpy as np
 
 from graphs.answer.report import MobilityAnswer, notes_of_pose
 from graphs.count.equations import loop_form, modified_cgk, spherical_system, traditional_cgk
-from graphs.count.report import EquationResult, MobilityReport, mechanism_class, mobility_report
+from graphs.count.report import EquationResult, MobilityReport, mobility_report
 from graphs.errors import numbered, shown
 from graphs.geometry import frame_about, unit
 from graphs.joints.as_points import points_of, rods_between_balls
@@ -46,57 +45,31 @@ __all__ = [
 
 
 def report_of_joints(linkage: JointedLinkage) -> MobilityReport:
-    """Report the mobility of a linkage by count of its joints, each with its freedoms.
-
-    A slider-crank in space, and in a plane, where loops with a centre count three equations each:
-
-    >>> from graphs.loops.loop import Loop
-    >>> joints = [(0, 1), (1, 2), (2, 3), (3, 0)]
-    >>> for loops in ((), (Loop(range(4), "infinite"),)):
-    ...     crank = JointedLinkage(SCGraph(4, joints, loops), {3: JointKind.PRISMATIC})
-    ...     report_of_joints(crank).equations["traditional_cgk"].value
-    -2
-    1
-    """
+    """Report the mobility of a linkage by count of its joints, each with its freedoms."""
     chain = linkage.chain
-    kind = mechanism_class(chain)
-    freedoms = [one.freedoms for one in linkage.kinds.values()]
-    if all(one is JointKind.REVOLUTE for one in linkage.kinds.values()):
-        bare = mobility_report(chain)
+    bare = mobility_report(chain)
+    freedoms = [kind.freedoms for kind in linkage.kinds.values()]
+    if all(kind is JointKind.REVOLUTE for kind in linkage.kinds.values()):
         return replace(bare, equations={**bare.equations, **_wampler(linkage)})
-    closed = chain.is_closed
     looped = loop_form(sum(freedoms), len(chain.centred_loops), chain.spatial_loops)
+    why = "joint freedoms, less 3 for each loop with a centre and 6 for each spatial loop"
+    if chain.is_closed:
+        why = "leaves out that the closing loop has a centre too"
     equations = {
-        **_by_wiener(linkage, kind, freedoms),
-        "loop_form": EquationResult(
-            looped,
-            not closed,
-            "leaves out that the closing loop has a centre too"
-            if closed
-            else "joint freedoms, less 3 for each loop with a centre and 6 for each spatial loop",
-        ),
+        **_by_wiener(linkage, bare, freedoms),
+        "loop_form": EquationResult(looped, not chain.is_closed, why),
         **_wampler(linkage),
     }
-    bare = mobility_report(chain)
-    return MobilityReport(
-        mechanism_class=kind,
-        links=len(chain),
-        joints=len(chain.joints),
-        loops=chain.independent_loops,
-        centres=len(chain.centre_classes()),
-        mobility=looped,
-        equations=equations,
-        counts={**bare.counts, "freedoms": sum(freedoms)},
-        arrangement=bare.arrangement,
-    )
+    counts = {**bare.counts, "freedoms": sum(freedoms)}
+    return replace(bare, mobility=looped, equations=equations, counts=counts, warnings=())
 
 
-def _by_wiener(linkage: JointedLinkage, kind: str, freedoms: list[int]) -> dict[str, EquationResult]:
+def _by_wiener(linkage: JointedLinkage, report: MobilityReport, freedoms: list[int]) -> dict[str, EquationResult]:
     """Evaluate Wiener's Eqs. 1 to 4; their conditions are those of his Table 6, and the kinds of the joints."""
     chain = linkage.chain
     links, joints = len(chain) - chain.components + 1, len(chain.joints)
-    bare = mobility_report(chain).equations
-    space = 6 if kind == "spatial" else 3
+    bare = report.equations
+    space = 6 if report.mechanism_class == "spatial" else 3
     first = bare["traditional_cgk"]
     if first.applies:
         why = f"Eq. 1 with constraint space {space} for all loops, and the degrees of freedom of each joint"

@@ -155,9 +155,8 @@ def mobility(
     hinge_flat : bool, optional
         Make hinges of the flat (F) edges of a crease pattern too.
     pose : int, optional
-        The frame of a FOLD file that counts, ranks and degrees of freedom are those of; by default the pattern as
-        it was read, or if that has no coordinates, the first frame that has. False leaves the degrees of freedom
-        at the configuration out.
+        The frame of a FOLD file that all numbers are those of; by default the pattern as it was read, or if that
+        has no coordinates, the first frame that has. False: no degrees of freedom at the configuration.
     geometry : bool, optional
         Give loops round holes and cuts of a crease pattern the centre where their axes meet or are parallel.
     dual : SheetMechanism, optional
@@ -175,8 +174,6 @@ def mobility(
     >>> answer = mobility(nx.cycle_graph(4))
     >>> answer.mobility, answer.exact.mobility, answer.equations["spherical_system"].why
     (1, 1, 'Eq. 3: every loop has a centre')
-    >>> mobility(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3)), ((0, 0), (1, 0), (1, 1), (0, 1)))).pose.dof
-    1
     """
     demanded = bool(exact)
     if isinstance(mechanism, Sheet):

@@ -11,6 +11,7 @@ from typing import Any
 from graphs.convert.panels import VertexStep, vertex_steps
 from graphs.convert.table import to_polyhedron, to_scd
 from graphs.count.equations import mobility_of_model
+from graphs.errors import numbered
 from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.scd import FeatureCounts
@@ -32,13 +33,6 @@ class Reconstruction(Printed):
         Vertex by vertex: in what kind of face it lies, and which links meet there.
     counts : FeatureCounts
         V, C, E_ext, E_int of the SCD graph.
-
-    Examples
-    --------
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> found = reconstruct(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))))
-    >>> found.model, [step.kind.value for step in found.steps]
-    (<PolyhedronModel: 5 vertices, 8 rods>, ['outer', 'outer', 'outer', 'outer', 'explicit'])
     """
 
     model: PolyhedronModel
@@ -79,7 +73,7 @@ class Reconstruction(Printed):
         ]
 
     def __repr__(self) -> str:
-        return f"<Reconstruction: {self.model!r}>"
+        return f"<Reconstruction: {numbered(len(self.model), 'vertex', 'vertices')}, M = {self.mobility}>"
 
 
 def reconstruct(mechanism: MechanismLike) -> Reconstruction:
@@ -100,7 +94,7 @@ def reconstruct(mechanism: MechanismLike) -> Reconstruction:
     --------
     >>> from graphs.convert.panels import scd_from_panels
     >>> reconstruct(scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")]))
-    <Reconstruction: <PolyhedronModel: 4 vertices, 6 rods>>
+    <Reconstruction: 4 vertices, M = 0>
     """
     mechanism = mechanism_for("reconstruct", mechanism)
     scd = to_scd(mechanism)

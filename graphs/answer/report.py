@@ -55,9 +55,7 @@ _COUNTS = {
 
 @dataclass(frozen=True, slots=True, repr=False)
 class MobilityAnswer(MobilityReport, Printed):
-    """The mobility of one mechanism, with its evidence.
-
-    It prints as ``synth mobility`` does, and as with ``--verbose`` in a notebook.
+    """The mobility of one mechanism, with its evidence; it prints as ``synth mobility`` does.
 
     Attributes
     ----------
@@ -75,14 +73,6 @@ class MobilityAnswer(MobilityReport, Printed):
     Notes
     -----
     The other attributes are those of :class:`graphs.count.report.MobilityReport`, the answer by count.
-
-    Examples
-    --------
-    >>> from graphs.answer.mechanisms import mobility
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> answer = mobility(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))))
-    >>> answer.mobility, answer.exact.mobility, answer.pose
-    (1, 1, None)
     """
 
     exact: ExactMobility | None = None
@@ -188,11 +178,7 @@ def _equations_table(answer: MobilityAnswer) -> TableBlock:
 
 
 def power_of_ten(number: float) -> str:
-    """Return a number to one digit, its power of ten without sign and zeros that say nothing.
-
-    >>> power_of_ten(6.2e14), power_of_ten(3e-6)
-    ('6e14', '3e-6')
-    """
+    """Return a number to one digit, its power of ten without sign and zeros that say nothing: ``6e14``."""
     digit, power = f"{number:.0e}".split("e")
     return f"{digit}e{int(power)}"
 

@@ -34,6 +34,8 @@ __all__ = [
 def traditional_cgk(links: int, freedoms: Iterable[int], constraint_space: int) -> int:
     """Chebychev-Gruebler-Kutzbach: M = lambda (N - 1) - sum (lambda - f) (Wiener 2016 and Wampler 2007, Eq. 1).
 
+    The text below Wiener's Eq. 1 swaps the words spherical and spatial; his Table 1 is right.
+
     Parameters
     ----------
     links : int
@@ -43,16 +45,9 @@ def traditional_cgk(links: int, freedoms: Iterable[int], constraint_space: int) 
     constraint_space : int
         lambda: 3 if all axes pass through one centre (spherical, planar), 6 in space.
 
-    Notes
-    -----
-    The text below Wiener's Eq. 1 swaps the words spherical and
-    spatial; his Table 1 is right.
-
     Examples
     --------
-    A six-bar loop, spherical and spatial (Wiener, Table 1):
-
-    >>> traditional_cgk(6, [1] * 6, 3), traditional_cgk(6, [1] * 6, 6)
+    >>> traditional_cgk(6, [1] * 6, 3), traditional_cgk(6, [1] * 6, 6)  # a six-bar loop, spherical and spatial
     (3, 0)
     """
     return constraint_space * (links - 1) - sum(constraint_space - f for f in freedoms)
@@ -61,8 +56,7 @@ def traditional_cgk(links: int, freedoms: Iterable[int], constraint_space: int) 
 def modified_cgk(links: int, joints: int, constraint_space: int) -> int:
     """Modified C-G-K for revolute joints: M = lambda (N - J - 1) + J (Wiener 2016, Eq. 2).
 
-    The constraint space is that of every loop, 3 for a loop with a centre, whether or not the loops share
-    it: so the equation holds for spherical systems, where Eq. 1 presumes one centre.
+    It holds for spherical systems, whether or not loops share their centre, where Eq. 1 presumes one centre.
 
     Parameters
     ----------
@@ -73,9 +67,7 @@ def modified_cgk(links: int, joints: int, constraint_space: int) -> int:
 
     Examples
     --------
-    Watt's six-bar with one centre or with two:
-
-    >>> modified_cgk(6, 7, 3)
+    >>> modified_cgk(6, 7, 3)  # Watt's six-bar with one centre or with two
     1
     """
     return constraint_space * (links - joints - 1) + joints
@@ -102,18 +94,15 @@ def polyhedron_equation(vertices: int, implicit_centres: int, edges: int) -> int
 
     Parameters
     ----------
-    vertices : int
-        V, vertices of the links; one that several links share counts once.
-    implicit_centres : int
-        C, loops (not classes) whose centre the links do not reach.
+    vertices, implicit_centres : int
+        V, vertices of the links; one that several links share counts once. C, loops (not classes) whose centre the
+        links do not reach.
     edges : int
         E_ext, the joints and open edges, and E_int, 2 n - 6 of each link of n sides.
 
     Examples
     --------
-    Wiener, Table 3, rows 1 and 3:
-
-    >>> polyhedron_equation(6, 0, 11), polyhedron_equation(9, 1, 23)
+    >>> polyhedron_equation(6, 0, 11), polyhedron_equation(9, 1, 23)  # Wiener, Table 3, rows 1 and 3
     (1, 1)
     """
     return 3 * (vertices + implicit_centres) - edges - 6
@@ -133,9 +122,7 @@ def loop_form(freedoms: int, centred_loops: int, spatial_loops: int) -> int:
 
     Examples
     --------
-    The hybrid ten-bar of Wiener 4.1.4.6:
-
-    >>> loop_form(11, 1, 1)
+    >>> loop_form(11, 1, 1)  # the hybrid ten-bar of Wiener 4.1.4.6
     2
     """
     return freedoms - 3 * centred_loops - 6 * spatial_loops
@@ -144,27 +131,21 @@ def loop_form(freedoms: int, centred_loops: int, spatial_loops: int) -> int:
 def closed_surface(joints: int, faces: int, spatial_loops: int, centres: Iterable[int]) -> int:
     """Closed surfaces, every face with a centre: M = J - 3 F - 6 L_spat + 6.
 
+    By duality the joint axes are the bars of a framework whose joints are the centres: motions of the one are
+    stresses of the other, of dimension J - (3 F - 6).
+
     Parameters
     ----------
-    joints, faces : int
-        J, and F with the closing faces.
-    spatial_loops : int
-        Loops left over (handles).
+    joints, faces, spatial_loops : int
+        J, F with the closing faces, and loops left over (handles).
     centres : iterable of int
-        Distinct centres of each closed surface. Six conditions too many are counted if three or more centres
-        are not in line, 5 if there are two, 3 if there is one.
-
-    Notes
-    -----
-    By duality the joint axes are the bars of a framework whose joints are the centres:
-    motions of the one are stresses of the other, of dimension J - (3 F - 6).
+        Distinct centres of each closed surface. Six conditions too many are counted if three or more centres are
+        not in line, 5 if there are two, 3 if there is one.
 
     Examples
     --------
-    The cap of the inflatable cube (Wiener 3.3.6), and an octahedron of eight triangles:
-
-    >>> closed_surface(24, 10, 0, [10]), closed_surface(12, 6, 0, [6])
-    (0, 0)
+    >>> closed_surface(24, 10, 0, [10])  # the cap of the inflatable cube (Wiener 3.3.6)
+    0
     """
     surplus = sum({0: 0, 1: 3, 2: 5}.get(number, 6) for number in centres)
     return joints - 3 * faces - 6 * spatial_loops + surplus
@@ -180,9 +161,7 @@ def wampler_rods(vertices: int, rods: int) -> int:
 
     Examples
     --------
-    Wampler's Fig. 9, a spherical four-bar:
-
-    >>> wampler_rods(5, 8)
+    >>> wampler_rods(5, 8)  # Fig. 9, a spherical four-bar
     1
     """
     return 3 * vertices - rods - 6
@@ -193,16 +172,12 @@ def wampler_points(vertices: int, rods: int, on_plane: int, on_line: int) -> int
 
     Parameters
     ----------
-    vertices, rods : int
-        As of `wampler_rods`.
-    on_plane, on_line : int
-        P and L: points that stay on a plane of a link, on a line of one.
+    vertices, rods, on_plane, on_line : int
+        V and E as of `wampler_rods`; P and L: points that stay on a plane of a link, on a line of one.
 
     Examples
     --------
-    A cylindric joint is two points of one body on a line of another, 4 constraints:
-
-    >>> wampler_points(6, 6, 0, 2) - wampler_points(6, 6, 0, 0)
+    >>> wampler_points(6, 6, 0, 2) - wampler_points(6, 6, 0, 0)  # a cylindric joint: two points on a line
     -4
     """
     return wampler_rods(vertices, rods) - on_plane - 2 * on_line
@@ -220,9 +195,7 @@ def wampler_remote(vertices: int, rods: int, on_plane: int, on_line: int, remote
 
     Examples
     --------
-    Wampler's Fig. 12, a spherical four-bar whose centre lies off its links:
-
-    >>> wampler_remote(8, 20, 0, 0, [3])
+    >>> wampler_remote(8, 20, 0, 0, [3])  # Fig. 12, a spherical four-bar whose centre lies off its links
     1
     """
     return wampler_points(vertices, rods, on_plane, on_line) + sum(remote)
@@ -235,18 +208,14 @@ def wampler_scissors(
 
     Parameters
     ----------
-    vertices, rods, on_plane, on_line : int
-        As of `wampler_points`.
-    remote : iterable of int
-        k of each remote centre.
+    vertices, rods, on_plane, on_line, remote
+        As of `wampler_remote`.
     scissors : int
         X: pairs of bars hinged where they cross; their rods are not counted.
 
     Examples
     --------
-    Four scissors in a spherical loop:
-
-    >>> wampler_scissors(8, 0, 0, 0, [4], 4)
+    >>> wampler_scissors(8, 0, 0, 0, [4], 4)  # four scissors in a spherical loop
     2
     """
     return wampler_remote(vertices, rods, on_plane, on_line, remote) - 5 * scissors
@@ -266,9 +235,7 @@ def wampler_ground_free(
 
     Examples
     --------
-    Wampler's Fig. 16, a platform on three C-R-S legs:
-
-    >>> wampler_ground_free(10, 15, 0, 6, [], 0)
+    >>> wampler_ground_free(10, 15, 0, 6, [], 0)  # Fig. 16, a platform on three C-R-S legs
     3
     """
     return wampler_scissors(vertices, rods, on_plane, on_line, remote, scissors) + 6
@@ -302,16 +269,12 @@ def overconstraint(actual: int, generic: int) -> int:
 
     Parameters
     ----------
-    actual : int
-        Degrees of freedom of the mechanism at its configuration.
-    generic : int
-        Mobility of a generic realisation of its type.
+    actual, generic : int
+        Degrees of freedom of the mechanism at its configuration, mobility of a generic realisation of its type.
 
     Examples
     --------
-    A 3 x 3 Miura mesh moves with 1 degree of freedom where the count says 0:
-
-    >>> overconstraint(1, 0)
+    >>> overconstraint(1, 0)  # a 3 x 3 Miura mesh moves where the count says 0
     1
     """
     return actual - generic
@@ -329,9 +292,7 @@ def relative_cgk(links: int, joints: int, constraint_space: int) -> int:
 
     Examples
     --------
-    A spatial chain of three links and four joints between two links:
-
-    >>> relative_cgk(3, 4, 6)
+    >>> relative_cgk(3, 4, 6)  # a spatial chain of three links and four joints between two links
     -2
     """
     return constraint_space * (links - joints) + joints
@@ -347,9 +308,7 @@ def relative_spherical_system(links: int, joints: int) -> int:
 
     Examples
     --------
-    A ride-along addendum (4.2.4), and locking a joint (6.3.2):
-
-    >>> relative_spherical_system(2, 3), relative_spherical_system(-1, -1)
+    >>> relative_spherical_system(2, 3), relative_spherical_system(-1, -1)  # a ride-along, a locked joint
     (0, -1)
     """
     return 3 * links - 2 * joints
@@ -358,20 +317,16 @@ def relative_spherical_system(links: int, joints: int) -> int:
 def relative_polyhedron(vertices: int, implicit_centres: int, edges: int) -> int:
     """Polyhedron model: dM = 3 (dV + dC) - dE (Wiener 2016, Eq. 7).
 
+    The example in 4.2.5.2 prints dM = 3 dV - 2 dE; its result, -1, is that of Eq. 7.
+
     Parameters
     ----------
     vertices, implicit_centres, edges : int
         dV, dC and dE: what is added of each, negative if taken away.
 
-    Notes
-    -----
-    The example in 4.2.5.2 prints dM = 3 dV - 2 dE; its result, -1, is that of Eq. 7.
-
     Examples
     --------
-    Wiener 4.2.5.2: four tetrahedra between two links of a six-bar.
-
-    >>> relative_polyhedron(6, 0, 11 + 8)
+    >>> relative_polyhedron(6, 0, 11 + 8)  # 4.2.5.2: four tetrahedra between two links of a six-bar
     -1
     """
     return 3 * (vertices + implicit_centres) - edges

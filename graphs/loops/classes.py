@@ -1,12 +1,10 @@
 """Centre classes: which loops of a mechanism share their centre.
 
-Two distinct axes cannot both join two distinct points, so two loops that share two joints have one centre
-(Wiener 2016, section 3.3.5). The rule is applied to *classes* of loops, not only to loops, until nothing
-changes: two classes that share two joints between them are one class though no two of their loops do.
-An axis holds one point at infinity only, so two planar loops that share a single joint are one class too.
-
-Classes are found without looking at all pairs of loops that share a joint: ten thousand loops on one joint have
-fifty million. Theory: docs/theory/centre-classes.md.
+Two distinct axes cannot both join two distinct points, so two loops that share two joints have one centre (Wiener
+2016, section 3.3.5). The rule is applied to *classes* of loops until nothing changes. An axis holds one point at
+infinity only, so two planar loops that share a single joint are one class too. Classes are found without looking
+at all pairs of loops that share a joint: ten thousand loops on one joint have fifty million. Theory:
+docs/theory/centre-classes.md.
 """
 
 from __future__ import annotations
@@ -20,7 +18,7 @@ from graphs.errors import InvariantError, shown
 from graphs.loops.loop import Centre, Loop
 from graphs.types import JointId
 
-__all__ = ["FEW", "CentreClass", "Merger", "centre_classes", "class_of_loop", "merge_spherical"]
+__all__ = ["FEW", "CentreClass", "Merger", "centre_classes", "merge_spherical"]
 
 FEW = 16
 """A joint with more loops is *crowded*: its loops are found by a table, not in pairs."""
@@ -227,12 +225,8 @@ def centre_classes(loops: Sequence[Loop]) -> tuple[CentreClass, ...]:
 
     Examples
     --------
-    Watt's chain: two four-bars with one joint in common. Stephenson's: they share two.
-
-    >>> len(centre_classes([Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))]))
+    >>> len(centre_classes([Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))]))  # Watt's chain: two loops share a joint
     2
-    >>> len(centre_classes([Loop((0, 1, 2, 3)), Loop((2, 3, 4, 5, 6))]))
-    1
     """
     if _nothing_forced(loops):
         return tuple(
@@ -251,21 +245,6 @@ def centre_classes(loops: Sequence[Loop]) -> tuple[CentreClass, ...]:
         CentreClass(tuple(sorted(members[root])), frozenset(merged.joints[root]), loops[min(members[root])].centre)
         for root in order
     )
-
-
-def class_of_loop(classes: Sequence[CentreClass]) -> dict[int, int]:
-    """Return the index of the class of each loop that has a centre, in the order of the classes.
-
-    Parameters
-    ----------
-    classes : sequence of CentreClass
-
-    Examples
-    --------
-    >>> class_of_loop(centre_classes([Loop((0, 1, 2), "none"), Loop((2, 3, 4))]))
-    {1: 0}
-    """
-    return {loop: index for index, one in enumerate(classes) for loop in one.loops}
 
 
 def _nothing_forced(loops: Sequence[Loop]) -> bool:

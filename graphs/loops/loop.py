@@ -20,7 +20,6 @@ __all__ = [
     "Centre",
     "Loop",
     "added_independent",
-    "check_independent",
     "cut_into_cycles",
     "cyclic_order",
     "dependent_loop",
@@ -107,20 +106,15 @@ class Loop:
 def cyclic_order(loop: Loop, joints: Joints) -> tuple[JointId, ...]:
     """Return the joints of a loop in cyclic order; refuse what is not one cycle.
 
-    A set of joints that is a cycle has one cyclic order up to start and direction. The first joint stays first,
-    and the direction is kept where the joints are in cyclic order already.
+    The first joint stays first, and the direction is kept where the joints are in cyclic order already.
 
     Parameters
     ----------
     loop : Loop
-        A loop; its joints may come in any order.
+        Its joints may come in any order; `InvariantError` if one is unknown or repeated, or they are not one
+        cycle.
     joints : mapping of joint id to (link, link)
         The joints of the graph.
-
-    Raises
-    ------
-    InvariantError
-        If a joint is unknown or repeated, or the joints are not one cycle.
 
     Examples
     --------
@@ -195,44 +189,11 @@ def _walk(
         link = b if a == link else a
 
 
-def check_independent(loops: Sequence[Loop]) -> None:
-    """Refuse loops that are not independent over GF(2): an `InvariantError` names a loop that is a sum of others.
-
-    Loops that own a joint no other loop has are peeled off first, again and again; this settles the bounded faces of
-    an embedding in linear time. Only what is left is eliminated.
-
-    Parameters
-    ----------
-    loops : sequence of Loop
-
-    Examples
-    --------
-    >>> check_independent([Loop((0, 1, 2)), Loop((2, 3, 4)), Loop((0, 1, 3, 4))])
-    Traceback (most recent call last):
-    ...
-    graphs.errors.InvariantError: loop '0 1 3 4' is the sum of others; expected independent loops [independent loops]
-    """  # noqa: E501
-    culprit = dependent_loop([loop.joints for loop in loops])
-    if culprit is not None:
-        raise InvariantError(
-            "independent loops",
-            f"{loops[culprit].label} is the sum of others",
-            "independent loops",
-            ("loops", culprit),
-        )
-
-
 def dependent_loop(cycles: Sequence[Sequence[JointId]]) -> int | None:
     """Return the index of a cycle that is a GF(2) sum of others, or None if they are independent.
 
-    Parameters
-    ----------
-    cycles : sequence of sequences of joint ids
-
-    Examples
-    --------
-    >>> dependent_loop([(0, 1, 2), (2, 3, 4), (0, 1, 3, 4)])
-    2
+    Cycles that own a joint no other has are peeled off first, again and again; this settles the bounded faces of
+    an embedding in linear time. Only what is left is eliminated.
     """
     rest = _peel(cycles)
     if not rest:
@@ -254,17 +215,6 @@ def split_dependent(cycles: Sequence[Sequence[JointId]]) -> tuple[list[int], lis
 
     Round the vertices of a closed surface the last cycle is the sum of the others. The cycles kept are as many as
     the rank of all.
-
-    Parameters
-    ----------
-    cycles : sequence of sequences of joint ids
-
-    Examples
-    --------
-    Three cycles that close, and one by itself:
-
-    >>> split_dependent([("a", "b"), ("b", "c"), ("c", "a"), ("d", "e", "f")])
-    ([0, 1, 3], [2])
     """
     kept, dependent = list(range(len(cycles))), []
     while (index := dependent_loop([cycles[i] for i in kept])) is not None:
@@ -277,15 +227,7 @@ def added_independent(
 ) -> list[int]:
     """Return the indices of the candidates, ascending, that are no GF(2) sum of the cycles and earlier candidates.
 
-    Parameters
-    ----------
-    cycles, candidates : sequence of collections of joint ids
-        The cycles may depend on each other.
-
-    Examples
-    --------
-    >>> added_independent([(0, 1, 2)], [(0, 1, 2), (2, 3, 4), (0, 1, 3, 4)])
-    [1]
+    The cycles may depend on each other.
     """
     basis: dict[int, int] = {}
     added = []
@@ -301,16 +243,7 @@ def added_independent(
 def in_span_of(cycle: Collection[JointId], cycles: Sequence[Collection[JointId]]) -> tuple[int, ...] | None:
     """Return the indices of cycles that sum to a cycle over GF(2), ascending, or None if it is no such sum.
 
-    Parameters
-    ----------
-    cycle : collection of joint ids
-    cycles : sequence of collections of joint ids
-        May depend on each other: then the sum is one of several.
-
-    Examples
-    --------
-    >>> in_span_of((0, 1, 3, 4), [(0, 1, 2), (2, 3, 4), (5, 6, 7)])
-    (0, 1)
+    The cycles may depend on each other: then the sum is one of several.
     """
     *rows, target = _bit_rows([*cycles, cycle])
     shift = max(row.bit_length() for row in (*rows, target))
@@ -337,20 +270,7 @@ def in_span_of(cycle: Collection[JointId], cycles: Sequence[Collection[JointId]]
 
 
 def cut_into_cycles(even: Collection[JointId], joints: Joints) -> list[tuple[JointId, ...]]:
-    """Cut joints that meet every link an even number of times into cycles, each in cyclic order.
-
-    Parameters
-    ----------
-    even : collection of joint ids
-        A GF(2) sum of cycles.
-    joints : mapping of joint id to (link, link)
-
-    Examples
-    --------
-    >>> eight = {0: ("A", "B"), 1: ("B", "C"), 2: ("C", "A"), 3: ("A", "D"), 4: ("D", "E"), 5: ("E", "A")}
-    >>> cut_into_cycles(range(6), eight)
-    [(0, 1, 2), (3, 4, 5)]
-    """
+    """Cut joints that meet every link an even number of times into cycles, each in cyclic order."""
     at_link: dict[LinkId, list[JointId]] = defaultdict(list)
     for joint in even:
         for link in joints[joint]:
@@ -376,16 +296,7 @@ def cut_into_cycles(even: Collection[JointId], joints: Joints) -> list[tuple[Joi
 def signed_cycle(cycle: Sequence[JointId], joints: Joints) -> Iterator[tuple[JointId, int]]:
     """Yield the joints of a cycle with 1 where it passes from a joint's first link to the second, else -1.
 
-    Parameters
-    ----------
-    cycle : sequence of joint ids
-        In cyclic order, as an SC graph stores its loops.
-    joints : mapping of joint id to (link, link)
-
-    Examples
-    --------
-    >>> list(signed_cycle((0, 1, 2), {0: ("a", "b"), 1: ("c", "b"), 2: ("c", "a")}))
-    [(0, 1), (1, -1), (2, 1)]
+    The cycle is in cyclic order, as an SC graph stores its loops.
     """
     a, b = joints[cycle[0]]
     link = a if b in joints[cycle[1]] else b

@@ -1,5 +1,4 @@
 from graphs.mechanism.drawing import (
-    Corner as Corner,
     Drawing as Drawing,
     Face as Face,
     FaceKind as FaceKind,
@@ -15,9 +14,6 @@ from graphs.mechanism.sc import SCGraph as SCGraph, SpecialGeometry as SpecialGe
 from graphs.mechanism.scd import (
     FeatureCounts as FeatureCounts,
     SCDGraph as SCDGraph,
-    check_rules as check_rules,
-    points_of_joints as points_of_joints,
-    points_of_links as points_of_links,
 )
 from graphs.mechanism.sheet import Sheet as Sheet, sheet_from_model as sheet_from_model
 from graphs.mechanism.solids import HingedSolids as HingedSolids

@@ -41,21 +41,9 @@ Rotation = Mapping[LinkId, tuple[Side, ...]]
 class Corner:
     """The part of a link between two successive joints of its rotation; it lies in one face.
 
-    Attributes
-    ----------
-    link : link id
-    arriving, leaving : joint id or None
-        The joints by which a walk round the face enters and leaves; None on a link without joints.
-    open_edges : int
-        Number of open edges between them.
-    first_side, last_side : int
-        Indices in the rotation of the entering and the leaving joint (of the first open edge, without joints).
-
-    Examples
-    --------
-    >>> faces, _ = trace_faces({"a": (0, 1), "b": (0, 1)}, {0: ("a", "b", None), 1: ("b", "a")})
-    >>> [(corner.link, corner.arriving, corner.leaving) for corner in faces[0].corners]
-    [(1, 'a', 'b'), (0, 'b', 'a')]
+    A walk round the face enters by the joint ``arriving`` and leaves by ``leaving`` (None on a link without
+    joints), ``open_edges`` lie between them. ``first_side`` and ``last_side`` are the indices in the rotation of
+    the entering and the leaving joint (of the first open edge, without joints).
     """
 
     link: LinkId
@@ -81,13 +69,8 @@ class Face:
 
     Examples
     --------
-    The two faces of a ring of three links with an open edge each:
-
-    >>> ring = {0: ("a", "b"), 1: ("b", "c"), 2: ("c", "a")}
-    >>> joints = {"a": (2, 0), "b": (0, 1), "c": (1, 2)}
-    >>> faces, _ = trace_faces(joints, {link: (*sides, None) for link, sides in ring.items()})
-    >>> [(len(face.joints), face.open_edges) for face in faces]
-    [(3, 3), (3, 0)]
+    >>> Face(0, (Corner("plate", None, None, 3, 0, 0),)).open_edges
+    3
     """
 
     index: int
@@ -199,11 +182,6 @@ def face_cycles(face: Face) -> list[tuple[JointId, ...]]:
 
     A face of a 2-connected graph has one. There are more where a sub-mechanism hangs inside the face (thesis
     3.4.2) and none on the face of a tree; joints with the face on both their sides belong to no cycle.
-
-    >>> triangle = {"a": (0, 1), "b": (1, 2), "c": (2, 0)}
-    >>> faces, _ = trace_faces(triangle, {0: ("a", "c", None), 1: ("b", "a", None), 2: ("c", "b", None)})
-    >>> [face_cycles(face) for face in faces]
-    [[('a', 'b', 'c')], [('a', 'c', 'b')]]
     """
     cycles: list[tuple[JointId, ...]] = []
     path: list[tuple[LinkId, JointId]] = []  # links entered and not yet closed off, and the joint crossed
@@ -252,19 +230,15 @@ class FaceKind(Enum):
 
     Attributes
     ----------
-    EXPLICIT
-        A centre that is a vertex of the links themselves.
-    IMPLICIT
-        A remote centre: the axes meet there, the links do not reach it.
+    EXPLICIT, IMPLICIT
+        A centre that is a vertex of the links themselves; a remote centre, which the links do not reach.
     SPATIAL, OUTER
         No centre; the rest of the sphere, without a centre.
 
     Examples
     --------
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 1)])
-    >>> sorted(fan.drawing.kind_of_face(face.index).name for face in fan.faces)
-    ['EXPLICIT', 'OUTER']
+    >>> FaceKind("outer").name
+    'OUTER'
     """
 
     EXPLICIT = "explicit"
@@ -284,23 +258,17 @@ class Drawing:
     outer : (joint, "left" or "right"), optional
         The outer face: the one on that side of the joint, looking from its first link to its second. May be left
         out where there is only one face (trees).
-    loops : sequence of Loop, optional
-        Independent loops; they belong to bounded faces.
-    closing : sequence of Loop, optional
-        Loops that depend on them; one belongs to the outer face.
+    loops, closing : sequence of Loop, optional
+        Independent loops, which belong to bounded faces; loops that depend on them, of which one belongs to the
+        outer face.
 
     Attributes
     ----------
     faces : tuple of Face
-    vertex_count : int
-        V = open edges + faces without open edges.
-    outer : (joint, side) or None
-    outer_face : int
-        Index of the outer face.
-    loops : tuple of Loop
-        Independent ones, then closing ones.
+    outer_face, vertex_count : int
+        Index of the outer face; V = open edges + faces without open edges.
     face_loops : tuple of int or None
-        For each face the index of its loop in ``loops``.
+        For each face the index of its loop in ``loops``, which holds the closing ones too.
 
     Raises
     ------
@@ -311,9 +279,8 @@ class Drawing:
     --------
     >>> triangle = {"a": (0, 1), "b": (1, 2), "c": (2, 0)}
     >>> sides = {0: ("a", "c", None), 1: ("b", "a", None), 2: ("c", "b", None)}
-    >>> drawing = Drawing(triangle, sides, ("a", "right"))
-    >>> drawing.vertices[0], drawing.ends_of_joint("a"), drawing.kind_of_face(drawing.outer_face)
-    ((0, 2, 1), (1, 0), <FaceKind.OUTER: 'outer'>)
+    >>> Drawing(triangle, sides, ("a", "right")).vertices[0]
+    (0, 2, 1)
     """
 
     def __init__(

@@ -1,10 +1,9 @@
 """How precise a drawing is, estimated from its geometry.
 
-Drawings consist of straight lines, right angles, vertices that obey Kawasaki's theorem, equal angles and lengths,
-planes. Each relation that a sheet may have been drawn to hold comes with its deviation, as the displacement of one
-coordinate that would make it exact: deviations over the norms of their gradients. The deviations of relations that
-were meant are alike, those of relations that hold by chance are of any size; so the former are a cluster far below
-the others. Theory: docs/theory/precision.md.
+Each relation that a sheet may have been drawn to hold (straight lines, right angles, Kawasaki's theorem, equal
+angles and lengths, planes) comes with its deviation, as the displacement of one coordinate that would make it
+exact. The deviations of relations that were meant are alike, those of relations that hold by chance are of any
+size; so the former are a cluster far below the others. Theory: docs/theory/precision.md.
 """
 
 from __future__ import annotations
@@ -363,16 +362,7 @@ class Estimate:
 
 
 def estimate_of(sheet: Sheet) -> Estimate | None:
-    """Return how precise the coordinates of a sheet are by its geometry; None where nothing can be estimated.
-
-    >>> from math import cos, sin
-    >>> grid = [(x * cos(.6) - y * sin(.6), x * sin(.6) + y * cos(.6)) for x in range(4) for y in range(4)]
-    >>> places = tuple((round(x, 4), round(y, 4)) for x, y in grid)
-    >>> faces = tuple((k, k + 4, k + 5, k + 1) for k in range(11) if k % 4 < 3)
-    >>> found = estimate_of(Sheet(16, (), "", faces, places))
-    >>> 1e-5 < found.size < 1e-4
-    True
-    """
+    """Return how precise the coordinates of a sheet are by its geometry; None where nothing can be estimated."""
     if sheet.coordinates is None or not sheet.faces:
         return None
     points = np.zeros((len(sheet.coordinates), 3))

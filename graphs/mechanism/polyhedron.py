@@ -40,9 +40,8 @@ class RemoteCentre:
 
     Examples
     --------
-    >>> from graphs.count.equations import mobility_of_model
-    >>> mobility_of_model(PolyhedronModel(4, [(0, 1), (2, 3)], centres=[RemoteCentre(3)]))
-    7
+    >>> PolyhedronModel(4, [(0, 1), (2, 3)], centres=[RemoteCentre(3)])
+    <PolyhedronModel: 4 vertices, 2 rods, 1 remote centre>
     """
 
     k: int
@@ -62,11 +61,8 @@ class PointConstraint:
 
     Examples
     --------
-    A point on a line gives up two freedoms:
-
-    >>> from graphs.count.equations import mobility_of_model
-    >>> mobility_of_model(PolyhedronModel(4, [(0, 1), (2, 3)], on_line=[PointConstraint(0, (2, 3))]))
-    2
+    >>> PolyhedronModel(4, [(0, 1), (2, 3)], on_line=[PointConstraint(0, (2, 3))]).on_line
+    (PointConstraint(vertex=0, of=(2, 3)),)
     """
 
     vertex: VertexId
@@ -91,8 +87,8 @@ class PolyhedronModel(nx.Graph):
     scissors : iterable of 4-tuples of vertices, optional
         Wampler's X: the exposed vertices of each scissors element.
     ground : iterable of vertex ids, optional
-        The vertices of the ground link, which is left out of the count, even if it has none (Eq. 10); if None,
-        all bodies are free and six freedoms are taken off (Eq. 9).
+        The vertices of the ground link, which is left out of the count, even if it has none (Eq. 10); if None, all
+        bodies are free and six freedoms are taken off (Eq. 9).
     links : mapping of link to its vertices in cyclic order, optional
         Which vertices make up which link, where that is known.
 
@@ -103,12 +99,8 @@ class PolyhedronModel(nx.Graph):
 
     Examples
     --------
-    Two triangles hinged along a rod (a revolute joint):
-
-    >>> hinge = PolyhedronModel(4, [(0, 1), (1, 2), (2, 0), (1, 3), (2, 3)])
-    >>> from graphs.count.equations import mobility_of_model
-    >>> mobility_of_model(hinge)
-    1
+    >>> PolyhedronModel(4, [(0, 1), (1, 2), (2, 0), (1, 3), (2, 3)])  # two triangles hinged along a rod
+    <PolyhedronModel: 4 vertices, 5 rods>
     """
 
     centres: tuple[RemoteCentre, ...]

@@ -1,9 +1,8 @@
 """How precise coordinates are, and whether a sheet lies in one plane to that precision.
 
-The precision is stated, or the digits say it, or points that nearly coincide or nearly lie in one plane; the
-evidence of the whole geometry (`graphs.mechanism.estimate`) is weighed against that. A program rounds all
-coordinates alike: to so many decimals, to so many significant digits, or to single precision. Which it was is seen
-by the numbers themselves, whose shortest text is what was written, but for zeros at its end. Theory:
+The precision is stated, or the digits say it (a program rounds all coordinates alike, to so many decimals,
+significant digits, or to single precision), or points that nearly coincide or nearly lie in one plane; the
+evidence of the whole geometry (`graphs.mechanism.estimate`) is weighed against that. Theory:
 docs/theory/precision.md.
 """
 
@@ -209,9 +208,6 @@ def extent_of(points: Floats) -> float:
     """Return the largest distance of a coordinate from the middle of all: half the size, about.
 
     Points that differ by rounding only, as those of axes through one point, have none.
-
-    >>> extent_of(np.array([[0.0, 0.0], [4.0, 2.0]])), extent_of(np.array([[0.1, 0.3], [0.1, 0.3 + 1e-16]]))
-    (2.0, 0.0)
     """
     if not len(points):
         return 0.0
@@ -232,11 +228,7 @@ def precision_of(coordinates: Sequence[Sequence[float]]) -> Precision:
 
 
 def written_by(ends: Floats) -> WrittenPrecision | None:
-    """Return how precise points, float[..., 2 or 3], are as they are written; None if nothing says so.
-
-    >>> written_by(np.array([[0.12, 3.41], [7.33, 2.05], [9.99, 0.5]]))
-    WrittenPrecision(length=0.005, source='2 decimals', stated=False)
-    """
+    """Return how precise points, float[..., 2 or 3], are as they are written; None if nothing says so."""
     points = np.asarray(ends, dtype=float)
     points = points.reshape(-1, points.shape[-1])
     digits = digits_of(points, extent_of(points))
@@ -293,12 +285,7 @@ def keeping(sheet: Sheet, precision: Precision) -> Sheet:
 
 
 def precision_of_axes(points: Floats, directions: Floats) -> Precision:
-    """Return how precise axes are: the coarser of their points, in any unit of length, and their directions.
-
-    >>> ups = np.tile([0.0, 0.0, 1.0], (9, 1))
-    >>> precision_of_axes(np.random.default_rng(0).random((9, 3)).round(5), ups).source
-    '5 decimals'
-    """
+    """Return how precise axes are: the coarser of their points, in any unit of length, and their directions."""
     return max(
         precision_of(points.tolist()), precision_of(directions.tolist()), key=lambda precision: precision.size
     )
@@ -308,10 +295,6 @@ def precision_of_sheet(sheet: Sheet) -> Precision:
     """Return how precise the coordinates of a sheet are: as stated, else as written, or coarser by the geometry.
 
     It is found once and kept. Raises `ValueError` if the sheet has no coordinates.
-
-    >>> places = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 1e-7), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-    >>> precision_of_sheet(Sheet(5, (), "", ((0, 1, 2, 3), (0, 1, 4)), places)).source
-    'panels off their planes'
     """
     kept = vars(sheet).get(_KEPT)
     if isinstance(kept, Precision):

@@ -20,7 +20,7 @@ import networkx as nx
 
 from graphs.errors import InvariantError, numbered, shown
 from graphs.loops.classes import CentreClass, centre_classes
-from graphs.loops.loop import Centre, Loop, check_independent, cyclic_order, dependent_loop
+from graphs.loops.loop import Centre, Loop, cyclic_order, dependent_loop
 from graphs.types import JointId, LinkId
 
 __all__ = ["ARRANGEMENTS", "Arrangement", "SCGraph", "SpecialGeometry", "arrangement_of", "centre_graph"]
@@ -35,14 +35,9 @@ class SpecialGeometry:
     Parameters
     ----------
     freedoms : int
-        Degrees of freedom of the finite motion of a realisation that obeys the conditions.
+        Degrees of freedom of the finite motion of a realisation that obeys the conditions, 1 or more.
     conditions : sequence of str
-        What is special, such as ``flat-foldable`` or ``two triples of parallel axes (Sarrus)``.
-
-    Raises
-    ------
-    InvariantError
-        If there are no freedoms, or no conditions.
+        What is special, such as ``flat-foldable`` or ``two triples of parallel axes (Sarrus)``; one or more.
 
     Examples
     --------
@@ -69,9 +64,9 @@ class SpecialGeometry:
 class SCGraph(nx.MultiGraph):
     """A type of mechanism: a link-joint graph with independent loops, each with its centre.
 
-    Nodes are links (panels), edges are revolute joints (creases), edge keys are joint ids. The graph is
-    frozen once built: an edit makes a new graph. networkx functions for multigraphs accept it;
-    :meth:`copy` gives a plain, mutable ``nx.MultiGraph``.
+    Nodes are links (panels), edges are revolute joints (creases), edge keys are joint ids. The graph is frozen
+    once built: an edit makes a new graph. networkx functions for multigraphs accept it; :meth:`copy` gives a
+    plain, mutable ``nx.MultiGraph``.
 
     Parameters
     ----------
@@ -83,8 +78,8 @@ class SCGraph(nx.MultiGraph):
         Independent loops. A loop's joints may come in any order; they are stored in cyclic order. Independent
         cycles that are left out are spatial.
     closing : iterable of Loop, optional
-        Loops that *depend* on the others and yet carry a centre: the last face of a closed surface, or the
-        outer one of concentric loops (Wiener 3.3.6).
+        Loops that *depend* on the others and yet carry a centre: the last face of a closed surface, or the outer
+        one of concentric loops (Wiener 3.3.6).
     ground : link id, optional
         The fixed link; without it the graph is a kinematic chain.
     special : SpecialGeometry, optional
@@ -98,19 +93,14 @@ class SCGraph(nx.MultiGraph):
     Raises
     ------
     InvariantError
-        Naming what breaks which invariant: link names distinct as text, joints between
-        two different known links, each loop one cycle, loops independent over GF(2), closing loops dependent
-        on them and independent of each other, finite and infinite centres never forced to be one.
+        Naming what breaks which invariant: link names distinct as text, joints between two different known links,
+        each loop one cycle, loops independent over GF(2), closing loops dependent on them and independent of each
+        other, finite and infinite centres never forced to be one.
 
     Examples
     --------
-    Watt's six-bar chain has two centres:
-
-    >>> watt = SCGraph(
-    ...     6,
-    ...     [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)],
-    ...     loops=[Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))],
-    ... )
+    >>> pairs = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
+    >>> watt = SCGraph(6, pairs, loops=[Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
     >>> len(watt.centre_classes()), watt.independent_loops
     (2, 2)
     """
@@ -205,7 +195,13 @@ class SCGraph(nx.MultiGraph):
         return tuple(ordered)
 
     def _check_loops(self) -> None:
-        check_independent(self.loops)
+        if (culprit := dependent_loop([x.joints for x in self.loops])) is not None:
+            raise InvariantError(
+                "independent loops",
+                f"{self.loops[culprit].label} is the sum of others",
+                "independent loops",
+                ("loops", culprit),
+            )
         for index, loop in enumerate(self.closing):
             self._check_closing(loop, ("closing", index))
         if (culprit := dependent_loop([x.joints for x in self.closing])) is not None:
@@ -388,14 +384,7 @@ _REPEATED = 3
 
 
 def arrangement_of(sc: SCGraph) -> Arrangement:
-    """Return the class of the arrangement of a mechanism's centres.
-
-    Watt's six-bar chain has two centres on one joint:
-
-    >>> watt = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
-    >>> arrangement_of(SCGraph(6, watt, [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))]))
-    'coupled'
-    """
+    """Return the class of the arrangement of a mechanism's centres, a key of `ARRANGEMENTS`."""
     graph = centre_graph(sc)
     if len(graph) < 2:
         return "single" if len(graph) else "none"

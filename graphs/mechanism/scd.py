@@ -51,25 +51,8 @@ K = TypeVar("K", bound=Hashable)
 def check_rules(drawing: Drawing, classes: Sequence[CentreClass]) -> None:
     """Refuse a drawing that breaks a rule of the table above; link degree is checked when it is made.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        With its loops placed.
-    classes : sequence of CentreClass
-        Of these loops.
-
-    Raises
-    ------
-    InvariantError
-        ``rule`` is the first column of the table.
-
-    Examples
-    --------
-    Four triangles round a vertex obey the rules:
-
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
-    >>> check_rules(fan.drawing, fan.centre_classes())
+    The drawing has its loops placed, the classes are those of these loops; ``rule`` of the `InvariantError` is the
+    first column of the table.
     """
     for face in drawing.faces:
         _check_face(drawing, face)
@@ -83,52 +66,16 @@ def check_rules(drawing: Drawing, classes: Sequence[CentreClass]) -> None:
 def points_of_joints(drawing: Drawing, classes: Sequence[CentreClass]) -> dict[JointId, frozenset[int]]:
     """Return the points on the axis of each joint: its two ends and the centres it passes through.
 
-    Points below ``drawing.vertex_count`` are vertices, from there on the centres that are no vertices.
-
-    Parameters
-    ----------
-    drawing : Drawing
-        With its loops placed.
-    classes : sequence of CentreClass
-        The classes of these loops.
-
-    Raises
-    ------
-    InvariantError
-        If a class has two explicit centres.
-
-    Examples
-    --------
-    The axes of four triangles round a vertex have it in common:
-
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
-    >>> len(frozenset.intersection(*points_of_joints(fan.drawing, fan.centre_classes()).values()))
-    1
+    Points below ``drawing.vertex_count`` are vertices, from there on the centres that are no vertices. The drawing
+    has its loops placed, the classes are those of these loops. Raises `InvariantError` if a class has two explicit
+    centres.
     """
     ends = {joint: drawing.ends_of_joint(joint) for joint in drawing.joints}
     return _with_centres(ends, classes, _centre_points(drawing, classes))
 
 
 def points_of_links(drawing: Drawing, classes: Sequence[CentreClass]) -> dict[LinkId, frozenset[int]]:
-    """Return the points of each link: its vertices and the centres on the axes of its joints.
-
-    Errors and numbers of points are those of `points_of_joints`.
-
-    Parameters
-    ----------
-    drawing, classes
-        As for `points_of_joints`.
-
-    Examples
-    --------
-    Four triangles round a vertex have no point besides their own corners:
-
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> fan = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
-    >>> [len(points) for points in points_of_links(fan.drawing, fan.centre_classes()).values()]
-    [3, 3, 3, 3]
-    """
+    """Return the points of each link: its vertices and the centres on the axes of its joints."""
     points = {link: set(here) for link, here in drawing.vertices.items()}
     for one, point in zip(classes, _centre_points(drawing, classes), strict=True):
         for joint in one.joints:
@@ -278,22 +225,11 @@ class FeatureCounts:
 
     Attributes
     ----------
-    vertices : int
-        V = open edges + faces without open edges.
-    implicit_centres : int
-        C, loops (not classes) with an implicit centre.
-    external_edges : int
-        E_ext = joints + open edges.
-    internal_edges : int
-        E_int, the sum of 2n - 6 over the links of n >= 4 sides.
+    vertices, implicit_centres : int
+        V = open edges + faces without open edges; C, loops (not classes) with an implicit centre.
+    external_edges, internal_edges : int
+        E_ext = joints + open edges; E_int, the sum of 2n - 6 over the links of n >= 4 sides.
     open_edges, faces : int
-
-    Examples
-    --------
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> counts = scd_from_panels([(0, 1, 2), (0, 2, 3), (0, 3, 1)]).counts
-    >>> counts.vertices, counts.external_edges, counts.internal_edges
-    (4, 6, 0)
     """
 
     vertices: int
@@ -319,8 +255,8 @@ class SCDGraph(SCGraph):
     rotation : mapping of link to sequence of sides
         The sides of each link counter-clockwise: joint ids, and None for an open edge.
     outer : (joint, "left" or "right"), optional
-        The outer face: the one on that side of the joint, looking from its first link to its second. May be
-        left out where there is one face only (trees).
+        The outer face: the one on that side of the joint, looking from its first link to its second. May be left
+        out where there is one face only (trees).
 
     Attributes
     ----------
@@ -334,18 +270,12 @@ class SCDGraph(SCGraph):
 
     Examples
     --------
-    A spherical four-bar of four triangles round one explicit centre:
+    Three triangles round one explicit centre:
 
-    >>> from graphs.loops.loop import Loop
-    >>> fourbar = SCDGraph(
-    ...     4,
-    ...     [(0, 1), (1, 2), (2, 3), (3, 0)],
-    ...     [Loop((0, 1, 2, 3))],
-    ...     rotation={0: (0, 3, None), 1: (1, 0, None), 2: (2, 1, None), 3: (3, 2, None)},
-    ...     outer=(0, "right"),
-    ... )
-    >>> fourbar.counts.vertices, fourbar.counts.edges
-    (5, 8)
+    >>> sides = {0: (0, 2, None), 1: (1, 0, None), 2: (2, 1, None)}
+    >>> fan = SCDGraph(3, [(0, 1), (1, 2), (2, 0)], [Loop((0, 1, 2))], rotation=sides, outer=(0, "right"))
+    >>> fan.counts.vertices, fan.counts.edges
+    (4, 6)
     """
 
     drawing: Drawing

@@ -13,7 +13,7 @@ from itertools import chain
 from math import isfinite
 from typing import Any, Literal, Protocol, TypeAlias, TypeVar
 
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError, numbered, shown
 from graphs.limits import check_area, check_extent
 from graphs.mechanism.polyhedron import PolyhedronModel
 
@@ -69,11 +69,7 @@ class Repair:
         return {"kind": self.kind, "what": self.what, "places": places}
 
     def __str__(self) -> str:
-        """Return the repairs with their first places.
-
-        >>> print(Repair("line pruned", "1 line that ends nowhere pruned", (((0.0, 0.25), (1.0, 0.5)),)))
-        1 line that ends nowhere pruned: from (0, 0.25) to (1, 0.5)
-        """
+        """Return the repairs with their first places."""
         first = ", ".join(_place_text(place) for place in self.places[:_FIRST])
         more = f" and {len(self.places) - _FIRST} more" if len(self.places) > _FIRST else ""
         return f"{self.what}: {first}{more}" if first else self.what
@@ -252,7 +248,8 @@ class Sheet:
         if self.coordinates is not None:
             heights = {place[2:] for place in self.coordinates}
             lies = "flat" if len(heights) < 2 else "in space"
-        return f"<Sheet: {len(self.faces)} faces, {creases} creases, {self.vertices} vertices, {lies}>"
+        parts = [numbered(len(self.faces), "face"), numbered(creases, "crease")]
+        return f"<Sheet: {', '.join(parts)}, {numbered(self.vertices, 'vertex', 'vertices')}, {lies}>"
 
 
 def sheet_from_model(model: PolyhedronModel) -> Sheet:
@@ -261,12 +258,7 @@ def sheet_from_model(model: PolyhedronModel) -> Sheet:
     Parameters
     ----------
     model : PolyhedronModel
-        Rods between two links become unassigned creases.
-
-    Raises
-    ------
-    InvariantError
-        If the model does not know its links.
+        Rods between two links become unassigned creases; raises `InvariantError` if it does not know its links.
 
     Examples
     --------
@@ -290,10 +282,6 @@ def with_all_edges(sheet: Sheet) -> Sheet:
 
     Sides between two faces that were not listed are unassigned creases, in the order of the faces, and come first:
     their places in the list are the ids of their joints. Other sides are borders.
-
-    >>> whole = with_all_edges(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3))))
-    >>> whole.edges, whole.assignments
-    (((0, 2), (0, 1), (1, 2), (2, 3), (0, 3)), 'UBBBB')
     """
     listed = {frozenset(edge) for edge in sheet.edges}
     sides = Counter((min(side), max(side)) for face in sheet.faces for side in sides_of_face(face))

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import hypot
 from types import MappingProxyType
 
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError, numbered, shown
 from graphs.limits import LEAST, MOST, check_extent, in_reach
 from graphs.mechanism.sc import SCGraph
 from graphs.types import JointId
@@ -41,10 +41,8 @@ class HingedSolids:
 
     Examples
     --------
-    A door:
-
-    >>> HingedSolids(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
-    <HingedSolids: <SCGraph: 2 links, 1 joint, 0 centres>>
+    >>> HingedSolids(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})  # a door
+    <HingedSolids: 2 links, 1 joint>
     """
 
     chain: SCGraph
@@ -67,7 +65,8 @@ class HingedSolids:
         object.__setattr__(self, "axes", MappingProxyType(checked))
 
     def __repr__(self) -> str:
-        return f"<HingedSolids: {self.chain!r}>"
+        links, joints = numbered(len(self.chain), "link"), numbered(len(self.axes), "joint")
+        return f"<HingedSolids: {links}, {joints}>"
 
 
 def _vector(joint: JointId, numbers: Sequence[float]) -> Vector:

@@ -1,9 +1,8 @@
 """Right cones and circular cylinders, and linkages on them by their links' sizes, or by steps between joint axes.
 
-A place is an azimuth, a length along the ruling line there, a height outward. A cylinder is the limit of cones:
-its apex, in which all axes meet, is at infinity, and linkages on it are planar. How a linkage lies on surfaces is
-worked out in ``synth.surfaces``. Theory: docs/theory/mapping.md, docs/theory/multiloop.md,
-docs/theory/templates.md.
+A place is an azimuth, a length along the ruling line there, a height outward. A cylinder is the limit of cones,
+its apex at infinity, and linkages on it are planar. How a linkage lies on surfaces: ``synth.surfaces``. Theory:
+docs/theory/mapping.md, docs/theory/multiloop.md, docs/theory/templates.md.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 import numpy.typing as npt
 
-from graphs.errors import InvariantError, shown
+from graphs.errors import InvariantError, numbered, shown
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.types import Floats, JointId
@@ -56,10 +55,8 @@ def joint_axes(places: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
 
     Parameters
     ----------
-    places : float[..., J]
-        Azimuths, radians.
-    cone_angle : float[...]
-        lambda of each linkage.
+    places, cone_angle : float[..., J], float[...]
+        Azimuths, and lambda of each linkage, radians.
 
     Raises
     ------
@@ -123,11 +120,7 @@ class Cone:
         return c * row[:, 2], c * row[:, 0], s * (1.0 - row[:, 1])
 
     def place(self, azimuth: npt.ArrayLike, along: npt.ArrayLike, height: npt.ArrayLike) -> Floats:
-        """Return points in space, float[..., 3]: on the ruling line, and outward from it.
-
-        >>> Cone(0.0).place(0.0, 2.0, 1.0).tolist()
-        [0.0, 1.0, 2.0]
-        """
+        """Return points in space, float[..., 3]: on the ruling line, and outward from it."""
         t = np.asarray(azimuth, dtype=float)
         rulings = joint_axes(t[..., None], np.full(t.shape, self.angle))[..., 0, :]
         c, s = np.cos(self.angle), np.sin(self.angle)
@@ -139,9 +132,6 @@ class Cone:
         """Return points of the surface unrolled and seen from outside, float[..., 2]; azimuth 0 points upwards.
 
         The surface at a height is a cone whose apex is height / cos(lambda) higher.
-
-        >>> (Cone(np.radians(60)).flat(np.pi, 2.0, 0.0).round(9) + 0.0).tolist()
-        [-2.0, 0.0]
         """
         turn = np.asarray(azimuth, dtype=float) * cos(self.angle)
         radius = np.asarray(along, dtype=float) + height * tan(self.angle)
@@ -209,20 +199,12 @@ class Cylinder:
         return turned[:, 1], turned[:, 0], (shift**2).sum(axis=1) / 2
 
     def place(self, azimuth: npt.ArrayLike, along: npt.ArrayLike, height: npt.ArrayLike) -> Floats:
-        """Return points in space, float[..., 3], as `Cone.place` does.
-
-        >>> Cylinder(5.0).place(0.0, 2.0, 1.0).tolist()
-        [0.0, -2.0, 6.0]
-        """
+        """Return points in space, float[..., 3], as `Cone.place` does."""
         t, up, out = np.broadcast_arrays(*(np.asarray(one, dtype=float) for one in (azimuth, along, height)))
         return np.stack([(self.radius + out) * np.sin(t), -up, (self.radius + out) * np.cos(t)], axis=-1)
 
     def flat(self, azimuth: npt.ArrayLike, along: npt.ArrayLike, height: float) -> Floats:
-        """Return points of the surface unrolled and seen from outside, float[..., 2].
-
-        >>> Cylinder(5.0).flat(2.0, 3.0, 1.0).tolist()
-        [12.0, -3.0]
-        """
+        """Return points of the surface unrolled and seen from outside, float[..., 2]."""
         t, up = np.broadcast_arrays(np.asarray(azimuth, dtype=float), np.asarray(along, dtype=float))
         return np.stack([(self.radius + height) * t, -up], axis=-1)
 
@@ -261,19 +243,16 @@ class SurfaceLinkage:
     ----------
     chain : SCGraph
         On a cylinder all its loops have their centre at infinity.
-    angles : mapping of (joint, joint) to float, or None
-        Link angles, radians: on a cone.
+    angles, lengths : mapping of (joint, joint) to float, or None
+        Link angles, radians: on a cone; distances of joints, any one unit: on a cylinder.
     steps : mapping of (joint, joint) to float, or None
         Signed projected angles, radians; they lead to every joint.
     surface : Cone, Cylinder or None
         With steps, where it is known.
-    lengths : mapping of (joint, joint) to float, or None
-        Distances of joints, any one unit: on a cylinder.
 
     Examples
     --------
-    >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
-    >>> SurfaceLinkage(chain, steps={(0, 1): 1.0, (1, 2): 0.5, (0, 3): -1.0}).places()
+    >>> SurfaceLinkage(ring(4), steps={("1", "2"): 1.0, ("2", "3"): 0.5, ("1", "4"): -1.0}).places()
     [0.0, 1.0, 1.5, -1.0]
     """
 
@@ -290,13 +269,8 @@ class SurfaceLinkage:
         Parameters
         ----------
         sizes : float[n]
-            In loop order: link angles, radians; on a cylinder lengths.
+            In loop order: link angles, radians, or on a cylinder lengths; `InvariantError` if one is out of range.
         kind : {"cone", "cylinder"}, optional
-
-        Raises
-        ------
-        InvariantError
-            If a link angle is none between two axes, or a length is not positive.
 
         Examples
         --------
@@ -350,18 +324,14 @@ class SurfaceLinkage:
         return self.lengths if self.angles is None else self.angles
 
     def __repr__(self) -> str:
-        sizes = "steps between its axes"
-        if self.steps is None:
-            sizes = "link angles" if self.lengths is None else "lengths"
-        return f"<SurfaceLinkage: {self.chain!r}, {sizes}>"
+        sizes = "steps" if self.steps is not None else "lengths" if self.lengths is not None else "link angles"
+        links, joints = numbered(len(self.chain), "link"), numbered(len(self.chain.joints), "joint")
+        return f"<SurfaceLinkage: {links}, {joints}, on a {self.kind}, by {sizes}>"
 
     def places(self) -> list[float]:
         """Return the azimuths of the joints, radians, in the order of the chain's joints.
 
-        Raises
-        ------
-        InvariantError
-            If the steps disagree, or do not lead to every joint.
+        Raises `InvariantError` if the steps disagree, or do not lead to every joint.
         """
         placed = places_of_steps(self.steps or {})
         return [placed[joint] for joint in self.chain.joints]
@@ -374,21 +344,13 @@ def _shorter_way(step: float) -> float:
 
 
 def ring(links: int) -> SCGraph:
-    """Return a loop whose link i lies between joints i and i + 1, counted from 1.
-
-    >>> dict(ring(4).joints)
-    {'1': (4, 1), '2': (1, 2), '3': (2, 3), '4': (3, 4)}
-    """
+    """Return a loop whose link i lies between joints i and i + 1, counted from 1."""
     joints = {str(i + 1): ((i - 1) % links + 1, i + 1) for i in range(links)}
     return SCGraph(range(1, links + 1), joints, [Loop(tuple(joints))])
 
 
 def as_planar(chain: SCGraph) -> SCGraph:
-    """Return a chain with the centres of all loops at infinity: all axes are parallel.
-
-    >>> as_planar(ring(4)).loops[0].centre.value
-    'infinite'
-    """
+    """Return a chain with the centres of all loops at infinity: all axes are parallel."""
     return chain.with_loops([replace(loop, centre=Centre.INFINITE) for loop in chain.loops])
 
 

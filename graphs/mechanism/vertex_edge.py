@@ -1,10 +1,8 @@
 """Vertex-edge graphs: spherical centres as vertices, creases as edges.
 
-Bowen and others draw an origami mechanism with a vertex for each spherical centre and an edge for each
-crease between two of them; Wiener 2016, Tables 4 and 5, turn such a graph into an SC graph and back. It is
-the dual of the SC graph: the sectors between creases are the links. Creases that run to the border of the
-sheet end free. The cyclic order of the creases round each vertex makes the graph definite.
-Theory: docs/theory/vertex-edge-graphs.md.
+It is the dual of the SC graph (Bowen and others; Wiener 2016, Tables 4 and 5): the sectors between creases are the
+links. Creases that run to the border of the sheet end free. The cyclic order of the creases round each vertex
+makes the graph definite. Theory: docs/theory/vertex-edge-graphs.md.
 """
 
 from __future__ import annotations
@@ -31,13 +29,9 @@ class VertexEdgeGraph:
     Parameters
     ----------
     vertices : mapping of vertex to sequence of crease ids
-        The creases that end in each vertex, counter-clockwise. A crease named at two vertices joins them; one
-        named once runs to the border.
-
-    Raises
-    ------
-    InvariantError
-        If a vertex has fewer than two creases, or a crease is named twice at one vertex or at three vertices.
+        The creases that end in each vertex, counter-clockwise, two or more. A crease named at two vertices joins
+        them; one named once runs to the border. `InvariantError` if one is named twice at one vertex or at three
+        vertices.
 
     Examples
     --------
@@ -99,20 +93,13 @@ def sc_from_vertex_edge(graph: VertexEdgeGraph) -> SCGraph:
     Parameters
     ----------
     graph : VertexEdgeGraph
-        Its creases name the joints, its vertices the loops.
-
-    Raises
-    ------
-    InvariantError
-        If a crease has the same link on both sides.
+        Its creases name the joints, its vertices the loops; `InvariantError` if a crease has one link on both
+        sides.
 
     Examples
     --------
-    Two vertices of degree four with a crease in common: Watt's chain, two centres.
-
-    >>> sc = sc_from_vertex_edge(VertexEdgeGraph({"A": ("a", "b", "c", "d"), "B": ("a", "e", "f", "g")}))
-    >>> len(sc), len(sc.joints), len(sc.centre_classes())
-    (6, 7, 2)
+    >>> sc_from_vertex_edge(VertexEdgeGraph({"A": ("a", "b", "c", "d"), "B": ("a", "e", "f", "g")}))
+    <SCGraph: 6 links, 7 joints, 2 centres>
     """
     place = {(v, crease): i for v, creases in graph.vertices.items() for i, crease in enumerate(creases)}
 
@@ -146,12 +133,8 @@ def vertex_edge_from_sc(sc: SCGraph) -> VertexEdgeGraph:
     Parameters
     ----------
     sc : SCGraph
-
-    Raises
-    ------
-    UnsolvableError
-        If the mechanism is not a sheet of finite centres: a loop is spatial or planar, or a joint lies in no loop
-        or in more than two.
+        A sheet of finite centres; `UnsolvableError` if a loop is spatial or planar, or a joint lies in no loop or
+        in more than two.
 
     Examples
     --------

@@ -1,14 +1,10 @@
 """The rank of large sparse matrices: nested dissection with singular values.
 
 The rows are halved by place again and again. From the smallest parts up, the columns that only a part's rows have
-are taken out. An orthogonal change of them, by the singular vectors of their block, leaves combinations with large
-singular values, which are pivots, with values that are noise, which are freedoms, and some between, which are
-handed up with the rest. What reaches the top holds the small singular values of the whole. Each candidate is
-continued to a vector of all columns, so that its singular value, and what errors do to it, are those of the whole
-matrix. It is multifrontal QR with delayed pivots (Davis 2011), two-sided. How many values are small is counted a
-second time, by the inertia of the normal equations.
-
-Theory: docs/theory/pose.md.
+are taken out: combinations with large singular values are pivots, those that are noise are freedoms, the rest is
+handed up. Each candidate is continued to a vector of all columns, so that its singular value is that of the whole
+matrix. It is multifrontal QR with delayed pivots (Davis 2011), two-sided; how many values are small is counted a
+second time, by the inertia of the normal equations. Theory: docs/theory/pose.md.
 """
 
 from __future__ import annotations

@@ -1,13 +1,10 @@
 """Exact generic mobility: loop closure of a random realisation, its rank modulo two primes, and overconstraint.
 
-Round every independent loop the twists of the joints add up to zero. A loop whose axes all pass through one point
-says that with three equations (no other point of space has to close), any other loop with six. M = J - rank. The
-rank is the arbiter where counts are conjectures (Wampler, Larson, Erdman 2007, on Eqs. 1 and 2). It is computed
-exactly, over a field of about 2^61 numbers: never too large, and too small with a probability of about (number of
-joints) / 2^58 per prime.
-
-Each smallest dependent set of closure equations is an overconstrained sub-mechanism, named by the joints of its
-loops. The kernel shows immobile joints and links that move as one. Theory: docs/theory/exact-mobility.md.
+Round every independent loop the twists of the joints add up to zero: three equations if all axes pass through one
+point, else six. M = J - rank, computed exactly over a field of about 2^61 numbers: never too large, and too small
+with a probability of about (number of joints) / 2^58 per prime. It is the arbiter where counts are conjectures
+(Wampler, Larson, Erdman 2007, on Eqs. 1 and 2). Each smallest dependent set of equations is an overconstrained
+sub-mechanism; the kernel shows immobile joints and links that move as one. Theory: docs/theory/exact-mobility.md.
 """
 
 from __future__ import annotations
@@ -22,7 +19,6 @@ import networkx as nx
 from flint import nmod_mat
 
 from graphs.errors import NumericalError
-from graphs.loops.classes import class_of_loop
 from graphs.loops.loop import Centre, Loop, added_independent, signed_cycle
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.realisation import PRIMES, Field, Line, Point, PrimeField, Realisation, realise
@@ -49,17 +45,7 @@ _SPATIAL = [*_FINITE, (1, 0), (1, 1), (1, 2)]
 
 @dataclass(frozen=True, slots=True)
 class Closure:
-    """The closure equations, row by row.
-
-    Attributes
-    ----------
-    joints : tuple of joint ids
-        The unknowns: columns.
-    rows : tuple of dict
-        Column to coefficient; zeros are left out.
-    loops : tuple of tuple of joint ids
-        The loop of each row.
-    """
+    """The closure equations: a column per joint, rows that map columns to coefficients, the loop of each row."""
 
     joints: tuple[JointId, ...]
     rows: tuple[dict[int, Any], ...]
@@ -67,17 +53,7 @@ class Closure:
 
 
 def independent_cycles(sc: SCGraph) -> tuple[Loop, ...]:
-    """Return the loops of a mechanism, then cycles that complete them to a basis; these have no centre.
-
-    Parameters
-    ----------
-    sc : SCGraph or SCDGraph
-
-    Examples
-    --------
-    >>> [loop.centre.value for loop in independent_cycles(SCGraph(3, [(0, 1), (1, 2), (2, 0)]))]
-    ['none']
-    """
+    """Return the loops of a mechanism, then cycles that complete them to a basis; these have no centre."""
     missing = sc.independent_loops - len(sc.loops)
     if not missing:
         return sc.loops
@@ -106,24 +82,7 @@ def independent_cycles(sc: SCGraph) -> tuple[Loop, ...]:
 def closure_of(sc: SCGraph, axes: Mapping[JointId, Line], centres: Mapping[int, Point], field: Field) -> Closure:
     """Return the closure equations of a placed mechanism: 3 rows for a loop with a centre, 6 for one without.
 
-    Parameters
-    ----------
-    sc : SCGraph
-    axes : mapping of joint id to (u, m)
-    centres : mapping of loop index to (x, y, z, w)
-        The centre of each loop that has one.
-    field : Field
-
-    Examples
-    --------
-    A random spherical four-bar, modulo a prime: three equations of four rates.
-
-    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> field = PrimeField(101)
-    >>> placed = realise(four_bar, field)
-    >>> closure = closure_of(four_bar, placed.axes, {0: placed.points[0]}, field)
-    >>> len(closure.rows), closure.joints
-    (3, (0, 1, 2, 3))
+    Axes map joints to (u, m), centres the index of each loop that has one to (x, y, z, w).
     """
     joints = sc.joints
     column = {joint: i for i, joint in enumerate(joints)}
@@ -162,11 +121,8 @@ class ExactMobility:
 
     Attributes
     ----------
-    mobility : int
-        M = unknowns - rank.
-    unknowns : int
-        Joint rates J; of a polyhedron model 3V - 6 velocities.
-    rank : int
+    mobility, unknowns, rank : int
+        M = unknowns - rank; the unknowns are the J joint rates, of a polyhedron model 3V - 6 velocities.
     primes : tuple of int
         The primes modulo which the rank was found, each time at another random realisation.
     forced : bool
@@ -214,9 +170,7 @@ def exact_mobility(
 
     Examples
     --------
-    >>> stephenson = SCGraph(6, [(0, 1), (1, 2), (2, 3), (3, 0), (2, 4), (4, 5), (5, 0)],
-    ...                      [Loop((0, 1, 2, 3)), Loop((2, 3, 6, 5, 4))])
-    >>> exact_mobility(stephenson).mobility
+    >>> exact_mobility(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])).mobility
     1
     """
     ranks = [closure_modulo(mechanism, prime, forced=forced, seed=seed)[1].rank() for prime in primes]
@@ -244,8 +198,8 @@ def closure_modulo(mechanism: SCGraph, prime: int, *, forced: bool = True, seed:
 
 def centres_of_loops(mechanism: SCGraph, placed: Realisation) -> dict[int, Any]:
     """Return the centre of each of the independent loops that has one."""
-    classes = class_of_loop(mechanism.centre_classes())
-    return {loop: placed.points[index] for loop, index in classes.items() if loop < len(mechanism.loops)}
+    classes = zip(placed.points, mechanism.centre_classes(), strict=False)  # vertices of SCD graphs follow
+    return {loop: point for point, one in classes for loop in one.loops if loop < len(mechanism.loops)}
 
 
 def matrix_modulo(closure: Closure, prime: int) -> Any:
@@ -268,10 +222,8 @@ class Diagnosis:
 
     Attributes
     ----------
-    mobility : int
-        Exact generic mobility.
-    idle : int
-        Redundant closure equations: they follow from others.
+    mobility, idle : int
+        Exact generic mobility; redundant closure equations: they follow from others.
     circuits : tuple of tuple of loops
         Smallest dependent sets of equations, one for each redundant equation: the loops they come from, each a
         tuple of joint ids.
@@ -282,9 +234,7 @@ class Diagnosis:
 
     Examples
     --------
-    Three links round a centre do not move:
-
-    >>> diagnosis = diagnose(SCGraph(3, [(0, 1), (1, 2), (2, 0)], [Loop((0, 1, 2))]))
+    >>> diagnosis = diagnose(SCGraph(3, [(0, 1), (1, 2), (2, 0)], [Loop((0, 1, 2))]))  # three links do not move
     >>> diagnosis.mobility, diagnosis.idle, diagnosis.immobile
     (0, 0, (0, 1, 2))
     """
@@ -316,22 +266,14 @@ def diagnose(mechanism: SCGraph, prime: int = PRIMES[0], *, forced: bool = True,
     ----------
     mechanism : SCGraph or SCDGraph
     prime : int, optional
-    forced : bool, optional
-        As for `graphs.rank.exact.exact_mobility`.
-    seed : int, optional
-
-    Raises
-    ------
-    UnsolvableError
-        If the type could not be placed.
+    forced, seed
+        As for `exact_mobility`, as is the `UnsolvableError` of a type that could not be placed.
 
     Examples
     --------
-    A square twist of nine panels: as many equations as joints, none redundant, so it is rigid.
-
     >>> from graphs.files.formats import read
     >>> from graphs.convert.table import to_sc
-    >>> diagnosis = diagnose(to_sc(read("data/wiener/square-twist.fold")))
+    >>> diagnosis = diagnose(to_sc(read("data/wiener/square-twist.fold")))  # rigid, no equation redundant
     >>> diagnosis.mobility, diagnosis.idle, len(diagnosis.immobile), len(diagnosis.clusters)
     (0, 0, 12, 1)
     """
@@ -385,8 +327,7 @@ def _clusters(
 def mobility_without(mechanism: SCGraph, joint: JointId, *, forced: bool = True, seed: int = 0) -> int:
     """Return the generic mobility once a joint is cut, all other axes left where they are.
 
-    A joint is *critical* if that changes the mobility, *redundant* if not. Links that fall apart count as in
-    `graphs.rank.exact.exact_mobility`: a fixed link for each part.
+    A joint is *critical* if that changes the mobility, *redundant* if not. Each part has a fixed link.
 
     Parameters
     ----------
@@ -397,8 +338,7 @@ def mobility_without(mechanism: SCGraph, joint: JointId, *, forced: bool = True,
 
     Examples
     --------
-    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> mobility_without(four_bar, 0)
+    >>> mobility_without(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))]), 0)
     3
     """
     field = PrimeField(PRIMES[0], seed)

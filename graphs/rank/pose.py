@@ -1,10 +1,9 @@
 """Mobility at a pose: infinitesimal freedoms where the coordinates are, with the evidence.
 
-The closure equations at the axes as they lie have a rank that special geometry may lower: what is gained over the
-generic mobility is the overconstraint h = M_actual - M (Wiener 2016, Eq. 8). Freedoms found here are
-infinitesimal; a vertex whose creases lie in one plane has more of them than it can use. Directions are taken as
-they are and lengths in units of the extent, so that the precision of the coordinates says what each singular value
-may owe to errors. Theory: docs/theory/pose.md.
+Special geometry may lower the rank of the closure equations at the axes as they lie: what is gained over the
+generic mobility is the overconstraint h (Wiener 2016, Eq. 8). A vertex whose creases lie in one plane has more
+infinitesimal freedoms than it can use. Lengths are in units of the extent, so that the precision of the
+coordinates says what each singular value may owe to errors. Theory: docs/theory/pose.md.
 """
 
 from __future__ import annotations
@@ -68,15 +67,6 @@ class PoseMobility:
         Of the coordinates; singular values are judged by it.
     flat_loops : int
         Loops with a centre whose axes lie in one plane, which gives them one freedom more than when folded.
-
-    Examples
-    --------
-    Flat, a vertex of four creases has one freedom more than when it is folded:
-
-    >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
-    >>> flat = pose_mobility(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
-    >>> flat.dof, flat.self_stresses, flat.flat
-    (2, 1, True)
     """
 
     dof: int | None
@@ -117,19 +107,15 @@ def pose_mobility(
 
     Raises
     ------
-    UnsolvableError
-        If the sheet has no coordinates.
-    InvariantError
-        If a hinge has no length.
+    UnsolvableError, InvariantError
+        If the sheet has no coordinates; if a hinge has no length.
 
     Examples
     --------
-    A vertex of four creases, folded: three freedoms are taken by its loop.
-
-    >>> sheet = Sheet(5, ((0, 1), (0, 2), (0, 3), (0, 4)), "MVVV", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)),
-    ...               ((0, 0, 0), (1, 0, 0), (0, 1, .2), (-1, 0, .1), (0, -1, .3)))
-    >>> pose_mobility(sheet).dof
-    1
+    >>> corners = ((0, 0), (1, 0), (0, 1), (-1, 0), (0, -1))
+    >>> flat = pose_mobility(Sheet(5, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)), corners))
+    >>> flat.dof, flat.self_stresses, flat.flat  # one freedom more than folded
+    (2, 1, True)
     """
     mechanism = mechanism or mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
     closure = closure_at_pose(sheet, mechanism)
@@ -158,22 +144,15 @@ def pose_mobility_of_axes(
     ----------
     sc : SCGraph
     axes : mapping of joint id to (point, direction)
-        Three coordinates each, any unit of length.
+        Three coordinates each, any unit of length; `InvariantError` if an axis has no direction.
     precision : Precision, optional
         Of points, in units of their extent, and of directions; without it as many digits as they have.
 
-    Raises
-    ------
-    InvariantError
-        If an axis has no direction.
-
     Examples
     --------
-    A planar four-bar:
-
-    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
+    >>> planar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
     >>> places = [(0, 0, 0), (3, 0, 0), (4, 2, 0), (0, 1, 0)]
-    >>> pose_mobility_of_axes(four_bar, {i: (place, (0, 0, 1)) for i, place in zip(range(4), places)}).dof
+    >>> pose_mobility_of_axes(planar, {i: (place, (0, 0, 1)) for i, place in enumerate(places)}).dof
     1
     """
     points = np.array([axes[joint][0] for joint in sc.joints], dtype=float).reshape(-1, 3)
@@ -204,18 +183,13 @@ def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
 
     Raises
     ------
-    UnsolvableError
-        If it has no coordinates, or the bars of a scissors element do not cross there.
-    InvariantError
-        If a rod has no length.
+    UnsolvableError, InvariantError
+        If it has no coordinates, or the bars of a scissors element do not cross there; if a rod has no length.
 
     Examples
     --------
-    A square of four rods shears in its plane, and folds along a diagonal:
-
-    >>> corners = {0: (0, 0, 0), 1: (1, 0, 0), 2: (1, 1, 0), 3: (0, 1, 0)}
-    >>> square = PolyhedronModel(4, [(0, 1), (1, 2), (2, 3), (3, 0)], coordinates=corners)
-    >>> pose_mobility_of_model(square).dof
+    >>> corners = {0: (0, 0, 0), 1: (1, 0, 0), 2: (1, 1, 0), 3: (0, 1, 0)}  # a square shears, and folds
+    >>> pose_mobility_of_model(PolyhedronModel(4, [(0, 1), (1, 2), (2, 3), (3, 0)], coordinates=corners)).dof
     2
     """
     if not model.coordinates:

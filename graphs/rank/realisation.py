@@ -1,14 +1,10 @@
 """A random realisation of a type: centres and joint axes placed at random, as general as the type allows.
 
-A joint axis passes through the centres of the classes of its loops: the join of two of them, of one and a random
-point, or of two random points. Three centres on one axis are in line, so later ones are placed on the lines that
-earlier ones fix. Points are homogeneous (x, y, z, w), w = 0 for a centre at infinity; axes are Pluecker lines (u,
-p x u). An SCD graph has more points on its axes than centres, its vertices, and is placed with these: its *forced
-geometry*.
-
-Coordinates are of a prime field, where ranks are exact, or real. Over a field of about 2^61 numbers a random
-realisation has the generic rank but for a probability of about (number of joints) / 2^58 (Schwartz 1980): a
-smaller rank is possible, a larger one is not. Theory: docs/theory/exact-mobility.md.
+A joint axis passes through the centres of the classes of its loops. Three centres on one axis are in line, so
+later ones are placed on the lines that earlier ones fix. Points are homogeneous (x, y, z, w), w = 0 for a centre
+at infinity; axes are Pluecker lines (u, p x u). An SCD graph is placed with its vertices: its *forced geometry*.
+Over a prime field of about 2^61 numbers a realisation has the generic rank but for a probability of about (number
+of joints) / 2^58 (Schwartz 1980), and never a larger one. Theory: docs/theory/exact-mobility.md.
 """
 
 from __future__ import annotations
@@ -44,16 +40,7 @@ PRIMES = (2**61 - 1, 2**61 - 31)
 
 
 class Field(Protocol):
-    """Numbers that are added, multiplied, drawn at random, inverted, and compared with zero.
-
-    Examples
-    --------
-    A type is realised with any of them; the rank modulo a prime is exact:
-
-    >>> fields: list[Field] = [PrimeField(7), Reals()]
-    >>> [field.is_zero(field.reduce(field.inverse(2) * 2 - 1)) for field in fields]
-    [True, True]
-    """
+    """Numbers that are added, multiplied, drawn at random, inverted, and compared with zero."""
 
     def random(self) -> Any:
         """Return a random number."""
@@ -69,20 +56,7 @@ class Field(Protocol):
 
 
 class PrimeField:
-    """The integers modulo a prime.
-
-    Parameters
-    ----------
-    prime : int
-    seed : int, optional
-        Random seed; the same seed gives the same realisation.
-
-    Examples
-    --------
-    >>> field = PrimeField(7)
-    >>> field.reduce(3 * field.inverse(3))
-    1
-    """
+    """The integers modulo a prime; the same seed gives the same realisation."""
 
     def __init__(self, prime: int, seed: int = 0) -> None:
         self.prime = prime
@@ -106,18 +80,7 @@ class PrimeField:
 
 
 class Reals:
-    """Floating-point numbers; random ones are normally distributed.
-
-    Parameters
-    ----------
-    seed : int, optional
-        Random seed; the same seed gives the same realisation.
-
-    Examples
-    --------
-    >>> Reals().is_zero(1e-12)
-    True
-    """
+    """Floating-point numbers; random ones are normally distributed, the same for the same seed."""
 
     def __init__(self, seed: int = 0) -> None:
         self._random = random.Random(seed)
@@ -140,11 +103,7 @@ class Reals:
 
 
 def null_vectors(rows: Sequence[Sequence[Any]], field: Field) -> list[list[Any]]:
-    """Return a basis of the vectors that all rows of a small matrix annihilate.
-
-    >>> null_vectors([[1, 2], [2, 4]], PrimeField(7))
-    [[5, 1]]
-    """
+    """Return a basis of the vectors that all rows of a small matrix annihilate."""
     work = [list(row) for row in rows]
     columns = len(work[0])
     pivots: list[int] = []
@@ -180,23 +139,7 @@ _ATTEMPTS = 24
 
 @dataclass(frozen=True, slots=True)
 class Incidence:
-    """Points, and the joints whose axes pass through each.
-
-    Attributes
-    ----------
-    joints : tuple of joint ids
-        All joints.
-    points : tuple of (frozenset of joint ids, bool)
-        The joints through each point, and whether it lies at infinity.
-
-    Examples
-    --------
-    Two spherical loops with a joint in common: its axis passes through both centres.
-
-    >>> incidence = Incidence((0, 1, 2), ((frozenset((0, 1)), False), (frozenset((1, 2)), False)))
-    >>> sum(1 in joints for joints, _ in incidence.points)
-    2
-    """
+    """Points, by the joints whose axes pass through each and whether it lies at infinity; and all joints."""
 
     joints: tuple[JointId, ...]
     points: tuple[tuple[frozenset[JointId], bool], ...]
@@ -204,47 +147,16 @@ class Incidence:
 
 @dataclass(frozen=True, slots=True)
 class Realisation:
-    """Placed points and axes.
-
-    Attributes
-    ----------
-    points : tuple of (x, y, z, w)
-        In the order of the incidence.
-    axes : mapping of joint id to (u, m)
-        Direction u and moment p x u.
-
-    Examples
-    --------
-    Direction and moment of a line are perpendicular, modulo a prime too:
-
-    >>> placed = realise_points(Incidence((0, 1), ((frozenset((0, 1)), False),)), PrimeField(101))
-    >>> u, m = placed.axes[0]
-    >>> sum(a * b for a, b in zip(u, m, strict=True)) % 101
-    0
-    """
+    """Points (x, y, z, w) in the order of the incidence, and the axis of each joint: (u, p x u)."""
 
     points: tuple[Point, ...]
     axes: Mapping[JointId, Line]
 
 
 def incidence_of(mechanism: SCGraph, *, forced: bool = True) -> Incidence:
-    """Return which points lie on which axes: the centres, and for an SCD graph its vertices.
+    """Return which points lie on which axes: the centres, and for an SCD graph, if it is forced, its vertices.
 
     The points come in the order of ``mechanism.centre_classes()``, then the vertices that are no centres.
-
-    Parameters
-    ----------
-    mechanism : SCGraph or SCDGraph
-    forced : bool, optional
-        Whether the vertices of an SCD graph count; without them it is placed as its SC graph.
-
-    Examples
-    --------
-    >>> from graphs.loops.loop import Loop
-    >>> watt = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
-    >>> mechanism = SCGraph(6, watt, [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
-    >>> [len(joints) for joints, _ in incidence_of(mechanism).points]
-    [4, 4]
     """
     classes = mechanism.centre_classes()
     points = [(one.joints, one.centre is Centre.INFINITE) for one in classes]
@@ -264,30 +176,9 @@ def incidence_of(mechanism: SCGraph, *, forced: bool = True) -> Incidence:
 
 
 def realise(mechanism: SCGraph, field: Field, *, forced: bool = True) -> Realisation:
-    """Place a random realisation of the type of an SC or SCD graph.
+    """Place a random realisation of the type of an SC or SCD graph, whose vertices are placed too if it is forced.
 
-    Parameters
-    ----------
-    mechanism : SCGraph or SCDGraph
-    field : Field
-        The source of random numbers: the same seed gives the same realisation.
-    forced : bool, optional
-        As for `incidence_of`.
-
-    Raises
-    ------
-    UnsolvableError
-        If centres that must lie in line could not be placed: the type is not realised.
-
-    Examples
-    --------
-    Watt's chain: two centres, and a joint whose axis passes through both.
-
-    >>> from graphs.loops.loop import Loop
-    >>> watt = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
-    >>> placed = realise(SCGraph(6, watt, [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))]), PrimeField(101))
-    >>> len(placed.points), placed.axes[3] == join(*placed.points, PrimeField(101))
-    (2, True)
+    Raises `UnsolvableError` if centres that must lie in line could not be placed: the type is not realised.
     """
     return realise_points(incidence_of(mechanism, forced=forced), field)
 
@@ -372,11 +263,7 @@ def _axes(incidence: Incidence, points: Sequence[Point], field: Field) -> dict[J
 
 
 def join(p: Sequence[Any], q: Sequence[Any], field: Field) -> Line:
-    """Return the Pluecker line of two homogeneous points: direction u, and moment of a point on it.
-
-    >>> join((0, 0, 0, 1), (1, 0, 0, 1), Reals())
-    ((1, 0, 0), (0, 0, 0))
-    """
+    """Return the Pluecker line of two homogeneous points: direction u, and moment of a point on it."""
     u = tuple(field.reduce(p[3] * q[k] - q[3] * p[k]) for k in range(3))
     m = tuple(field.reduce(p[i] * q[j] - p[j] * q[i]) for i, j in ((1, 2), (2, 0), (0, 1)))
     return (u[0], u[1], u[2]), (m[0], m[1], m[2])

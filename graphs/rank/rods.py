@@ -1,11 +1,9 @@
 """Generic mobility a second way: vertices, rods and Wampler's terms, ranked at a random realisation.
 
 M = 3V - rank - 6, the rank that of the velocities' constraints: one for each rod, one for a point on a plane, two
-for a point on a line, five for a scissors element. Vertices are placed so that the rods of a remote centre meet in
-a point. There the vertices of a link are coplanar and its rods alone misreport, so links of four vertices or more
-get a virtual apex, a random point joined to all their vertices.
-
-Source: Wampler, Larson, Erdman 2007, Eqs. 5 to 10. Theory: docs/theory/exact-mobility.md.
+for a point on a line, five for a scissors element. Where the vertices of a link are coplanar its rods alone
+misreport, so links of four vertices or more get a virtual apex. Source: Wampler, Larson, Erdman 2007, Eqs. 5 to
+10. Theory: docs/theory/exact-mobility.md.
 """
 
 from __future__ import annotations
@@ -40,25 +38,19 @@ def exact_mobility_of_model(
     ----------
     model : PolyhedronModel
         Without a ground link six freedoms of the whole are taken off.
-    primes : sequence of int, optional
-    seed : int, optional
-        Random seed; another seed gives another random realisation.
+    primes, seed
+        As for `graphs.rank.exact.exact_mobility`, as is the `NumericalError`.
 
     Raises
     ------
     UnsolvableError
         If its vertices could not be placed, a remote centre does not say which rods meet there, lines make one
         point of several vertices, or the bars of a scissors element do not cross.
-    NumericalError
-        If the primes give different ranks, which all but never happens.
 
     Examples
     --------
-    A spherical four-bar of four triangles:
-
-    >>> exact_mobility_of_model(
-    ...     PolyhedronModel(5, [(0, 1), (0, 3), (0, 4), (1, 2), (1, 4), (2, 3), (2, 4), (3, 4)])
-    ... ).mobility
+    >>> rods = [(0, 1), (0, 3), (0, 4), (1, 2), (1, 4), (2, 3), (2, 4), (3, 4)]  # four triangles round a point
+    >>> exact_mobility_of_model(PolyhedronModel(5, rods)).mobility
     1
     """
     ranks, freedoms = [], 0

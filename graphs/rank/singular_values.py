@@ -1,13 +1,10 @@
 """Numerical rank with its evidence: which singular values are zero, which only nearly, and what cannot be decided.
 
-A singular value s with right vector v is changed by errors of the coordinates by no more than a few times s0, the
-length of (error of column j) v_j: its *floor*. Values up to six floors are noise, never equations; values a little
-above may be either, and then the rank is indeterminate; a value that an error of a thousandth of the size would
-explain is counted, and reported as nearly zero.
-
-Rank, kernel and cokernel of matrices that are known to a relative zero have the same rule: a singular value up to
-``zero`` times the largest is zero. Where one lies a little above, the evidence says so and the value is counted.
-Bases are canonical (`graphs.tolerances.canonical_basis`). Theory: docs/theory/pose.md.
+A singular value is changed by errors of the coordinates by no more than a few times its *floor*, the length of
+(error of column j) v_j, v its right vector. Values up to six floors are noise; values a little above may be
+either, and then the rank is indeterminate; a value that an error of a thousandth of the size would explain is
+counted, and reported as nearly zero. For matrices known to a relative zero, that part of the largest value is the
+bound. Bases are canonical (`graphs.tolerances.canonical_basis`). Theory: docs/theory/pose.md.
 """
 
 from __future__ import annotations
@@ -120,22 +117,10 @@ def verdict(values: Floats, floors: Floats, nearly: Floats | float = 0.0) -> Noi
 
 
 def spectrum(matrix: Floats, error: float | Floats = 0.0, nearly: float | Floats = 0.0) -> Spectrum:
-    """Return the numerical rank of a matrix.
+    """Return the numerical rank of a matrix, float[m, n].
 
-    Parameters
-    ----------
-    matrix : float[m, n]
-    error : float or float[n], optional
-        Of the entries of each column; rounding errors of double precision are added.
-    nearly : like error, optional
-        The errors that count as nearly mobile.
-
-    Examples
-    --------
-    >>> spectrum(np.array([[1.0, 0.0], [1.0, 1e-17]])).rank, spectrum(np.eye(3)).gap
-    (1, inf)
-    >>> [spectrum(np.diag([1.0, small]), error=1e-6).rank for small in (1e-7, 1e-5, 1e-3)]
-    [1, None, 2]
+    The error, float or float[n], is that of the entries of each column, to which rounding errors of double
+    precision are added; ``nearly`` likewise the errors that count as nearly mobile.
     """
     if not matrix.size or not matrix.any():
         return ZERO_SPECTRUM
@@ -210,26 +195,10 @@ def judged(values: Floats, floors: Floats, nearly: Floats, larger: int = 0) -> S
 
 @dataclass(frozen=True, slots=True)
 class Split:
-    """A matrix taken apart: A = left[:, :k] @ diag(values) @ right[:k].
+    """A matrix taken apart: A = left[:, :k] @ diag(values) @ right[:k], k the lesser of m and n.
 
-    Attributes
-    ----------
-    rank : int
-        How many singular values are counted.
-    left : float[m, m]
-        Left singular vectors, as columns; not canonical.
-    values : float[k]
-        Singular values, descending; k is the lesser of m and n.
-    right : float[n, n]
-        Right singular vectors, as rows; not canonical.
-    zero : float
-        The part of the largest singular value up to which others are zero.
-
-    Examples
-    --------
-    >>> parts = split(np.diag([1.0, 2e-9]))
-    >>> parts.rank, parts.evidence.rank
-    (2, None)
+    Left singular vectors, float[m, m], are columns, right ones, float[n, n], rows; neither are canonical. Values
+    are descending; ``rank`` of them are counted, those up to the part ``zero`` of the largest are zero.
     """
 
     rank: int
@@ -255,76 +224,32 @@ class Split:
 
 
 def split(matrix: Floats, zero: float = DOUBLE.zero) -> Split:
-    """Return the rank of a matrix with its kernel and cokernel.
+    """Return the rank of a matrix, float[m, n], with its kernel and cokernel.
 
-    Parameters
-    ----------
-    matrix : float[m, n]
-    zero : float, optional
-        Singular values up to this part of the largest are zero (`graphs.tolerances.Tolerances.zero`).
-
-    Examples
-    --------
-    >>> parts = split(np.array([[1.0, 1.0, 0.0], [2.0, 2.0, 0.0]]))
-    >>> parts.rank, parts.kernel.shape, parts.cokernel.shape, parts.evidence.certainty
-    (1, (3, 2), (2, 1), 'numerical')
+    Singular values up to the part ``zero`` of the largest are zero (`graphs.tolerances.Tolerances.zero`).
     """
     left, values, right = np.linalg.svd(matrix)
     return Split(_counted(values, zero), left, values, right, zero)
 
 
 def null_space(matrix: Floats, zero: float = DOUBLE.zero, scale: float | None = None) -> Floats:
-    """Return the canonical basis of the kernel of a matrix: orthonormal columns, float[n, n - rank].
+    """Return the canonical basis of the kernel of a matrix, float[m, n]: orthonormal columns, float[n, n - rank].
 
-    Parameters
-    ----------
-    matrix : float[m, n]
-    zero : float, optional
-        As for `split`.
-    scale : float, optional
-        What `zero` is a part of, where the matrix may be zero but for rounding; by default the largest value.
-
-    Examples
-    --------
-    >>> null_space(np.array([[1.0, 1.0, 0.0]])).round(3).tolist()
-    [[0.0, 0.707], [0.0, -0.707], [1.0, 0.0]]
+    Values up to ``zero`` times the scale are zero; by default the scale is the largest value, which does not do
+    where the matrix may be zero but for rounding.
     """
     _, values, right = np.linalg.svd(matrix, full_matrices=matrix.shape[0] < matrix.shape[1])
     return canonical_basis(right[_counted(values, zero, scale) :].T)
 
 
 def row_space(matrix: Floats, zero: float = DOUBLE.zero, scale: float | None = None) -> Floats:
-    """Return the canonical basis of the rows of a matrix: orthonormal columns, float[n, rank].
-
-    Parameters
-    ----------
-    matrix : float[m, n]
-    zero, scale : float, optional
-        As for `null_space`.
-
-    Examples
-    --------
-    >>> row_space(np.array([[1.0, 0.0, 1.0], [2.0, 0.0, 2.0]])).round(3).tolist()
-    [[0.707], [0.0], [0.707]]
-    """
+    """Return the canonical basis of the rows of a matrix, float[m, n]: orthonormal columns, float[n, rank]."""
     _, values, right = np.linalg.svd(matrix, full_matrices=False)
     return canonical_basis(right[: _counted(values, zero, scale)].T)
 
 
 def rank_of(matrix: Floats, zero: float = DOUBLE.zero, scale: float | None = None) -> int:
-    """Return the rank of a matrix.
-
-    Parameters
-    ----------
-    matrix : float[m, n]
-    zero, scale : float, optional
-        As for `split`.
-
-    Examples
-    --------
-    >>> rank_of(np.array([[1.0, 2.0], [2.0, 4.0 + 1e-12]]))
-    1
-    """
+    """Return the rank of a matrix, float[m, n]; what is zero is as for `null_space`."""
     return _counted(singular_values(matrix), zero, scale)
 
 
@@ -340,22 +265,9 @@ def _counted(values: Floats, zero: float, scale: float | None = None) -> int:
 
 @dataclass(frozen=True, slots=True)
 class Inertia:
-    """Symmetric matrices by their eigenvalues.
+    """Symmetric matrices by their eigenvalues, float[..., s], ascending.
 
-    Attributes
-    ----------
-    values : float[..., s]
-        Ascending.
-    vectors : float[..., s, s]
-        Columns; not canonical.
-    signs : int[..., s]
-        Of the values; 0 for those that are zero.
-
-    Examples
-    --------
-    >>> saddle = inertia(np.diag([1.0, -1.0]))
-    >>> saddle.signs.tolist(), int(saddle.positive)
-    ([-1, 1], 1)
+    Vectors are columns, not canonical. The signs, int[..., s], are 0 for values that are zero.
     """
 
     values: Floats
@@ -374,21 +286,10 @@ class Inertia:
 
 
 def inertia(forms: Floats, zero: float = DOUBLE.zero, scale: float | None = None) -> Inertia:
-    """Return the eigenvalues of symmetric matrices, and which are positive, zero and negative.
+    """Return the eigenvalues of symmetric matrices, float[..., s, s], and which are positive, zero and negative.
 
-    Parameters
-    ----------
-    forms : float[..., s, s]
-    zero : float, optional
-        Eigenvalues up to this part of the largest, of each matrix, are zero.
-    scale : float, optional
-        Replaces the largest eigenvalue where a matrix may consist of rounding errors only.
-
-    Examples
-    --------
-    >>> found = inertia(np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1e-14]]))
-    >>> found.signs.tolist(), int(found.positive), int(found.negative)
-    ([-1, 0, 1], 1, 1)
+    Eigenvalues up to the part ``zero`` of the largest of each matrix are zero; a scale replaces the largest where
+    a matrix may consist of rounding errors only.
     """
     values, vectors = np.linalg.eigh(forms)
     sizes = np.abs(values)

@@ -11,10 +11,8 @@ from synth.conformed.behaviours import (
     TableRow as TableRow,
     Way as Way,
     behaviour as behaviour,
-    behaviour_of_motion as behaviour_of_motion,
     icrl as icrl,
     instant_centres as instant_centres,
-    link_arcs as link_arcs,
     table4 as table4,
     table_row as table_row,
 )

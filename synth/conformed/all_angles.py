@@ -1,12 +1,10 @@
 """What an order of the joints alone decides, and what is left to the angles.
 
-An order *with opposites* says how the joints and the points opposite to them follow each other round the circle;
-a cyclic order of J joints is that of 2^(J-1) of them. It fixes which of its two arcs a binary link takes, so the
-sign of every step, how often loops wind, and how many layers of links there are. Ways of links follow from the
-signs of outward rates (`synth.conformed.outward`): certain where the terms of a formula agree, or are smaller than
-others, or other signs refute the opposite; else both are looked for by samples.
-
-Theory: docs/theory/conical-candidates.md.
+An order *with opposites* says how the joints and the points opposite to them follow each other round the circle; a
+cyclic order of J joints is that of 2^(J-1) of them. It fixes the sign of every step, how often loops wind, and how
+many layers of links there are. Ways of links follow from the signs of outward rates (`synth.conformed.outward`):
+certain where a formula decides, or other signs refute the opposite; else samples are tried. Theory:
+docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
@@ -139,22 +137,16 @@ def over_angles(
     Parameters
     ----------
     chain : ConformedChain or RateFormulas
+        `UnsolvableError` if it has not one freedom by its count.
     places : int64[..., J]
         Orders with opposites: places on 2 J slots.
     samples : int, optional
         Sets of angles for signs that are not certain; sixteen times as many where these are alike.
 
-    Raises
-    ------
-    UnsolvableError
-        If the chain has not one freedom by its count.
-
     Examples
     --------
-    Hyatt et al. 2021, Table 4: a four-bar with all joints on half the circle, ground and coupler two sides.
-
     >>> from graphs.mechanism.sc import SCGraph
-    >>> chain = ConformedChain.of(SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))))
+    >>> chain = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     >>> [Allowed(allowed).name for allowed in over_angles(chain, [[1, 2, 3, 0], [0, 1, 2, 3]]).linkage]
     ['ONE', 'BOTH']
     """
@@ -248,8 +240,6 @@ def never_singular(chain: ConformedChain | RateFormulas, places: npt.ArrayLike) 
 
     Examples
     --------
-    A four-bar has full rank if no two of its joints coincide:
-
     >>> from graphs.mechanism.sc import SCGraph
     >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     >>> never_singular(four_bar, [[0.0, 1, 2, 3], [0, 2, 1, 3]]).tolist()
@@ -349,11 +339,6 @@ def arc_choices(chain: ConformedChain, places: npt.ArrayLike) -> Ints:
     A link takes all the circle but one gap between its joints: the one that is half the circle or wider, either of
     two halves, or, where none is so wide, any. Azimuths, float[r, J], are between 0 and 2 pi, all different. Bit i
     is the gap after the joint that comes i-th from azimuth 0 on; a mask is 0 where a link has fewer choices.
-
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> chain = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
-    >>> arc_choices(chain, np.radians([[0, 40, 90, 140]]))[0].max(axis=-1).tolist()
-    [7, 1, 2, 4]
     """
     t = np.asarray(places, dtype=float)
     joints = t.shape[-1]
@@ -390,14 +375,9 @@ def links_in_layers(
     ----------
     chain : ConformedChain
     places : float[J]
-        Azimuths, radians.
+        Azimuths, radians; `UnsolvableError` if there are more than 62 joints.
     begins : mapping of int to int, optional
         Number of a link that spans half a turn to the number of the joint at which its arc begins.
-
-    Raises
-    ------
-    UnsolvableError
-        If there are more than 62 joints.
 
     Examples
     --------

@@ -1,16 +1,12 @@
 """Behaviour: which links leave the surface outward, inward, or both ways.
 
-A link that keeps to the inside of the reference surface is intramobile, to the outside extramobile, one that
-does both transmobile; a linkage is what all its moving links are for one sense of its motion. Three methods,
-Hyatt et al. 2020, section 4, and 2021, section 5: velocities; the ICRL, the line through the centre of the circle
-and the link's instant centre, which parts inward from outward motion; the shadow of the side links.
-
-Table 4 of Hyatt et al. 2021 gives the behaviour of four-bars by where their joints lie. P1 to P4 follow each other
-round the circle. Case 1: the centre is outside their polygon, P4 P1 is the longest chord. Case 2: the centre is
-inside; the labels are such that it lies in the sector of side 23 or 41 cut by the two diagonals. The links are the
-sides (open), or two opposite sides and the diagonals: crossed 1 has sides 12 and 34, crossed 2 has 23 and 41.
-Column A or B: which pair of opposite links is ground and coupler. Which picture the paper calls A or B, 1 or 2 is
-in its figure only; these names make the printed table true. Theory: docs/theory/behaviour.md.
+A link that keeps to the inside of the reference surface is intramobile, to the outside extramobile, one that does
+both transmobile; a linkage is what all its moving links are for one sense of its motion. Methods: velocities; the
+ICRL, the line through the centre of the circle and the link's instant centre, which parts inward from outward
+motion; for four-bars Table 4 of Hyatt et al. 2021, by where their joints P1 to P4 lie round the circle. In case 1
+the centre is outside their polygon, P4 P1 the longest chord; in case 2 inside, in the sector of side 23 or 41 cut
+by the two diagonals. Crossed 1 has sides 12 and 34, crossed 2 has 23 and 41; column A or B is which pair of
+opposite links is ground and coupler (names of which the paper has figures only). Theory: docs/theory/behaviour.md.
 """
 
 from __future__ import annotations
@@ -107,11 +103,9 @@ def behaviour(chain: ConformedChain, places: npt.ArrayLike, arcs: npt.ArrayLike 
 
     Examples
     --------
-    Hyatt et al. 2021, Table 4, case 1: an open four-bar on less than half the circle.
-
     >>> from graphs.mechanism.sc import SCGraph
     >>> chain = SCGraph(4, {"O": (0, 1), "A": (1, 2), "B": (2, 3), "C": (3, 0)})
-    >>> moving = behaviour(ConformedChain.of(chain), np.radians([40, 90, 140, 0]))
+    >>> moving = behaviour(ConformedChain.of(chain), np.radians([40, 90, 140, 0]))  # Table 4, case 1
     >>> [Way(way).name for way in moving.ways], bool(moving.one_way)
     (['STILL', 'OUTWARD', 'OUTWARD', 'OUTWARD'], True)
     """
@@ -123,30 +117,7 @@ def behaviour(chain: ConformedChain, places: npt.ArrayLike, arcs: npt.ArrayLike 
 def behaviour_of_motion(
     chain: ConformedChain, places: npt.ArrayLike, motion: FirstOrder, arcs: npt.ArrayLike
 ) -> Behaviour:
-    """Return the behaviour that a motion gives to links on known arcs.
-
-    Parameters
-    ----------
-    chain : ConformedChain
-    places : float[..., J]
-        Azimuths of the joints, radians.
-    motion : FirstOrder
-        At these places.
-    arcs : float[..., N, 2]
-        Start and length of each link's arc, radians.
-
-    Examples
-    --------
-    The longest link of this four-bar moves outward over its joints, and both ways if it goes all round the cone.
-
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> chain = ConformedChain.of(SCGraph(4, {"O": (0, 1), "A": (1, 2), "B": (2, 3), "C": (3, 0)}))
-    >>> places = np.radians([40, 90, 140, 0])
-    >>> arcs = np.stack([link_arcs(chain, places)] * 2)
-    >>> arcs[1, 3] = 0, 2 * np.pi
-    >>> [Way(behaviour_of_motion(chain, places, first_order(chain, places), arc).ways[3]).name for arc in arcs]
-    ['OUTWARD', 'BOTH']
-    """
+    """Return the behaviour that a motion at places float[..., J] gives to links on arcs, float[..., N, 2]."""
     t = np.asarray(places, dtype=float)
     ways, ranges, small = _ways_and_ranges(motion.motions, np.asarray(arcs, dtype=float))
     one_sided = np.abs(ways) == 1
@@ -205,22 +176,9 @@ def _tangent(chain: ConformedChain, t: Floats, motion: FirstOrder, small: Floats
 def link_arcs(chain: ConformedChain, places: npt.ArrayLike, begins: Mapping[int, int] | None = None) -> Floats:
     """Return the shortest arc over the joints of each link: all the circle but the largest gap between them.
 
-    Start and length in radians, float[..., N, 2]. A binary link has its minor arc; of two halves, either
-    (`half_turn_arcs`).
-
-    Parameters
-    ----------
-    chain : ConformedChain
-    places : float[..., J]
-    begins : mapping of int to int, optional
-        Number of a link that spans half a turn to the number of the joint at which its arc begins.
-
-    Examples
-    --------
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
-    >>> np.degrees(link_arcs(four_bar, np.radians([0, 40, 90, 180]), {0: 3})).round(9).tolist()
-    [[180.0, 180.0], [0.0, 40.0], [40.0, 50.0], [90.0, 90.0]]
+    Start and length in radians, float[..., N, 2], at places float[..., J]. A binary link has its minor arc; of two
+    halves, either (`half_turn_arcs`), or the one that ``begins`` names: number of the link to that of the joint at
+    which its arc begins.
     """
     t = np.asarray(places, dtype=float)
     arcs = []
@@ -243,11 +201,6 @@ def half_turn_arcs(
     """Return the links that span half a turn and may curve either way, at places float[J]: each with its two arcs.
 
     An arc is the numbers of the joints at which it begins and ends, azimuths growing.
-
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> four_bar = ConformedChain.of(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
-    >>> half_turn_arcs(four_bar, np.radians([0, 40, 90, 180]))
-    {0: ((0, 3), (3, 0))}
     """
     t = np.remainder(np.asarray(places, dtype=float), 2 * np.pi)
     halves = {}
@@ -305,30 +258,6 @@ def instant_centres(motions: npt.ArrayLike) -> Floats:
     )
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(w[..., ::2] / turning)
-
-
-def shadow_allows(places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-    """Check by the shadow method whether four-bars can be intra- or extramobile (Hyatt et al. 2021, section 5).
-
-    The lines of the two side links, O A and B C, cut the plane into two double wedges. If the centre of the circle
-    lies in the one that holds ground and coupler, the linkage is transmobile; else it is not. Azimuths, float[...,
-    4], are those of O, A, B, C; the ground link is C O, the coupler A B.
-    """
-    t = np.asarray(places, dtype=float)
-    if t.shape[-1:] != (4,):
-        raise InvariantError("azimuths", "the shadow method is for four-bars", "four azimuths")
-    o, a, b, c = np.moveaxis(np.stack([np.sin(t), np.cos(t)], axis=-1), -2, 0)
-
-    def side(p: Floats, q: Floats, r: Floats) -> Floats:
-        """Return which side of the line p q the point r lies on."""
-        return np.asarray(
-            (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0])
-        )
-
-    centre = np.zeros_like(o)
-    # the coupler lies in one double wedge, and the ground link in the same one
-    coupler = side(o, a, b) * side(b, c, a)
-    return np.asarray(side(o, a, centre) * side(b, c, centre) * coupler < 0)
 
 
 ROWS: dict[tuple[int, str, str], tuple[str, str]] = {
@@ -394,7 +323,7 @@ class TableRow:
 
 
 def table4(case: int, configuration: str, column: str, *, diameter: bool = False) -> tuple[bool, bool]:
-    """Return an entry of Table 4: intramobility and extramobility.
+    """Return an entry of Table 4: intramobility and extramobility; `InvariantError` if there is no such entry.
 
     Parameters
     ----------
@@ -404,11 +333,6 @@ def table4(case: int, configuration: str, column: str, *, diameter: bool = False
     diameter : bool, optional
         Whether P4 P1 (case 1) or a diagonal (case 2) is a diameter. A joint half a turn from the fixed joint of
         its link then moves outward to second order: intramobility is lost, or extramobility gained.
-
-    Raises
-    ------
-    InvariantError
-        If there is no such entry.
 
     Examples
     --------
@@ -429,12 +353,8 @@ def table_row(places: npt.ArrayLike) -> TableRow:
     Parameters
     ----------
     places : float[4]
-        Azimuths of O, A, B, C, radians; the ground link is C O, the coupler A B.
-
-    Raises
-    ------
-    InvariantError
-        Unless there are four different azimuths.
+        Azimuths of O, A, B, C, radians, all different, else `InvariantError`; the ground link is C O, the coupler
+        A B.
 
     Examples
     --------

@@ -88,15 +88,8 @@ class OnSurface:
     def curved(self, arcs: Mapping[str, str]) -> OnSurface:
         """Return the linkage with arcs chosen for links that span half a turn, by names.
 
-        Parameters
-        ----------
-        arcs : mapping of str to str
-            Link to the joint at which its arc begins, azimuths growing.
-
-        Raises
-        ------
-        InvariantError
-            If there is no such link or joint, or the link does not span half a turn.
+        Arcs map a link to the joint at which its arc begins, azimuths growing. Raises `InvariantError` if there is
+        no such link or joint, or the link does not span half a turn.
         """
         chosen = {link_named(self.chain, link): joint_named(self.chain, joint) for link, joint in arcs.items()}
         curved = replace(self, arcs={**self.arcs, **chosen})
@@ -375,21 +368,14 @@ def linkage_on_surfaces(
     ----------
     linkage : SurfaceLinkage
     surface : Cone or Cylinder, optional
-        For steps; by default that of the linkage, or any.
+        For steps; by default that of the linkage, or any. `UnsolvableError` for link angles or lengths, which
+        determine it themselves.
     tolerance : float, optional
         How well loops of known sizes must close together, radians.
 
-    Raises
-    ------
-    UnsolvableError
-        If a surface is named for link angles or lengths, which determine it themselves.
-
     Examples
     --------
-    >>> from graphs.loops.loop import Loop
-    >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> angles = dict(zip([(0, 1), (1, 2), (2, 3), (3, 0)], np.radians([120, 95, 45, 85])))
-    >>> [str(loop.surface) for loop in linkage_on_surfaces(SurfaceLinkage(chain, angles=angles))]
+    >>> [str(loop.surface) for loop in linkage_on_surfaces(SurfaceLinkage.loop(np.radians([120, 95, 45, 85])))]
     ['lambda 13.99835668 degrees', 'lambda 29.04446943 degrees']
     """
     if linkage.steps is not None:
@@ -466,14 +452,10 @@ def loop_of_steps(steps: Sequence[float], surface: Surface | None = None) -> OnS
     Parameters
     ----------
     steps : float[n]
-        In [-pi, pi], none 0. The sign of a step of half a turn is the way in which its link curves.
+        In [-pi, pi], none 0, else `InvariantError`. The sign of a step of half a turn is the way in which its link
+        curves.
     surface : Cone or Cylinder, optional
         Any by default.
-
-    Raises
-    ------
-    InvariantError
-        If a step is out of range, or there are too few.
 
     Examples
     --------

@@ -1,33 +1,10 @@
 """Outward rates of joints in closed form, and what the places of joints alone say of their signs.
 
-Let e_i = (sin t_i, 1, cos t_i). The rates of a linkage of one freedom are the maximal minors of its closure
-equations, and a minor is a sum of products of brackets, one for each independent loop,
-
-    [a b c] = det(e_a, e_b, e_c) = 4 sin((t_b - t_a) / 2) sin((t_c - t_b) / 2) sin((t_c - t_a) / 2),
-
-so that joint j of a link moves outward at the rate
-
-    rho_j = sum over i of +-q_i sin(t_j - t_i) = sum of +-sin(t_j - t_i) [a b c] [d e f] ...,
-
-i running along a path from the ground to the link. The sign of a bracket follows from the cyclic order of its
-joints, that of the sine from the order of joint j, joint i and the point opposite to i. Where all terms have one
-sign, so has rho_j, whatever the angles. There is a formula for every choice of independent loops and of the path;
-one whose terms agree is enough.
-
-Chords. The J joints and the points opposite to them cut the circle into 2 J fine gaps, opposite ones equal; an
-arc shorter than half the circle is a set of the J sizes. Half its chord is sin(arc / 2), and grows with the arc;
-so does a product of chords if each arc lies, as a set of sizes, within one of another product. sin(x) is
-2 sin(x / 2) sin((pi - x) / 2), and pi - x is the other sizes: every term is a product of chords. A sum has the
-sign of its positive terms if each negative term has a larger positive one of its own.
-
-Relations (`SignRelations`). The rate rho(n, x) that link n, thought of as all round the circle, has at the
-azimuth of joint x, and the rates q_i of the joints obey
-
-    rho(n, x) sin(y - z) + rho(n, y) sin(z - x) + rho(n, z) sin(x - y) = 0     for any joints x, y, z,
-    rho(n, x) - rho(m, x) = +-q_i sin(x - i)                                  for links m, n that joint i joins,
-
-and an order with opposites knows the sign of every sine. Where two terms of such a sum have one sign the third
-has the other. Theory: docs/theory/conical-candidates.md.
+Rates are the maximal minors of the closure equations: sums of products of brackets, [a b c] = det(e_a, e_b, e_c)
+with e = (sin t, 1, cos t). Joint j of a link moves outward at rho_j = sum of +-q_i sin(t_j - t_i), i running along
+a path from the ground. The cyclic order gives the signs of brackets, orders with opposites those of sines; where
+terms differ in sign, chords are compared as sets of gaps (`signs_by_chords`), or three-term relations followed
+(`SignRelations`). Theory: docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
@@ -51,7 +28,8 @@ _BASES = 12
 _PATHS = 12
 _TERMS = 400
 """Choices of loops, of paths, and terms of a formula that are looked at."""
-_Term = tuple[int, tuple[tuple[int, int, int], ...]]
+_Triples = tuple[tuple[int, int, int], ...]
+_Term = tuple[int, _Triples]
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,12 +138,7 @@ def joint_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     Parameters
     ----------
     chain : ConformedChain
-        Of one freedom: J = 3 L + 1.
-
-    Raises
-    ------
-    UnsolvableError
-        If the number of joints is another.
+        Of one freedom: J = 3 L + 1, else `UnsolvableError`.
 
     Examples
     --------
@@ -178,16 +151,9 @@ def joint_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     formulas = []
     for joint in range(len(chain.joints)):
         choices = {tuple(kernel[joint]) for kernel in kernels if kernel[joint]}
+        ordered = sorted(choices, key=lambda terms: (len(terms), terms))
         formulas.append(
-            tuple(
-                OutwardRate(
-                    joint,
-                    np.array([factor for factor, _ in terms], np.int64),
-                    None,
-                    np.array([triples for _, triples in terms], np.int64),
-                )
-                for terms in sorted(choices, key=lambda terms: (len(terms), terms))
-            )
+            tuple(_rate(joint, [(factor, None, triples) for factor, triples in terms]) for terms in ordered)
         )
     return tuple(formulas)
 
@@ -208,20 +174,13 @@ def outward_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     Parameters
     ----------
     chain : ConformedChain
-        Of one freedom: J = 3 L + 1.
-
-    Raises
-    ------
-    UnsolvableError
-        If the number of joints is another.
+        Of one freedom: J = 3 L + 1, else `UnsolvableError`.
 
     Examples
     --------
-    A four-bar with ground link C O: joint A turns about O.
-
     >>> from graphs.mechanism.sc import SCGraph
     >>> chain = ConformedChain.of(SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)]))))
-    >>> [formulas[0].text(chain.joints) for formulas in outward_rates(chain) if formulas]
+    >>> [formulas[0].text(chain.joints) for formulas in outward_rates(chain) if formulas]  # ground link C O
     ['sin(A - O) [A B C]', 'sin(B - C) [O A B]']
     """
     kernels = _kernels(_checked(chain))
@@ -234,7 +193,7 @@ def outward_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
 def _formulas(
     chain: ConformedChain, joint: int, kernels: Sequence[Sequence[list[_Term]]]
 ) -> tuple[OutwardRate, ...]:
-    sums: dict[tuple[tuple[int, int, tuple[tuple[int, int, int], ...]], ...], None] = {}
+    sums: dict[tuple[tuple[int, int, _Triples], ...], None] = {}
     for kernel in kernels:
         for path in _paths(chain, joint):
             terms = tuple(
@@ -245,15 +204,13 @@ def _formulas(
             )
             if terms and len(terms) <= _TERMS:
                 sums[terms] = None
-    return tuple(
-        OutwardRate(
-            joint,
-            np.array([factor for factor, _, _ in terms], np.int64),
-            np.array([i for _, i, _ in terms], np.int64),
-            np.array([triples for _, _, triples in terms], np.int64),
-        )
-        for terms in sorted(sums, key=len)
-    )
+    return tuple(_rate(joint, terms) for terms in sorted(sums, key=len))
+
+
+def _rate(joint: int, terms: Sequence[tuple[int, int | None, _Triples]]) -> OutwardRate:
+    factors, sines, triples = (list(column) for column in zip(*terms, strict=True))
+    of_sines = None if sines[0] is None else np.array(sines, np.int64)
+    return OutwardRate(joint, np.array(factors, np.int64), of_sines, np.array(triples, np.int64))
 
 
 def _paths(chain: ConformedChain, joint: int) -> list[dict[int, int]]:
@@ -470,6 +427,10 @@ def _follow_all(
 @dataclass(frozen=True, slots=True)
 class SignRelations:
     """What the rates of a chain obey: R relations of three unknowns each.
+
+    With the outward rate rho(n, x) of link n, thought of as all round the circle, at joint x, and the rates q_i,
+    rho(n, x) sin(y - z) + rho(n, y) sin(z - x) + rho(n, z) sin(x - y) = 0 for any joints x, y, z, and rho(n, x) -
+    rho(m, x) = +-q_i sin(x - i) for links m, n that joint i joins. An order with opposites has all signs of sines.
 
     An unknown is multiplied by a factor and the sine of two joints, none where these are -1. `zero` marks unknowns
     that are always zero; rho(n, x) has number n J + x, q_i has N J + i.

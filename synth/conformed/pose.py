@@ -50,20 +50,16 @@ def dihedral_angles(steps: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
     """Return the dihedral angle at each joint of loops: float[..., n].
 
     Hyatt et al. 2020, Eqs. 13, 14 and Table 2, put right. Right-handed about the outward joint axis, from the
-    plane of link i - 1 to that of link i, in (-pi, pi].
+    plane of link i - 1 to that of link i, in (-pi, pi]. With a and b the two steps, cos(theta) = (cos e - cos f1
+    cos f2) / (sin f1 sin f2), e being the link angle of a + b, and the sign is that of a b (a + b)
+    (docs/misprints.md 000-3, 000-4). sin(theta) is here the volume of the three axes by the same denominator; so
+    no digits are lost.
 
     Parameters
     ----------
     steps : float[..., n]
         Signed projected angles in loop order, radians; joint i lies between steps i - 1 and i.
     cone_angle : float[...]
-
-    Notes
-    -----
-    With a and b the two steps, cos(theta) = (cos e - cos f1 cos f2) / (sin f1 sin f2), e being the link angle of a
-    + b, and the sign is that of a b (a + b) (docs/misprints.md 000-3, 000-4). sin(theta) is here the volume of the
-    three axes, 4 sin(lambda) cos(lambda)^2 sin(a/2) sin(b/2) sin((a + b)/2), by the same denominator; so no digits
-    are lost.
 
     Examples
     --------
@@ -105,10 +101,8 @@ def check_pose(angles: npt.ArrayLike, steps: npt.ArrayLike, cone_angle: npt.Arra
 
     Parameters
     ----------
-    angles : float[..., n]
-        Required link angles, radians.
-    steps : float[..., n]
-        Signed projected angles.
+    angles, steps : float[..., n]
+        Required link angles, and signed projected angles, radians.
     cone_angle : float[...]
 
     Examples
@@ -155,25 +149,18 @@ class FourBarPoses:
 def poses_from_conformed(steps: npt.ArrayLike, cone_angle: float, turns: npt.ArrayLike) -> FourBarPoses:
     """Turn the input of a conical four-bar from its conformed pose (Hyatt et al. 2020, Eqs. 15 to 24).
 
+    Eqs. 22 and 23 take gamma_0 and beta_0 the other way round; in one loop direction C = R_y(-gamma_0) O
+    (docs/misprints.md 000-2). The branch is that of the conformed pose.
+
     Parameters
     ----------
     steps : float[4]
         Projected angles in loop order alpha_0 (O to A), eta_0, beta_0, gamma_0 (C to O), radians; their sum is a
-        multiple of 2 pi.
+        multiple of 2 pi, else `InvariantError`.
     cone_angle : float
-        lambda > 0.
+        lambda > 0: at 0 the linkage is at a dead point.
     turns : float[M]
         Input angles from the conformed pose, radians.
-
-    Raises
-    ------
-    InvariantError
-        If the steps do not close, or lambda is 0, where the linkage is at a dead point.
-
-    Notes
-    -----
-    Eqs. 22 and 23 take gamma_0 and beta_0 the other way round; in one loop direction C = R_y(-gamma_0) O
-    (docs/misprints.md 000-2). The branch is that of the conformed pose.
 
     Examples
     --------

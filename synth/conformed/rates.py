@@ -1,16 +1,11 @@
 """First-order motion of any linkage from its conformed position, for many positions of its joints at once.
 
-Rates q_j of the joints close a loop if sum +-q_j e_j = 0 over it, e_j being the joint axes. On a cone e = (cos
-lambda sin t, -sin lambda, cos lambda cos t) at azimuth t; divide the first and third equations by cos lambda and
-the second by -sin lambda, and lambda is gone. On a cylinder the equations are those of the points (sin t, cos t)
-of the circle and of the rate itself: the same. So rank, rates, and which way each link moves depend on the
-azimuths alone, not on lambda (0 < lambda < 90 degrees), and are those of the cross-section of a cylinder.
-
-A link's motion is here w = (w_x, w_y, w_z) = sum +-q_j (sin t_j, 1, cos t_j) along a path from the ground. On a
-cone its angular velocity is (cos lambda w_x, -sin lambda w_y, cos lambda w_z), its pole axis; on a cylinder w_y
-is its angular velocity about the direction from cone to needle and (w_x, w_z) / w_y its instant centre, in
-radii. A point of it at azimuth t moves outward at the rate w_z sin t - w_x cos t. Hyatt et al. 2020, section 4;
-Hyatt et al. 2021, section 5. Theory: docs/theory/behaviour.md.
+Rates q_j of the joints close a loop if sum +-q_j e_j = 0 over it, with e = (sin t, 1, cos t) at azimuth t: the
+cone angle drops out of the axes of a cone, and a cylinder has the same equations. A link's motion is here w = sum
++-q_j e_j along a path from the ground. On a cone its angular velocity is (cos lambda w_x, -sin lambda w_y, cos
+lambda w_z); on a cylinder w_y is its angular velocity and (w_x, w_z) / w_y its instant centre, in radii. A point
+of it at azimuth t moves outward at the rate w_z sin t - w_x cos t. Hyatt et al. 2020, section 4; Hyatt et al.
+2021, section 5. Theory: docs/theory/behaviour.md.
 """
 
 from __future__ import annotations
@@ -60,19 +55,10 @@ class ConformedChain:
 
     @classmethod
     def of(cls, chain: SCGraph, ground: LinkId | None = None) -> ConformedChain:
-        """Prepare a chain.
+        """Prepare a chain; its loops' centres do not matter: all axes are ruling lines of one surface.
 
-        Parameters
-        ----------
-        chain : SCGraph
-            Its loops' centres do not matter: all axes are ruling lines of one surface.
-        ground : link id, optional
-            By default that of the chain, or its first link.
-
-        Raises
-        ------
-        InvariantError
-            If the ground is no link, or the chain is not connected.
+        The ground is by default that of the chain, or its first link. Raises `InvariantError` if it is no link, or
+        the chain is not connected.
         """
         if ground is None:
             ground = chain.ground if chain.ground is not None else next(iter(chain.nodes), None)
@@ -158,14 +144,10 @@ def first_order(chain: ConformedChain, places: npt.ArrayLike, error: float = DOU
     ----------
     chain : ConformedChain
     places : float[..., J]
-        Azimuths of the joints, radians, in the order of the chain's joints.
+        Azimuths of the joints, radians, in the order of the chain's joints; `InvariantError` if they are another
+        number.
     error : float, optional
         Of the azimuths, radians: singular values are judged by it (`graphs.rank.singular_values`).
-
-    Raises
-    ------
-    InvariantError
-        If the number of azimuths is not that of the joints.
 
     Examples
     --------
@@ -209,15 +191,6 @@ def _gap(parts: Floats, counted: npt.NDArray[np.bool_], floors: Floats) -> Float
     rest = np.where(counted, 0.0, np.maximum(parts, floors)).max(axis=-1)
     with np.errstate(divide="ignore"):
         return np.asarray(least / rest)
-
-
-def pole_axes(motions: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
-    """Return the angular velocities of links on cones, along their pole axes, from motions w, float[..., N, 3]."""
-    lam = np.asarray(cone_angle, dtype=float)[..., np.newaxis, np.newaxis]
-    w = np.asarray(motions, dtype=float)
-    return np.concatenate(
-        [np.cos(lam) * w[..., :1], -np.sin(lam) * w[..., 1:2], np.cos(lam) * w[..., 2:]], axis=-1
-    )
 
 
 _MOST_LOOPS = 8

@@ -1,15 +1,12 @@
 from synth.fourbar.closing import (
     FourBarKind as FourBarKind,
     can_close as can_close,
-    checked_link_angles as checked_link_angles,
-    checked_link_lengths as checked_link_lengths,
     grashof_class as grashof_class,
     in_a_hemisphere as in_a_hemisphere,
     kind_of_planar as kind_of_planar,
     kind_of_spherical as kind_of_spherical,
     minimal_supplementary as minimal_supplementary,
     planar_differences as planar_differences,
-    rounding_of as rounding_of,
     spherical_differences as spherical_differences,
     supplementary as supplementary,
 )

@@ -1,14 +1,10 @@
 """Four-bars, planar and spherical: types, Grashof's condition, which links close, supplementary linkages.
 
-Links come in loop order from the fixed one: ground, input, coupler, output, (g, a, h, b) in the plane and
-(gamma, alpha, eta, beta) on the sphere. All functions take many linkages at a time. Sources: Hyatt et al. 2020,
-section 2.3, Eqs. 1 to 4; Hyatt et al. 2021, Table 1, Eqs. 1 to 3; the types are those of McCarthy, *Geometric
-Design of Linkages*. Theory: docs/theory/four-bars.md.
-
-Link angles and lengths are known to the last digit that a float holds, so a sum of them with signs is known to
-some last digits of the sum of their sizes, however small it comes out itself (`rounding_of`). There is no other
-zero: a bound that does not shrink with the links takes small linkages for folding ones. Theory:
-docs/theory/rounding.md.
+Links come in loop order from the fixed one: ground, input, coupler, output, (g, a, h, b) in the plane and (gamma,
+alpha, eta, beta) on the sphere. All functions take many linkages at a time; what is zero is a sum of links within
+its own rounding (`rounding_of`), nothing absolute. Sources: Hyatt et al. 2020, section 2.3, Eqs. 1 to 4; Hyatt et
+al. 2021, Table 1, Eqs. 1 to 3; the types are those of McCarthy, *Geometric Design of Linkages*. Theory:
+docs/theory/four-bars.md, docs/theory/rounding.md.
 """
 
 from __future__ import annotations
@@ -46,21 +42,10 @@ ILL_CONDITIONED = "ill-conditioned"
 
 
 def rounding_of(terms: npt.ArrayLike) -> Floats:
-    """Return how far rounding may take sums of terms, whatever their signs: float[...].
+    """Return how far rounding may take sums of terms, float[..., n], whatever their signs: float[...].
 
     (n + 4) eps of the sum of absolute values: a last digit for each term, three for what was computed of it, and
     one for each addition.
-
-    Parameters
-    ----------
-    terms : float[..., n]
-        Any one unit.
-
-    Examples
-    --------
-    >>> sides = np.array([0.3, 0.1, 0.1, 0.1])
-    >>> bool(abs(sides @ [1, -1, -1, -1]) <= rounding_of(sides))
-    True
     """
     sizes = np.abs(np.asarray(terms, dtype=float))
     return np.asarray((sizes.shape[-1] + 4) * np.finfo(float).eps * sizes.sum(axis=-1))
@@ -169,8 +154,7 @@ def grashof_class(differences: npt.ArrayLike, scale: float = 2.0 * np.pi) -> npt
     ----------
     differences : float[..., 3 or 4]
     scale : float, optional
-        Sum of the links, for what rounding may leave of a zero. The default is for link angles made of azimuths,
-        which are known to the last digits of a turn.
+        Sum of the links, for what rounding may leave of a zero. The default is for link angles made of azimuths.
 
     Examples
     --------
@@ -192,12 +176,7 @@ def kind_of_planar(lengths: npt.ArrayLike) -> FourBarKind:
     Parameters
     ----------
     lengths : float[4]
-        g, a, h, b.
-
-    Raises
-    ------
-    InvariantError
-        If a length is not positive, or the links cannot close.
+        g, a, h, b, positive and able to close, else `InvariantError`.
 
     Examples
     --------
@@ -214,12 +193,7 @@ def kind_of_spherical(angles: npt.ArrayLike) -> FourBarKind:
     Parameters
     ----------
     angles : float[4]
-        gamma, alpha, eta, beta, radians.
-
-    Raises
-    ------
-    InvariantError
-        If an angle is out of range, or the links cannot close.
+        gamma, alpha, eta, beta, radians, in range and able to close, else `InvariantError`.
 
     Examples
     --------
@@ -285,24 +259,9 @@ def _swing(passes_zero: bool, passes_pi: bool) -> str:
 
 
 def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Floats:
-    """Return link angles, those over pi replaced by the other way round; refuse what no closed loop has.
+    """Return link angles, float[n], those over pi replaced by the other way round; refuse what no closed loop has.
 
-    Parameters
-    ----------
-    angles : float[n]
-        Radians, between 0 and 2 pi. A link of more than pi has the joint axes of one of 2 pi less its angle.
-    links : int, optional
-        Required number of links.
-
-    Raises
-    ------
-    InvariantError
-        Naming the angle that is out of range, or the links that cannot close.
-
-    Examples
-    --------
-    >>> np.degrees(checked_link_angles(np.radians([10, 20, 340]))).round(9).tolist()
-    [10.0, 20.0, 20.0]
+    Angles are radians between 0 and 2 pi; a link of more than pi has the joint axes of one of 2 pi less its angle.
     """
     values = _listed(angles, "link angles", links)
     for place, angle in enumerate(values):
@@ -325,25 +284,7 @@ def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Floa
 
 
 def checked_link_lengths(lengths: npt.ArrayLike, links: int | None = None) -> Floats:
-    """Return link lengths, float[n]; refuse what no closed loop has.
-
-    Parameters
-    ----------
-    lengths : float[n]
-        Any unit.
-    links : int, optional
-        Required number of links.
-
-    Raises
-    ------
-    InvariantError
-        Naming the length that is not positive, or the links that cannot close.
-
-    Examples
-    --------
-    >>> checked_link_lengths([1, 2, 2]).tolist()
-    [1.0, 2.0, 2.0]
-    """
+    """Return link lengths, float[n], in any unit; refuse what no closed loop has."""
     values = _listed(lengths, "lengths", links)
     for place, length in enumerate(values):
         if not length > 0.0:
@@ -404,9 +345,9 @@ def _degrees(angle: float) -> str:
 def supplementary(angles: npt.ArrayLike) -> Floats:
     """Return the 16 linkages that have the same joint lines, the linkage itself first: float[..., 16, 4].
 
-    A joint line has two ends. To take the other end of a joint changes the two links there to their supplements.
-    Taking the other end of all four changes no angle, so there are eight different ones at most; their T4 are plus
-    and minus T1 to T4, and the product T1 T2 T3 T4 is the same for all (Hyatt et al. 2020, section 2.3).
+    To take the other end of a joint line changes the two links there to their supplements. Taking the other end of
+    all four changes no angle, so there are eight different ones at most; their T4 are plus and minus T1 to T4, and
+    the product T1 T2 T3 T4 is the same for all (Hyatt et al. 2020, section 2.3).
 
     Parameters
     ----------

@@ -1,11 +1,9 @@
-"""Positions of four-bars: input and output angles, limits, transmission angle.
+"""Positions of four-bars: input and output angles, limits, transmission angle, of many at a time.
 
-Angles as in McCarthy: theta at O from the ground link O C to the input link O A; psi at C from the ground link
-prolonged to the output link C B. On the sphere they are dihedral angles, right-handed about the outward axes:
-theta = theta_{gamma, alpha} and psi = 180 - theta_{beta, gamma} (Hyatt et al. 2020, section 6, put right:
-docs/misprints.md 000-5). A position has two branches, which are the circuits of linkages whose input turns
-fully. Links: ground, input, coupler, output. All functions take many positions at a time. Theory:
-docs/theory/four-bars.md.
+Links are ground, input, coupler, output; angles as in McCarthy: theta at O from the ground link O C to the input
+link O A; psi at C from the ground link prolonged to the output link C B. On the sphere they are dihedral angles,
+right-handed about the outward axes (Hyatt et al. 2020, section 6, put right: docs/misprints.md 000-5). A position
+has two branches, which are the circuits of linkages whose input turns fully. Theory: docs/theory/four-bars.md.
 """
 
 from __future__ import annotations
@@ -35,18 +33,14 @@ def output_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.Arra
 
     Parameters
     ----------
-    lengths : float[..., 4]
-        g, a, h, b.
-    theta : float[...]
-        Input angle, radians.
+    lengths, theta : float[..., 4], float[...]
+        g, a, h, b; input angle, radians.
     branch : {1, -1} [...]
         Which of the two positions.
 
     Examples
     --------
-    A parallelogram, and crossed:
-
-    >>> np.degrees(output_planar([2, 1, 2, 1], np.pi / 3, [-1, 1])).round(6).tolist()
+    >>> np.degrees(output_planar([2, 1, 2, 1], np.pi / 3, [-1, 1])).round(6).tolist()  # a parallelogram
     [60.0, -120.0]
     """
     g, a, h, b = np.moveaxis(np.asarray(lengths, dtype=float), -1, 0)
@@ -62,13 +56,11 @@ def output_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.Ar
     ----------
     angles : float[..., 4]
         gamma, alpha, eta, beta, radians.
-    theta : float[...]
-    branch : {1, -1} [...]
+    theta, branch : float[...], {1, -1} [...]
 
     Examples
     --------
-    >>> links = np.radians([70, 60, 80, 75])
-    >>> np.degrees(output_spherical(links, np.radians(50), [-1, 1])).round(4).tolist()
+    >>> np.degrees(output_spherical(np.radians([70, 60, 80, 75]), np.radians(50), [-1, 1])).round(4).tolist()
     [22.3481, -156.663]
     """
     gamma, alpha, eta, beta = np.moveaxis(np.asarray(angles, dtype=float), -1, 0)
@@ -140,8 +132,7 @@ def transmission_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike) -> Floats:
 
     Parameters
     ----------
-    lengths : float[..., 4]
-    theta : float[...]
+    lengths, theta : float[..., 4], float[...]
 
     Examples
     --------
@@ -158,9 +149,8 @@ def transmission_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike) -> Float
 
     Parameters
     ----------
-    angles : float[..., 4]
+    angles, theta : float[..., 4], float[...]
         Radians.
-    theta : float[...]
 
     Examples
     --------

@@ -26,7 +26,6 @@ from synth.guidance.order import (
 from synth.guidance.orientations import (
     Orientations as Orientations,
     read_orientations as read_orientations,
-    unit_vector as unit_vector,
     write_orientations as write_orientations,
 )
 from synth.guidance.synthesis import (

@@ -1,19 +1,16 @@
 """The order of orientations: the hoop method, and two more checks, by inequalities and by crank angles.
 
-A *hoop* is half a great circle through the ends of the fixed axis G. It starts at the relative axis S_12 and turns
-about G by 180 degrees; on its way it crosses every other relative axis S_ij once. The crank of any dyad about G
-takes the orientations 1, 2, ..., n in this order, turning as the hoop turns, if and only if the hoop crosses
-S_13, S_14, ..., S_1n, S_2n in this order (Tipparthi and Larochelle 2011, Theorem 1, Eqs. 1 and 2).
-
-The three checks share no step but the orientations. The crank angles are those of a dyad, so they need its moving
-axis; hoop and inequalities need the fixed axis only. Theory: docs/theory/order.md.
+A *hoop* is half a great circle through the ends of the fixed axis G that starts at the relative axis S_12 and
+turns about G by 180 degrees. The crank of any dyad about G takes the orientations 1, 2, ..., n in this order,
+turning as the hoop turns, if and only if the hoop crosses S_13, S_14, ..., S_1n, S_2n in this order (Tipparthi and
+Larochelle 2011, Theorem 1, Eqs. 1 and 2). The three checks share no step but the orientations. Theory:
+docs/theory/order.md.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cmp_to_key
 from math import degrees, radians
 from typing import Any, Literal, TypeAlias
 
@@ -68,9 +65,7 @@ class Hoop:
 
     Examples
     --------
-    >>> from scipy.spatial.transform import Rotation
-    >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
-    >>> hoop(Orientations.from_rotation(body), (0, 0, 1)).required
+    >>> hoop(Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7]), (3, 1, 2)).required
     ((1, 3), (2, 3))
     """
 
@@ -121,24 +116,16 @@ def hoop(orientations: Orientations, axis: npt.ArrayLike, direction: Direction =
     ----------
     orientations : Orientations
     axis : float[3]
-        The fixed axis G in the fixed frame, any length.
+        The fixed axis G in the fixed frame, any length but zero; `UnsolvableError` if it lies on a relative axis,
+        which the hoop then holds all the way.
     direction : "ccw" or "cw", optional
         Seen from the tip of the axis: -axis and the other direction give the same.
 
-    Raises
-    ------
-    InvariantError
-        If the axis has no direction.
-    UnsolvableError
-        If it lies on a relative axis, which the hoop then holds all the way.
-
     Examples
     --------
-    A crank about z turns to 90 and 200 degrees, while the body turns about x, the moving axis, too:
-
     >>> from scipy.spatial.transform import Rotation
     >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
-    >>> turned = hoop(Orientations.from_rotation(body), (0, 0, 1))
+    >>> turned = hoop(Orientations.from_rotation(body), (0, 0, 1))  # the crank turns to 90 and 200 degrees
     >>> [(pair_name(c.pair), round(float(np.degrees(c.angle)), 6)) for c in turned.crossings], turned.in_order
     ([('S13', 55.0), ('S23', 100.0)], True)
     """
@@ -155,30 +142,6 @@ def hoop(orientations: Orientations, axis: npt.ArrayLike, direction: Direction =
     required = required_sequence(len(orientations))
     turned = [0.0, *(angles[pair] for pair in required)]
     return Hoop(direction, crossings, required, bool(np.all(np.diff(turned) > 0.0)))
-
-
-def hoop_sequence(
-    orientations: Orientations, axis: npt.ArrayLike, direction: Direction = "ccw"
-) -> tuple[Pair, ...]:
-    """Return all relative axes but S_12 in the order of crossing: the geometric form, without angles.
-
-    The end of each axis line that lies ahead of the plane of the hoop at its start is the one that the hoop meets;
-    of two such ends that one is met first from which the other lies ahead. Both are signs of triple products.
-    """
-    g = unit_vector(axis, "fixed axis") * (1.0 if direction == "ccw" else -1.0)
-    lines = _lines_off_axis(orientations, g)
-    start = lines.pop((1, 2))
-    met = {pair: s * np.copysign(1.0, _ahead(g, start, s)) for pair, s in lines.items()}
-
-    def later(a: Pair, b: Pair) -> int:
-        return int(-np.sign(_ahead(g, met[a], met[b])))
-
-    return tuple(sorted(met, key=cmp_to_key(later)))
-
-
-def _ahead(g: Floats, here: Floats, there: Floats) -> float:
-    """Return [G, here, there], positive if a turn about G by less than 180 degrees leads there."""
-    return float(g @ np.cross(here, there))
 
 
 def _lines_off_axis(orientations: Orientations, g: Floats) -> dict[Pair, Floats]:
@@ -208,10 +171,8 @@ class OrderAnalysis(Printed):
         The fixed axis as the user wrote it.
     hoop : Hoop
         The hoop turned in the required direction; its verdict is ``in_order``.
-    kept : "ccw", "cw" or None
-        The direction in which the order is kept, if there is one, by the hoop.
-    by_inequalities, by_crank_angles : "ccw", "cw" or None
-        The same by the other two checks.
+    kept, by_inequalities, by_crank_angles : "ccw", "cw" or None
+        The direction in which the order is kept, if there is one: by the hoop, and by the other two checks.
     moving_axis : float[3]
         The moving axis W, in the body, of the dyad about this axis that fits best.
     crank_angles : float[n]
@@ -222,10 +183,8 @@ class OrderAnalysis(Printed):
 
     Examples
     --------
-    >>> from scipy.spatial.transform import Rotation
-    >>> body = Rotation.from_euler("ZX", [(0, 0), (90, 30), (200, -20)], degrees=True)
-    >>> analyse_order(Orientations.from_rotation(body), (0, 0, 1)).kept
-    'ccw'
+    >>> analyse_order(Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7]), (3, 1, 2))
+    <OrderAnalysis: counter-clockwise, order kept>
     """
 
     axis: tuple[float, ...]
@@ -314,18 +273,8 @@ def analyse_order(orientations: Orientations, axis: npt.ArrayLike, direction: Di
 
     Parameters
     ----------
-    orientations : Orientations
-    axis : float[3]
-        The fixed axis G in the fixed frame, any length.
-    direction : "ccw" or "cw", optional
-        The direction of the crank, seen from the tip of the axis.
-
-    Raises
-    ------
-    InvariantError
-        If the axis has no direction.
-    UnsolvableError
-        If it lies on a relative axis.
+    orientations, axis, direction
+        As for `hoop`, as are the errors; the direction is that of the crank.
 
     Examples
     --------

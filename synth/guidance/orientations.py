@@ -47,12 +47,8 @@ class Orientations:
     Attributes
     ----------
     quaternions : float[n, 4]
-        Of norm one, scalar first. Read only.
-
-    Raises
-    ------
-    InvariantError
-        If there are fewer than three, if a norm is further than 1e-3 from one, or if two are equal.
+        Of norm one, scalar first. Read only. `InvariantError` if there are fewer than three, if a norm is further
+        than 1e-3 from one, or if two are equal.
 
     Examples
     --------
@@ -102,14 +98,14 @@ class Orientations:
     def __len__(self) -> int:
         return len(self.quaternions)
 
+    def __repr__(self) -> str:
+        return f"<Orientations: {numbered(len(self), 'orientation')}>"
+
     @classmethod
     def from_matrices(cls, matrices: npt.ArrayLike) -> Orientations:
-        """Return the orientations that rotation matrices describe.
+        """Return the orientations that rotation matrices describe, float[n, 3, 3].
 
-        Parameters
-        ----------
-        matrices : float[n, 3, 3]
-            Each orthogonal to within 1e-3, else `InvariantError`; the nearest rotation is taken.
+        Each is orthogonal to within 1e-3, else `InvariantError`; the nearest rotation is taken.
         """
         from scipy.spatial.transform import Rotation
 
@@ -130,12 +126,9 @@ class Orientations:
 
     @classmethod
     def from_axis_angles(cls, axes: npt.ArrayLike, angles: npt.ArrayLike) -> Orientations:
-        """Return the orientations that are rotations about axes by angles.
+        """Return the orientations that are rotations about axes, float[n, 3], by angles, float[n], radians.
 
-        Parameters
-        ----------
-        axes, angles : float[n, 3], float[n]
-            Axes of any length but zero, else `InvariantError`; radians.
+        Raises `InvariantError` if an axis is zero.
         """
         unit = np.array([unit_vector(axis) for axis in np.asarray(axes, dtype=float)]).reshape(-1, 3)
         half = np.asarray(angles, dtype=float)[:, None] / 2.0
@@ -202,22 +195,7 @@ class Orientations:
 def unit_vector(vector: npt.ArrayLike, name: str = "axis") -> Floats:
     """Return a vector of length one in the direction of another: float[3].
 
-    Parameters
-    ----------
-    vector : float[3]
-        Of any length but zero.
-    name : str, optional
-        Its name in messages.
-
-    Raises
-    ------
-    InvariantError
-        If it is not three finite numbers, or zero.
-
-    Examples
-    --------
-    >>> unit_vector((0, 3, 4)).tolist()
-    [0.0, 0.6, 0.8]
+    Raises `InvariantError`, with its name, if it is not three finite numbers, or zero.
     """
     v = np.array(vector, dtype=float)
     if v.shape != (3,) or not np.isfinite(v).all():
@@ -235,20 +213,12 @@ def read_orientations(path: str | Path) -> Orientations:
     Parameters
     ----------
     path : str or Path
-
-    Raises
-    ------
-    FileError
-        If the file cannot be read, or does not hold three or more different rotations.
+        `FileError` if it cannot be read, or does not hold three or more different rotations.
 
     Examples
     --------
-    >>> from tempfile import TemporaryDirectory
-    >>> with TemporaryDirectory() as folder:
-    ...     path = Path(folder, "turned.json")
-    ...     write_orientations(np.array([[1, 0, 0, 0], [0.6, 0.8, 0, 0], [0.8, 0, 0.6, 0]]), path)
-    ...     len(read_orientations(path))
-    3
+    >>> read_orientations("data/orientations/tipparthi.json")
+    <Orientations: 5 orientations>
     """
     key, rows = orientation_rows(path)
     try:
@@ -268,13 +238,9 @@ def write_orientations(quaternions: Floats, path: str | Path, *, force: bool = F
     quaternions : float[n, 4]
         Unit quaternions, scalar first.
     path : str or Path
+        `FileError` if it cannot be written, or exists already.
     force : bool, optional
         Overwrite an existing file.
-
-    Raises
-    ------
-    FileError
-        If it cannot be written, or exists already.
 
     Examples
     --------

@@ -1,13 +1,10 @@
 """The dyads of orientations, by the method that their number requires: five exactly, more by least squares.
 
-Five orientations. The four conditions G . (M_i - M_1) W = 0 are bilinear in the directions G and W. Multiplied by
-the three components of G they are twelve linear equations in the eighteen products G_a G_b W_j. At every solution
-(G, W) the vector of these products is in the kernel, which has six dimensions; cut into its three blocks
-(j = 1, 2, 3) the kernel becomes a matrix pencil of size six whose eigenvectors are the solutions. The pencil is
-regular whenever the solutions are finitely many, so that none is missed.
-
-More than five. The error at an orientation is how far the angle between G and M_i W, that of the dyad's link, is
-from its mean. Theory: docs/theory/dyads.md.
+Five: the four conditions G . (M_i - M_1) W = 0, multiplied by the components of G, are twelve linear equations in
+the eighteen products G_a G_b W_j. Their kernel, of six dimensions, cut into three blocks by j, is a matrix pencil
+whose eigenvectors are the solutions; it is regular whenever these are finitely many, so that none is missed. More:
+the error at an orientation is how far the angle between G and M_i W is from its mean. Theory:
+docs/theory/dyads.md.
 """
 
 from __future__ import annotations
@@ -89,9 +86,8 @@ def dyads_of_five(orientations: Orientations) -> DyadsOfFive:
     Examples
     --------
     >>> from scipy.spatial.transform import Rotation
-    >>> angles = [(0, 0), (40, 10), (70, 60), (120, 100), (200, 170)]
-    >>> orientations = Orientations.from_rotation(Rotation.from_euler("ZX", angles, degrees=True))
-    >>> every = dyads_of_five(orientations)
+    >>> turned = Rotation.from_euler("ZX", [(0, 0), (40, 10), (70, 60), (120, 100), (200, 170)], degrees=True)
+    >>> every = dyads_of_five(Orientations.from_rotation(turned))
     >>> len(every.dyads) + every.complex_solutions
     6
     """
@@ -273,19 +269,14 @@ def dyads_by_least_squares(orientations: Orientations) -> tuple[Dyad, ...]:
     Parameters
     ----------
     orientations : Orientations
-        Five or more.
-
-    Raises
-    ------
-    UnsolvableError
-        If there are fewer than five, which have infinitely many dyads without error, or if more have as many.
+        Five or more; `UnsolvableError` if infinitely many dyads take them without error.
 
     Examples
     --------
     >>> from scipy.spatial.transform import Rotation
     >>> angles = [(0, 0), (40, 10), (70, 60), (120, 100), (200, 170), (300, 10), (330, 99)]
-    >>> orientations = Orientations.from_rotation(Rotation.from_euler("ZX", angles, degrees=True))
-    >>> dyads_by_least_squares(orientations)[0].misfit < 1e-9
+    >>> turned = Orientations.from_rotation(Rotation.from_euler("ZX", angles, degrees=True))
+    >>> dyads_by_least_squares(turned)[0].misfit < 1e-9
     True
     """
     if len(orientations) < 5:
@@ -423,22 +414,14 @@ def guiding_dyads(
     orientations : Orientations
         Three or more.
     axes : sequence of (x, y, z), optional
-        Fixed axes to take, for three orientations, and for no other number.
+        Fixed axes to take, for three orientations, and for no other number, else `InvariantError`.
     samples : int, optional
         Dyads on each curve, for four orientations.
 
-    Raises
-    ------
-    InvariantError
-        If axes are missing for three orientations, or named for more.
-
     Examples
     --------
-    >>> from scipy.spatial.transform import Rotation
-    >>> angles = [(0, 0), (40, 10), (70, 60), (120, 100), (200, 170)]
-    >>> five = Orientations.from_rotation(Rotation.from_euler("ZX", angles, degrees=True))
-    >>> len(guiding_dyads(five).dyads) > 0
-    True
+    >>> guiding_dyads(Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7]), [(3, 1, 2)])
+    <GuidingDyads: 3 orientations, 1 dyad>
     """
     if axes and len(orientations) != 3:
         raise InvariantError("axes", f"fixed axes require 3 orientations, got {len(orientations)}")

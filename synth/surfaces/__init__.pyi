@@ -5,10 +5,8 @@ from synth.surfaces.circuit import (
     circuits as circuits,
     closing_step as closing_step,
     link_angles as link_angles,
-    link_pairs as link_pairs,
     loop_steps as loop_steps,
     table1 as table1,
-    wrapped as wrapped,
 )
 from synth.surfaces.linkages import (
     CommonFamily as CommonFamily,
@@ -29,10 +27,8 @@ from synth.surfaces.loop_maps import (
     projected_angles as projected_angles,
 )
 from synth.surfaces.loop_sums import (
-    LoopRoots as LoopRoots,
     circumradii as circumradii,
     cone_angles as cone_angles,
-    loop_roots as loop_roots,
     loop_sum as loop_sum,
 )
 from synth.surfaces.mapping import FamilyOfCircles as FamilyOfCircles, MappedLoop as MappedLoop

@@ -36,9 +36,18 @@ from synth.surfaces.loop_maps import (
     is_flat,
     joint_coordinates,
     map_to_cones,
+    unit_of,
 )
 from synth.surfaces.loop_sums import LoopRoots, loop_roots, put_together, sign_patterns, sum_rounding
-from synth.surfaces.mapping import SizedLinks, in_degrees, joints_text, signs_text, size_of
+from synth.surfaces.mapping import (
+    SizedLinks,
+    in_a_family,
+    in_degrees,
+    interval_json,
+    joints_text,
+    signs_text,
+    size_of,
+)
 
 __all__ = [
     "CommonFamily",
@@ -109,7 +118,8 @@ class LinkageMap(Printed):
         return blocks
 
     def __repr__(self) -> str:
-        return f"<LinkageMap: {self.linkage!r}, {numbered(len(self.surfaces), self.linkage.kind)}>"
+        links = numbered(len(self.linkage.chain), "link")
+        return f"<LinkageMap: {links}, {numbered(len(self.surfaces), self.linkage.kind)}>"
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data (docs/command-json.md): circuit, signs and k are lists with one item per loop."""
@@ -131,11 +141,7 @@ class LinkageMap(Printed):
             ],
             "families": [
                 {
-                    **(
-                        {"lambda_deg": [degrees(x) for x in family.interval]}
-                        if on_cone
-                        else {"radius": [None if x == inf else x for x in family.interval]}
-                    ),
+                    **interval_json(family.interval, angular=on_cone),
                     "signs": [list(signs) for signs in family.signs],
                     "k": list(family.turns),
                     "caution": family.caution or None,
@@ -201,23 +207,15 @@ def by_sizes(linkage: SurfaceLinkage) -> SurfaceLinkage:
     Parameters
     ----------
     linkage : SurfaceLinkage
-
-    Raises
-    ------
-    UnsolvableError
-        If it has no surface.
+        `UnsolvableError` if it has steps and no surface.
 
     Examples
     --------
-    Four quarter turns round a cone of lambda 45 degrees are links of 60 degrees:
-
     >>> from graphs.mechanism.sc import SCGraph
-    >>> from graphs.mechanism.surfaces import Cone
-    >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
     >>> steps = {(0, 1): np.pi / 2, (1, 2): np.pi / 2, (2, 3): np.pi / 2}
-    >>> linkage = by_sizes(SurfaceLinkage(chain, steps=steps, surface=Cone(np.pi / 4)))
-    >>> {round(degrees(angle), 9) for angle in linkage.angles.values()}
-    {60.0}
+    >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])
+    >>> round(degrees(by_sizes(SurfaceLinkage(chain, steps=steps, surface=Cone(np.pi / 4))).angles[1, 2]), 9)
+    60.0
     """
     if linkage.steps is None:
         return linkage
@@ -244,12 +242,8 @@ def map_linkage(mechanism: MechanismLike, tolerance: float = 1e-7) -> LinkageMap
 
     Examples
     --------
-    >>> from graphs.loops.loop import Loop
-    >>> from graphs.mechanism.sc import SCGraph
-    >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> steps = {(i, i + 1): np.pi / 2 for i in range(3)}
-    >>> [family.interval[0] for family in map_linkage(SurfaceLinkage(chain, steps=steps)).families]
-    [0.0]
+    >>> map_linkage(SurfaceLinkage.loop(np.radians([120, 95, 45, 85])))
+    <LinkageMap: 4 links, 2 cones>
     """
     linkage = mechanism_for("map_linkage", mechanism, SurfaceLinkage)
     if linkage.sizes is not None:
@@ -353,16 +347,14 @@ def common_surfaces(
 
     Examples
     --------
-    >>> from graphs.loops.loop import Loop
-    >>> chain = SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)])), [Loop(tuple("OABC"))])
-    >>> pairs = [("O", "A"), ("A", "B"), ("B", "C"), ("C", "O")]
-    >>> cones, _ = common_surfaces(chain, dict(zip(pairs, np.radians([120, 95, 45, 85]))))
+    >>> linkage = SurfaceLinkage.loop(np.radians([120, 95, 45, 85]))
+    >>> cones, _ = common_surfaces(linkage.chain, linkage.angles)
     >>> [round(float(np.degrees(cone.surface.angle)), 4) for cone in cones]
     [13.9984, 29.0445]
     """
     pairs, values = _checked_pairs(chain, sizes, lengths=lengths)
     cycles = _cycles(chain, pairs, "length" if lengths else "angle")
-    unit = float(2.0 ** np.frexp(values.max())[1]) if lengths and len(values) else 1.0
+    unit = unit_of(values) if lengths and len(values) else 1.0
     links = SizedLinks(cylinder_reach(values / unit), 0) if lengths else SizedLinks(cone_reach(values), 1)
     roots = [loop_roots(links.reach[cycle.pairs], links.base) for cycle in cycles]
     end = float(links.reach[np.concatenate([cycle.pairs for cycle in cycles])].min())
@@ -375,7 +367,7 @@ def common_surfaces(
         half = steps > HALF_TURN  # half a turn has no sign
         patterns = [_closing(cycle, size, links, tolerance) for cycle in cycles]
         for signs in _agreeing(cycles, patterns, len(values)):
-            if not (signs[half] < 0).any() and not _in_a_family(signs, half, closing):
+            if not (signs[half] < 0).any() and not in_a_family(signs, half, closing):
                 caution = _caution(cycles, signs, links, tolerance)
                 circle = size_of(size, links.base)
                 surface = Cylinder(unit * circle) if lengths else Cone(circle)
@@ -559,14 +551,6 @@ def _common_surface(
     )
 
 
-def _in_a_family(
-    signs: npt.NDArray[np.int8], half: npt.NDArray[np.bool_], families: Sequence[npt.NDArray[np.int8]]
-) -> bool:
-    """Check whether signs, or their mirror image, are those of a family but for steps of half a turn."""
-    rest = ~half
-    return any((signs[rest] == turn * family[rest]).all() for family in families for turn in (1, -1))
-
-
 @dataclass(frozen=True, slots=True)
 class SupplementaryLinkages(Printed):
     """The 16 linkages that share the joint lines of a four-bar: itself, and 15 others.
@@ -581,8 +565,8 @@ class SupplementaryLinkages(Printed):
 
     Examples
     --------
-    >>> supplementary_linkages(np.radians([85, 120, 95, 45])).turned[3]
-    (3, 4)
+    >>> supplementary_linkages(np.radians([85, 120, 95, 45]))
+    <SupplementaryLinkages: 16 linkages, 8 different>
     """
 
     turned: tuple[tuple[int, ...], ...]
@@ -650,12 +634,7 @@ def supplementary_linkages(angles: npt.ArrayLike) -> SupplementaryLinkages:
     Parameters
     ----------
     angles : float[4]
-        Link angles in loop order, radians.
-
-    Raises
-    ------
-    InvariantError
-        If there are not four, or they are out of range or cannot close.
+        Link angles in loop order, radians, in range and able to close, else `InvariantError`.
 
     Examples
     --------

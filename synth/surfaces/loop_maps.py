@@ -1,16 +1,15 @@
 """Loops on cones and cylinders: every right cone of a spherical loop, every cylinder of a planar one.
 
-On a cone the apex is the spherical centre, joint axes are ruling lines. The cone angle lambda is the angle between
-a ruling line and the plane across the axis: 0 is a flat disk, 90 degrees a needle, which no linkage has. A link of
-angle phi spans the projected angle phi_0 with sin(phi / 2) = cos(lambda) sin(phi_0 / 2). Across the axis of a
-cylinder, the joints of a planar loop lie on a circle. Sources: Hyatt, Magleby, Howell 2020; Hyatt et al. 2021,
-sections 3 and 4. Theory: docs/theory/mapping.md.
+On a cone joint axes are ruling lines, and lambda is the angle between these and the plane across the axis: 0 is a
+flat disk. A link of angle phi spans the projected angle phi_0 with sin(phi / 2) = cos(lambda) sin(phi_0 / 2).
+Across the axis of a cylinder, the joints of a planar loop lie on a circle. Sources: Hyatt, Magleby, Howell 2020;
+Hyatt et al. 2021, sections 3 and 4. Theory: docs/theory/mapping.md.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import cos, degrees, fsum, inf
+from math import degrees, fsum, inf
 from typing import Any
 
 import numpy as np
@@ -58,10 +57,8 @@ class ConeMap(Printed):
     cones, flat : tuple of MappedLoop
         Loops with 0 < lambda < 90 degrees, and with lambda = 0: in a plane.
     families : tuple of FamilyOfCircles
-    kind : FourBarKind or None
-        Of four-bars.
-    solutions : {"a", "b", "c", "d", "crossed only", "none"} or None
-        Of four-bars: the class of Fig. 10.
+    kind, solutions : FourBarKind or None, {"a", "b", "c", "d", "crossed only", "none"} or None
+        Of four-bars; the solutions are the class of Fig. 10.
     why : str
         Why there is no cone; empty where there is one.
     supplementary : ConeMap or None
@@ -69,9 +66,8 @@ class ConeMap(Printed):
 
     Examples
     --------
-    >>> cone_map = map_to_cones(np.radians([120, 95, 45, 85]))
-    >>> len(cone_map.cones), cone_map.kind.grashof, cone_map.solutions
-    (2, 'Grashof', 'a')
+    >>> map_to_cones(np.radians([120, 95, 45, 85]))
+    <ConeMap: 4 links, 2 cones>
     """
 
     angles: tuple[float, ...]
@@ -117,12 +113,9 @@ class ConeMap(Printed):
             "angles_deg": in_degrees(self.angles),
             "chords": cone_chords(self.angles).tolist(),
             **({} if self.kind is None else self.kind.to_json(angular=True)),
-            "cones": [_in_json(cone) for cone in self.cones],
-            "families": [
-                {"lambda_deg": [degrees(x) for x in family.interval], **family.to_json()}
-                for family in self.families
-            ],
-            "flat": [{**_in_json(loop), "lambda_deg": 0.0} for loop in self.flat],
+            "cones": [cone.to_json(angular=True) for cone in self.cones],
+            "families": [family.to_json(angular=True) for family in self.families],
+            "flat": [{**loop.to_json(angular=True), "lambda_deg": 0.0} for loop in self.flat],
             "why": self.why or None,
             "cautions": list(self.cautions()),
         }
@@ -130,11 +123,6 @@ class ConeMap(Printed):
             document["class"] = self.solutions
             document["supplementary"] = None if self.supplementary is None else self.supplementary.to_json()
         return document
-
-
-def _in_json(cone: MappedLoop) -> dict[str, Any]:
-    bounds = [degrees(x) for x in cone.bounds]
-    return {"lambda_deg": degrees(cone.size), "lambda_bounds_deg": bounds, "R": cos(cone.size), **cone.to_json()}
 
 
 def projected_angles(angles: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
@@ -149,10 +137,8 @@ def projected_angles(angles: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats
 
     Raises
     ------
-    InvariantError
-        If a cone angle is out of range.
-    UnsolvableError
-        If a link does not fit on its cone: lambda is more than pi / 2 - phi / 2.
+    InvariantError, UnsolvableError
+        If a cone angle is out of range; if a link does not fit on its cone: lambda is more than pi / 2 - phi / 2.
 
     Examples
     --------
@@ -204,30 +190,25 @@ def map_to_cones(angles: npt.ArrayLike) -> ConeMap:
 
     Raises
     ------
-    InvariantError
-        If an angle is out of range, or the links cannot close.
-    UnsolvableError
-        If there are too many links.
+    InvariantError, UnsolvableError
+        If an angle is out of range, or the links cannot close; if there are too many links.
 
     Examples
     --------
-    Hyatt et al. 2021, Fig. 3:
-
-    >>> (cone,) = map_to_cones(np.radians([70, 80, 120, 40])).cones
+    >>> (cone,) = map_to_cones(np.radians([70, 80, 120, 40])).cones  # Hyatt et al. 2021, Fig. 3
     >>> round(float(np.degrees(cone.size)), 2), cone.circuit
     (25.21, 'open')
     """
     links = checked_link_angles(angles)
     loops, families = mapped_loop(cone_reach(links), 1, links)
-    cones = tuple(one for one in loops if not is_flat(one.size, links.max()))
-    flat = tuple(one for one in loops if is_flat(one.size, links.max()))
-    kind = solutions = supplement = None
-    four = len(links) == 4
-    if four:
-        kind, solutions = kind_of_spherical(links), solution_class(links)
+    flat = tuple(loop for loop in loops if is_flat(loop.size, links.max()))
+    cones = loops[len(flat) :]  # in the order of their sizes
     why = "" if cones or families else _why_not(links, bool(flat))
-    if why and four and spherical_differences(links)[3] < 0 and not _is_straight(links.max()):
-        supplement = map_to_cones(minimal_supplementary(links))
+    kind = solutions = supplement = None
+    if len(links) == 4:
+        kind, solutions = kind_of_spherical(links), solution_class(links)
+        if why and spherical_differences(links)[3] < 0 and not _is_straight(links.max()):
+            supplement = map_to_cones(minimal_supplementary(links))
     return ConeMap(tuple(links.tolist()), cones, flat, families, kind, solutions, why, supplement)
 
 
@@ -288,9 +269,8 @@ class CylinderMap(Printed):
 
     Examples
     --------
-    >>> cylinder_map = map_to_cylinders([4, 3, 5, 1])
-    >>> len(cylinder_map.cylinders), cylinder_map.kind.name
-    (2, 'rocker-crank')
+    >>> map_to_cylinders([4, 3, 5, 1])
+    <CylinderMap: 4 links, 2 cylinders>
     """
 
     lengths: tuple[float, ...]
@@ -312,10 +292,8 @@ class CylinderMap(Printed):
         blocks += [f"caution: {caution}" for caution in self.cautions()]
         for number, cylinder in enumerate(self.cylinders, start=1):
             rows = [
-                (str(joint), f"{x + 0.0:.8g}", f"{y + 0.0:.8g}")
-                for joint, (x, y) in enumerate(
-                    joint_coordinates(cylinder.size, azimuths(cylinder.steps)).tolist(), start=1
-                )
+                (str(joint), *(f"{value + 0.0:.8g}" for value in place))
+                for joint, place in enumerate(_coordinates(cylinder), start=1)
             ]
             blocks += [f"joints on cylinder {number}", TableBlock(("joint", "x", "y"), rows, ["x", "y"])]
         return [*blocks, f"no cylinder: {self.why}"] if self.why else blocks
@@ -329,21 +307,18 @@ class CylinderMap(Printed):
             "lengths": list(self.lengths),
             **({} if self.kind is None else self.kind.to_json(angular=False)),
             "cylinders": [
-                {
-                    "radius": cylinder.size,
-                    "radius_bounds": [None if x == inf else x for x in cylinder.bounds],
-                    **cylinder.to_json(),
-                    "coordinates": joint_coordinates(cylinder.size, azimuths(cylinder.steps)).tolist(),
-                }
+                {**cylinder.to_json(angular=False), "coordinates": _coordinates(cylinder)}
                 for cylinder in self.cylinders
             ],
-            "families": [
-                {"radius": [None if x == inf else x for x in family.interval], **family.to_json()}
-                for family in self.families
-            ],
+            "families": [family.to_json(angular=False) for family in self.families],
             "why": self.why or None,
             "cautions": list(self.cautions()),
         }
+
+
+def _coordinates(cylinder: MappedLoop) -> list[list[float]]:
+    places: list[list[float]] = joint_coordinates(cylinder.size, azimuths(cylinder.steps)).tolist()
+    return places
 
 
 def joint_coordinates(radius: float, places: npt.ArrayLike) -> Floats:
@@ -358,12 +333,7 @@ def central_angles(lengths: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:
     Parameters
     ----------
     lengths, radius : float[...]
-        Any one unit.
-
-    Raises
-    ------
-    InvariantError
-        If a link is longer than the diameter.
+        Any one unit; `InvariantError` if a link is longer than the diameter.
 
     Examples
     --------
@@ -398,32 +368,31 @@ def map_to_cylinders(lengths: npt.ArrayLike) -> CylinderMap:
 
     Raises
     ------
-    InvariantError
-        If a length is not positive, or the links cannot close.
-    UnsolvableError
-        If there are too many links.
+    InvariantError, UnsolvableError
+        If a length is not positive, or the links cannot close; if there are too many links.
 
     Examples
     --------
-    Hyatt et al. 2021, Fig. 10:
-
-    >>> [(round(one.size, 2), one.circuit) for one in map_to_cylinders([4, 3, 5, 1]).cylinders]
+    >>> [(round(loop.size, 2), loop.circuit) for loop in map_to_cylinders([4, 3, 5, 1]).cylinders]  # Fig. 10
     [(2.54, 'open'), (2.59, 'crossed')]
     """
     sides = checked_link_lengths(lengths)
-    unit = 2.0 ** np.frexp(sides.max())[1]  # a power of two: no digit of the lengths is lost
+    unit = unit_of(sides)
     loops, families = mapped_loop(cylinder_reach(sides / unit), 0)
-    cylinders = tuple(_scaled(one, unit) for one in loops)
-    many = tuple(replace(one, interval=(one.interval[0] * unit, inf)) for one in families)
+    cylinders = tuple(
+        replace(loop, size=loop.size * unit, bounds=(loop.bounds[0] * unit, loop.bounds[1] * unit))
+        for loop in loops
+    )
+    families = tuple(replace(family, interval=(family.interval[0] * unit, inf)) for family in families)
     kind = kind_of_planar(sides) if len(sides) == 4 else None
-    why = "" if cylinders or many else "the loop closes stretched out only, at an infinite radius"
-    stretched = _nearly_stretched(sides, {family.signs for family in many})
-    return CylinderMap(tuple(sides.tolist()), cylinders, many, kind, why, stretched)
+    why = "" if cylinders or families else "the loop closes stretched out only, at an infinite radius"
+    stretched = _nearly_stretched(sides, {family.signs for family in families})
+    return CylinderMap(tuple(sides.tolist()), cylinders, families, kind, why, stretched)
 
 
-def _scaled(loop: MappedLoop, unit: float) -> MappedLoop:
-    least, most = loop.bounds
-    return replace(loop, size=float(loop.size * unit), bounds=(float(least * unit), float(most * unit)))
+def unit_of(lengths: Floats) -> float:
+    """Return a power of two to divide lengths by, so that none is large and no digit of them is lost."""
+    return float(2.0 ** np.frexp(lengths.max())[1])
 
 
 def _nearly_stretched(lengths: Floats, families: set[tuple[int, ...]]) -> tuple[tuple[int, ...], ...]:

@@ -1,32 +1,12 @@
 """Loop sums: every circle on which the joints of a loop can lie, for any number of links.
 
-Seen along its axis, a cone or a cylinder is a circle, and a link spans a signed *step* of it. A loop closes where
-its steps sum to 360 k degrees (Hyatt et al. 2020, Eq. 12; Hyatt et al. 2021, Eq. 20). Both surfaces have one
-form. Write a link by its *reach* C and the surface by its *size* z:
-
-    cone       C = cot(angle / 2)^2,   z = tan(lambda)^2,   base 1
-    cylinder   C = 1 / length^2,       z = 1 / (2 R)^2,     base 0
-
-Then half a step is atan2(sqrt(base + z), sqrt(C - z)), real for 0 <= z <= min C, and along z the derivative of a
-loop sum has the sign of g = sum s_i (C_i - z)^(-1/2).
-
-No root is missed. With the reaches in rising order, multiply g by (C_j - z)^(1/2), where the sign changes
-between s_j and the next, and differentiate: the result has the sign of sum s_i (C_j - C_i) (C_i - z)^(-3/2), one
-sign change fewer. After as many steps as there are sign changes no zero is left; going back, each function is
-monotone (up to a positive factor) between the zeros of the one after it. So g has at most as many zeros as there
-are sign changes, and a loop sum at most one root more, all found by bisection. A loop sum is compared with its
-own rounding (`sum_rounding`), nothing absolute. Theory: docs/theory/loop-sums.md, docs/theory/rounding.md.
-
-Four links have closed forms. They fit on two circles at most: one with the quadrilateral open (convex), one with
-it crossed (Hyatt et al. 2021, Eqs. 4, 5 and 12). On a cylinder the sides are the links; on a cone they are the
-chords 2 sin(angle / 2) of the unit sphere, and R = cos(lambda) (Eqs. 13, 14). The circle does not depend on the
-order of the links. Near lambda = 0 a cosine has few digits. With half angles x_i, their sum S and T_j the three
-differences of pairs of them,
-
-    open     16 K^2 (1 - R^2) = 256 cos(S/2) prod sin(S/2 - x_i) prod cos(T_j / 2)
-    crossed  16 K^2 (1 - R^2) = 256 sin(S/2) prod cos(S/2 - x_i) prod sin(T_j / 2)
-
-which loses no digits: tan(lambda)^2 is this by the numerator of Eq. 12. Theory: docs/theory/mapping.md.
+A loop closes where its signed steps sum to 360 k degrees (Hyatt et al. 2020, Eq. 12; Hyatt et al. 2021, Eq. 20). A
+link is its *reach* C, the surface its *size* z: C = cot(angle / 2)^2, z = tan(lambda)^2, base 1 on a cone; C = 1 /
+length^2, z = 1 / (2 R)^2, base 0 on a cylinder. Half a step is atan2(sqrt(base + z), sqrt(C - z)), and along z the
+derivative of a loop sum has the sign of g = sum s_i (C_i - z)^(-1/2). No root is missed: a tower of functions,
+each with one sign change fewer, brackets the zeros of g, and these the roots, found by bisection. A loop sum is
+compared with its own rounding (`sum_rounding`), nothing absolute. Four links have closed forms (Hyatt et al. 2021,
+Eqs. 4, 5, 11 to 14). Theory: docs/theory/loop-sums.md, docs/theory/mapping.md, docs/theory/rounding.md.
 """
 
 from __future__ import annotations
@@ -56,25 +36,13 @@ _MOST_SENSITIVE = 1.0 / np.sqrt(8.0 * np.finfo(float).eps)
 
 @dataclass(frozen=True, slots=True)
 class LoopRoots:
-    """All circles of many loops, in the order of loops and sign patterns.
+    """All circles of many loops, in the order of loops and sign patterns: M roots, and F families.
 
-    Attributes
-    ----------
-    loop, turns : int[M]
-        Which loop, and k: the steps sum to 2 pi k.
-    signs : int8[M, n]
-        Signs of its steps; the first is +.
-    size : float[M]
-        z, with z = tan(lambda)^2 on a cone and 1 / (2 R)^2 on a cylinder.
-    residual : float[M]
-        Loop sum less 2 pi k, radians.
-    double : bool[M]
-        Whether the sum, within its rounding, touches 2 pi k without crossing it, or is there at an end of the
-        interval.
-    family_loop, family_signs : int[F], int8[F, n]
-        Sums that vanish for every z (k = 0).
-    family_exact : bool[F]
-        Whether links pair off with equal ones of the other sign; else the sums vanish within their rounding.
+    A root has the number of its ``loop``, the ``signs`` of its steps, int8[M, n], the first +, ``turns`` k, its
+    ``size`` z, and the ``residual``, the loop sum less 2 pi k, radians. It is ``double`` where the sum, within its
+    rounding, touches 2 pi k without crossing it, or is there at an end of the interval. Families are sums that
+    vanish for every z (k = 0), exactly if links pair off with equal ones of the other sign, else within their
+    rounding.
     """
 
     loop: npt.NDArray[np.intp]
@@ -134,11 +102,7 @@ def sum_rounding(size: npt.ArrayLike, reach: npt.ArrayLike, weights: npt.ArrayLi
 
 
 def put_together(signs: npt.ArrayLike, reach: npt.ArrayLike) -> tuple[Floats, Floats]:
-    """Return the weights of one loop, the signs of equal links added up, and their reaches in rising order.
-
-    >>> [values.tolist() for values in put_together([1, -1, -1, 1], [2.0, 1.0, 2.0, 1.0])]
-    [[0.0, 0.0], [1.0, 2.0]]
-    """
+    """Return the weights of one loop, the signs of equal links added up, and their reaches in rising order."""
     distinct, which = np.unique(np.asarray(reach, dtype=float), return_inverse=True)
     weights: Floats = np.bincount(which, weights=np.asarray(signs, dtype=float)).astype(float)
     return weights, distinct
@@ -153,25 +117,9 @@ def sign_patterns(links: int) -> npt.NDArray[np.int8]:
 def loop_roots(reach: npt.ArrayLike, base: Base) -> LoopRoots:
     """Return every circle on which each of many loops closes, for all sign patterns and all k.
 
-    Parameters
-    ----------
-    reach : float[n] or float[B, n]
-        Reaches of the links of each loop, in loop order.
-    base : {0, 1}
-        0 on a cylinder (z = 0, an infinite radius, is no root), 1 on a cone (z = 0 is the flat one and is a root).
-
-    Raises
-    ------
-    UnsolvableError
-        If the loops have fewer than three links, or more than MOST_LINKS.
-
-    Examples
-    --------
-    Hyatt et al. 2021, Fig. 10: links 4, 3, 5, 1 on a cylinder.
-
-    >>> roots = loop_roots(1 / np.array([4.0, 3, 5, 1]) ** 2, 0)
-    >>> roots.signs.tolist(), roots.turns.tolist(), (0.5 / np.sqrt(roots.size)).round(2).tolist()
-    ([[1, 1, 1, 1], [1, 1, -1, -1]], [1, 0], [2.54, 2.59])
+    Reaches, float[n] or float[B, n], are in loop order. On a cylinder (base 0) z = 0, an infinite radius, is no
+    root; on a cone (base 1) z = 0 is the flat one and is a root. Raises `UnsolvableError` if the loops have fewer
+    than three links, or more than MOST_LINKS.
     """
     reaches = np.atleast_2d(np.asarray(reach, dtype=float))
     n = reaches.shape[1]
@@ -371,31 +319,23 @@ def _bisected(value: object, low: Floats, high: Floats, number: npt.NDArray[np.i
 
 
 @dataclass(frozen=True, slots=True)
-class CyclicQuadrilaterals:
-    """Circumradii, float[...], of open and crossed quadrilaterals with sides float[..., 4]; or nan."""
+class Quadrilaterals:
+    """Circumradii, or cone angles in [0, pi/2), float[...], of open and crossed four-bars; or nan.
+
+    Links, float[..., 4], are lengths, or angles (`angular`).
+    """
 
     open: Floats
     crossed: Floats
-    sides: Floats
+    links: Floats
+    angular: bool
 
     @property
     def ill_conditioned(self) -> Flags:
-        """Whether a sum of sides with signs is within their rounding of zero, and so decides: bool[...]."""
-        return _nearly_zero(self.sides, angular=False)
-
-
-@dataclass(frozen=True, slots=True)
-class ConicalQuadrilaterals:
-    """Cone angles, float[...] in [0, pi/2), of open and crossed four-bars with angles float[..., 4]; or nan."""
-
-    open: Floats
-    crossed: Floats
-    angles: Floats
-
-    @property
-    def ill_conditioned(self) -> Flags:
-        """Whether a sum of angles with signs, or all less a turn, is within rounding of zero: bool[...]."""
-        return _nearly_zero(self.angles, angular=True)
+        """Whether links with signs, or angles less a turn, sum to zero within rounding, which decides."""
+        turn = 2.0 * np.pi * np.eye(8)[0] if self.angular else np.zeros(8)  # the first pattern is that of all +
+        sums = self.links @ sign_patterns(4).T - turn
+        return np.asarray((np.abs(sums) <= rounding_of(self.links)[..., np.newaxis]).any(axis=-1))
 
 
 def _sides(values: npt.ArrayLike) -> tuple[Floats, Floats, Floats, Floats]:
@@ -414,25 +354,16 @@ def _sixteen_area_squared(a: Floats, b: Floats, c: Floats, d: Floats, mu: int) -
     return np.asarray((b + c + d - a) * (a + c + d - b) * (a + b + d - c) * (a + b + c - d))
 
 
-def _nearly_zero(links: Floats, *, angular: bool) -> Flags:
-    """Check whether links with signs, or angles less a turn, sum to less than their rounding."""
-    turn = 2.0 * np.pi * np.eye(8)[0] if angular else np.zeros(8)  # the first pattern is that of all +
-    sums = links @ sign_patterns(4).T - turn
-    return np.asarray((np.abs(sums) <= rounding_of(links)[..., np.newaxis]).any(axis=-1))
-
-
-def circumradii(sides: npt.ArrayLike) -> CyclicQuadrilaterals:
+def circumradii(sides: npt.ArrayLike) -> Quadrilaterals:
     """Return the circles of planar quadrilaterals (Hyatt et al. 2021, Eq. 12; Eqs. 4 and 5).
+
+    Eq. 12 with mu = -1 also gives real radii where numerator and denominator are both negative; no quadrilateral
+    has them. Where both vanish (two pairs of equal sides) there are infinitely many crossed circles: nan.
 
     Parameters
     ----------
     sides : float[..., 4]
         Positive lengths; their order does not matter.
-
-    Notes
-    -----
-    Eq. 12 with mu = -1 also gives real radii where numerator and denominator are both negative; no quadrilateral
-    has them. Where both vanish (two pairs of equal sides) there are infinitely many crossed circles: nan.
 
     Examples
     --------
@@ -448,10 +379,10 @@ def circumradii(sides: npt.ArrayLike) -> CyclicQuadrilaterals:
         with np.errstate(invalid="ignore", divide="ignore"):
             there = (numerator > 0) & (denominator > 0)
             radii.append(np.where(there, np.sqrt(numerator / denominator), np.nan))
-    return CyclicQuadrilaterals(radii[0], radii[1], lengths)
+    return Quadrilaterals(radii[0], radii[1], lengths, angular=False)
 
 
-def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
+def cone_angles(angles: npt.ArrayLike) -> Quadrilaterals:
     """Return the cones on which spherical four-bars lie (Hyatt et al. 2021, Eqs. 12 to 14).
 
     lambda = 0 where a crossed linkage folds flat; nan where two pairs of angles are equal and there are infinitely
@@ -464,11 +395,9 @@ def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
 
     Examples
     --------
-    Hyatt et al. 2020, Fig. 10(a) and (b):
-
-    >>> cones = cone_angles(np.radians([[120, 95, 45, 85], [155, 50, 65, 80]]))
-    >>> np.degrees(cones.open).round(3), np.degrees(cones.crossed).round(3)
-    (array([13.998,  8.864]), array([29.044,    nan]))
+    >>> cones = cone_angles(np.radians([120, 95, 45, 85]))  # Hyatt et al. 2020, Fig. 10(a)
+    >>> float(np.degrees(cones.open).round(3)), float(np.degrees(cones.crossed).round(3))
+    (13.998, 29.044)
     """
     links = np.asarray(angles, dtype=float)
     half = [angle / 2.0 for angle in _sides(links)]
@@ -477,6 +406,7 @@ def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
     middle = (x + y + z + w) / 2.0
     pairs = [(x + y - z - w) / 2.0, (x + z - y - w) / 2.0, (y + z - x - w) / 2.0]
     less = [middle - angle for angle in half]
+    # 16 K^2 (1 - R^2) / 256 as products of half angles, which near lambda = 0 lose no digits, as a cosine would
     convex: Any = np.cos(middle)
     crossed: Any = np.sin(middle)
     for angle in less:
@@ -489,7 +419,7 @@ def cone_angles(angles: npt.ArrayLike) -> ConicalQuadrilaterals:
         with np.errstate(invalid="ignore", divide="ignore"):
             there = (numerator > 0) & (product >= 0)
             cones.append(np.where(there, np.arctan(np.sqrt(256.0 * product / numerator)), np.nan))
-    return ConicalQuadrilaterals(cones[0], cones[1], links)
+    return Quadrilaterals(cones[0], cones[1], links, angular=True)
 
 
 def crossed_area(sides: npt.ArrayLike) -> Floats:

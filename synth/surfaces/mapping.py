@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from math import cos, degrees, fsum, pi
+from math import cos, degrees, fsum, inf, pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -75,9 +75,17 @@ class MappedLoop:
     bounds: tuple[float, float]
     caution: str
 
-    def to_json(self) -> dict[str, Any]:
-        """Return the loop as plain data, but for size and bounds, which a cone and a cylinder name differently."""
+    def to_json(self, *, angular: bool) -> dict[str, Any]:
+        """Return the loop as plain data: on a cone (angular) or a cylinder."""
+        size: dict[str, Any] = {
+            "radius": self.size,
+            "radius_bounds": [None if x == inf else x for x in self.bounds],
+        }
+        if angular:
+            bounds = [degrees(x) for x in self.bounds]
+            size = {"lambda_deg": degrees(self.size), "lambda_bounds_deg": bounds, "R": cos(self.size)}
         return {
+            **size,
             "circuit": self.circuit,
             "signs": list(self.signs),
             "k": self.turns,
@@ -100,19 +108,16 @@ class FamilyOfCircles:
         Least and greatest lambda (the least, 0, is the flat cone) or radius (the greatest is infinite).
     circuit : {"open", "crossed"}
         In the middle of the interval.
-    signs : tuple of int
-    turns : int
-        k, always 0.
+    signs, turns : tuple of int, int
+        k is always 0.
     caution : str
         Where the loop sum vanishes within rounding only; else empty.
 
     Examples
     --------
-    A parallelogram lies crossed, in two ways, on every cylinder that its longest link can span:
-
     >>> from synth.surfaces import map_to_cylinders
-    >>> [(float(family.interval[0]), family.signs) for family in map_to_cylinders([2, 1, 2, 1]).families]
-    [(1.0, (1, 1, -1, -1)), (1.0, (1, -1, -1, 1))]
+    >>> [family.signs for family in map_to_cylinders([2, 1, 2, 1]).families]  # a parallelogram lies crossed
+    [(1, 1, -1, -1), (1, -1, -1, 1)]
     """
 
     interval: tuple[float, float]
@@ -121,14 +126,22 @@ class FamilyOfCircles:
     turns: int
     caution: str
 
-    def to_json(self) -> dict[str, Any]:
-        """Return the family as plain data, but for its interval."""
+    def to_json(self, *, angular: bool) -> dict[str, Any]:
+        """Return the family as plain data: of cones (angular) or cylinders."""
         return {
+            **interval_json(self.interval, angular=angular),
             "circuit": self.circuit,
             "signs": list(self.signs),
             "k": self.turns,
             "caution": self.caution or None,
         }
+
+
+def interval_json(interval: tuple[float, float], *, angular: bool) -> dict[str, Any]:
+    """Return an interval of cones (angular) or of cylinders as plain data."""
+    if angular:
+        return {"lambda_deg": [degrees(x) for x in interval]}
+    return {"radius": [None if x == inf else x for x in interval]}
 
 
 def cautions_of(
@@ -222,7 +235,8 @@ def mapped_loop(
     for signs, turns, z, double in zip(roots.signs, roots.turns, roots.size, roots.double, strict=True):
         root = _as_listed(_Root(float(z), signs, int(turns), bool(double), _NONE), links)
         key = tuple(root.signs.tolist()), root.size
-        if key not in loops and not _ends_a_family(root.signs, root.half, vanishing):
+        ends_a_family = len(root.half) and in_a_family(root.signs, root.half, vanishing)
+        if key not in loops and not ends_a_family:
             loops[key] = _on_its_circle(root, links)
     return tuple(sorted(loops.values(), key=lambda one: one.size)), families
 
@@ -355,13 +369,12 @@ def _whole_turns(steps: Floats) -> int:
     return round(float(steps.sum()) / (2.0 * pi))
 
 
-def _ends_a_family(
-    signs: npt.NDArray[np.int8], half: npt.NDArray[np.intp], families: set[tuple[int, ...]]
-) -> bool:
-    """Check whether other signs of half turns make a pattern, or its mirror image, whose sum vanishes."""
-    for family in families:
-        for mirrored in (1, -1):
-            differ = np.flatnonzero(signs * mirrored != np.array(family))
-            if len(half) and set(differ.tolist()) <= set(half.tolist()):
-                return True
-    return False
+def in_a_family(signs: npt.NDArray[np.int8], half: npt.NDArray[Any], families: Iterable[npt.ArrayLike]) -> bool:
+    """Check whether signs, or their mirror image, are those of a family but for steps of half a turn.
+
+    Half turns, which have no sign, are the numbers of the steps, or a mask.
+    """
+    rest = np.delete(signs, half)
+    return any(
+        np.array_equal(rest, mirrored * np.delete(family, half)) for family in families for mirrored in (1, -1)
+    )

@@ -39,6 +39,11 @@ def test_a_pattern_of_no_size_is_one_line(size, told, data, tmp_path):
     assert str(refused.value) == f"{tmp_path / 'a.fold'}: {told}"
 
 
+def test_a_pattern_in_one_line_has_no_area():
+    with pytest.raises(InvariantError, match="no area: all its vertices lie in one line"):
+        square((0.0, 0.0), (1.0, 1.0), (2.0, 2.0), (3.0, 3.0))
+
+
 @pytest.mark.parametrize("factor", [0.3 * MOST, 3 * LEAST])
 def test_answers_do_not_depend_on_the_size(factor, data, tmp_path):
     answers = []

@@ -13,7 +13,7 @@ from graphs.errors import FileError, InvariantError, StoreError, SynthedraError,
 from graphs.files.patterns.svg import svg_text
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
-from graphs.printing import TableBlock, console_for, html_of, plain, plain_label, plain_lines, text_of
+from graphs.printing import TableBlock, console_for, html_of, plain, plain_lines, text_of
 
 HOSTILE = "\x1b[2J\r\u202egnirts\x07\u2066\x9b31m\ud83d$x^$\n"
 LONG = "n" * 2_000_000
@@ -29,7 +29,7 @@ def four_bar(names):
     return {"format": "synthedra/sc", "version": 1, "links": 4, "joints": joints, "loops": loops}
 
 
-@pytest.mark.parametrize("clean", [plain, plain_label, shown])
+@pytest.mark.parametrize("clean", [plain, shown])
 def test_one_line_of_printable_letters(clean):
     assert harmless(clean(HOSTILE))
     assert "\n" not in clean(HOSTILE)

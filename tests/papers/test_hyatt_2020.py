@@ -9,6 +9,7 @@ import pytest
 from conical import FOUR_BAR, crosses, random_link_angles, random_linkages
 from golden_numbers import golden_numbers
 from memberships import memberships
+from second_methods import pole_axes
 
 from enumerate.conical.query import Portion
 from enumerate.conical.rounds import canonical_row
@@ -18,7 +19,7 @@ from graphs.geometry import rotated
 from graphs.mechanism.surfaces import Cone
 from synth.candidates.job import CandidateJob
 from synth.conformed.pose import dihedral_angles, joint_axes, poses_from_conformed
-from synth.conformed.rates import ConformedChain, first_order, pole_axes
+from synth.conformed.rates import ConformedChain, first_order
 from synth.fourbar.closing import grashof_class, kind_of_spherical, spherical_differences, supplementary
 from synth.surfaces.circuit import azimuths, circuits, link_angles, link_pairs, loop_steps, table1
 from synth.surfaces.loop_maps import largest_cone_angle, map_to_cones, projected_angles

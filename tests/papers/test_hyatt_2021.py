@@ -8,13 +8,14 @@ import pytest
 from by_coordinates import cone_angles_by_coordinates, quadrilaterals_by_coordinates
 from conical import FOUR_BAR, crosses, random_lengths, random_link_angles, random_linkages
 from golden_numbers import golden_numbers
+from second_methods import shadow_allows
 
 from enumerate.conical.rounds import Rounds, count_rounds_by_burnside, placements
 from graphs.count.report import mobility_report
 from graphs.edit.analogues import planar_analogue
 from graphs.files.formats import read
 from synth.candidates.job import CandidateJob
-from synth.conformed.behaviours import COLUMNS, ROWS, behaviour, shadow_allows, table4, table_row
+from synth.conformed.behaviours import COLUMNS, ROWS, behaviour, table4, table_row
 from synth.conformed.rates import ConformedChain
 from synth.fourbar.closing import grashof_class, kind_of_spherical, planar_differences, spherical_differences
 from synth.fourbar.position import output_planar

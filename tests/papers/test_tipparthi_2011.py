@@ -4,11 +4,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from second_methods import hoop_sequence
 
 from graphs.count.report import mobility_report
 from graphs.files.formats import read
 from graphs.reduce.ride_alongs import reduce
-from synth.guidance.order import analyse_order, hoop, hoop_sequence, pair_name
+from synth.guidance.order import analyse_order, hoop, pair_name
 from synth.guidance.orientations import read_orientations
 from synth.guidance.synthesis import dyads_of_five
 

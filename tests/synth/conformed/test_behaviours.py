@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from conical import FOUR_BAR, STEPHENSON, WATT, random_linkages, steps_of
+from second_methods import pole_axes, shadow_allows
 
 from graphs.errors import InvariantError
 from graphs.mechanism.sc import SCGraph
@@ -14,12 +15,11 @@ from synth.conformed.behaviours import (
     icrl,
     instant_centres,
     link_arcs,
-    shadow_allows,
     table4,
     table_row,
 )
 from synth.conformed.pose import joint_axes, poses_from_conformed
-from synth.conformed.rates import ConformedChain, first_order, pole_axes
+from synth.conformed.rates import ConformedChain, first_order
 
 COUNT = 10_000
 FIVE = SCGraph(5, [(i, (i + 1) % 5) for i in range(5)])
@@ -226,7 +226,6 @@ def test_a_tree_has_no_closure():
             lambda: first_order(ConformedChain.of(FOUR_BAR), [0.0, 1.0]),
             "2 azimuths; expected 4, one per joint",
         ),
-        (lambda: shadow_allows([0.0, 1.0]), "four azimuths"),
         (lambda: table_row([0.0, 1.0]), "2 azimuths; expected four"),
         (lambda: table_row([0.0, 0.0, 1.0, 2.0]), "two joints lie on one ruling line"),
         (lambda: table4(3, "open", "A"), "no entry 3"),

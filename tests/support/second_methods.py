@@ -1,0 +1,69 @@
+"""Second methods: the shadow of side links, pole axes on cones, the hoop without angles."""
+
+from __future__ import annotations
+
+from functools import cmp_to_key
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.types import Floats
+from synth.guidance.order import Direction
+from synth.guidance.orientations import Orientations, Pair, unit_vector
+
+__all__ = ["hoop_sequence", "pole_axes", "shadow_allows"]
+
+
+def shadow_allows(places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+    """Check by the shadow method whether four-bars can be intra- or extramobile (Hyatt et al. 2021, section 5).
+
+    The lines of the two side links, O A and B C, cut the plane into two double wedges. If the centre of the circle
+    lies in the one that holds ground and coupler, the linkage is transmobile; else it is not. Azimuths, float[...,
+    4], are those of O, A, B, C; the ground link is C O, the coupler A B.
+    """
+    t = np.asarray(places, dtype=float)
+    o, a, b, c = np.moveaxis(np.stack([np.sin(t), np.cos(t)], axis=-1), -2, 0)
+
+    def side(p: Floats, q: Floats, r: Floats) -> Floats:
+        """Return which side of the line p q the point r lies on."""
+        return np.asarray(
+            (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0])
+        )
+
+    centre = np.zeros_like(o)
+    # the coupler lies in one double wedge, and the ground link in the same one
+    coupler = side(o, a, b) * side(b, c, a)
+    return np.asarray(side(o, a, centre) * side(b, c, centre) * coupler < 0)
+
+
+def pole_axes(motions: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
+    """Return the angular velocities of links on cones, along their pole axes, from motions w, float[..., N, 3]."""
+    lam = np.asarray(cone_angle, dtype=float)[..., np.newaxis, np.newaxis]
+    w = np.asarray(motions, dtype=float)
+    return np.concatenate(
+        [np.cos(lam) * w[..., :1], -np.sin(lam) * w[..., 1:2], np.cos(lam) * w[..., 2:]], axis=-1
+    )
+
+
+def hoop_sequence(
+    orientations: Orientations, axis: npt.ArrayLike, direction: Direction = "ccw"
+) -> tuple[Pair, ...]:
+    """Return all relative axes but S_12 in the order of crossing: the geometric form, without angles.
+
+    The end of each axis line that lies ahead of the plane of the hoop at its start is the one that the hoop meets;
+    of two such ends that one is met first from which the other lies ahead. Both are signs of triple products.
+    """
+    g = unit_vector(axis, "fixed axis") * (1.0 if direction == "ccw" else -1.0)
+    lines = orientations.relative_axes()
+    start = lines.pop((1, 2))
+
+    def ahead(here: Floats, there: Floats) -> float:
+        """Return [G, here, there], positive if a turn about G by less than 180 degrees leads there."""
+        return float(g @ np.cross(here, there))
+
+    met = {pair: s * np.copysign(1.0, ahead(start, s)) for pair, s in lines.items()}
+
+    def later(a: Pair, b: Pair) -> int:
+        return int(-np.sign(ahead(met[a], met[b])))
+
+    return tuple(sorted(met, key=cmp_to_key(later)))
