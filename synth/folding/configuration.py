@@ -36,7 +36,6 @@ from synth.folding.mending.nearest import (
 )
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT, Configuration, PointPlaces, doubt_of, doubt_of_rigid
-from synth.motion.driving import check_closed
 from synth.motion.linkage import PosedLinkage, linkage_of_sheet
 from synth.motion.path import Path
 from synth.motion.walk.step import PathEvent
@@ -267,7 +266,7 @@ def configuration_of_sheet(
         apart = keeping(apart, read)
     mechanism = dual if apart is whole else mechanism_of_sheet(apart, hinge_flat=hinge_flat)
     linkage = linkage_of_sheet(apart, mechanism)
-    check_closed(ClosureEquations(linkage), linkage)
+    ClosureEquations(linkage).check_closed(linkage.angles)
     at = SheetConfiguration(
         linkage, read, read.size <= EXACT, sheet, drawn=sheet, dual=dual, sheet=apart, mechanism=mechanism
     )

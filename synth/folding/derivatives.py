@@ -5,7 +5,7 @@ Creases that are driven are held at their angles. Theory: docs/theory/folding.md
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -206,10 +206,6 @@ class SheetDerivatives:
         Raises `UnsolvableError` if loops are not closed, or the driven creases cannot be held.
         """
         return SheetSensitivity(self, Sensitivity(self.closure, angles, driven))
-
-    def along(self, frames: Floats, driven: Sequence[int] = ()) -> Iterator[SheetSensitivity]:
-        """Yield the derivatives at each configuration of a path, float[F, J]; driven creases as in that frame."""
-        return (self.at(angles, driven) for angles in frames)
 
 
 class SheetSensitivity:

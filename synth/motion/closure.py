@@ -23,7 +23,7 @@ import scipy.linalg
 import scipy.sparse
 from scipy.sparse.linalg import splu
 
-from graphs.errors import NumericalError
+from graphs.errors import NumericalError, UnsolvableError
 from graphs.geometry import common_direction, frame_about, rotations
 from graphs.loops.loop import Centre
 from graphs.tolerances import DOUBLE
@@ -231,6 +231,13 @@ class ClosureEquations:
     def error(self, angles: Floats) -> float:
         """Return the loop-closure residual at joint angles, float[J]: the largest equation."""
         return float(np.abs(self.at(angles)[0]).max(initial=0.0))
+
+    def check_closed(self, angles: Floats) -> None:
+        """Raise `UnsolvableError` if loops miss by more than 1e-12 at joint angles, float[J]."""
+        error = self.error(angles)
+        if error > DOUBLE.closed:
+            most = f"expected at most {DOUBLE.closed:.0e}"
+            raise UnsolvableError(f"the loop-closure residual is {error:.1e} at this configuration; {most}")
 
 
 def carried(rotations: Floats, shifts: Floats) -> Floats:

@@ -20,7 +20,6 @@ from graphs.types import Floats, JointId
 from synth.motion.branches import MOST_JOINTS, Branch, Branches
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
-from synth.motion.linkage import PosedLinkage
 from synth.motion.marked import marked_rates, rates_as_marked
 from synth.motion.path import Path, PathOptions, driven_path
 from synth.motion.singular.nearest import begun_near
@@ -29,7 +28,7 @@ from synth.motion.singular.second_order import RateSpace
 from synth.motion.walk.step import Allowance
 from synth.motion.walk.walking import Event
 
-__all__ = ["BranchChoice", "DrivenMotion", "MotionOptions", "beginning", "check_closed", "driven_from", "goals_of"]
+__all__ = ["BranchChoice", "DrivenMotion", "MotionOptions", "beginning", "driven_from", "goals_of"]
 
 _LARGE = 10**9
 _STARTS = 8
@@ -187,14 +186,6 @@ class DrivenMotion:
     places: list[int]
     goals: Mapping[JointId, float]
     path: Path
-
-
-def check_closed(closure: ClosureEquations, linkage: PosedLinkage) -> None:
-    """Raise `UnsolvableError` if loops miss by more than 1e-12, in radians and units of the extent."""
-    error = closure.error(linkage.angles)
-    if error > DOUBLE.closed:
-        most = f"expected at most {DOUBLE.closed:.0e}"
-        raise UnsolvableError(f"the loop-closure residual is {error:.1e} at this configuration; {most}")
 
 
 def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: float) -> tuple[list[int], Floats]:

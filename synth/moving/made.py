@@ -34,7 +34,6 @@ from synth.guidance.fourbars import GuidedFourBar
 from synth.guidance.orientations import Orientations
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT, Configuration
-from synth.motion.driving import check_closed
 from synth.motion.linkage import PosedLinkage, linkage_of_axes
 
 __all__ = ["Movable", "configuration_of", "linkage_of_rods", "posed_on_surface", "sheet_of", "with_precision"]
@@ -268,7 +267,7 @@ def configuration_of(
     if isinstance(mechanism, Configuration):
         return mechanism
     if isinstance(mechanism, PosedLinkage):
-        check_closed(ClosureEquations(mechanism), mechanism)
+        ClosureEquations(mechanism).check_closed(mechanism.angles)
         return Configuration(mechanism, _EXACTLY)
     if isinstance(mechanism, Sheet) or (frame is None and isinstance(mechanism, PolyhedronModel)):
         sheet, options = sheet_of(mechanism), {"hinge_flat": hinge_flat, "mend": mend}
