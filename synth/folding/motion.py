@@ -24,7 +24,7 @@ __all__ = ["assign_branch", "fold"]
 
 
 def fold(
-    sheet: Sheet,
+    mechanism: Sheet,
     *,
     drive: Mapping[JointId, float] | None = None,
     along: Mapping[JointId, float] | None = None,
@@ -38,7 +38,7 @@ def fold(
 
     Parameters
     ----------
-    sheet : Sheet
+    mechanism : Sheet
         With coordinates, flat or folded, and closed loops.
     drive : mapping of joint id to float, optional
         Fold angles, radians, valleys positive. By default the crease that moves most is folded as far as it goes.
@@ -57,10 +57,6 @@ def fold(
         shows. A Configuration has its own.
     report : callable, optional
         Called with the number of frames after each.
-
-    Returns
-    -------
-    Motion
 
     Raises
     ------
@@ -81,28 +77,24 @@ def fold(
     >>> np.degrees(folded.path.angles[-1]).round(2).tolist(), folded.freedoms
     ([-48.19, 90.0, 48.19, 90.0], 1)
     """
-    check_argument("fold", sheet, Sheet)
-    at = configuration_of_sheet(sheet, precision=precision)
+    check_argument("fold", mechanism, Sheet)
+    at = configuration_of_sheet(mechanism, precision=precision)
     return motion_of(at, MotionOptions(drive or {}, along or {}, branch, frames, report), collisions=collisions)
 
 
-def assign_branch(sheet: Sheet | SheetConfiguration, branch: int | str) -> SheetEdit:
+def assign_branch(mechanism: Sheet | SheetConfiguration, branch: int | str) -> SheetEdit:
     """Give a flat crease pattern the mountains and valleys with which a branch begins.
 
     Of a branch with several freedoms they are those nearest to the assignment it has, up to the sign of all.
+    Creases that do not move on the branch become flat (F): panels stay one there, so that the pattern folds on
+    this branch as assigned. Fold angles keep their size and take the sign of their crease.
 
     Parameters
     ----------
-    sheet : Sheet or SheetConfiguration
+    mechanism : Sheet or SheetConfiguration
         With coordinates, flat.
     branch : int or str
         Its number as `synth fold --branches` and the answers of `mobility` have it, or its signs.
-
-    Returns
-    -------
-    SheetEdit
-        Creases that do not move on the branch are flat (F): panels stay one there, so that the pattern folds on
-        this branch as assigned. Fold angles keep their size and take the sign of their crease.
 
     Raises
     ------
@@ -121,8 +113,8 @@ def assign_branch(sheet: Sheet | SheetConfiguration, branch: int | str) -> Sheet
     >>> [assign_branch(sheet, number).sheet.assignments[:4] for number in (0, 1)]
     ['VMMM', 'MFMF']
     """
-    check_argument("assign_branch", sheet, Sheet | SheetConfiguration)
-    at = sheet if isinstance(sheet, SheetConfiguration) else configuration_of_sheet(sheet)
+    check_argument("assign_branch", mechanism, Sheet | SheetConfiguration)
+    at = mechanism if isinstance(mechanism, SheetConfiguration) else configuration_of_sheet(mechanism)
     if not at.flat:
         raise UnsolvableError("an assignment says how a flat sheet begins to fold, and this sheet is folded")
     number, _ = beginning(at, BranchChoice(branch))

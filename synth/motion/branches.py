@@ -1,10 +1,9 @@
 """Motion branches of a linkage from a configuration.
 
 At a regular configuration there is one. At a singular one, such as a flat sheet, the rates that agree to second
-order fall into spaces (`synth.motion.singular.second_order`), and what equations are left on one may part it into
-two halves that only the configuration joins. Each is followed to a fold of ten degrees; its degrees of freedom are
-those there. Branches are listed up to the sign of all rates together; farther off, two of them may be one curve.
-Theory: docs/theory/folding.md.
+order fall into spaces (`synth.motion.singular.second_order`), and equations left on one may part it into halves.
+Each branch is followed to a fold of ten degrees; its degrees of freedom are those there. Branches are listed up to
+the sign of all rates together; farther off, two of them may be one curve. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -66,10 +65,9 @@ __all__ = [
 class FlatVertices:
     """The loops of a linkage that are flat vertices of four creases.
 
-    In any mode of such a vertex one pair of opposite creases folds the same way and the other does not: three
-    mountains and a valley, or the other way round, or a single straight line. Which pair it is distinguishes the
-    two modes. Where opposite sectors make 180 degrees, tan(fold / 2) of the four are in proportion in each.
-    `linear` says whether every loop is one of these, and all creases are flat.
+    In any mode of such a vertex one pair of opposite creases folds the same way and the other does not: which
+    pair, distinguishes the two modes. Where opposite sectors make 180 degrees, tan(fold / 2) of the four are in
+    proportion in each; `linear` says whether every loop is such a vertex, and all creases are flat.
     """
 
     def __init__(self, linkage: PosedLinkage) -> None:
@@ -84,11 +82,10 @@ class FlatVertices:
         self.linear = bool(all(flat))
 
     def modes(self, rates: Floats) -> tuple[tuple[int, int] | None, ...]:
-        """Return in which mode each vertex begins to fold.
+        """Return the mode in which each vertex begins to fold: places of the opposite creases that fold alike.
 
-        A mode is the places of the opposite creases that fold the same way. Rates are general ones of a branch,
-        the largest 1 or -1. None for a vertex that does not move, for loops that are no flat vertices, and for
-        those with other than four creases.
+        Rates are general ones of a branch, the largest 1 or -1. None for immobile vertices and for all other
+        loops.
         """
         return tuple(_mode(loop, ways, rates) for loop, ways in zip(self._loops, self._ways, strict=True))
 
@@ -264,17 +261,17 @@ class Branches:
         Those on which most joints move first; of these, those with most rates; then by their signs in the order of
         the joints.
     exhaustive : bool
-        Whether there are no others: every choice of modes was tried, and rates that agree to second order are
-        all there are; the configuration is regular, and the one branch has as many freedoms as there are rates;
-        all that second order adds is one equation that is not degenerate; or nothing moves, and that is proved.
+        Whether there are no others: every choice of modes was tried, and rates that agree to second order are all
+        there are; the configuration is regular, and the one branch has as many freedoms as there are rates; all
+        that second order adds is one equation that is not degenerate; or nothing moves, and that is proved.
     regular : bool
         Whether the configuration is regular, with one branch.
     complete : bool
         Whether the search came to its end.
     method : {"regular pose", "all modes", "second order", "random starts"}
-        How they were found. All modes: of vertices that are linear in tan(fold / 2), every combination. Second
-        order: the rates that agree to it, all of them, each continued. Random starts: used for the rates where
-        several equations are left that are no products.
+        How they were found: by every combination of modes of vertices that are linear in tan(fold / 2); by all
+        rates that agree to second order, each continued; random starts where several equations are left on these
+        that are no products.
     rigidity : Rigidity or None
         Without branches: whether it is proved that nothing moves.
     order : tuple of int
@@ -314,10 +311,6 @@ def branches_of(
         Of this linkage, if already computed.
     search : Search, optional
         Where it ends.
-
-    Returns
-    -------
-    Branches
 
     Examples
     --------
@@ -359,10 +352,6 @@ def first_branch(
     search : Search, optional
         Where it ends.
 
-    Returns
-    -------
-    Branch or None
-
     Examples
     --------
     A vertex of four creases, of which the first is to fold as a valley and the second as a mountain:
@@ -384,11 +373,7 @@ def first_branch(
 
 
 class _Looking:
-    """A search for branches.
-
-    All arrays are in an order of the joints that does not depend on the file (`joint_order`), until branches are
-    returned.
-    """
+    """A search for branches, in an order of the joints that does not depend on the file until its end."""
 
     def __init__(self, linkage: PosedLinkage, closure: ClosureEquations | None, search: Search) -> None:
         self._order = joint_order(linkage, search.towards)
@@ -468,7 +453,7 @@ class _Looking:
         """Tell whether one equation is all that second order adds, and its form is not degenerate.
 
         Then the configurations near the pose are as its solutions are, by Morse's lemma. Joints in no loop turn
-        freely, whatever the equation says.
+        freely.
         """
         free = len(self.linkage.angles) - len({joint for loop in self.linkage.loops for joint in loop.joints})
         if self._stresses != 1 or len(self._quadrics) != 1:
@@ -535,8 +520,8 @@ class _Looking:
         """Return the freedoms of the branch that begins at some rates; None where second order does not tell.
 
         If the equations of all self-stresses have independent slopes there, the configurations beside the pose in
-        that direction are a manifold, by the implicit function theorem: the closure equations are divided by the
-        square of the time.
+        that direction are a manifold: the implicit function theorem, on closure equations divided by the square of
+        the time.
         """
         if len(self._quadrics) != self._stresses:
             return None

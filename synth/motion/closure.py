@@ -1,13 +1,10 @@
 """Closure equations of a linkage, their derivatives, and Newton's method for the nearest joint angles that close.
 
 A loop closes if the product of its joint rotations, each about its axis where the linkage was read, is the
-identity (product of exponentials). About a finite centre that are three equations (a rotation), about an infinite
-one three (a motion in a plane), else six (a screw). The derivative by a joint angle is the axis of the joint where
-it is now.
-
-The equations may depend on each other (most linkages that move are overconstrained) and leave freedoms, so each
-step of Newton's method is the least one in the sense of least squares, by normal equations with a trace of
-regularisation. Rounding of these does no harm: the residual is always that of the loops themselves. Theory:
+identity (product of exponentials): three equations about a finite centre (a rotation) or an infinite one (a motion
+in a plane), else six (a screw). The derivative by a joint angle is the axis of the joint where it is now.
+Equations may depend on each other and leave freedoms, so each step of Newton's method is the least one in the
+sense of least squares, by regularised normal equations; the residual is always that of the loops. Theory:
 docs/theory/folding.md.
 """
 
@@ -150,33 +147,18 @@ class ClosureEquations:
         self._free: Floats | None = None
 
     def locked(self, joints: Sequence[int]) -> ClosureEquations:
-        """Return the equations of the same linkage with some joints locked: derivatives by these are zero.
-
-        Parameters
-        ----------
-        joints : sequence of int
-            Places of the joints that keep their angles.
-        """
+        """Return the equations with the joints at some places locked: derivatives by these are zero."""
         equations = copy(self)
         equations._free = np.ones(self.joints)
         equations._free[list(joints)] = 0.0
         return equations
 
     def by_axes(self, angles: Floats) -> scipy.sparse.csr_matrix:
-        """Return the derivatives of the residuals by small motions of the axes.
+        """Return the derivatives of the residuals by small motions of the axes: sparse float[rows, 6 J].
 
-        Where an axis is moved by a rotation w about the origin and a shift v, the loops it is in change as if its
-        links were: exp(t x) becomes g exp(t x) g^-1.
-
-        Parameters
-        ----------
-        angles : float[J]
-            Radians, from the zero of each joint.
-
-        Returns
-        -------
-        sparse float[rows, 6 J]
-            By (w, v) of each joint in turn, at the pose of the linkage.
+        By a rotation w about the origin and a shift v of each axis in turn, at the pose of the linkage; joint
+        angles, float[J], are radians. The loops that an axis is in change as if its links were moved: exp(t x)
+        becomes g exp(t x) g^-1.
         """
         rows, columns, values, start = [], [], [], 0
         for group in self._groups:
@@ -207,17 +189,9 @@ class ClosureEquations:
         return order, column_of[order], starts
 
     def at(self, angles: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
-        """Return the residuals of the equations at joint angles, and their derivatives by these.
+        """Return the residuals float[rows] at joint angles float[J], and their derivatives, sparse float[rows, J].
 
-        Parameters
-        ----------
-        angles : float[J]
-            Radians, from the zero of each joint.
-
-        Returns
-        -------
-        (float[rows], sparse float[rows, J])
-            Radians, and lengths in units of the extent.
+        Angles are radians, from the zero of each joint; residuals are radians, and lengths in units of the extent.
         """
         evaluated = [group.evaluated(angles - self._zero) for group in self._groups]
         residual = np.concatenate([np.zeros(0), *(off.ravel() for off, _ in evaluated)])
@@ -333,9 +307,9 @@ class TangentSpace:
         return kept
 
     def sharpened(self, across: Floats) -> Floats:
-        """Return a unit vector, float[J], nearer to the least singular vector across the freedoms.
+        """Return a unit vector nearer to the least singular vector across the freedoms: inverse iteration.
 
-        One step of inverse iteration. Of a vector that has become a freedom, its part along the freedoms.
+        Of a vector that has become a freedom, its part along the freedoms.
         """
         free = self.projected(across)
         kept = across - free
@@ -347,9 +321,9 @@ class TangentSpace:
         return np.asarray(found / np.linalg.norm(found))
 
     def solution(self, off: Floats) -> tuple[Floats, Floats]:
-        """Return the least rates that part loops as nearly as they can by `off`, and what is left of that.
+        """Return the least rates that part loops nearly by `off`, and what is left of that, to all digits.
 
-        Both to all digits. Raises `NumericalError` if the rank of the derivatives is not clear.
+        Raises `NumericalError` if the rank of the derivatives is not clear.
         """
         left = self.beyond(off)
         within = off - left
@@ -376,10 +350,7 @@ class TangentSpace:
         return rates - _refined(more, np.zeros_like(rates), rates)
 
     def forces(self, rates: Floats) -> Floats:
-        """Return the least forces float[rows] whose sum of rows is the part of float[J] across the freedoms.
-
-        So `solution` and this are each other's transposed.
-        """
+        """Return the least forces float[rows] whose sum of rows is the part of float[J] across the freedoms."""
         across = rates - self.free(rates)
 
         def more(forces: Floats) -> Floats:
@@ -428,10 +399,9 @@ class TangentSpace:
 
 
 def _refined(more: Callable[[Floats], Floats], found: Floats, given: Floats) -> Floats:
-    """Return the sum of corrections: each leaves a part m / (s^2 + m) of what was to be taken off.
+    """Return the sum of corrections, each measured by the sum so far or the residual vector.
 
-    Here s is a singular value and m the regularisation. Corrections are measured by the sum so far or the given
-    vector.
+    Each leaves a part m / (s^2 + m) of what was to be taken off: s is a singular value, m the regularisation.
     """
     last, size = np.inf, _largest(given)
     for _ in range(_SWEEPS):
@@ -488,11 +458,10 @@ class Corrected:
 
 
 def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = ()) -> Corrected:
-    """Return joint angles near some at which all loops close, radians.
+    """Return joint angles near some at which all loops close, radians; held joints stay if others can follow.
 
-    Held joints (by their places) stay if the others can follow. Matrices are factorised anew only where a step
-    with the last one left too much. It ends when loops are closed and a further step would not make them better,
-    or steps do not make the error less.
+    Matrices are factorised anew only where a step with the last one left too much. It ends when loops are closed
+    and a further step would not make them better, or steps do not make the error less.
     """
     residual, jacobian = closure.at(angles)
     best, off = Corrected(angles, _largest(residual), 0, jacobian), residual
@@ -517,10 +486,9 @@ def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = (
 
 
 def exactly_held(closure: ClosureEquations, pose: Corrected, held: Sequence[int], values: Floats) -> Corrected:
-    """Return a pose with held joints at their angles to the last digit; its error is that of the angles it has.
+    """Return a pose found with joints held, with these at `values`, radians, to the last digit.
 
-    Newton's method keeps held joints to some digits only, and what it left in them is error of the loops. The pose
-    was found with the joints at these places held; values are their angles, radians.
+    Newton's method keeps held joints to some digits only, and what it left in them is error of the loops.
     """
     places = list(held)
     for _ in range(_HOLDS):

@@ -1,8 +1,8 @@
 """A mechanism at a configuration: what every question about motion is asked of.
 
-It is made once, by `synth.moving.made.configuration_of`, from anything that has coordinates, and handed on:
-closure equations, tolerances and branches are computed when they are first needed, and kept. Theory:
-docs/theory/folding.md, docs/theory/mending.md.
+`synth.moving.made.configuration_of` makes it, from anything that has coordinates; closure equations, tolerances
+and branches are computed when they are first needed, and kept. Theory: docs/theory/folding.md,
+docs/theory/mending.md.
 """
 
 from __future__ import annotations
@@ -50,9 +50,8 @@ def doubt_of_rigid(
 ) -> str:
     """Return how near a rigid pattern is to one that moves, after "rigid"; empty where there is nothing to add.
 
-    The misfit is the largest displacement of a vertex, in units of the extent, in the nearest pattern that moves,
-    or None if none was found; `unsettled` says that motion within the precision is neither found nor excluded,
-    `too_large` why no pattern was searched for.
+    The misfit is that of the nearest pattern that moves (`Configuration.misfit`), None if none was found;
+    `too_large` says why none was searched for.
     """
     exact = precision.size <= EXACT
     within = "" if exact else f" within the drawing's precision, {precision}"
@@ -86,7 +85,7 @@ class PointPlaces(NamedTuple):
     """Where the points of a mechanism are at joint angles.
 
     `points`, float[F, n, 3], are vertices of a sheet, else a point on each axis, in the unit of the coordinates;
-    `apart`, float[F], is by how much bodies disagree on a point that they share, in units of the extent.
+    `apart`, float[F], is by how much bodies disagree on a shared point, in units of the extent.
     """
 
     points: Floats
@@ -95,20 +94,11 @@ class PointPlaces(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Configuration:
-    """A mechanism at a configuration.
+    """A mechanism at a configuration: its linkage, and the precision of its coordinates as read.
 
-    Attributes
-    ----------
-    linkage : PosedLinkage
-        Links, axes and joint angles.
-    precision : Precision
-        Of the coordinates as read.
-    exact : bool, optional
-        Whether the axes are exact but for the rounding of double precision: the coordinates were, or were mended.
-    given : Sheet, HingedSolids, PolyhedronModel, ..., optional
-        The mechanism that was read.
-    more : bool, optional
-        Whether its branches are looked for with a hundred times the usual allowance.
+    The axes are `exact` but for the rounding of double precision if the coordinates were, or were mended; `given`
+    is the mechanism that was read; with `more` its branches are looked for with a hundred times the usual
+    allowance.
 
     Examples
     --------
@@ -249,8 +239,8 @@ class Configuration:
     def chosen(self) -> int | None:
         """Number of the branch that is taken by default; None where there is none.
 
-        That which begins as assigned, or else that with which the fewest assigned joints disagree; without an
-        assignment, that on which most joints go alike.
+        That which begins as assigned, or with which the fewest assigned joints disagree; without an assignment,
+        that on which most joints go alike.
         """
         if self.branches is None or not self.branches.branches:
             return None
@@ -348,22 +338,16 @@ class Configuration:
     def passed(self, path: Path, points: Floats, driver: int) -> tuple[Path, tuple[int, ...]]:
         """Return a path with the event that panels pass through each other, and the frames in which they do.
 
-        Points, float[F, n, 3], are those of its frames; a joint is driven. Without panels there is no such event.
+        Points, float[F, n, 3], are those of its frames. Without panels there is no such event.
         """
         return path, ()
 
     def collision(self) -> Event:
-        """Return the event that ends a walk before panels pass through each other.
-
-        Raises `UnsolvableError` if there are no panels.
-        """
+        """Return the event that ends a walk before panels cross; `UnsolvableError` without panels."""
         raise UnsolvableError("collisions require the panels of a sheet, and this mechanism has none")
 
     def to_json(self, branch: Branch | None = None, other_question: str | None = None) -> dict[str, Any]:
-        """Return the key ``configuration`` of an answer (docs/command-json.md).
-
-        It has the branch that the answer is about, or why it is about none, `other_question`.
-        """
+        """Return the key ``configuration`` of an answer: its branch, or `other_question`, why it has none."""
         found = None if other_question else self.branches
         freedoms, still = (None, None) if branch is None else (branch.freedoms, branch.still)
         if found is not None and found.no_motion == "proved":

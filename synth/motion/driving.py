@@ -41,9 +41,8 @@ _DIGITS = 6
 class BranchChoice:
     """The options for the beginning of a motion.
 
-    The branch is given by its number or signs; by default the configuration chooses it. `turns` says how far each
-    driven joint (by its place) is to turn, radians; with `along` they are rates, and the branch that points along
-    them best is taken.
+    The branch is a number or signs; by default the configuration chooses it. `turns` says how far each driven
+    joint (by its place) is to turn, radians; with `along` they are rates, and the branch nearest to them is taken.
     """
 
     branch: int | str | None = None
@@ -63,8 +62,8 @@ class BranchChoice:
 def beginning(configuration: Configuration, wanted: BranchChoice) -> tuple[int | None, Floats]:
     """Return the branch to take, None where there is no choice, and initial rates on it, near to the assignment.
 
-    Raises `UnsolvableError` if no motion begins there, or none with the driven joints, `InvariantError` if there
-    is no such branch.
+    Raises `UnsolvableError` if no motion begins there, or none with the driven joints; `InvariantError` without
+    such a branch.
     """
     found, towards = configuration.branches, wanted.towards(configuration)
     if found is None or (configuration.one_way and wanted.branch is None):
@@ -127,10 +126,7 @@ def _cosine(branch: Branch, wanted: BranchChoice, towards: Floats) -> float:
 
 
 def _rates(branch: Branch, wanted: BranchChoice, towards: Floats, marks: Floats) -> Floats:
-    """Return rates of a branch at which several driven joints begin in the proportions they are to turn in.
-
-    With all marks, if there are such.
-    """
+    """Return rates of a branch at which driven joints begin in proportion; with all marks, if there are such."""
     space = _in_proportion(branch.space, wanted) if len(wanted.driven) > 1 else branch.space
     if len(wanted.driven) < 2 and not wanted.along:
         return rates_as_marked(branch, towards) if wanted.branch is None else branch.rates
@@ -161,10 +157,10 @@ _STEPS, _STEPS_OF_FRAME = 1_000, 20
 class MotionOptions:
     """The options of a motion.
 
-    `drive` gives the angles of driven joints, radians; without any, the joint that moves most goes as far as it
-    can. `along` gives initial rates in their place, and the path goes straight on. The branch is a number or
-    signs; `frames` counts those after the first, `report` is called with their number after each; `events` are
-    looked for on the way.
+    `drive` gives the angles of driven joints, radians; by default the joint that moves most goes as far as it can.
+    `along` gives initial rates in their place, and the path goes straight on. The branch is a number or signs;
+    `frames` counts those after the first, `report` is called with their number; `events` are looked for on the
+    way.
     """
 
     drive: Mapping[JointId, float] = field(default_factory=dict)
@@ -204,7 +200,7 @@ def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: 
 def driven_from(configuration: Configuration, options: MotionOptions) -> DrivenMotion:
     """Drive joints from a configuration, on the branch of the options.
 
-    Raises `UnsolvableError` if nothing moves, or not with the driven joints, `InvariantError` if there is no such
+    Raises `UnsolvableError` if nothing moves, or not with the driven joints; `InvariantError` if there is no such
     joint or branch, or an angle is out of range.
     """
     linkage, closure, found = configuration.linkage, configuration.closure, configuration.branches

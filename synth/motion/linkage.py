@@ -1,8 +1,8 @@
 """A linkage at a configuration: links, joint axes, loops that have to close, and links at other joint angles.
 
-The configuration is that of the coordinates. Joint angles count from a zero of their own: of a crease, from flat,
-with valley folds positive, as in FOLD files; of other joints, from this configuration. Lengths are in units of the
-extent, about the middle of all points. Theory: docs/theory/folding.md.
+Joint angles count from a zero of their own: of a crease, from flat, with valley folds positive, as in FOLD files;
+of other joints, from this configuration. Lengths are in units of the extent, about the middle of all points.
+Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -43,8 +43,7 @@ __all__ = [
 class PosedLoop:
     """A loop of a linkage at a pose: places of its joints in loop order, and the centre of their axes.
 
-    A sign is 1 where the loop goes from a joint's first link to its second. The axes meet in a finite centre, and
-    directions close; they are parallel for an infinite one.
+    A sign is 1 where the loop goes from a joint's first link to its second.
     """
 
     joints: tuple[int, ...]
@@ -189,8 +188,8 @@ def linkage_of_sheet(
 def axis_lengths(linkage: PosedLinkage) -> Floats:
     """Return how long the pieces of the axes are by which their directions are known: float[J], of the extent.
 
-    A crease lies half on either side of its point, from the vertex that its loop goes round. Other axes are taken
-    to be known as if they were as long as the extent.
+    A crease lies half on either side of its point, from the vertex that its loop goes round; other axes count as
+    1.
     """
     lengths = np.ones(len(linkage.angles))
     for loop in linkage.loops:
@@ -230,10 +229,7 @@ class Creases:
     faces: tuple[tuple[int, ...], ...]
 
     def directions(self, corners: Floats) -> Floats:
-        """Return the unit vectors along the axes with vertices at float[V, 3]: float[J, 3].
-
-        Raises `InvariantError` if a crease has no length.
-        """
+        """Return the unit vectors along the axes with vertices at float[V, 3]; an error if one has no length."""
         along = corners[self.ends[:, 1]] - corners[self.ends[:, 0]]
         lengths = np.linalg.norm(along, axis=1)
         for place in np.flatnonzero(lengths == 0.0):
@@ -323,7 +319,6 @@ def link_motions(
     Examples
     --------
     >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.motion.linkage import linkage_of_axes
     >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
     >>> rotation, _ = link_motions(hinge, np.array([[np.pi / 2]]))[1]
     >>> (rotation[0] @ [1.0, 0.0, 0.0]).round(12).tolist()
@@ -347,9 +342,8 @@ def joints_outwards(
 ) -> Iterator[tuple[LinkId, LinkId, int, float]]:
     """Yield joints that carry links, those nearer to the fixed links first.
 
-    Yields a link, the link that it carries, the place of the joint between them in the list of joints, and 1 or
-    -1: by which of its angle the far one is turned. The ground, by default the first link, is fixed; each part of
-    a linkage in several parts has one fixed link.
+    Each as a link, the link that it carries, the place of the joint between them, and 1 or -1: by which of its
+    angle the far one is turned. The ground is as in `link_motions`.
     """
     graph = linkage.graph
     column = {joint: place for place, joint in enumerate(graph.joints)}

@@ -54,11 +54,10 @@ class MarkedWay(NamedTuple):
 
 
 class Disagreement(NamedTuple):
-    """How the assignment differs from a branch, which has a number.
+    """How the assignment differs from a branch, by its number, at the rates float[J] nearest to it.
 
-    `opposite` and `immobile` are places of joints: those assigned the other way than they turn at the rates,
-    float[J], of the branch that are nearest to the assignment, up to the sign of all; and those assigned that stay
-    as they are.
+    `opposite` and `immobile` are places of joints: those assigned the other way than they turn there, up to the
+    sign of all; and those assigned that stay as they are.
     """
 
     number: int
@@ -73,10 +72,10 @@ class Disagreement(NamedTuple):
 
 
 def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats, first: Floats | None = None) -> MarkedWay:
-    """Return the way that begins with all marked joints as they are marked, or all against it.
+    """Return the branch that begins with all marked joints as they are marked, or all against it.
 
-    Marks are 1 for valleys, -1 for mountains, 0 for joints without; the branches begin at the linkage's pose.
-    Rates float[J] that have all marks may be given, from which those of a branch are looked for first.
+    Marks are 1 for valleys, -1 for mountains, 0 for joints without; those of a branch are looked for first from
+    the rates `first`, float[J], that have all marks.
     """
     if not marks.any() or not found.branches:
         return MarkedWay(None, None)
@@ -122,7 +121,7 @@ def agreeing_best(found: Branches, marks: Floats) -> int:
 def nearest_way(found: Branches, marks: Floats) -> Disagreement:
     """Return how the assignment differs from the branch with which the fewest joints disagree.
 
-    Of several such that with which fewest turn the other way, then the freest, then the first. On a branch of one
+    Of several, that with which fewest turn the other way, then the freest, then the first. On a branch of one
     freedom the number is exact. On a larger linear one the disagreements are fewest in sum of rates, and of those
     of the best branches none can be left out; where equations are left, they are those of the rates nearest to the
     marks.

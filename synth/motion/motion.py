@@ -111,17 +111,13 @@ class Motion(Printed):
         return [self.configuration.at(angles, points) for angles, points in every]
 
     def path_of(self, link: LinkId, point: Sequence[float]) -> Floats:
-        """Return where a point of a link is in each frame, the first link held: a coupler curve.
+        """Return where a point of a link is in each frame, the first link held: a coupler curve, float[F, 3].
 
         Parameters
         ----------
         link : link id
         point : sequence of 2 or 3 floats
             Where the point is in the initial configuration, in the unit of the coordinates.
-
-        Returns
-        -------
-        float[F, 3]
 
         Raises
         ------
@@ -262,13 +258,13 @@ class Motion(Printed):
         return f"{numbered(len(found.branches), kind, f'{kind}es')} from {start} ({evidence})"
 
     def __repr__(self) -> str:
-        return f"<Motion: {len(self.path.angles)} frames of {self.linkage!r}>"
+        return f"<Motion: {numbered(len(self.path.angles), 'frame')} of {numbered(len(self.joints), 'joint')}>"
 
 
 def motion_of(configuration: Configuration, options: MotionOptions, *, collisions: bool = False) -> Motion:
     """Return the motion from a configuration; with `collisions` it ends before panels pass through each other.
 
-    Raises `UnsolvableError` if nothing moves, or not with the driven joints, or if there are no panels to collide;
+    Raises `UnsolvableError` if nothing moves, or not with the driven joints, or there are no panels to collide;
     `InvariantError` if there is no such joint or branch, or an angle is out of range.
     """
     if not configuration.joints:
@@ -285,8 +281,7 @@ def motion_of(configuration: Configuration, options: MotionOptions, *, collision
 def motion_along(configuration: Configuration, driven: DrivenMotion) -> Motion:
     """Return a motion with its points in each frame, as far as panels hold together.
 
-    Loops close by the axes of creases. One of several pieces that are in line but for rounding has one axis, and
-    panels part at the other pieces.
+    A crease of several pieces that are in line but for rounding has one axis, and panels part at the other pieces.
     """
     path = driven.path
     points, apart = configuration.placed(path.angles)

@@ -1,9 +1,8 @@
 """Paths of closed configurations with driven joints, and circuits: closed curves past all dead points.
 
-With one freedom turning points of the driver are passed. Where a path ends before its goal it says why and how far
-it came; the events on the way are recorded. A path ends where its driven joints cannot come nearer to their
-angles; a circuit has no driver: the walk goes along the curve itself, until it comes back to where it began. How
-steps are taken: `synth.motion.walk`. Theory: docs/theory/folding.md, docs/theory/moving.md.
+With one freedom turning points of the driver are passed. A path ends where its driven joints cannot come nearer to
+their angles, and says why; a circuit has no driver: the walk goes along the curve until it comes back to where it
+began. How steps are taken: `synth.motion.walk`. Theory: docs/theory/folding.md, docs/theory/moving.md.
 """
 
 from __future__ import annotations
@@ -136,10 +135,6 @@ def driven_path(
         Their angles in each frame, radians.
     options : PathOptions, optional
 
-    Returns
-    -------
-    Path
-
     Examples
     --------
     A Bennett linkage, its first joint turned by 90 degrees:
@@ -163,8 +158,8 @@ def driven_path(
 class Drive:
     """Joints driven from one goal to the next: frames of a walk from a closed configuration, float[J].
 
-    With one freedom the walk goes on past the points at which the driven joint turns back, until that has its
-    angle, the walk comes round, or ends.
+    With one freedom the walk goes on past the turning points of the driven joint, until that has its angle, the
+    walk comes round, or ends.
     """
 
     def __init__(
@@ -249,10 +244,6 @@ def circuit_through(
         Rates whose sense the circuit takes.
     events : sequence of Event, optional
         Events to record. The frames of the walk are the configurations of the circuit.
-
-    Returns
-    -------
-    Path
 
     Raises
     ------
