@@ -1,12 +1,10 @@
 """Motions in which creases that look alike fold alike: those that keep a symmetry of a flat pattern.
 
 Motions of the plane that take the whole pattern to itself make a group; its orbits, and those of its subgroups,
-are classes of creases. A piece of a tessellation has few such motions, but more that agree wherever the pattern
-and its image overlap; these join the creases that are alike in the whole tessellation.
-
-With several freedoms the motions at an angle are many, and the least rates that move one crease lead off every
-symmetric one: by rounding, if by nothing else. So a pattern is folded to an angle first along the motions that
-keep a symmetry, which have few freedoms or one. Theory: docs/theory/folding.md.
+are classes of creases. A piece of a tessellation has more that agree wherever the pattern and its image overlap.
+With several freedoms the least rates that move one crease lead off every symmetric motion: so a pattern is folded
+to an angle first along the motions that keep a symmetry, which have few freedoms or one. Theory:
+docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -51,9 +49,9 @@ _LARGEST_GROUP = 24
 class _Plane:
     """A flat pattern seen in its plane, in units of the extent.
 
-    Middles and directions are those of creases, float[J, 2], sides the ends of the sides of the border, float[n,
-    2, 2]. Middles and directions of creases closer than `same` are one: both arms that a motion takes to each
-    other may err.
+    Middles and directions are those of creases, float[J, 2], sides the ends of those of the border, float[n, 2,
+    2]. Middles and directions of creases closer than `same` are one: both arms that a motion takes to each other
+    may err.
     """
 
     middles: Floats
@@ -63,10 +61,7 @@ class _Plane:
     same: float
 
     def inside(self, places: Floats) -> Flags:
-        """Tell which places float[n, 2] are within the border.
-
-        A ray from there crosses it an odd number of times. Places on the border are not within.
-        """
+        """Tell which places float[n, 2] are within the border: a ray crosses it an odd number of times."""
         (x1, y1), (x2, y2) = self.sides[:, 0].T, self.sides[:, 1].T
         x, y = places[:, :1], places[:, 1:]
         spans = (y1 > y) != (y2 > y)
@@ -94,9 +89,8 @@ def alike_classes(
     """Return classes of creases of a flat sheet that look alike, int[J] each, those of the largest symmetry first.
 
     First those that are alike in the tessellation that the pattern is a piece of, then the orbits of all motions
-    that take the pattern to itself, then those of their subgroups. There are none where no vertex is surrounded by
-    creases, and none that leave all creases by themselves. A motion keeps marks, float[J]: 1 for valleys, -1 for
-    mountains, 0 without a mark.
+    that take the pattern to itself, then those of their subgroups; none that leave all creases by themselves. A
+    motion keeps marks, float[J]: 1 for valleys, -1 for mountains, 0 without a mark.
     """
     plane, count = _plane(sheet, linkage, marks, tolerances), len(marks)
     maps = list(_maps(plane, _vertices(plane, linkage)))
@@ -140,8 +134,8 @@ def _vertices(plane: _Plane, linkage: PosedLinkage) -> list[_Vertex]:
 def _maps(plane: _Plane, vertices: list[_Vertex]) -> Iterator[Ints]:
     """Yield the motions of the plane that take a vertex to a vertex and agree wherever pattern and image overlap.
 
-    Each as the crease that each crease is taken to, -1 for none: int[J]. Of the vertices with as many creases one
-    is taken to all.
+    Each as the crease that each crease is taken to, -1 for none: int[J]. One vertex of each degree is taken to
+    all.
     """
     tree = cKDTree(plane.middles) if len(plane.middles) else None
     first: dict[int, _Vertex] = {}
@@ -183,11 +177,10 @@ def _joined(maps: list[Ints], count: int) -> Ints:
 
 
 class AlikeClosure(ClosureEquations):
-    """Closure equations of a linkage, and an equation for each joint whose angle is that of another of its class.
+    """Closure equations of a linkage, and one for each joint whose angle is that of another of its class.
 
-    Any motion of these is a motion of the linkage, whatever the classes, int[J], are; its rank and its freedoms
-    are those of the motions that keep the angles of a class equal. Rounding cannot lead off them, since an
-    inequality is an error like a loop that does not close.
+    Any motion of these is a motion of the linkage; rounding cannot lead off the motions that keep the angles of a
+    class equal, since an inequality is an error like a loop that does not close.
     """
 
     def __init__(self, linkage: PosedLinkage, classes: Ints) -> None:
@@ -233,11 +226,7 @@ class _Start:
 
 @dataclass(frozen=True, slots=True)
 class FoldingReach:
-    """A folding, and how far it came.
-
-    The angle is that of the driven crease at its end, radians, without sign; `alike` says whether creases that
-    look alike fold alike on it.
-    """
+    """A folding, and the angle of the driven crease at its end, radians, without sign."""
 
     folding: Motion
     angle: float
@@ -248,10 +237,9 @@ def fold_to(sheet: Sheet, angle: float) -> FoldingReach:
     """Fold a flat pattern as assigned until the crease that moves most has an angle, radians, above 0.
 
     Tried are, until one leads there: the motion on which creases that look alike fold alike; those that keep less
-    of the symmetry; the branch that agrees best with the marks; others that agree with them. On each of these the
-    motion goes straight on first, then by the least rates that move the driven crease; where that turns back, the
-    next one is driven. Raises `UnsolvableError` if nothing folds, or all motions that were tried end before; the
-    farthest is named.
+    of the symmetry; the branch that agrees best with the marks; others that agree with them. Each goes straight on
+    first, then by the least rates that move the driven crease; where that turns back, the next one is driven.
+    Raises `UnsolvableError` if nothing folds, or all motions that were tried end before; the farthest is named.
     """
     best = None
     for start in _starts(sheet):

@@ -1,9 +1,8 @@
 """Panels that pass through each other: found pose by pose, and how far a path leads before the first time.
 
 Two plane convex pieces cross if each has corners on both sides of the other's plane and the stretches that they
-cut out of the line of both planes overlap. For panels that share a vertex this is the crossing of the arcs that
-they cut out of a sphere about it; panels that share a crease, lie on each other or touch do not cross. Pairs are
-sorted out by bounding boxes first. Theory: docs/theory/folding.md.
+cut out of the line of both planes overlap. Panels that share a crease, lie on each other or touch do not cross.
+Pairs are sorted out by bounding boxes first. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -96,8 +95,8 @@ class Panels:
     def _stretch(self, heights: Floats, along: Floats) -> tuple[Floats, Floats]:
         """Return the ends, along the line of both planes, of where pieces meet the other's plane.
 
-        Pieces that lie on one side of it, or only touch it, have an empty stretch: from infinity to -infinity.
-        Heights over the other plane and places along the line are those of the corners, float[pairs, k].
+        Pieces on one side of it, or that only touch it, have an empty stretch: from infinity to -infinity. Heights
+        over the other plane and places along the line are those of the corners, float[pairs, k].
         """
         after, along_after = np.roll(heights, -1, axis=1), np.roll(along, -1, axis=1)
         passes = heights * after < 0.0
@@ -115,8 +114,8 @@ class PanelCrossing:
     """Where panels pass through each other in the frames of a path.
 
     `frame` is the last one before they do, or the first of all; the angles, float[J], are those at which the two
-    panels begin to, radians, to a thousandth of what they change between two frames; `frames` are the numbers of
-    those in which any do.
+    panels begin to, radians, to a thousandth of what they change between two frames; `frames` are those in which
+    any do.
     """
 
     frame: int
@@ -128,9 +127,8 @@ class PanelCrossing:
 class Collision(Event):
     """Panels begin to pass through each other: a walk ends before, at its last frame.
 
-    Configurations are looked at so that no joint turns by more than three degrees between two of them: panels that
-    pass through each other altogether in less are not seen. `places` gives the places of the vertices, float[F,
-    vertices, 3], at joint angles float[F, J].
+    No joint turns by more than three degrees between configurations that are looked at: what passes through in
+    less is not seen. `places` gives the vertices, float[F, vertices, 3], at joint angles float[F, J].
     """
 
     def __init__(self, panels: Panels, places: Callable[[Floats], Floats]) -> None:
@@ -175,10 +173,7 @@ class Collision(Event):
         return PanelCrossing(max(first - 1, 0), at, panels, tuple(frames))
 
     def _begun(self, closure: ClosureEquations, free: Floats, crossed: Floats) -> tuple[tuple[int, ...], Floats]:
-        """Return which panels first pass through each other between two frames, and joint angles there.
-
-        By halves, on closed configurations near the straight line between the ends, as long as there are any.
-        """
+        """Return which panels first cross between two frames, and joint angles there: by halves."""
         panels: tuple[int, ...] = self._crossing(crossed) or ()
         for _ in range(_REFINED):
             middle = corrected(closure, (free + crossed) / 2.0)

@@ -109,8 +109,8 @@ class SheetConfiguration(Configuration):
     `drawn` is the sheet as it was read, `dual` its mechanism, in its plane if it is meant to lie in one. `sheet`
     has separate vertices where cuts part it, and vertices where they were moved to; `mechanism` is that of this
     sheet, `repairs` what was done to the coordinates. `near` has the mechanisms within the precision, or the
-    nearest one beyond, `written` is the configuration as the coordinates are written, where vertices were moved,
-    and `alternatives` are other mechanisms within the precision, which have branches that this one has not.
+    nearest one beyond, `written` is the configuration as written, where vertices were moved, and `alternatives`
+    are other mechanisms within the precision, which have branches that this one has not.
     """
 
     drawn: Sheet = field(kw_only=True)

@@ -32,8 +32,8 @@ def vertex_places(
     """Return where the vertices of a crease pattern are, and how far panels disagree on that.
 
     At fold angles float[F, J], radians: places float[F, vertices, 3] in the unit of the coordinates, where
-    vertices of no face stay, and the largest distance between two places of one vertex by different panels,
-    float[F], in units of the extent.
+    vertices of no face stay, and the largest distance between places of one vertex, float[F], in units of the
+    extent.
     """
     assert sheet.coordinates is not None
     local = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
@@ -59,10 +59,7 @@ def largest_panel(panels: Sequence[Sequence[Any]]) -> int:
 
 
 def axis_motions(ends: Ints, corners: Floats) -> scipy.sparse.csr_matrix:
-    """Return how axes through two vertices each (ends: int[J, 2]) rotate and translate with all vertices.
-
-    Sparse, float[6 J, 3 V]: rotation about the origin and translation of each axis.
-    """
+    """Return how axes through two vertices each (ends: int[J, 2]) rotate and translate: sparse float[6 J, 3 V]."""
     near, far = corners[ends[:, 0]], corners[ends[:, 1]]
     along = far - near
     turn = crossing(along / (along**2).sum(axis=1, keepdims=True))  # w = along x (far - near) / length^2
@@ -82,11 +79,10 @@ def _in_blocks(blocks: Floats, columns: Ints, width: int) -> scipy.sparse.csr_ma
 
 
 def dependence_on_vertices(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> AxisDependence:
-    """Return how the linkage of a sheet depends on the coordinates of its vertices.
+    """Return how the linkage of a sheet depends on the two or three coordinates of each of its vertices.
 
     Axes go with the ends of their creases; the fold angles that the coordinates have, with the normals of the
-    panels beside. Those of a flat sheet stay zero while it is flat. It is by the coordinates in turn, two or three
-    for each vertex as the sheet has them.
+    panels beside. Those of a flat sheet stay zero while it is flat.
     """
     if sheet.coordinates is None:
         raise UnsolvableError("derivatives by vertices need coordinates, and the sheet has none")
@@ -132,9 +128,8 @@ class SheetChange:
     """How a folded sheet follows a change of its vertices.
 
     Changes of the fold angles, radians, are zero for driven creases; those of places, float[V, 3], are in the unit
-    of the coordinates. `residual`, float[rows], is the inconsistent part of the change, as in
-    `synth.motion.derivatives.ConfigurationChange`; `rank_residual` says by how much redundant equations cease to
-    be redundant, as `Sensitivity.rank_residual` does.
+    of the coordinates. The residual is as of `ConfigurationChange`, `rank_residual` as `Sensitivity.rank_residual`
+    returns it.
     """
 
     angles: Floats
@@ -201,18 +196,12 @@ class SheetDerivatives:
         self.placed: Ints = np.flatnonzero(self.link_of >= 0)
 
     def at(self, angles: Floats, driven: Sequence[int] = ()) -> SheetSensitivity:
-        """Return the derivatives at a closed configuration float[J], driven creases (places of joints) held.
-
-        Raises `UnsolvableError` if loops are not closed, or the driven creases cannot be held.
-        """
+        """Return the derivatives at a closed configuration float[J], driven creases (places of joints) held."""
         return SheetSensitivity(self, Sensitivity(self.closure, angles, driven))
 
 
 class SheetSensitivity:
-    """The derivatives of a sheet by the coordinates of its vertices at one configuration.
-
-    They rest on the sensitivity by the axes of its creases; `poses` are those of the panels.
-    """
+    """The derivatives of a sheet by the coordinates of its vertices at one configuration."""
 
     def __init__(self, shape: SheetDerivatives, sensitivity: Sensitivity) -> None:
         self.shape = shape
@@ -225,10 +214,7 @@ class SheetSensitivity:
         return self.sensitivity.degenerate
 
     def forward(self, change: Floats) -> SheetChange:
-        """Return how the folded sheet follows a change of the coordinates, float[V, 2 or 3] as the sheet has them.
-
-        Raises `UnsolvableError` if the configuration is degenerate.
-        """
+        """Return how the folded sheet follows a change of its coordinates, float[V, 2 or 3]."""
         shape = self.shape
         axes = shape.dependence.forward(np.ravel(change))
         follows = self.sensitivity.forward(axes)
@@ -243,11 +229,10 @@ class SheetSensitivity:
         return SheetChange(follows.angles, places, follows.residual, rank_residual)
 
     def adjoint(self, by_angles: Floats | None = None, by_places: Floats | None = None) -> Floats:
-        """Return the gradient by all coordinates of a number that depends on fold angles and places of vertices.
+        """Return the gradient by all coordinates, float[V, 2 or 3], of a number that depends on the folded sheet.
 
-        Its gradients are given by fold angles, float[J], per radian, and by places, float[V, 3], in the unit of
-        the coordinates; the answer is float[V, 2 or 3]. Raises `UnsolvableError` if the configuration is
-        degenerate.
+        Its gradients are given by fold angles, float[J], per radian, and by places of vertices, float[V, 3], in
+        the unit of the coordinates.
         """
         shape = self.shape
         angles = np.zeros(len(shape.linkage.angles)) if by_angles is None else by_angles

@@ -66,17 +66,12 @@ def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
     each has just the hinges that its direction needs: two where it meets the rod before it, across it and each
     other, one where that is the first of all, whose own turning is that of the whole. Where rods meet beside the
     tree, three hinges stand for the ball between them. So the freedoms are those of the model: 3 V - 6 less the
-    redundant ones.
+    redundant ones. Links are the rods, by their place in the list of rods, and bodies between hinges.
 
     Parameters
     ----------
     model : PolyhedronModel
         With coordinates; rods only.
-
-    Returns
-    -------
-    PosedLinkage
-        Links are the rods, by their place in the list of rods, and bodies between hinges.
 
     Raises
     ------
@@ -245,10 +240,6 @@ def configuration_of(
     slides : bool, optional
         Keep the prismatic joints of a linkage of revolute and prismatic joints, in place of equivalent revolutes.
 
-    Returns
-    -------
-    Configuration
-
     Raises
     ------
     UnsolvableError
@@ -352,10 +343,6 @@ def posed_on_surface(linkage: OnSurface) -> PosedLinkage:
     Parameters
     ----------
     linkage : OnSurface
-
-    Returns
-    -------
-    PosedLinkage
 
     Raises
     ------

@@ -56,7 +56,7 @@ class Sense:
 
     The limit is in radians, negative where the joint turns backward; `ends` says why there: ``turns back``,
     ``turns all round`` (the conformed position again), or why the curve could not be followed. `ways` has the
-    stretches of each link in order.
+    stretches of each link.
     """
 
     limit: float
@@ -129,8 +129,7 @@ class Crossing:
     """A piece of a walk on which a link comes to lie inside or outside of the surface, or ceases to.
 
     It begins after the circuit's configuration number `frame`; `sides` are those that change: inside (0), outside
-    (1). Where they do is computed only when needed: the circuit goes on past the turning points of the driving
-    joint.
+    (1).
     """
 
     links: SurfaceLinks

@@ -1,13 +1,10 @@
 """Vertices moved so that a crease pattern folds: configurations along its motions, all of which have to close.
 
 The vertices and the joint angles of every configuration are unknowns of one least-squares problem, together with
-angles that are meant to be alike and panels that are meant to be planar. A configuration is added farther along
-whenever the ones before close, from where the moved linkage nearly goes, and then wherever a motion that is
-followed stays open most.
-
-Sectors between neighbouring creases that agree within the precision of the coordinates, or make 180 degrees
-together, are meant to; so are creases that go straight on, and those of a loop whose creases are parallel. About
-flat vertices only these angles count for motion. Theory: docs/theory/mending.md.
+angles that are meant to be alike (sectors that agree within the precision of the coordinates, creases that go
+straight on) and panels that are meant to be planar. A configuration is added farther along whenever the ones
+before close, then wherever a motion that is followed stays open most. About flat vertices only angles between
+creases count for motion. Theory: docs/theory/mending.md.
 """
 
 from __future__ import annotations
@@ -39,9 +36,9 @@ __all__ = ["FARTHEST_PATTERN", "Fitting", "MeantAngles", "VertexPlaces"]
 class VertexPlaces:
     """Vertices that may be moved: in the plane of a flat sheet, else in space with panels kept planar.
 
-    Lengths are those of the linkage: in units of the extent, about the middle. `given`, float[V, 3], are the
-    places as written, `ends`, int[J, 2], the vertices at the ends of each crease; `along`, float[2 or 3, 3], are
-    the directions in which vertices may be moved, `unknowns` their number.
+    Lengths are in units of the extent, about the middle. `given`, float[V, 3], are the places as written, `ends`,
+    int[J, 2], the vertices at the ends of each crease; `along`, float[2 or 3, 3], are the directions in which
+    vertices may be moved, `unknowns` their number.
     """
 
     def __init__(self, sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> None:
@@ -272,9 +269,9 @@ def least_step(
 
     The derivatives by the angles of a configuration are taken apart, T = U S V'. Then its equations say of each
     angle along V alone how far it has to turn for a change u of the vertices, (r + B u) / s along U, where r does
-    not hold and B are the derivatives by the vertices. The least step is the solution of a least-squares problem
-    in u alone, in which an equation that no angle takes away (s = 0) weighs most. Equations between vertices alone
-    do not hold by `off`, float[n], derivatives float[n, u]. Singular values below `least` count as that.
+    not hold and B are the derivatives by the vertices: a least-squares problem in u alone, in which an equation
+    that no angle takes away (s = 0) weighs most. Equations between vertices alone do not hold by `off`, float[n],
+    derivatives float[n, u]. Singular values below `least` count as that.
     """
     unknowns = by_vertices.shape[1]
     rows, right_sides = [by_vertices / least, np.eye(unknowns)], [-off / least, np.zeros(unknowns)]
@@ -367,8 +364,8 @@ class Fitting:
 
     Motions start at joint angles `start`, radians; `corners`, float[V, 3], are in units of the extent, about the
     middle. The allowance counts unknowns in each round. `error` says by how much the last attempt that failed did
-    not close, 0 where it did not fail, and `displaced` how far a vertex was then; the error is infinite where the
-    allowance was used up.
+    not close, 0 where it did not fail, infinite where the allowance was used up; `displaced` how far a vertex was
+    then.
     """
 
     def __init__(self, places: VertexPlaces, angles: MeantAngles, start: Floats, allowance: Allowance) -> None:
@@ -549,9 +546,9 @@ def _largest(residuals: Sequence[Floats]) -> float:
 
 
 def _sizes(jacobian: scipy.sparse.csr_matrix, turned: Floats) -> Floats:
-    """Return how large what does not close may be in each equation: near a singular pose it is of second order.
+    """Return how large residuals may be in each equation, float[rows]: near a singular pose of second order.
 
-    That of the largest turn of a joint of its loop, float[rows]: some loops may move much less than others.
+    That of the largest turn of a joint of its loop: some loops may move much less than others.
     """
     starts, ends = jacobian.indptr[:-1], jacobian.indptr[1:]
     largest = np.zeros(len(starts))

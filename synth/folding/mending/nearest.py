@@ -1,10 +1,9 @@
 """The nearest mechanisms that move: for each branch that a crease pattern nearly has, vertices at which it has it.
 
-Sheets of quadrilaterals fold because their geometry is special, and rounding takes that away: as it is written
-such a pattern is rigid. Where rates would agree but for differences that the coordinates cannot resolve, vertices
-are moved to where they do. Angles that are meant to be alike come first, since then most patterns have all their
-branches again; of the branches that are left each is fitted, together with those before it as long as that is
-possible, else by itself: mending along one may lose another. Theory: docs/theory/mending.md.
+Sheets of quadrilaterals fold because their geometry is special, and rounding takes that away. Where rates would
+agree but for differences that the coordinates cannot resolve, vertices are moved to where they do. Angles that are
+meant to be alike come first, since then most patterns have all their branches again; each branch that is left is
+fitted, together with those before it as long as that is possible, else by itself. Theory: docs/theory/mending.md.
 """
 
 from __future__ import annotations
@@ -46,17 +45,9 @@ FARTHEST = 4.0
 
 @dataclass(frozen=True, slots=True)
 class Mended:
-    """A crease pattern whose vertices were moved.
+    """A crease pattern whose vertices were moved, in units of the extent, and `why`: what it has now.
 
-    Attributes
-    ----------
-    sheet : Sheet
-    moved : float
-        Largest displacement of a vertex, in units of the extent.
-    precision : Precision
-        Of the coordinates as they were.
-    why : str
-        The property that the pattern has now and had not.
+    The precision is that of the coordinates as they were.
     """
 
     sheet: Sheet
@@ -119,8 +110,7 @@ class NearBranch:
     """A branch that a pattern nearly has: a space of rates that nearly agree.
 
     `motions` are some of them, general ones, float[J], that nearest to the assignment first; the largest rate of
-    each is 1 or -1. Joints whose rates are no larger than `small` may be immobile on the intended branch: these
-    may be errors.
+    each is 1 or -1. Joints whose rates are no larger than `small` may be immobile on the intended branch.
     """
 
     space: RateSpace
@@ -146,8 +136,8 @@ class NearBranch:
 def zeros_of(precision: float, lengths: Floats) -> list[float]:
     """Return below which parts of the largest values count as zero: what nearly agrees, the most likely first.
 
-    Errors of directions are those of short creases. They grow from vertex to vertex, by as much as rates differ;
-    and where lengths differ or errors are large, a zero that is too wide takes branches for one that are several.
+    Errors of directions are those of short creases. They grow from vertex to vertex; and where lengths differ or
+    errors are large, a zero that is too wide takes branches for one that are several.
     """
     length = float(np.percentile(lengths, _SHORT)) if len(lengths) else 1.0
     return list(dict.fromkeys(Tolerances.nearly(part * precision, length) for part in _WIDER))
@@ -158,8 +148,7 @@ def near_branches(
 ) -> tuple[list[NearBranch], bool]:
     """Return the branches that a linkage nearly has, but for known ones, and whether these are all.
 
-    Those nearest to wanted rates come first. Values below the zero count as none. The search ends after `most`
-    spaces of rates.
+    Those nearest to wanted rates come first. The search ends after `most` spaces of rates.
     """
     found: list[NearBranch] = []
     spaces, complete = spaces_at(linkage, most, zero)
@@ -246,22 +235,12 @@ class WrittenPattern:
 class Nearby:
     """Mechanisms near a crease pattern that have branches which it nearly has.
 
-    Attributes
-    ----------
-    within : tuple of Mended
-        Within reach, that on which the assignment is a branch first, or else that with the most branches; each
-        with branches that those before it have not.
-    beyond : Mended or None
-        The nearest one beyond reach, where there is none within.
-    unsettled : bool
-        Whether some branch nearly agrees for which no mechanism was found: the fitting did not converge, or the
-        work was used up.
-    nearly : bool
-        Whether rates nearly agree that do not agree exactly.
-    written_first : bool
-        Whether the pattern as it is written is better than these: has the assignment, or more branches.
-    written_too : bool
-        Whether it has branches that these have not.
+    `within` reach comes first that on which the assignment is a branch, or that with the most branches; each has
+    branches that those before it have not. `beyond` is the nearest one beyond reach, where there is none within.
+    `unsettled` says that for some branch that nearly agrees no mechanism was found, as the fitting did not
+    converge or the work was used up, `nearly` that rates nearly agree that do not agree exactly. With
+    `written_first` the pattern as it is written is better than these: has the assignment, or more branches; with
+    `written_too` it has branches that these have not.
     """
 
     within: tuple[Mended, ...] = ()
@@ -284,8 +263,8 @@ def nearby(written: WrittenPattern, levels: int = 3) -> Nearby:
     """Return the nearest mechanisms with the branches that a pattern nearly has.
 
     A vertex is displaced by four times the precision, at most. Nothing is done where a pattern has all of them as
-    it is written, or its coordinates are exact. What nearly agrees is looked for at wider and wider zeros, up to
-    three levels, until anything is found.
+    written, or its coordinates are exact. What nearly agrees is looked for at up to `levels` wider and wider
+    zeros, until anything is found.
     """
     places = VertexPlaces(written.sheet, written.mechanism, written.linkage)
     precision = written.precision
@@ -301,8 +280,8 @@ def nearby(written: WrittenPattern, levels: int = 3) -> Nearby:
 def beyond_precision(written: WrittenPattern) -> Mended | None:
     """Return the nearest mechanism that was found beyond the precision of a pattern that does not move.
 
-    Its branches are looked for at errors ten times larger each time; None where there is none, and of a pattern
-    too large for all its branches, which is not looked at.
+    Its branches are looked for at errors ten times larger each time; None where there is none, and of a large
+    pattern.
     """
     if not written.small:
         return None
@@ -467,10 +446,7 @@ class _Search(_Tried):
         return None
 
     def _sorted(self, exactly: frozenset[int]) -> list[_Candidate]:
-        """Return the candidates, the best first, each of which has what those before it have not.
-
-        The pattern as it is written is one of them where it has any near branch.
-        """
+        """Return the candidates and what is written, the best first, each with what those before have not."""
 
         def worth(one: _Candidate) -> tuple[float, ...]:
             spaces = [self.near[number].space.basis.shape[1] for number in one.has]
