@@ -250,8 +250,7 @@ def configuration_of_sheet(
 ) -> SheetConfiguration:
     """Return a crease pattern at the configuration of its coordinates, opened along cuts and mended.
 
-    The options are those of `synth.moving.made.configuration_of`. Raises `UnsolvableError` if the sheet has no
-    coordinates, or panels do not fit, `InvariantError` if a crease has no length, or there is no such frame.
+    Options and errors are those of `synth.moving.made.configuration_of`.
     """
     sheet = stated(sheet_in_frame(sheet, frame), precision)
     if sheet.coordinates is None:

@@ -79,11 +79,7 @@ def _in_blocks(blocks: Floats, columns: Ints, width: int) -> scipy.sparse.csr_ma
 
 
 def dependence_on_vertices(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> AxisDependence:
-    """Return how the linkage of a sheet depends on the two or three coordinates of each of its vertices.
-
-    Axes go with the ends of their creases; the fold angles that the coordinates have, with the normals of the
-    panels beside. Those of a flat sheet stay zero while it is flat.
-    """
+    """Return how the linkage of a sheet depends on the coordinates of its vertices, two or three of each."""
     if sheet.coordinates is None:
         raise UnsolvableError("derivatives by vertices need coordinates, and the sheet has none")
     corners = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
@@ -229,11 +225,7 @@ class SheetSensitivity:
         return SheetChange(follows.angles, places, follows.residual, rank_residual)
 
     def adjoint(self, by_angles: Floats | None = None, by_places: Floats | None = None) -> Floats:
-        """Return the gradient by all coordinates, float[V, 2 or 3], of a number that depends on the folded sheet.
-
-        Its gradients are given by fold angles, float[J], per radian, and by places of vertices, float[V, 3], in
-        the unit of the coordinates.
-        """
+        """Return the gradient by coordinates from those by fold angles float[J] and places float[V, 3]."""
         shape = self.shape
         angles = np.zeros(len(shape.linkage.angles)) if by_angles is None else by_angles
         if by_places is None:

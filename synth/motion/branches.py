@@ -450,11 +450,7 @@ class _Looking:
         return alone and spaces[0].basis.shape[1] == self._tangent.shape[1]
 
     def is_cone(self) -> bool:
-        """Tell whether one equation is all that second order adds, and its form is not degenerate.
-
-        Then the configurations near the pose are as its solutions are, by Morse's lemma. Joints in no loop turn
-        freely.
-        """
+        """Tell whether all that second order adds is one nondegenerate equation (Morse's lemma)."""
         free = len(self.linkage.angles) - len({joint for loop in self.linkage.loops for joint in loop.joints})
         if self._stresses != 1 or len(self._quadrics) != 1:
             return False

@@ -321,10 +321,7 @@ class TangentSpace:
         return np.asarray(found / np.linalg.norm(found))
 
     def solution(self, off: Floats) -> tuple[Floats, Floats]:
-        """Return the least rates that part loops nearly by `off`, and what is left of that, to all digits.
-
-        Raises `NumericalError` if the rank of the derivatives is not clear.
-        """
+        """Return the least rates that part loops nearly by `off`, and what is left of that, to all digits."""
         left = self.beyond(off)
         within = off - left
 

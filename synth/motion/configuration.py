@@ -336,10 +336,7 @@ class Configuration:
         return moved(self.linkage, angles)
 
     def passed(self, path: Path, points: Floats, driver: int) -> tuple[Path, tuple[int, ...]]:
-        """Return a path with the event that panels pass through each other, and the frames in which they do.
-
-        Points, float[F, n, 3], are those of its frames. Without panels there is no such event.
-        """
+        """Return a path with the event that panels pass through each other, and the frames in which they do."""
         return path, ()
 
     def collision(self) -> Event:

@@ -70,10 +70,7 @@ class AxisChange:
 
 @dataclass(frozen=True, slots=True)
 class ConfigurationChange:
-    """How a configuration follows a change of its axes: changes of joint angles, radians, zero for driven joints.
-
-    The residual, float[rows], is the inconsistent part: what the closure equations miss whatever the angles are.
-    """
+    """Changes of joint angles, radians, and what the closure equations miss whatever they are: float[rows]."""
 
     angles: Floats
     residual: Floats

@@ -60,11 +60,7 @@ class BranchChoice:
 
 
 def beginning(configuration: Configuration, wanted: BranchChoice) -> tuple[int | None, Floats]:
-    """Return the branch to take, None where there is no choice, and initial rates on it, near to the assignment.
-
-    Raises `UnsolvableError` if no motion begins there, or none with the driven joints; `InvariantError` without
-    such a branch.
-    """
+    """Return the branch to take, None without a choice, and initial rates on it; an error if nothing moves."""
     found, towards = configuration.branches, wanted.towards(configuration)
     if found is None or (configuration.one_way and wanted.branch is None):
         if wanted.branch is not None:
@@ -173,10 +169,7 @@ class MotionOptions:
 
 @dataclass(frozen=True, slots=True)
 class DrivenMotion:
-    """A motion, with the branch taken (None where there was no choice).
-
-    `places` are those of the driven joints, `goals` the final angles they were to reach, radians.
-    """
+    """The branch taken (None without a choice), driven joints (places), their final angles, and the path."""
 
     branch: int | None
     places: list[int]
@@ -185,10 +178,7 @@ class DrivenMotion:
 
 
 def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: float) -> tuple[list[int], Floats]:
-    """Return the places and the goals of driven joints, radians.
-
-    Raises `InvariantError` if there is no such joint, or an angle is no number or larger than the most.
-    """
+    """Return the places and the goals of driven joints, radians; `InvariantError` if one does not exist."""
     places = _places(joints, drive)
     for joint, angle in drive.items():
         if not abs(angle) <= most:
@@ -198,11 +188,7 @@ def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: 
 
 
 def driven_from(configuration: Configuration, options: MotionOptions) -> DrivenMotion:
-    """Drive joints from a configuration, on the branch of the options.
-
-    Raises `UnsolvableError` if nothing moves, or not with the driven joints; `InvariantError` if there is no such
-    joint or branch, or an angle is out of range.
-    """
+    """Drive joints from a configuration, on the branch of the options; the errors are those of `motion_of`."""
     linkage, closure, found = configuration.linkage, configuration.closure, configuration.branches
     joints = configuration.joints
     places, goals = goals_of(joints, options.drive, configuration.most)

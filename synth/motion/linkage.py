@@ -186,11 +186,7 @@ def linkage_of_sheet(
 
 
 def axis_lengths(linkage: PosedLinkage) -> Floats:
-    """Return how long the pieces of the axes are by which their directions are known: float[J], of the extent.
-
-    A crease lies half on either side of its point, from the vertex that its loop goes round; other axes count as
-    1.
-    """
+    """Return the lengths, in extents, by which axes are known: of creases from their vertex, of others 1."""
     lengths = np.ones(len(linkage.angles))
     for loop in linkage.loops:
         joints = list(loop.joints)

@@ -220,10 +220,7 @@ def marked_rates(space: RateSpace, marks: Floats, starts: int, first: Floats | N
 
 
 def _rates_with(basis: Floats, marks: Floats) -> Floats | None:
-    """Return rates within a space, columns of float[J, s], that have all marks; None if there are none.
-
-    Each marked joint has a rate of 1 at least, their sum is least.
-    """
+    """Return rates within a space, float[J, s], of 1 at least along each mark, least in sum; else None."""
     marked = marks != 0.0
     rows = -marks[marked, None] * basis[marked]
     inside = linprog(-rows.sum(axis=0), A_ub=rows, b_ub=-np.ones(len(rows)), bounds=(None, None), method="highs")

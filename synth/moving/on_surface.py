@@ -126,11 +126,7 @@ class SurfaceLinks:
 
 @dataclass(frozen=True, eq=False)
 class Crossing:
-    """A piece of a walk on which a link comes to lie inside or outside of the surface, or ceases to.
-
-    It begins after the circuit's configuration number `frame`; `sides` are those that change: inside (0), outside
-    (1).
-    """
+    """A piece of a walk, after configuration `frame`, on which a link changes `sides`: inside (0), outside (1)."""
 
     links: SurfaceLinks
     driver: int
@@ -152,10 +148,7 @@ class Crossing:
 
 
 class SidesOfSurface(Event):
-    """Links leave a side of the surface, or come to lie on it.
-
-    `begun` and `now`, bool[N, 2], say whether links are inside and outside soon after the start, and at the end.
-    """
+    """Links leave a side of the surface, or come to lie on it: bool[N, 2] soon after the start, and `now`."""
 
     def __init__(self, links: SurfaceLinks, driver: int) -> None:
         self._links, self._driver = links, driver
@@ -179,10 +172,7 @@ class SidesOfSurface(Event):
 
 
 class Turns(Event):
-    """The driving joint has one of some turns, whole ones aside.
-
-    `places` holds the number of the circuit's configuration before, the turn, and joint angles float[J].
-    """
+    """The driving joint has one of some turns: `places` are the configuration before, the turn, joint angles."""
 
     def __init__(self, driver: int, turns: Sequence[float]) -> None:
         self._driver, self._turns = driver, turns
@@ -411,15 +401,7 @@ class SurfaceMotion(Motion):
         return np.asarray(turn @ surface.place(point.azimuth, point.along, 0.0) + shift)
 
     def instant_axes(self, first: LinkId, second: LinkId) -> tuple[InstantAxis, ...]:
-        """Return the instant axis of two links at each position, by the rates of the joints there.
-
-        Examples
-        --------
-        >>> from synth.conformed.linkages import loop_on_cylinders
-        >>> [axis] = move_on_surface(loop_on_cylinders([4, 3, 5, 1])[0], at=[0.0]).instant_axes("1", "2")
-        >>> axis.point[[0, 2]].round(4).tolist()
-        [2.4596, -0.6182]
-        """
+        """Return the instant axis of two links at each position, by the rates of the joints there."""
         names = [link_named(self.on_surface.chain, str(link)) for link in (first, second)]
         places = [self.chain.links.index(name) for name in names]
         return tuple(InstantAxis(names[0], names[1], *self._axis(each.angles, *places)) for each in self.positions)

@@ -162,10 +162,7 @@ class _Sector:
 
 
 class MeantAngles:
-    """Equations between the headings of creases of a flat sheet; other sheets have none.
-
-    The precision is that of a coordinate, in units of the extent.
-    """
+    """Equations between the headings of creases of a flat sheet, by the precision of a coordinate in extents."""
 
     def __init__(self, places: VertexPlaces, precision: float) -> None:
         self._places = places

@@ -45,10 +45,7 @@ FARTHEST = 4.0
 
 @dataclass(frozen=True, slots=True)
 class Mended:
-    """A crease pattern whose vertices were moved, in units of the extent, and `why`: what it has now.
-
-    The precision is that of the coordinates as they were.
-    """
+    """A pattern with vertices moved, by a part of the extent; the precision before, and what it has now."""
 
     sheet: Sheet
     moved: float
@@ -146,10 +143,7 @@ def zeros_of(precision: float, lengths: Floats) -> list[float]:
 def near_branches(
     linkage: PosedLinkage, zero: float, wanted: Floats, most: int, known: Sequence[NearBranch] = ()
 ) -> tuple[list[NearBranch], bool]:
-    """Return the branches that a linkage nearly has, but for known ones, and whether these are all.
-
-    Those nearest to wanted rates come first. The search ends after `most` spaces of rates.
-    """
+    """Return up to `most` branches that a linkage nearly has, but for known ones, and whether these are all."""
     found: list[NearBranch] = []
     spaces, complete = spaces_at(linkage, most, zero)
     for space in spaces:
@@ -278,11 +272,7 @@ def nearby(written: WrittenPattern, levels: int = 3) -> Nearby:
 
 
 def beyond_precision(written: WrittenPattern) -> Mended | None:
-    """Return the nearest mechanism that was found beyond the precision of a pattern that does not move.
-
-    Its branches are looked for at errors ten times larger each time; None where there is none, and of a large
-    pattern.
-    """
+    """Return the nearest mechanism at larger and larger errors beyond the precision; else None."""
     if not written.small:
         return None
     for size in _FARTHER:

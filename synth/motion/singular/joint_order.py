@@ -56,11 +56,7 @@ def _labels(linkage: PosedLinkage, marks: Floats | None) -> Ints:
 
 
 def _swept(linkage: PosedLinkage, labels: Ints) -> Ints:
-    """Return the joints loop by loop, from a loop far out to those that share most joints with the loops before.
-
-    So cases that do not fit come to nothing after few choices. Of loops that are alike the first by its labels is
-    taken.
-    """
+    """Return the joints loop by loop, from one far out to those that share most joints with the loops before."""
     rank = np.argsort(labels)
     centres = {number: _centre(linkage, loop) for number, loop in enumerate(linkage.loops) if _is_about(loop)}
     if not centres:

@@ -57,10 +57,7 @@ class FoldedStart:
 
 
 def folded_start(closure: ClosureEquations, wanted: Floats) -> FoldedStart | None:
-    """Return a motion from the flat state on which most joints turn as is wanted; None where none was found.
-
-    Wanted are signs, float[J], 0 where there is none; the search ends at the first motion that has them all.
-    """
+    """Return a motion from the flat state on which most joints turn with wanted signs, float[J]; else None."""
     best = None
     goal = int(np.count_nonzero(wanted))
     for start in _starts(wanted):
@@ -88,10 +85,7 @@ def _starts(wanted: Floats) -> Iterator[Floats]:
 
 
 def _closed(closure: ClosureEquations, start: Floats) -> Floats | None:
-    """Return a closed folded configuration near given angles, by Newton's method with all its derivatives.
-
-    It ends where the residual does not fall any more, or a joint has turned once round.
-    """
+    """Return a closed folded configuration near angles, by Newton's method with all its derivatives; or None."""
     angles, least, idle = start, np.inf, 0
     for _ in range(_STEPS):
         residual, jacobian = closure.at(angles)

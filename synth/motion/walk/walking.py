@@ -382,10 +382,7 @@ class KeptSigns(Event):
 def _nearest(
     here: Corrected, rates: Floats, signs: Floats, held: Sequence[int], length: float
 ) -> tuple[Floats | None, Flags]:
-    """Return the rates nearest to given ones at which signs are kept, or None and the joints that contradict.
-
-    Joints `held` keep the rates they have. Inequalities are added as they are needed.
-    """
+    """Return the rates nearest to given ones at which signs are kept, or None and the joints that contradict."""
     least, sized = _least_rates(here.angles, signs, length), DOUBLE.zero**0.5
     chosen, bound = rates, np.zeros(len(rates), dtype=bool)
     for _ in range(_ROUNDS):
