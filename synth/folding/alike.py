@@ -224,16 +224,7 @@ class _Start:
     branch: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class FoldingReach:
-    """A folding, and the angle of the driven crease at its end, radians, without sign."""
-
-    folding: Motion
-    angle: float
-    alike: bool
-
-
-def fold_to(sheet: Sheet, angle: float) -> FoldingReach:
+def fold_to(sheet: Sheet, angle: float) -> Motion:
     """Fold a flat pattern as assigned until the crease that moves most has an angle, radians, above 0.
 
     Tried are, until one leads there: the motion on which creases that look alike fold alike; those that keep less
@@ -241,19 +232,20 @@ def fold_to(sheet: Sheet, angle: float) -> FoldingReach:
     first, then by the least rates that move the driven crease; where that turns back, the next one is driven.
     Raises `UnsolvableError` if nothing folds, or all motions that were tried end before; the farthest is named.
     """
-    best = None
+    farthest, stopped = -1.0, ""
     for start in _starts(sheet):
         for driver in _drivers(start):
             for straight in (True, False):
-                reached = _followed(start, driver, angle, straight=straight)
-                if not reached.folding.path.stopped:
-                    return reached
-                if best is None or reached.angle > best.angle + DOUBLE.same_configuration:
-                    best = reached
-    if best is None:
+                motion = _followed(start, driver, angle, straight=straight)
+                if not motion.path.stopped:
+                    return motion
+                reached = float(abs(motion.path.angles[-1, driver]))
+                if reached > farthest + DOUBLE.same_configuration:
+                    farthest, stopped = reached, motion.path.stopped
+    if not stopped:
         raise UnsolvableError("found no motion that folds the pattern with its assignment")
-    limit = f"the pattern folds to {degrees(best.angle):.6g}°; expected {degrees(angle):.6g}°"
-    raise UnsolvableError(f"{limit}: {best.folding.path.stopped}")
+    limit = f"the pattern folds to {degrees(farthest):.6g}°; expected {degrees(angle):.6g}°"
+    raise UnsolvableError(f"{limit}: {stopped}")
 
 
 def _starts(sheet: Sheet) -> Iterator[_Start]:
@@ -308,10 +300,9 @@ def _drivers(start: _Start) -> list[int]:
     return drivers
 
 
-def _followed(start: _Start, driver: int, angle: float, *, straight: bool) -> FoldingReach:
+def _followed(start: _Start, driver: int, angle: float, *, straight: bool) -> Motion:
     """Drive a joint to an angle on a motion."""
-    pattern = start.pattern
-    joints = tuple(pattern.linkage.graph.joints)
+    pattern, joints = start.pattern, start.pattern.joints
     goal = float(np.sign(start.rates[driver])) * angle
     limited = np.ones(len(joints), dtype=bool)
     still, allowance = tuple[int, ...](), Allowance(_STEPS)
@@ -319,6 +310,4 @@ def _followed(start: _Start, driver: int, angle: float, *, straight: bool) -> Fo
         still = pattern.branches.branches[start.branch].still
     options = PathOptions(start.rates, limited, straight, names=joints, allowance=allowance, locked=still)
     path = driven_path(start.closure, pattern.linkage.angles, [driver], [[goal]], options=options)
-    folding = motion_along(pattern, DrivenMotion(start.branch, [driver], {joints[driver]: goal}, path))
-    alike = int(start.classes.max(initial=0)) + 1 < len(joints)
-    return FoldingReach(folding, float(abs(folding.path.angles[-1, driver])), alike)
+    return motion_along(pattern, DrivenMotion(start.branch, [driver], {joints[driver]: goal}, path))

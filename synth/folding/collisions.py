@@ -8,7 +8,7 @@ Pairs are sorted out by bounding boxes first. Theory: docs/theory/folding.md.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from math import ceil, radians
 
 import numpy as np
@@ -18,7 +18,8 @@ from graphs.mechanism.precision import extent_of
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Flags, Floats, Ints
 from synth.motion.closure import ClosureEquations, corrected
-from synth.motion.walk.step import Step
+from synth.motion.path import Path
+from synth.motion.walk.step import PathEvent, Step
 from synth.motion.walk.walking import Event, Walk
 
 __all__ = ["Collision", "Panels"]
@@ -109,21 +110,6 @@ class Panels:
         return np.where(both, low, np.inf), np.where(both, high, -np.inf)
 
 
-@dataclass(frozen=True, slots=True)
-class PanelCrossing:
-    """Where panels pass through each other in the frames of a path.
-
-    `frame` is the last one before they do, or the first of all; the angles, float[J], are those at which the two
-    panels begin to, radians, to a thousandth of what they change between two frames; `frames` are those in which
-    any do.
-    """
-
-    frame: int
-    angles: Floats
-    panels: tuple[int, ...]
-    frames: tuple[int, ...]
-
-
 class Collision(Event):
     """Panels begin to pass through each other: a walk ends before, at its last frame.
 
@@ -162,15 +148,22 @@ class Collision(Event):
         if self._met is not None:
             walk.ended = self._record(walk, self._met)
 
-    def among(self, closure: ClosureEquations, angles: Floats, places: Floats) -> PanelCrossing | None:
-        """Return where panels cross in frames float[F, J] of a path with vertices float[F, V, 3]; else None."""
+    def among(
+        self, closure: ClosureEquations, path: Path, places: Floats, driver: int
+    ) -> tuple[Path, tuple[int, ...]]:
+        """Return a path with the event that panels begin to cross, and the frames in which they do.
+
+        Vertices in its frames are float[F, V, 3]. The event is known to a thousandth of the way between two frames.
+        """
         crossing = [self._panels.crossing(vertices) for vertices in places]
         frames = [frame for frame, pair in enumerate(crossing) if pair is not None]
         if not frames:
-            return None
-        first = frames[0]
-        panels, at = self._begun(closure, angles[max(first - 1, 0)], angles[first])
-        return PanelCrossing(max(first - 1, 0), at, panels, tuple(frames))
+            return path, ()
+        before = max(frames[0] - 1, 0)
+        panels, angles = self._begun(closure, path.angles[before], path.angles[frames[0]])
+        event = PathEvent("collision", before, driver, (driver,), angles, panels=panels)
+        events = sorted((*path.events, event), key=lambda event: event.frame)
+        return replace(path, events=tuple(events)), tuple(frames)
 
     def _begun(self, closure: ClosureEquations, free: Floats, crossed: Floats) -> tuple[tuple[int, ...], Floats]:
         """Return which panels first cross between two frames, and joint angles there: by halves."""

@@ -38,7 +38,6 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT, Configuration, PointPlaces, doubt_of, doubt_of_rigid
 from synth.motion.linkage import PosedLinkage, linkage_of_sheet
 from synth.motion.path import Path
-from synth.motion.walk.step import PathEvent
 
 __all__ = ["SheetConfiguration", "configuration_of_sheet", "opened"]
 
@@ -212,12 +211,7 @@ class SheetConfiguration(Configuration):
 
     def passed(self, path: Path, points: Floats, driver: int) -> tuple[Path, tuple[int, ...]]:
         """Return a path with the event that panels pass through each other, and the frames in which they do."""
-        crossed = self.collision().among(self.closure, path.angles, points)
-        if crossed is None:
-            return path, ()
-        event = PathEvent("collision", crossed.frame, driver, (driver,), crossed.angles, panels=crossed.panels)
-        events = sorted((*path.events, event), key=lambda event: event.frame)
-        return replace(path, events=tuple(events)), crossed.frames
+        return self.collision().among(self.closure, path, points, driver)
 
     def collision(self) -> Collision:
         """Return what ends a walk before panels pass through each other."""

@@ -430,10 +430,6 @@ class _Looking:
             found = [*self._towards(), *found]
         return largest_only(found, self.search.zero)
 
-    def _late(self) -> bool:
-        """Tell whether there is no work left for a start of Newton's method."""
-        return not self._work.take(_START)
-
     def _towards(self) -> list[RateSpace]:
         """Return the space near to the rates that are wanted, if any are."""
         wanted = self.search.towards
@@ -471,12 +467,13 @@ class _Looking:
 
     def parts(self, spaces: list[RateSpace]) -> list[tuple[RateSpace, Floats]]:
         """Return general rates of each part of all spaces, with the space, in the order of branches."""
-        found: list[tuple[RateSpace, Floats]] = []
+        parts: list[tuple[RateSpace, Floats]] = []
+        search, work = self.search, self._work
         for space in spaces:
-            here, whole = general_rates(space, self.search.most, self.search.towards, self._late)
+            here, whole = general_rates(space, search.most, search.towards, lambda: not work.take(_START))
             self.complete = self.complete and whole
-            found += [(space, rates) for rates in here]
-        return [found[place] for place in canonical_order([_rank_of(*part) for part in found])]
+            parts += [(space, rates) for rates in here]
+        return [parts[place] for place in canonical_order([_rank_of(*part) for part in parts])]
 
     def branches(self, spaces: list[RateSpace], *, proved: bool) -> tuple[Branch, ...]:
         """Return the branches of all spaces in the order of the file, those that were not followed last."""

@@ -323,37 +323,23 @@ class TangentSpace:
     def solution(self, off: Floats) -> tuple[Floats, Floats]:
         """Return the least rates that part loops nearly by `off`, and what is left of that, to all digits."""
         left = self.beyond(off)
-        within = off - left
-
-        def more(rates: Floats) -> Floats:
-            return self._least(within - self._jacobian @ rates)
-
-        return _refined(more, np.zeros(self._joints), off), left
+        within, none = off - left, np.zeros(self._joints)
+        return _refined(lambda rates: self._least(within - self._jacobian @ rates), none, off), left
 
     def beyond(self, off: Floats) -> Floats:
         """Return the part of float[rows] that no rates make: what redundant equations say of it, to all digits."""
-
-        def more(part: Floats) -> Floats:
-            return self.image(self._solve(self._transposed @ (off - part)))
-
-        return off - _refined(more, np.zeros_like(off), off)
+        none = np.zeros_like(off)
+        return off - _refined(lambda part: self.image(self._solve(self._transposed @ (off - part))), none, off)
 
     def free(self, rates: Floats) -> Floats:
         """Return the rates nearest to some that keep loops closed: `projected` to all digits, float[J]."""
-
-        def more(across: Floats) -> Floats:
-            return self._least(self._jacobian @ (rates - across))
-
-        return rates - _refined(more, np.zeros_like(rates), rates)
+        none = np.zeros_like(rates)
+        return rates - _refined(lambda across: self._least(self._jacobian @ (rates - across)), none, rates)
 
     def forces(self, rates: Floats) -> Floats:
         """Return the least forces float[rows] whose sum of rows is the part of float[J] across the freedoms."""
-        across = rates - self.free(rates)
-
-        def more(forces: Floats) -> Floats:
-            return self.image(self._solve(across - self._transposed @ forces))
-
-        return _refined(more, np.zeros(self._jacobian.shape[0]), rates)
+        across, none = rates - self.free(rates), np.zeros(self._jacobian.shape[0])
+        return _refined(lambda forces: self.image(self._solve(across - self._transposed @ forces)), none, rates)
 
     def image(self, rates: Floats) -> Floats:
         """Return by what loops part at some rates: float[rows]."""
@@ -395,23 +381,23 @@ class TangentSpace:
         return rates if possible and moves[:, places].max() > DOUBLE.zero else np.zeros_like(rates)
 
 
-def _refined(more: Callable[[Floats], Floats], found: Floats, given: Floats) -> Floats:
+def _refined(correction: Callable[[Floats], Floats], total: Floats, residual: Floats) -> Floats:
     """Return the sum of corrections, each measured by the sum so far or the residual vector.
 
     Each leaves a part m / (s^2 + m) of what was to be taken off: s is a singular value, m the regularisation.
     """
-    last, size = np.inf, _largest(given)
+    last, size = np.inf, _largest(residual)
     for _ in range(_SWEEPS):
-        change = more(found)
-        found = found + change
-        largest, whole = _largest(change), max(_largest(found), size)
+        change = correction(total)
+        total = total + change
+        largest, whole = _largest(change), max(_largest(total), size)
         if largest <= _SETTLED * whole or (last / 2 <= largest <= _UNSETTLED * whole):
-            return found
+            return total
         last = largest
     if last > _UNSETTLED * whole:
         unclear = "the rank of the closure equations is not clear"
         raise NumericalError(f"the configuration is nearly singular: {unclear}")
-    return found
+    return total
 
 
 def _solver(

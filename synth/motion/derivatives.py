@@ -123,14 +123,11 @@ class Sensitivity:
         self._space = TangentSpace(self._jacobian)
         units = np.eye(closure.joints)[self.driven]
         self._moves = np.array([self._space.free(unit) for unit in units]).reshape(units.shape).T
-        self._shares = self._inverted(self._moves[self.driven])
-
-    @staticmethod
-    def _inverted(products: Floats) -> Floats:
+        products = self._moves[self.driven]
         if len(products) and float(np.linalg.eigvalsh(products)[0]) < DOUBLE.zero:
             reasons = "one is immobile or at a turning point, or they depend on each other"
             raise UnsolvableError(f"the driven joints cannot be held at this configuration: {reasons}")
-        return np.asarray(np.linalg.inv(products))
+        self._shares = np.linalg.inv(products)
 
     @cached_property
     def _by_twists(self) -> scipy.sparse.csr_matrix:

@@ -172,7 +172,7 @@ def linkage_of_sheet(
     directions = creases.directions(corners)
     areas = creases.area_vectors(corners)
     first, second = unit(areas[creases.sides.T])
-    angles = _fold_angles(first, second, directions)
+    angles = np.arctan2((np.cross(first, second) * directions).sum(axis=1), (first * second).sum(axis=1))
     lengths = np.linalg.norm(corners[edges[:, 1]] - corners[edges[:, 0]], axis=1)
     widths = np.linalg.norm(areas[creases.sides], axis=2).min(axis=1, initial=np.inf) / (2.0 * lengths)
     # rounding turns a panel about a crease by as much as it moves points, over the width of the panel
@@ -242,10 +242,6 @@ class Creases:
         np.add.at(vectors, of, np.cross(corners[ends[:, 0]], corners[ends[:, 1]]))
         return vectors
 
-    def normals(self, corners: Floats) -> Floats:
-        """Return the unit normals of the faces, zeros where a face has no area: float[faces, 3]."""
-        return unit(self.area_vectors(corners))
-
 
 def creases_of(sheet: Sheet, mechanism: SheetMechanism) -> Creases:
     """Return where the creases of a sheet are between its panels."""
@@ -279,18 +275,13 @@ def _turned(sheet: Sheet, beside: Mapping[tuple[int, int], Sequence[int]]) -> li
     return faces
 
 
-def _fold_angles(first: Floats, second: Floats, axes: Floats) -> Floats:
-    """Return the angles about axes from first to second normals, radians."""
-    return np.asarray(np.arctan2((np.cross(first, second) * axes).sum(axis=1), (first * second).sum(axis=1)))
-
-
 def _marks(sheet: Sheet) -> dict[tuple[int, int], float]:
     """Return the fold angle that a sheet gives for each edge, radians, or 1 for a valley and -1 for a mountain."""
     marks = {}
     for number, (a, b) in enumerate(sheet.edges):
-        given = None if sheet.fold_angles is None else sheet.fold_angles[number]
+        angle = None if sheet.fold_angles is None else sheet.fold_angles[number]
         letter = {"V": 1.0, "M": -1.0}.get(sheet.assignments[number], 0.0)
-        marks[min(a, b), max(a, b)] = radians(given) if given else letter
+        marks[min(a, b), max(a, b)] = radians(angle) if angle else letter
     return marks
 
 

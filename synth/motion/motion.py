@@ -103,7 +103,7 @@ class Motion(Printed):
     @property
     def closure(self) -> float:
         """The largest loop-closure residual of all frames."""
-        return float(self.path.errors.max(initial=0.0))
+        return self.path.error
 
     def frames(self) -> list[Any]:
         """Return the mechanism in each frame: a sheet with coordinates in space and fold angles, or a linkage."""
@@ -244,18 +244,15 @@ class Motion(Printed):
             freedoms = f"{numbered(taken.freedoms, 'degree of freedom', 'degrees of freedom')} ({evidence})"
         lines: list[Block] = [f"{which}{freedoms}; signs {taken.signs}"]
         if not found.regular:
-            lines.append(self._line_of_search(found))
+            flat = self.configuration.flat
+            kind, start = ("folding branch", "the flat state") if flat else ("motion branch", "this configuration")
+            all_found = "all there are" if found.exhaustive else "not proved exhaustive"
+            more = "" if found.complete else "; there may be many more"
+            count = numbered(len(found.branches), kind, f"{kind}es")
+            lines.append(f"{count} from {start} ({_SEARCHES[found.method]}; {all_found}{more})")
         if self.configuration.disagreeing:
             lines.append(self.configuration.disagreeing)
         return lines
-
-    def _line_of_search(self, found: Branches) -> str:
-        """Return how many branches there are, and whether these are all."""
-        flat = self.configuration.flat
-        kind, start = ("folding branch", "the flat state") if flat else ("motion branch", "this configuration")
-        evidence = _SEARCHES[found.method] + ("; all there are" if found.exhaustive else "; not proved exhaustive")
-        evidence += "" if found.complete else "; there may be many more"
-        return f"{numbered(len(found.branches), kind, f'{kind}es')} from {start} ({evidence})"
 
     def __repr__(self) -> str:
         return f"<Motion: {numbered(len(self.path.angles), 'frame')} of {numbered(len(self.joints), 'joint')}>"

@@ -25,7 +25,7 @@ def folded(sheet: Sheet, angle: float) -> Sheet:
 
     Raise UnsolvableError if it does not fold, or not so far.
     """
-    last_frame: Sheet = fold_to(sheet, angle).folding.frames()[-1]
+    last_frame: Sheet = fold_to(sheet, angle).frames()[-1]
     return last_frame
 
 

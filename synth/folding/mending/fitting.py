@@ -520,10 +520,7 @@ class _Equations(NamedTuple):
         """Return the state after the least step that takes all away."""
         if max([len(self.fixed), *(len(pose.residual) for pose in self.poses)]) > _DENSE:
             return self._solved_sparse(state)
-        blocks = []
-        for pose in self.poses:
-            by_vertices, by_angles = pose.by_vertices.toarray(), pose.by_angles.toarray()
-            blocks.append(EquationBlock(pose.residual / pose.size, by_vertices, by_angles))
+        blocks = [pose.block() for pose in self.poses]
         least = max(_LEAST_VALUE, _SHARE * self.error)
         change, turns = least_step(self.fixed, self.by_vertices.toarray(), blocks, least)
         return state.onwards(np.concatenate([change, *turns]))
