@@ -153,7 +153,7 @@ class Collision(Event):
     ) -> tuple[Path, tuple[int, ...]]:
         """Return a path with the event that panels begin to cross, and the frames in which they do.
 
-        Vertices in its frames are float[F, V, 3]. The event is known to a thousandth of the way between two frames.
+        Vertices in its frames are float[F, V, 3]. It is known to a thousandth of the way between two.
         """
         crossing = [self._panels.crossing(vertices) for vertices in places]
         frames = [frame for frame, pair in enumerate(crossing) if pair is not None]
