@@ -26,8 +26,8 @@ from synth.folding.collisions import Collision, Panels
 from synth.folding.derivatives import vertex_places
 from synth.folding.mending.nearest import (
     ALL_BRANCHES,
-    Mended,
-    Nearby,
+    MendedPattern,
+    NearbyPatterns,
     WrittenPattern,
     beyond_precision,
     covers,
@@ -116,8 +116,8 @@ class SheetConfiguration(Configuration):
     dual: SheetMechanism = field(kw_only=True)
     sheet: Sheet = field(kw_only=True)
     mechanism: SheetMechanism = field(kw_only=True)
-    repairs: tuple[Mended, ...] = field(kw_only=True, default=())
-    near: Nearby = field(kw_only=True, default=Nearby())
+    repairs: tuple[MendedPattern, ...] = field(kw_only=True, default=())
+    near: NearbyPatterns = field(kw_only=True, default=NearbyPatterns())
     written: SheetConfiguration | None = field(kw_only=True, default=None)
     alternatives: tuple[SheetConfiguration, ...] = field(kw_only=True, default=())
 
@@ -162,7 +162,7 @@ class SheetConfiguration(Configuration):
         return self.near.unsettled
 
     @cached_property
-    def nearest(self) -> Mended | None:
+    def nearest(self) -> MendedPattern | None:
         """The nearest mechanism, beyond the precision, to one that does not move; None if none was found."""
         if self.near.within or self.near.beyond or self.near.unsettled:
             return self.near.beyond
@@ -277,7 +277,7 @@ def _mended(written: SheetConfiguration) -> SheetConfiguration:
     return replace(others[0], near=near, written=written, alternatives=(*others[1:], *kept))
 
 
-def _on(written: SheetConfiguration, mended: Mended) -> SheetConfiguration:
+def _on(written: SheetConfiguration, mended: MendedPattern) -> SheetConfiguration:
     """Return a configuration with its vertices moved."""
     linkage = linkage_of_sheet(mended.sheet, written.mechanism)
     repairs = (*written.repairs, mended)

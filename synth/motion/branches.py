@@ -320,19 +320,21 @@ def branches_of(
     >>> len(branches.branches), branches.exhaustive
     (2, True)
     """
-    looking = _Looking(linkage, closure, search or Search())
-    spaces, order = looking.spaces(), looking.order
-    if not spaces and looking.complete:
-        rigidity = rigidity_of(linkage, closure, looking.search.zero)
+    branch_search = _BranchSearch(linkage, closure, search or Search())
+    spaces, order = branch_search.spaces(), branch_search.order
+    if not spaces and branch_search.complete:
+        rigidity = rigidity_of(linkage, closure, branch_search.search.zero)
         proved = rigidity.certainty == "proved"
-        return Branches((), proved, False, True, looking.method(spaces), rigidity, order)
-    regular = looking.is_regular(spaces)
-    cone = looking.is_cone()
-    branches = looking.branches(spaces, proved=cone or (regular and looking.full_row_rank()))
+        return Branches((), proved, False, True, branch_search.method(spaces), rigidity, order)
+    regular = branch_search.is_regular(spaces)
+    cone = branch_search.is_cone()
+    branches = branch_search.branches(spaces, proved=cone or (regular and branch_search.full_row_rank()))
     agrees = regular and branches[0].freedoms == spaces[0].basis.shape[1]
-    exhaustive = agrees or cone or (looking.vertices.linear and not any(space.left for space in spaces))
-    method: Method = "regular pose" if regular else looking.method(spaces)
-    return Branches(branches, exhaustive and looking.complete, regular, looking.complete, method, order=order)
+    exhaustive = agrees or cone or (branch_search.vertices.linear and not any(space.left for space in spaces))
+    method: Method = "regular pose" if regular else branch_search.method(spaces)
+    return Branches(
+        branches, exhaustive and branch_search.complete, regular, branch_search.complete, method, order=order
+    )
 
 
 def first_branch(
@@ -362,17 +364,17 @@ def first_branch(
     >>> first_branch(linkage, lambda rates: rates[0] * rates[1] < 0.0).signs
     '+---'
     """
-    looking = _Looking(linkage, None, search or Search())
-    for space, found in looking.parts(looking.spaces()):
-        rates = looking.ahead(found)
-        if admitted(looking.as_filed(rates)):
-            branch = looking.branch(space, rates, proved=False, late=False)
+    branch_search = _BranchSearch(linkage, None, search or Search())
+    for space, found in branch_search.parts(branch_search.spaces()):
+        rates = branch_search.ahead(found)
+        if admitted(branch_search.as_filed(rates)):
+            branch = branch_search.branch(space, rates, proved=False, late=False)
             if branch.certainty != "not known":
-                return looking.branch_as_filed(branch)
+                return branch_search.branch_as_filed(branch)
     return None
 
 
-class _Looking:
+class _BranchSearch:
     """A search for branches, in an order of the joints that does not depend on the file until its end."""
 
     def __init__(self, linkage: PosedLinkage, closure: ClosureEquations | None, search: Search) -> None:

@@ -31,7 +31,7 @@ __all__ = ["ClosureEquations", "Corrected", "TangentSpace", "carried", "correcte
 
 
 @dataclass(frozen=True, slots=True)
-class _Alike:
+class _LoopGroup:
     """Loops of one kind and length k, at the pose: joints and signs [L, k], axes and points float[L, k, 3].
 
     Frames, float[L, 3, 3], are those of loops with parallel axes: two directions across the axes, and theirs. Of
@@ -222,7 +222,7 @@ def carried(rotations: Floats, shifts: Floats) -> Floats:
     return made
 
 
-def _grouped(linkage: PosedLinkage) -> list[_Alike]:
+def _grouped(linkage: PosedLinkage) -> list[_LoopGroup]:
     kinds: dict[tuple[Centre, int], list[PosedLoop]] = {}
     for loop in linkage.loops:
         kinds.setdefault((loop.centre, len(loop.joints)), []).append(loop)
@@ -236,7 +236,7 @@ def _grouped(linkage: PosedLinkage) -> list[_Alike]:
         frames = np.zeros((len(loops), 3, 3))
         if centre is Centre.INFINITE:
             frames = frames_of(axes * turning[..., None])
-        groups.append(_Alike(joints, axes, linkage.points[joints], signs, centre, frames, turning))
+        groups.append(_LoopGroup(joints, axes, linkage.points[joints], signs, centre, frames, turning))
     return groups
 
 

@@ -25,7 +25,7 @@ from graphs.types import Floats, JointId
 from synth.motion.branches import MOST_JOINTS, Branch, Branches, branches_of, search_for
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, moved
-from synth.motion.marked import Disagreement, MarkedWay, agreeing_best, marked_way, nearest_way
+from synth.motion.marked import AssignedBranch, Disagreement, agreeing_best, assigned_branch, nearest_branch
 from synth.motion.path import Path
 from synth.motion.singular.nearest import InitialMotion, begun_near
 from synth.motion.singular.second_order import rates_at
@@ -225,15 +225,15 @@ class Configuration:
         return begun_near(self.closure, self.linkage, self.wanted)
 
     @cached_property
-    def marked(self) -> MarkedWay:
+    def marked(self) -> AssignedBranch:
         """The branch that begins as a flat sheet is assigned, if there is one."""
         if self.branches is None or not self.flat:
-            return MarkedWay(None, None)
-        way = marked_way(self.branches, self.linkage, self.marks)
+            return AssignedBranch(None, None)
+        way = assigned_branch(self.branches, self.linkage, self.marks)
         folded = self.begun.folded if way.marked == "none found" else None
         if folded is None or folded.agree < np.count_nonzero(self.marks):
             return way
-        return marked_way(self.branches, self.linkage, self.marks, self.begun.rates)
+        return assigned_branch(self.branches, self.linkage, self.marks, self.begun.rates)
 
     @cached_property
     def chosen(self) -> int | None:
@@ -256,7 +256,7 @@ class Configuration:
             return None
         number, _, rates = self.marked
         if number is None or rates is None:
-            return nearest_way(self.branches, self.marks)
+            return nearest_branch(self.branches, self.marks)
         return Disagreement(number, (), (), rates)
 
     def nearest_to_json(self) -> dict[str, Any] | None:

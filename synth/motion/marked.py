@@ -20,14 +20,14 @@ from synth.motion.singular.sampling import rates_towards, same_part
 from synth.motion.singular.second_order import RateSpace, rates_at
 
 __all__ = [
+    "AssignedBranch",
     "Disagreement",
     "Marked",
-    "MarkedWay",
     "agreeing_best",
+    "assigned_branch",
     "disagreement_with",
     "marked_rates",
-    "marked_way",
-    "nearest_way",
+    "nearest_branch",
     "rates_as_marked",
 ]
 
@@ -41,7 +41,7 @@ _STARTS, _LEAST, _TOGETHER = 40, 4, 600
 space, and on all together."""
 
 
-class MarkedWay(NamedTuple):
+class AssignedBranch(NamedTuple):
     """The branch that the assignment chooses: of several that begin with it the freest, None if there is none.
 
     "none has" is proved, by linear programming on the rates that close to first order, or on all branches; "none
@@ -71,14 +71,16 @@ class Disagreement(NamedTuple):
         return len(self.opposite) + len(self.immobile)
 
 
-def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats, first: Floats | None = None) -> MarkedWay:
+def assigned_branch(
+    found: Branches, linkage: PosedLinkage, marks: Floats, first: Floats | None = None
+) -> AssignedBranch:
     """Return the branch that begins with all marked joints as they are marked, or all against it.
 
     Marks are 1 for valleys, -1 for mountains, 0 for joints without; those of a branch are looked for first from
     the rates `first`, float[J], that have all marks.
     """
     if not marks.any() or not found.branches:
-        return MarkedWay(None, None)
+        return AssignedBranch(None, None)
     spaces = {id(branch.space): branch.space for branch in found.branches}
     starts = min(_STARTS, max(_LEAST, _TOGETHER // len(spaces)))
     order = np.array(found.order, dtype=np.int64)
@@ -93,11 +95,11 @@ def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats, first: Flo
     agree = {number: rates for number, rates in enumerate(parts) if rates is not None}
     if agree:
         freest = max(agree, key=lambda number: (found.branches[number].freedoms or 0, -number))
-        return MarkedWay(freest, "has", _begun_as_marked(found.branches[freest], agree[freest], marks))
+        return AssignedBranch(freest, "has", _begun_as_marked(found.branches[freest], agree[freest], marks))
     tangent = rates_at(ClosureEquations(linkage), linkage.angles)
     linear = found.exhaustive and not any(branch.space.left for branch in found.branches)
     sure = linear or _rates_with(tangent, marks) is None
-    return MarkedWay(None, "none has" if sure else "none found")
+    return AssignedBranch(None, "none has" if sure else "none found")
 
 
 def rates_as_marked(branch: Branch, marks: Floats) -> Floats:
@@ -118,7 +120,7 @@ def agreeing_best(found: Branches, marks: Floats) -> int:
     return max(range(len(found.branches)), key=lambda number: (agreement(found.branches[number]), -number))
 
 
-def nearest_way(found: Branches, marks: Floats) -> Disagreement:
+def nearest_branch(found: Branches, marks: Floats) -> Disagreement:
     """Return how the assignment differs from the branch with which the fewest joints disagree.
 
     Of several, that with which fewest turn the other way, then the freest, then the first. On a branch of one

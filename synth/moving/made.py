@@ -47,7 +47,7 @@ class _Hinges:
     joints: dict[Hashable, tuple[Hashable, Hashable]] = field(default_factory=dict)
     axes: dict[Hashable, tuple[list[float], list[float]]] = field(default_factory=dict)
 
-    def join(self, first: int, second: int, point: Floats, directions: Floats) -> None:
+    def join(self, first: int, second: int, point: Sequence[float], directions: Floats) -> None:
         """Join two rods at a point, by hinges one after the other; small bodies lie between these."""
         name = f"{first}-{second}"
         between: list[Hashable] = [f"{name}.{number}" for number in range(1, len(directions))]
@@ -56,7 +56,7 @@ class _Hinges:
         for number, direction in enumerate(directions):
             joint = name if len(directions) == 1 else f"{name}.{'abc'[number]}"
             self.joints[joint] = (ends[number], ends[number + 1])
-            self.axes[joint] = (point.tolist(), direction.tolist())
+            self.axes[joint] = (list(point), direction.tolist())
 
 
 def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
@@ -100,9 +100,9 @@ def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
     tree = _tree(meetings, directions, tolerances.parallel)
     for first, second, vertex in tree:
         across = _across(directions[first], directions[second], tolerances.parallel)
-        hinges.join(first, second, _at(model, vertex), across[:1] if not hinges.joints else across)
+        hinges.join(first, second, model.coordinates[vertex], across[:1] if not hinges.joints else across)
     for first, second, vertex in _others(meetings, tree):
-        hinges.join(first, second, _at(model, vertex), np.eye(3))
+        hinges.join(first, second, model.coordinates[vertex], np.eye(3))
     return linkage_of_axes(SCGraph(hinges.links, hinges.joints), hinges.axes)
 
 
@@ -195,10 +195,6 @@ def _across(first: Floats, second: Floats, parallel: float) -> Floats:
     if np.linalg.norm(normal) <= parallel:
         return frame_about(second)[:2]
     return np.stack([unit(normal), np.cross(second, unit(normal))])
-
-
-def _at(model: PolyhedronModel, vertex: Hashable) -> Floats:
-    return np.array(model.coordinates[vertex], dtype=float)
 
 
 Movable = Configuration | PosedLinkage | Mechanism | GuidedFourBar | OnSurface

@@ -504,19 +504,17 @@ class SurfaceMotion(Motion):
                     ],
                     "instant_axes": [axis.to_json() for axis in axes],
                 }
-                for each, places, axes in zip(self.positions, self._all_places(), self._all_axes(), strict=True)
+                for each, places, axes in self._located
             ],
         }
 
-    def _all_places(self) -> list[list[list[float]]]:
-        """Return the places of all points at each position."""
-        by_point = [self.places_of(one).tolist() for one in self.points]
-        return [[places[number] for places in by_point] for number in range(len(self.positions))]
-
-    def _all_axes(self) -> list[list[InstantAxis]]:
-        """Return all instant axes at each position."""
-        by_pair = [self.instant_axes(*pair) for pair in self.axes]
-        return [[axes[number] for axes in by_pair] for number in range(len(self.positions))]
+    @cached_property
+    def _located(self) -> list[tuple[Position, list[list[float]], list[InstantAxis]]]:
+        """Each position with the places of all points, and all instant axes."""
+        places = [self.places_of(point).tolist() for point in self.points]
+        axes = [self.instant_axes(*pair) for pair in self.axes]
+        numbered_positions = enumerate(self.positions)
+        return [(each, [row[n] for row in places], [row[n] for row in axes]) for n, each in numbered_positions]
 
 
 def move_on_surface(
@@ -653,7 +651,7 @@ def _positions(motion: SurfaceMotion) -> list[Block]:
 def _places(motion: SurfaceMotion) -> list[Block]:
     rows = [
         (f"{degrees(each.at):g}", plain(one.link), f"{degrees(one.azimuth):g}", f"{one.along:g}", *_numbers(place))
-        for each, places in zip(motion.positions, motion._all_places(), strict=True)
+        for each, places, _ in motion._located
         for one, place in zip(motion.points, places, strict=True)
     ]
     numbers = ["at", "azimuth (deg)", "along", "x", "y", "z"]
@@ -663,7 +661,7 @@ def _places(motion: SurfaceMotion) -> list[Block]:
 def _axes(motion: SurfaceMotion) -> list[Block]:
     on_cylinder = isinstance(motion.on_surface.surface, Cylinder)
     rows = []
-    for each, axes in zip(motion.positions, motion._all_axes(), strict=True):
+    for each, _, axes in motion._located:
         for axis in axes:
             vector = axis.point if on_cylinder else axis.direction
             cells = ["none"] * 3 if vector is None else _numbers(vector.tolist())

@@ -37,14 +37,22 @@ from synth.motion.singular.second_order import (
 )
 from synth.motion.walk.step import Allowance
 
-__all__ = ["Mended", "Nearby", "WrittenPattern", "beyond_precision", "covers", "flattened", "nearby"]
+__all__ = [
+    "MendedPattern",
+    "NearbyPatterns",
+    "WrittenPattern",
+    "beyond_precision",
+    "covers",
+    "flattened",
+    "nearby",
+]
 
 FARTHEST = 4.0
 """Vertices are moved by this times the precision at most."""
 
 
 @dataclass(frozen=True, slots=True)
-class Mended:
+class MendedPattern:
     """A pattern with vertices moved, by a part of the extent; the precision before, and what it has now."""
 
     sheet: Sheet
@@ -57,7 +65,7 @@ class Mended:
         return f"vertices moved by up to {self.moved:.1g} of the extent so that {self.why} ({precise})"
 
 
-def flattened(sheet: Sheet, precision: Precision) -> Mended | None:
+def flattened(sheet: Sheet, precision: Precision) -> MendedPattern | None:
     """Return a sheet that is meant to be flat with its vertices in one plane; None if it is not, or is there.
 
     Examples
@@ -75,7 +83,7 @@ def flattened(sheet: Sheet, precision: Precision) -> Mended | None:
         return None
     plane = best_plane(points)
     flat = plane.middle + across(points - plane.middle, plane.direction)
-    return Mended(with_vertices(sheet, flat), off, precision, "they lie in one plane")
+    return MendedPattern(with_vertices(sheet, flat), off, precision, "they lie in one plane")
 
 
 def with_vertices(sheet: Sheet, corners: Floats) -> Sheet:
@@ -226,7 +234,7 @@ class WrittenPattern:
 
 
 @dataclass(frozen=True)
-class Nearby:
+class NearbyPatterns:
     """Mechanisms near a crease pattern that have branches which it nearly has.
 
     `within` reach comes first that on which the assignment is a branch, or that with the most branches; each has
@@ -237,8 +245,8 @@ class Nearby:
     `written_too` it has branches that these have not.
     """
 
-    within: tuple[Mended, ...] = ()
-    beyond: Mended | None = None
+    within: tuple[MendedPattern, ...] = ()
+    beyond: MendedPattern | None = None
     unsettled: bool = False
     nearly: bool = False
     written_first: bool = False
@@ -249,11 +257,11 @@ class Nearby:
 class _Candidate:
     """A mended pattern, None for that as it is written, and the numbers of the near branches that it has."""
 
-    mended: Mended | None
+    mended: MendedPattern | None
     has: frozenset[int]
 
 
-def nearby(written: WrittenPattern, levels: int = 3) -> Nearby:
+def nearby(written: WrittenPattern, levels: int = 3) -> NearbyPatterns:
     """Return the nearest mechanisms with the branches that a pattern nearly has.
 
     A vertex is displaced by four times the precision, at most. Nothing is done where a pattern has all of them as
@@ -265,13 +273,13 @@ def nearby(written: WrittenPattern, levels: int = 3) -> Nearby:
     if precision.size <= EXACT < places.bent:  # exact by their digits, but not by these
         precision = Precision(places.bent, "creases of several pieces")
     if precision.size <= EXACT:
-        return Nearby()
+        return NearbyPatterns()
     if not written.small:
         return _Large(written, places, precision).nearby()
     return _Search(written, places, precision).nearby(levels)
 
 
-def beyond_precision(written: WrittenPattern) -> Mended | None:
+def beyond_precision(written: WrittenPattern) -> MendedPattern | None:
     """Return the nearest mechanism at larger and larger errors beyond the precision; else None."""
     if not written.small:
         return None
@@ -284,7 +292,7 @@ def beyond_precision(written: WrittenPattern) -> Mended | None:
     return None
 
 
-class _Tried:
+class _PatternSearch:
     """The base of all searches: the reach, angles that are meant to be alike, patterns with moved vertices."""
 
     def __init__(self, written: WrittenPattern, places: VertexPlaces, precision: Precision) -> None:
@@ -307,29 +315,29 @@ class _Tried:
                 fittings.append((fitting, equal if len(meant) else straight))
         return fittings
 
-    def mended(self, fitting: Fitting, why: str) -> Mended:
+    def mended(self, fitting: Fitting, why: str) -> MendedPattern:
         """Return the pattern with its vertices moved."""
         linkage = self.written.linkage
         corners = fitting.corners * linkage.extent + linkage.middle
-        return Mended(with_vertices(self.written.sheet, corners), fitting.moved, self.precision, why)
+        return MendedPattern(with_vertices(self.written.sheet, corners), fitting.moved, self.precision, why)
 
-    def linkage(self, mended: Mended) -> PosedLinkage:
+    def linkage(self, mended: MendedPattern) -> PosedLinkage:
         """Return the linkage of a mended pattern."""
         return linkage_of_sheet(mended.sheet, self.written.mechanism)
 
 
-class _Search(_Tried):
+class _Search(_PatternSearch):
     """The search in a pattern of which all spaces of rates are looked for."""
 
     def __init__(self, written: WrittenPattern, places: VertexPlaces, precision: Precision) -> None:
         super().__init__(written, places, precision)
         self.near: list[NearBranch] = []
         self.candidates: list[_Candidate] = []
-        self.beyond: Mended | None = None
+        self.beyond: MendedPattern | None = None
         self.only_beyond: set[int] = set()  # near branches of mechanisms that were found beyond reach
         self.unsettled = False
 
-    def nearby(self, levels: int) -> Nearby:
+    def nearby(self, levels: int) -> NearbyPatterns:
         """Return what was found at the first of so many levels of what nearly agrees at which anything was."""
         lengths = self.places.lengths
         exactly, left, bent = frozenset[int](), list[int](), self.places.bent > EXACT
@@ -353,7 +361,9 @@ class _Search(_Tried):
         beyond = self.beyond if not within else None
         unsettled = self.unsettled or bool(self._open(left) and self.allowance.used_up)
         first = bool(within and within[0].mended is None)
-        return Nearby(mended, beyond, unsettled, bool(left), first, any(one.mended is None for one in within))
+        return NearbyPatterns(
+            mended, beyond, unsettled, bool(left), first, any(one.mended is None for one in within)
+        )
 
     def _mend(self, left: Sequence[int]) -> None:
         """Move vertices so that the pattern has the near branches that are left, as far as that is possible."""
@@ -392,7 +402,7 @@ class _Search(_Tried):
         end, freedoms = followed(linkage, closure, rates, still), self.near[number].space.basis.shape[1]
         return end.far > 0.0 and (bool(space.left) or (end.freedoms or 0) >= freedoms)
 
-    def _add(self, mended: Mended, fitting: Fitting) -> _Candidate | None:
+    def _add(self, mended: MendedPattern, fitting: Fitting) -> _Candidate | None:
         """Take a mended pattern among the candidates if it has any near branch."""
         has = self._had_by(self.linkage(mended), range(len(self.near)), follow=True)
         if not has and self.near:
@@ -454,26 +464,26 @@ class _Search(_Tried):
         return chosen
 
 
-class _Large(_Tried):
+class _Large(_PatternSearch):
     """The search in a pattern that is too large for all its branches: along the assignment."""
 
-    def nearby(self) -> Nearby:
+    def nearby(self) -> NearbyPatterns:
         """Return what was found."""
         if self.places.bent <= EXACT and self._moves(self.written.linkage):
-            return Nearby()
+            return NearbyPatterns()
         rates = None
         for fitting, why in self.bases:
             mended = self.mended(fitting, why)
             if fitting.moved > EXACT and self._moves(self.linkage(mended)):
-                return Nearby((mended,), nearly=True)
+                return NearbyPatterns((mended,), nearly=True)
             rates = self._nearly() if rates is None else rates
             fitted = None if rates is None else fitting.along([rates])
             if fitted is None or fitted.moved > self.reach:
                 continue
             mended = self.mended(fitted, _ALONG)
             if self._moves(self.linkage(mended)):
-                return Nearby((mended,), nearly=True)
-        return Nearby(unsettled=rates is not None, nearly=rates is not None)
+                return NearbyPatterns((mended,), nearly=True)
+        return NearbyPatterns(unsettled=rates is not None, nearly=rates is not None)
 
     def _moves(self, linkage: PosedLinkage) -> bool:
         return self._rates(linkage) is not None

@@ -200,13 +200,13 @@ def spaces_near(
     Equations of one sign are used up first. Of the products, that one is decided which the wanted rates decide
     most clearly, by its factor that is nearer to vanishing at them. The tangent is as of `spaces_within`.
     """
-    stack = _Stack(quadrics, zero)
+    stack = _EquationGroups(quadrics, zero)
     for basis, left in stack.split(tangent, np.arange(len(quadrics)), wanted):
         left_there = tuple(quadrics[number] for number in left)
         yield RateSpace(canonical_basis(basis), left_there) if basis.shape[1] else None
 
 
-class _Stack:
+class _EquationGroups:
     """Equations, those between as many joints in one array each."""
 
     def __init__(self, quadrics: Sequence[Quadric], zero: float) -> None:

@@ -248,7 +248,10 @@ class Walk(Iterator[Step]):
         """Return a step of the length that can be trusted, at most to what is left of the driven joints' way."""
         here, drivers, left, most = self.here, list[int](), np.zeros(0), inf
         several = self.goal is not None and self.goal.several
-        rates, bound = self._with_signs(rates)
+        bound: list[int] = []
+        if self.kept is not None and self._begun and not self.singular:
+            rates, self.length = self.kept.admitted(self, rates)
+            bound = self.kept.bound
         bend = np.zeros_like(rates) if several or bound else self._bend
         if self.goal is not None:
             drivers, left = self.goal.drivers, self.goal.left(here)
@@ -274,13 +277,6 @@ class Walk(Iterator[Step]):
             self.length = length / 2.0
         self.length = _FIRST
         return None
-
-    def _with_signs(self, rates: Floats) -> tuple[Floats, list[int]]:
-        """Return the rates at which angles keep their signs, and the joints that they are bound for."""
-        if self.kept is None or not self._begun or self.singular:
-            return rates, []
-        rates, self.length = self.kept.admitted(self, rates)
-        return rates, self.kept.bound
 
     def _arrive(self, step: Step) -> None:
         """Go to the end of a step; where it is singular, rates are more than the curve's."""
