@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import ceil, floor, log10, pi, radians, tau
+from math import ceil, floor, log10
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -77,8 +77,6 @@ _MOST_FLEXES = 100
 _ONE_WAY, _HALVES = 100, 8
 """For flat sheets of more creases one motion as assigned is enough if the equations of more vertices are
 no products: each may part the rates into two halves."""
-_WHOLE = radians(179.0)
-"""How far a joint is driven that ends at 180 degrees, where panels lie on each other."""
 
 
 class PointPlaces(NamedTuple):
@@ -190,16 +188,6 @@ class Configuration:
     def reading(self) -> Reading | None:
         """The report on the drawing it was read from; None if it was not traced."""
         return self.given.reading if isinstance(self.given, Sheet) else None
-
-    @property
-    def most(self) -> float:
-        """The largest angle a joint can have, radians."""
-        return pi if self.limited else float(np.finfo(float).max)
-
-    @property
-    def whole(self) -> float:
-        """How far a joint is driven by default, radians."""
-        return _WHOLE if self.limited else tau
 
     @cached_property
     def tolerances(self) -> Tolerances:
@@ -326,10 +314,6 @@ class Configuration:
         linkage = self.linkage
         points = np.array([moved(linkage, one).points for one in angles]).reshape(len(angles), -1, 3)
         return PointPlaces(points * linkage.extent + linkage.middle, np.zeros(len(angles)))
-
-    def ends_of(self, joints: Sequence[JointId]) -> dict[JointId, tuple[tuple[float, ...], tuple[float, ...]]]:
-        """Return the two ends of joints that are creases, in the unit of the coordinates; of others nothing."""
-        return {}
 
     def at(self, angles: Floats, points: Floats | None = None) -> Any:
         """Return the mechanism at joint angles float[J], radians: a linkage, or for a sheet the sheet."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from math import degrees, pi
+from math import degrees, pi, radians, tau
 
 import numpy as np
 
@@ -147,6 +147,8 @@ def _in_proportion(space: RateSpace, wanted: BranchChoice) -> RateSpace:
 
 _STEPS, _STEPS_OF_FRAME = 1_000, 20
 """Steps that a motion may take, and as many more for each of its frames: ten times what real patterns need."""
+_NEARLY_HALF = radians(179.0)
+"""How far a joint is driven by default that ends at 180 degrees, where panels lie on each other."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,12 +193,13 @@ def driven_from(configuration: Configuration, options: MotionOptions) -> DrivenM
     """Drive joints from a configuration, on the branch of the options; the errors are those of `motion_of`."""
     linkage, closure, found = configuration.linkage, configuration.closure, configuration.branches
     joints = configuration.joints
-    places, goals = goals_of(joints, options.drive, configuration.most)
+    largest = pi if configuration.limited else float(np.finfo(float).max)
+    places, goals = goals_of(joints, options.drive, largest)
     wanted = BranchChoice(options.branch, places, goals - linkage.angles[places])
     number, rates = beginning(configuration, _along(configuration, options) if options.along else wanted)
     if not places:
         places = [leading(rates)]
-        goals = configuration.whole * np.sign(rates[places])
+        goals = (_NEARLY_HALF if configuration.limited else tau) * np.sign(rates[places])
     start = linkage.angles[places]
     if (goals - start) @ rates[places] < -MARGIN * float(np.linalg.norm(goals - start)):
         rates = -rates

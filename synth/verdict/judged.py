@@ -69,15 +69,15 @@ def verdict_of_motion(configuration: Configuration, generic: int | None = None) 
     else:
         verdict = _of_branches(configuration, found, generic)
     written = verdict.as_written or _as_written(configuration) or AsWritten(verdict.freedoms, verdict.certainty)
-    within = None
-    if isinstance(configuration, SheetConfiguration):
-        nearest = None if verdict.branches else configuration.nearest
-        misfit = configuration.misfit if nearest is None else nearest.moved
-        moves = bool(verdict.branches) or nearest is not None
-        size = configuration.precision.size
-        within = WithinPrecision(verdict.freedoms, verdict.certainty, misfit if moves else None, size)
-    places = configuration.ends_of(verdict.stiff_joints)
-    return replace(verdict, as_written=written, within_precision=within, places=places)
+    verdict = replace(verdict, as_written=written)
+    if not isinstance(configuration, SheetConfiguration):
+        return verdict
+    nearest = None if verdict.branches else configuration.nearest
+    misfit = configuration.misfit if nearest is None else nearest.moved
+    moves = bool(verdict.branches) or nearest is not None
+    size = configuration.precision.size
+    within = WithinPrecision(verdict.freedoms, verdict.certainty, misfit if moves else None, size)
+    return replace(verdict, within_precision=within, places=configuration.ends_of(verdict.stiff_joints))
 
 
 def _worded(
