@@ -121,14 +121,14 @@ def _plane(sheet: Sheet, linkage: PosedLinkage, marks: Floats, tolerances: Toler
 
 def _vertices(plane: _Plane, linkage: PosedLinkage) -> list[_Vertex]:
     """Return the vertices about which loops close: where the lines of their creases meet."""
-    found = []
+    vertices = []
     for loop in linkage.loops:
         if loop.centre is not Centre.FINITE:
             continue
         joints = np.array(loop.joints, dtype=np.int64)
         place = lines_meet(plane.middles[joints], plane.directions[joints]).point
-        found.append(_Vertex(place, joints, unit(plane.middles[joints] - place)))
-    return found
+        vertices.append(_Vertex(place, joints, unit(plane.middles[joints] - place)))
+    return vertices
 
 
 def _maps(plane: _Plane, vertices: list[_Vertex]) -> Iterator[Ints]:

@@ -238,6 +238,9 @@ class Branch:
         """Tell whether it has these signs, or all of them turned."""
         return self.signs in (signs, signs.translate(str.maketrans("+-", "-+")))
 
+    def __repr__(self) -> str:
+        return f"<Branch: {self.signs}, freedoms {self.freedoms}, {self.certainty}>"
+
     def to_json(self, joints: Sequence[JointId]) -> dict[str, Any]:
         """Return plain data, joints by their ids: those of the linkage, in order."""
         return {
@@ -365,8 +368,8 @@ def first_branch(
     '+---'
     """
     branch_search = _BranchSearch(linkage, None, search or Search())
-    for space, found in branch_search.parts(branch_search.spaces()):
-        rates = branch_search.ahead(found)
+    for space, part_rates in branch_search.parts(branch_search.spaces()):
+        rates = branch_search.ahead(part_rates)
         if admitted(branch_search.as_filed(rates)):
             branch = branch_search.branch(space, rates, proved=False, late=False)
             if branch.certainty != "not known":
@@ -421,16 +424,16 @@ class _BranchSearch:
 
     def spaces(self) -> list[RateSpace]:
         """Return the spaces of rates that agree to second order, as far as the search goes."""
-        found: list[RateSpace] = []
+        spaces: list[RateSpace] = []
         for space in spaces_within(self._tangent, self._quadrics, self.search.zero, self._work):
-            if len(found) == self.search.most:
+            if len(spaces) == self.search.most:
                 self.complete = False
                 break
-            found.append(space)
+            spaces.append(space)
         self.complete = self.complete and not self._work.used_up
         if not self.complete:
-            found = [*self._towards(), *found]
-        return largest_only(found, self.search.zero)
+            spaces = [*self._towards(), *spaces]
+        return largest_only(spaces, self.search.zero)
 
     def _towards(self) -> list[RateSpace]:
         """Return the space near to the rates that are wanted, if any are."""
@@ -479,9 +482,9 @@ class _BranchSearch:
 
     def branches(self, spaces: list[RateSpace], *, proved: bool) -> tuple[Branch, ...]:
         """Return the branches of all spaces in the order of the file, those that were not followed last."""
-        found = [self.branch_as_filed(branch) for branch in self._branches(spaces, proved=proved)]
-        ranks = canonical_order([_rank_of(branch.space, branch.rates) for branch in found])
-        ranked = [found[place] for place in ranks]
+        branches = [self.branch_as_filed(branch) for branch in self._branches(spaces, proved=proved)]
+        ranks = canonical_order([_rank_of(branch.space, branch.rates) for branch in branches])
+        ranked = [branches[place] for place in ranks]
         return tuple(sorted(ranked, key=lambda branch: (not branch.begun, branch.certainty == "not known")))
 
     def _branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:

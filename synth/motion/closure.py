@@ -58,15 +58,15 @@ class _LoopGroup:
         steps, slid = rotations(self.axes, values * self.turning), self._slid(values)
         before = carried(np.broadcast_to(np.eye(3), (loops, 3, 3)), np.zeros((loops, 3)))
         rotation, moved = np.broadcast_to(np.eye(3), (loops, 3, 3)), np.zeros((loops, 3))
-        made = np.empty((loops, 6, k, 6))
+        changes = np.empty((loops, 6, k, 6))
         for i in range(k):
             point = self.points[:, i, :, None]
             moved = moved + (rotation @ (point - steps[:, i] @ point + slid[:, i, :, None]))[..., 0]
             rotation = rotation @ steps[:, i]
             after = carried(rotation, moved)
-            made[:, :, i] = before - after
+            changes[:, :, i] = before - after
             before = after
-        twists = made.reshape(loops, 6, 6 * k)
+        twists = changes.reshape(loops, 6, 6 * k)
         if self.centre is Centre.FINITE:
             return twists[:, :3]
         return self._in_plane(twists) if self.centre is Centre.INFINITE else twists
@@ -162,13 +162,13 @@ class ClosureEquations:
         """
         rows, columns, values, start = [], [], [], 0
         for group in self._groups:
-            made = group.by_axes(angles - self._zero)
-            row = start + np.arange(made.shape[0] * made.shape[1]).reshape(*made.shape[:2], 1)
-            column = (6 * group.joints[..., None] + np.arange(6)).reshape(made.shape[0], 1, -1)
-            rows.append(np.broadcast_to(row, made.shape).ravel())
-            columns.append(np.broadcast_to(column, made.shape).ravel())
-            values.append(made.ravel())
-            start += made.shape[0] * made.shape[1]
+            changes = group.by_axes(angles - self._zero)
+            row = start + np.arange(changes.shape[0] * changes.shape[1]).reshape(*changes.shape[:2], 1)
+            column = (6 * group.joints[..., None] + np.arange(6)).reshape(changes.shape[0], 1, -1)
+            rows.append(np.broadcast_to(row, changes.shape).ravel())
+            columns.append(np.broadcast_to(column, changes.shape).ravel())
+            values.append(changes.ravel())
+            start += changes.shape[0] * changes.shape[1]
         if not rows:
             return scipy.sparse.csr_matrix((0, 6 * self.joints))
         places = (np.concatenate(rows), np.concatenate(columns))
@@ -216,10 +216,10 @@ class ClosureEquations:
 
 def carried(rotations: Floats, shifts: Floats) -> Floats:
     """Return the adjoint matrices of rigid motions, for twists (w, v): rotation about the origin and shift."""
-    made = np.zeros((len(rotations), 6, 6))
-    made[:, :3, :3] = made[:, 3:, 3:] = rotations
-    made[:, 3:, :3] = np.cross(shifts[:, None, :], rotations.transpose(0, 2, 1)).transpose(0, 2, 1)
-    return made
+    adjoints = np.zeros((len(rotations), 6, 6))
+    adjoints[:, :3, :3] = adjoints[:, 3:, 3:] = rotations
+    adjoints[:, 3:, :3] = np.cross(shifts[:, None, :], rotations.transpose(0, 2, 1)).transpose(0, 2, 1)
+    return adjoints
 
 
 def _grouped(linkage: PosedLinkage) -> list[_LoopGroup]:
@@ -316,9 +316,9 @@ class TangentSpace:
         size = float(np.linalg.norm(kept))
         if size <= _FREE * float(np.linalg.norm(across)):
             return np.asarray(free / np.linalg.norm(free))
-        found = self._solve(kept / size)
-        found = found - self.projected(found)
-        return np.asarray(found / np.linalg.norm(found))
+        sharper = self._solve(kept / size)
+        sharper = sharper - self.projected(sharper)
+        return np.asarray(sharper / np.linalg.norm(sharper))
 
     def solution(self, off: Floats) -> tuple[Floats, Floats]:
         """Return the least rates that part loops nearly by `off`, and what is left of that, to all digits."""
@@ -411,13 +411,13 @@ def _solver(
         added = regular * max(float(diagonal.max(initial=0.0)), 1.0)
         diagonal += added
         factor = scipy.linalg.cho_factor(normal, lower=True, overwrite_a=True, check_finite=False)
-        return lambda given: np.asarray(scipy.linalg.cho_solve(factor, given, check_finite=False)), added
+        return lambda right_side: np.asarray(scipy.linalg.cho_solve(factor, right_side, check_finite=False)), added
     sparse = (transposed @ jacobian).tocsc()
     diagonal = sparse.diagonal()
     added = regular * max(float(diagonal.max(initial=0.0)), 1.0)
     sparse.setdiag(diagonal + added)
     factors = splu(sparse, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-    return lambda given: np.asarray(factors.solve(given)), added
+    return lambda right_side: np.asarray(factors.solve(right_side)), added
 
 
 @dataclass(frozen=True)

@@ -295,10 +295,10 @@ class Configuration:
     @cached_property
     def one_way(self) -> bool:
         """Whether one motion stands for all: others are not looked for, or only folded states led to one."""
-        found = self.branches
-        if found is None:
+        branches = self.branches
+        if branches is None:
             return True
-        known = found.exhaustive or any(branch.certainty != "not known" for branch in found.branches)
+        known = branches.exhaustive or any(branch.certainty != "not known" for branch in branches.branches)
         return not known and self.flat and self.begun.folded is not None
 
     def _one_way_enough(self) -> bool:
@@ -329,9 +329,9 @@ class Configuration:
 
     def to_json(self, branch: Branch | None = None, other_question: str | None = None) -> dict[str, Any]:
         """Return the key ``configuration`` of an answer: its branch, or `other_question`, why it has none."""
-        found = None if other_question else self.branches
+        branches = None if other_question else self.branches
         freedoms, still = (None, None) if branch is None else (branch.freedoms, branch.still)
-        if found is not None and found.no_motion == "proved":
+        if branches is not None and branches.no_motion == "proved":
             freedoms, still = 0, tuple(range(len(self.joints)))
         return {
             "links": len(self.linkage.graph),
@@ -339,7 +339,9 @@ class Configuration:
             "loops": len(self.linkage.loops),
             **self.precision.to_json(),
             "flat": self.flat,
-            "branches": None if found is None else {"number": len(found.branches), "exhaustive": found.exhaustive},
+            "branches": None
+            if branches is None
+            else {"number": len(branches.branches), "exhaustive": branches.exhaustive},
             "branch": None if branch is None else branch.signs,
             "freedoms": freedoms,
             "immobile_joints": None if still is None else [str(self.joints[place]) for place in still],

@@ -59,89 +59,89 @@ class BranchChoice:
         return rates
 
 
-def beginning(configuration: Configuration, wanted: BranchChoice) -> tuple[int | None, Floats]:
+def beginning(configuration: Configuration, choice: BranchChoice) -> tuple[int | None, Floats]:
     """Return the branch to take, None without a choice, and initial rates on it; an error if nothing moves."""
-    found, towards = configuration.branches, wanted.towards(configuration)
-    if found is None or (configuration.one_way and wanted.branch is None):
-        if wanted.branch is not None:
+    branches, towards = configuration.branches, choice.towards(configuration)
+    if branches is None or (configuration.one_way and choice.branch is None):
+        if choice.branch is not None:
             limits = f"more than {MOST_JOINTS} joints, or large and with many vertices of more than 4 creases"
             raise UnsolvableError(f"no branches are listed for this mechanism: it has {limits}")
         closure, linkage = configuration.closure, configuration.linkage
-        begun = begun_near(closure, linkage, towards) if wanted.along else configuration.begun
+        begun = begun_near(closure, linkage, towards) if choice.along else configuration.begun
         if begun.rates is None:
             raise UnsolvableError(f"found no motion near the assignment{configuration.doubt}")
         return None, begun.rates
-    if not found.branches:
+    if not branches.branches:
         written = "exactly as written, " if configuration.nearly else ""
-        raise UnsolvableError(f"{written}{_no_motion(found)}{configuration.doubt}")
-    number = _chosen(configuration, found, wanted)
+        raise UnsolvableError(f"{written}{_no_motion(branches)}{configuration.doubt}")
+    number = _chosen(configuration, branches, choice)
     marked = configuration.marked.rates
-    if marked is not None and wanted.branch is None and len(wanted.driven) < 2 and not wanted.along:
-        return None if found.regular else number, marked
-    rates = _rates(found.branches[number], wanted, towards, configuration.marks)
-    return None if found.regular else number, rates
+    if marked is not None and choice.branch is None and len(choice.driven) < 2 and not choice.along:
+        return None if branches.regular else number, marked
+    rates = _rates(branches.branches[number], choice, towards, configuration.marks)
+    return None if branches.regular else number, rates
 
 
-def _no_motion(found: Branches) -> str:
+def _no_motion(branches: Branches) -> str:
     """Return that nothing moves from here, with the proof if there is one."""
     proofs = {
         "no rates": "no rates close the loops to first order",
         "definite stress": "a self-stress is definite on all flexes",
         "cases": "no rates agree to second order",
     }
-    proof = found.rigidity.proof if found.rigidity is not None else None
+    proof = branches.rigidity.proof if branches.rigidity is not None else None
     if proof:
         return f"no motion begins at this configuration (proved: {proofs[proof]})"
     return "no motion was found at this configuration"
 
 
-def _chosen(configuration: Configuration, found: Branches, wanted: BranchChoice) -> int:
-    every, name = found.branches, wanted.branch
+def _chosen(configuration: Configuration, branches: Branches, choice: BranchChoice) -> int:
+    every, name = branches.branches, choice.branch
     if isinstance(name, int):
         if not 0 <= name < len(every):
             label = str(name) if abs(name) < _LARGE else "of so large a number"
             raise InvariantError("branch", f"there is no branch {label}", f"one from 0 to {len(every) - 1}")
         return name
     if isinstance(name, str):
-        number = found.number_of(name)
+        number = branches.number_of(name)
         if number is None:
             signs = known([branch.signs for branch in every], name)
             raise InvariantError("branch", f"no branch has the signs {shown(name)}", signs)
         return number
-    if not wanted.along:
+    if not choice.along:
         return configuration.chosen or 0
-    towards = wanted.towards(configuration)
-    return max(range(len(every)), key=lambda number: (_cosine(every[number], wanted, towards), -number))
+    towards = choice.towards(configuration)
+    return max(range(len(every)), key=lambda number: (_cosine(every[number], choice, towards), -number))
 
 
-def _cosine(branch: Branch, wanted: BranchChoice, towards: Floats) -> float:
+def _cosine(branch: Branch, choice: BranchChoice, towards: Floats) -> float:
     """Return the cosine between wanted rates and the nearest ones of a branch, of the joints that have any."""
-    begun = rates_towards(branch.space, towards)[list(wanted.driven)]
-    sizes = float(np.linalg.norm(begun) * np.linalg.norm(wanted.turns))
-    return round(float(begun @ wanted.turns) / sizes, _DIGITS) if sizes else -1.0
+    begun = rates_towards(branch.space, towards)[list(choice.driven)]
+    sizes = float(np.linalg.norm(begun) * np.linalg.norm(choice.turns))
+    return round(float(begun @ choice.turns) / sizes, _DIGITS) if sizes else -1.0
 
 
-def _rates(branch: Branch, wanted: BranchChoice, towards: Floats, marks: Floats) -> Floats:
+def _rates(branch: Branch, choice: BranchChoice, towards: Floats, marks: Floats) -> Floats:
     """Return rates of a branch at which driven joints begin in proportion; with all marks, if there are such."""
-    space = _in_proportion(branch.space, wanted) if len(wanted.driven) > 1 else branch.space
-    if len(wanted.driven) < 2 and not wanted.along:
-        return rates_as_marked(branch, towards) if wanted.branch is None else branch.rates
-    assigned = marked_rates(space, marks, _STARTS) if marks.any() and not wanted.along else []
+    space = _in_proportion(branch.space, choice) if len(choice.driven) > 1 else branch.space
+    if len(choice.driven) < 2 and not choice.along:
+        return rates_as_marked(branch, towards) if choice.branch is None else branch.rates
+    assigned = marked_rates(space, marks, _STARTS) if marks.any() and not choice.along else []
     for begun in assigned:
-        if np.abs(begun[list(wanted.driven)]).max() > DOUBLE.zero_rate:
+        if np.abs(begun[list(choice.driven)]).max() > DOUBLE.zero_rate:
             return np.asarray(begun / np.abs(begun).max())
     for start in (towards, space.basis.sum(axis=1)):
         begun = rates_towards(space, start)
-        if np.abs(begun[list(wanted.driven)]).max() > DOUBLE.zero_rate:
+        if np.abs(begun[list(choice.driven)]).max() > DOUBLE.zero_rate:
             return begun
-    which = "joints" if wanted.along else "driven joints"
+    which = "joints" if choice.along else "driven joints"
     raise UnsolvableError(f"the {which} cannot begin to turn in these proportions on this branch")
 
 
-def _in_proportion(space: RateSpace, wanted: BranchChoice) -> RateSpace:
+def _in_proportion(space: RateSpace, choice: BranchChoice) -> RateSpace:
     """Return the part of a space in which driven joints turn in proportion."""
-    across = null_space(wanted.turns[None])
-    normals = space.basis[list(wanted.driven)].T @ across  # of unit vectors: what is small beside 1 is none
+    across = null_space(choice.turns[None])
+    normals = space.basis[list(choice.driven)].T @ across  # of unit vectors: what is small beside 1 is none
     return replace(space, basis=canonical_basis(space.basis @ null_space(normals.T, scale=1.0)))
 
 
@@ -191,12 +191,12 @@ def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: 
 
 def driven_from(configuration: Configuration, options: MotionOptions) -> DrivenMotion:
     """Drive joints from a configuration, on the branch of the options; the errors are those of `motion_of`."""
-    linkage, closure, found = configuration.linkage, configuration.closure, configuration.branches
+    linkage, closure, branches = configuration.linkage, configuration.closure, configuration.branches
     joints = configuration.joints
     largest = pi if configuration.limited else float(np.finfo(float).max)
     places, goals = goals_of(joints, options.drive, largest)
-    wanted = BranchChoice(options.branch, places, goals - linkage.angles[places])
-    number, rates = beginning(configuration, _along(configuration, options) if options.along else wanted)
+    choice = BranchChoice(options.branch, places, goals - linkage.angles[places])
+    number, rates = beginning(configuration, _along(configuration, options) if options.along else choice)
     if not places:
         places = [leading(rates)]
         goals = (_NEARLY_HALF if configuration.limited else tau) * np.sign(rates[places])
@@ -205,10 +205,10 @@ def driven_from(configuration: Configuration, options: MotionOptions) -> DrivenM
         rates = -rates
     steps = np.arange(1, options.frames + 1)[:, None] / options.frames
     limited = np.full(len(joints), configuration.limited)
-    by_least_rates = found is not None and found.regular and len(options.drive) == 1
+    by_least_rates = branches is not None and branches.regular and len(options.drive) == 1
     direction = None if by_least_rates else rates  # any others might soon turn the driven joint back
     allowance = Allowance(_STEPS + _STEPS_OF_FRAME * options.frames)
-    still = () if number is None or found is None else found.branches[number].still
+    still = () if number is None or branches is None else branches.branches[number].still
     signs = _signs(configuration, rates, places) if configuration.limited else None
     straight, report, events = bool(options.along), options.report, options.events
     on_path = PathOptions(direction, limited, straight, report, joints, allowance, still, events, signs)

@@ -72,18 +72,18 @@ class Disagreement(NamedTuple):
 
 
 def assigned_branch(
-    found: Branches, linkage: PosedLinkage, marks: Floats, first: Floats | None = None
+    branches: Branches, linkage: PosedLinkage, marks: Floats, first: Floats | None = None
 ) -> AssignedBranch:
     """Return the branch that begins with all marked joints as they are marked, or all against it.
 
     Marks are 1 for valleys, -1 for mountains, 0 for joints without; those of a branch are looked for first from
     the rates `first`, float[J], that have all marks.
     """
-    if not marks.any() or not found.branches:
+    if not marks.any() or not branches.branches:
         return AssignedBranch(None, None)
-    spaces = {id(branch.space): branch.space for branch in found.branches}
+    spaces = {id(branch.space): branch.space for branch in branches.branches}
     starts = min(_STARTS, max(_LEAST, _TOGETHER // len(spaces)))
-    order = np.array(found.order, dtype=np.int64)
+    order = np.array(branches.order, dtype=np.int64)
     in_order = signed(marks[order])
     turn, place = float(np.sign(in_order @ marks[order])), np.argsort(order)
     begin = None if first is None else turn * first[order]
@@ -91,13 +91,13 @@ def assigned_branch(
     for number, space in spaces.items():
         ordered = marked_rates(space.in_order(order), in_order, starts, begin)
         begun[number] = [turn * rates[place] for rates in ordered]
-    parts = [_on_part(branch, begun[id(branch.space)]) for branch in found.branches]
+    parts = [_on_part(branch, begun[id(branch.space)]) for branch in branches.branches]
     agree = {number: rates for number, rates in enumerate(parts) if rates is not None}
     if agree:
-        freest = max(agree, key=lambda number: (found.branches[number].freedoms or 0, -number))
-        return AssignedBranch(freest, "has", _begun_as_marked(found.branches[freest], agree[freest], marks))
+        freest = max(agree, key=lambda number: (branches.branches[number].freedoms or 0, -number))
+        return AssignedBranch(freest, "has", _begun_as_marked(branches.branches[freest], agree[freest], marks))
     tangent = rates_at(ClosureEquations(linkage), linkage.angles)
-    linear = found.exhaustive and not any(branch.space.left for branch in found.branches)
+    linear = branches.exhaustive and not any(branch.space.left for branch in branches.branches)
     sure = linear or _rates_with(tangent, marks) is None
     return AssignedBranch(None, "none has" if sure else "none found")
 
@@ -110,17 +110,17 @@ def rates_as_marked(branch: Branch, marks: Floats) -> Floats:
     return -branch.rates if branch.rates @ marks < -DOUBLE.zero_rate else branch.rates
 
 
-def agreeing_best(found: Branches, marks: Floats) -> int:
+def agreeing_best(branches: Branches, marks: Floats) -> int:
     """Return the number of the branch on which most joints begin as they are assigned, less those that do not."""
 
     def agreement(branch: Branch) -> int:
         rates = rates_as_marked(branch, marks)
         return int((np.sign(np.where(np.abs(rates) > DOUBLE.zero_rate, rates, 0.0)) * marks).sum())
 
-    return max(range(len(found.branches)), key=lambda number: (agreement(found.branches[number]), -number))
+    return max(range(len(branches.branches)), key=lambda number: (agreement(branches.branches[number]), -number))
 
 
-def nearest_branch(found: Branches, marks: Floats) -> Disagreement:
+def nearest_branch(branches: Branches, marks: Floats) -> Disagreement:
     """Return how the assignment differs from the branch with which the fewest joints disagree.
 
     Of several, that with which fewest turn the other way, then the freest, then the first. On a branch of one
@@ -128,13 +128,13 @@ def nearest_branch(found: Branches, marks: Floats) -> Disagreement:
     of the best branches none can be left out; where equations are left, they are those of the rates nearest to the
     marks.
     """
-    near = [disagreement_with(number, branch, marks) for number, branch in enumerate(found.branches)]
+    near = [disagreement_with(number, branch, marks) for number, branch in enumerate(branches.branches)]
 
     def order(one: Disagreement) -> tuple[int, int, int, int]:
-        return one.size, len(one.opposite), -(found.branches[one.number].freedoms or 0), one.number
+        return one.size, len(one.opposite), -(branches.branches[one.number].freedoms or 0), one.number
 
     best = sorted(near, key=order)[:_REFINED]
-    return min((_fewer(one, found.branches[one.number].space, marks) for one in best), key=order)
+    return min((_fewer(one, branches.branches[one.number].space, marks) for one in best), key=order)
 
 
 def disagreement_with(number: int, branch: Branch, marks: Floats) -> Disagreement:
@@ -159,8 +159,8 @@ def _least_against(basis: Floats, marks: Floats) -> Floats:
     rows = np.hstack([-marks[marked, None] * basis[marked], -np.eye(len(marked))])
     cost = np.repeat([0.0, 1.0], [basis.shape[1], len(marked)])
     bounds = [(None, None)] * basis.shape[1] + [(0.0, None)] * len(marked)
-    found = linprog(cost, A_ub=rows, b_ub=-np.ones(len(marked)), bounds=bounds, method="highs")
-    return np.asarray(basis @ found.x[: basis.shape[1]])
+    solution = linprog(cost, A_ub=rows, b_ub=-np.ones(len(marked)), bounds=bounds, method="highs")
+    return np.asarray(basis @ solution.x[: basis.shape[1]])
 
 
 def _fewer(one: Disagreement, space: RateSpace, marks: Floats) -> Disagreement:
@@ -185,8 +185,8 @@ def _fewer(one: Disagreement, space: RateSpace, marks: Floats) -> Disagreement:
     rows = np.block([[keep, np.zeros((len(agree), room))], [turn, np.eye(room)]])
     most = np.repeat([-1.0, 0.0], [len(agree), room])
     bounds = [(None, None)] * free + [(0.0, 1.0)] * room
-    found = linprog(np.repeat([0.0, -1.0], [free, room]), A_ub=rows, b_ub=most, bounds=bounds, method="highs")
-    return one if found.x is None else _differing(one.number, space.basis @ found.x[:free], marks)
+    solution = linprog(np.repeat([0.0, -1.0], [free, room]), A_ub=rows, b_ub=most, bounds=bounds, method="highs")
+    return one if solution.x is None else _differing(one.number, space.basis @ solution.x[:free], marks)
 
 
 def _on_part(branch: Branch, begun: Sequence[Floats]) -> Floats | None:
@@ -209,7 +209,7 @@ def marked_rates(space: RateSpace, marks: Floats, starts: int, first: Floats | N
     inside = _rates_with(space.basis, marks)
     if inside is None or not space.left:
         return [] if inside is None else [inside]
-    marked, largest, found = marks != 0.0, np.abs(inside).max(), list[Floats]()
+    marked, largest, begun = marks != 0.0, np.abs(inside).max(), list[Floats]()
     for number in range(starts):
         start = (marks * largest if first is None else first, inside)[number % 2]
         if number > 1:  # other sizes, the same signs
@@ -217,8 +217,8 @@ def marked_rates(space: RateSpace, marks: Floats, starts: int, first: Floats | N
         rates = rates_towards(space, start)
         turned = (rates * marks)[marked]
         if (turned > DOUBLE.zero_rate).all() or (turned < -DOUBLE.zero_rate).all():
-            found.append(rates)
-    return found
+            begun.append(rates)
+    return begun
 
 
 def _rates_with(basis: Floats, marks: Floats) -> Floats | None:

@@ -143,15 +143,15 @@ class Motion(Printed):
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
-        found, taken, reading = self.branches, self.taken, self.configuration.reading
+        branches, taken, reading = self.branches, self.taken, self.configuration.reading
         columns = zip(self.joints, np.degrees(self.path.angles.T).tolist(), strict=True)
         return {
             "configuration": self.configuration.to_json(taken),
             "freedoms": self.freedoms,
             "certainty": None if taken is None else taken.certainty,
-            "branches": None if found is None else [one.to_json(self.joints) for one in found.branches],
-            "exhaustive": None if found is None else found.exhaustive,
-            "search": None if found is None else found.method,
+            "branches": None if branches is None else [one.to_json(self.joints) for one in branches.branches],
+            "exhaustive": None if branches is None else branches.exhaustive,
+            "search": None if branches is None else branches.method,
             "branch": self.branch,
             "driven": {str(joint): degrees(angle) for joint, angle in self.driven.items()},
             "frames": len(self.path.angles),
@@ -220,36 +220,36 @@ class Motion(Printed):
         }
 
     def _lines_of_assignment(self) -> list[Block]:
-        found = self._of_assignment()
-        if found is None:
+        report = self._of_assignment()
+        if report is None:
             return []
         lines: list[Block] = []
-        if found["reversed"]:
+        if report["reversed"]:
             lines.append("the assignment is reversed: mountains fold as valleys, valleys as mountains")
-        if found["against"]:
-            creases = found["against"]
-            noun, frame = "crease" if len(creases) == 1 else "creases", found["first_frame_against"]
+        if report["against"]:
+            creases = report["against"]
+            noun, frame = "crease" if len(creases) == 1 else "creases", report["first_frame_against"]
             lines.append(f"against the assignment, from frame {frame} on: {noun} {listed(creases)}")
         return lines
 
     def _lines_of_branch(self) -> list[Block]:
-        found, taken = self.branches, self.taken
-        if found is None or taken is None:
+        branches, taken = self.branches, self.taken
+        if branches is None or taken is None:
             return []
-        which = "" if found.regular else f"branch {self.branch}: "
+        which = "" if branches.regular else f"branch {self.branch}: "
         if taken.freedoms is None:
             freedoms = "degrees of freedom unknown"
         else:
             evidence = "not proved" if taken.certainty == "not known" else taken.certainty
             freedoms = f"{numbered(taken.freedoms, 'degree of freedom', 'degrees of freedom')} ({evidence})"
         lines: list[Block] = [f"{which}{freedoms}; signs {taken.signs}"]
-        if not found.regular:
+        if not branches.regular:
             flat = self.configuration.flat
             kind, start = ("folding branch", "the flat state") if flat else ("motion branch", "this configuration")
-            all_found = "all there are" if found.exhaustive else "not proved exhaustive"
-            more = "" if found.complete else "; there may be many more"
-            count = numbered(len(found.branches), kind, f"{kind}es")
-            lines.append(f"{count} from {start} ({_SEARCHES[found.method]}; {all_found}{more})")
+            all_found = "all there are" if branches.exhaustive else "not proved exhaustive"
+            more = "" if branches.complete else "; there may be many more"
+            count = numbered(len(branches.branches), kind, f"{kind}es")
+            lines.append(f"{count} from {start} ({_SEARCHES[branches.method]}; {all_found}{more})")
         if self.configuration.disagreeing:
             lines.append(self.configuration.disagreeing)
         return lines

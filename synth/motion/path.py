@@ -108,6 +108,9 @@ class Path:
         """Numbers of its frames that are turning points of a joint, if these were looked for."""
         return [event.frame for event in self.events if event.kind == "turning point"]
 
+    def __repr__(self) -> str:
+        return f"<Path: {numbered(len(self.angles), 'frame')}, {numbered(len(self.events), 'event')}>"
+
     def up_to(self, frames: int) -> Path:
         """Return the first frames, and the events before the last of them."""
         events = tuple(event for event in self.events if event.frame < frames - 1)

@@ -63,11 +63,11 @@ def verdict_of_motion(configuration: Configuration, generic: int | None = None) 
     if not configuration.joints:
         lacking = "creases between panels" if configuration.limited else "joints"
         return Verdict(0, "motion", "proved", f"Rigid: there are no {lacking}.")
-    found = configuration.branches
-    if found is None or configuration.one_way:
+    branches = configuration.branches
+    if branches is None or configuration.one_way:
         verdict = _of_one_motion(configuration, generic)
     else:
-        verdict = _of_branches(configuration, found, generic)
+        verdict = _of_branches(configuration, branches, generic)
     written = verdict.as_written or _as_written(configuration) or AsWritten(verdict.freedoms, verdict.certainty)
     verdict = replace(verdict, as_written=written)
     if not isinstance(configuration, SheetConfiguration):
@@ -155,47 +155,49 @@ def _as_written(configuration: Configuration) -> AsWritten | None:
     if not isinstance(configuration, SheetConfiguration):
         return None
     written = configuration.written
-    found = configuration.branches if written is None else written.branches
-    if written is not None and found is not None:
-        branch = _stated(_branches_of(written, found), written.marked.number)
+    branches = configuration.branches if written is None else written.branches
+    if written is not None and branches is not None:
+        branch = _stated(_branches_of(written, branches), written.marked.number)
         if branch is not None:
             return AsWritten(branch.freedoms, branch.certainty)
-    if found is not None and found.no_motion == "proved":
+    if branches is not None and branches.no_motion == "proved":
         return AsWritten(0, "proved")
     return None if written is None else AsWritten(None, "not known")  # if it is large no motion was looked for
 
 
-def _of_branches(configuration: Configuration, found: Branches, generic: int | None) -> Verdict:
-    branches = _branches_of(configuration, found)
-    further = None if found.complete else len(found.branches) - len(branches)
+def _of_branches(configuration: Configuration, search: Branches, generic: int | None) -> Verdict:
+    branches = _branches_of(configuration, search)
+    further = None if search.complete else len(search.branches) - len(branches)
     number, marked = _marked(configuration, len(branches))
     for other, place in configuration.elsewhere:
         branch = other.branch(place)
         assert branch is not None
         branches += (_branch(other, branch),)
-    known = found.complete and all(branch.freedoms is not None for branch in branches)
+    known = search.complete and all(branch.freedoms is not None for branch in branches)
     stated = _stated(branches, number)
-    freedoms, certainty = _unmoved(configuration, found) if stated is None else (stated.freedoms, stated.certainty)
+    freedoms, certainty = (
+        _unmoved(configuration, search) if stated is None else (stated.freedoms, stated.certainty)
+    )
     immobile: tuple[JointId, ...] = ()
     if known and (branches or freedoms is not None):  # those that are immobile on every branch
         still = [set(branch.stiff_joints) for branch in branches]
         immobile = tuple(joint for joint in configuration.joints if all(joint in joints for joints in still))
     written = _as_written(configuration)
     findings = MotionFindings(
-        configuration, branches, stated, freedoms, certainty, found.complete, generic, immobile, marked, written
+        configuration, branches, stated, freedoms, certainty, search.complete, generic, immobile, marked, written
     )
-    exhaustive = found.exhaustive and not configuration.unsettled
-    basis: Basis = "pose" if found.regular and certainty == "proved" else "motion"
+    exhaustive = search.exhaustive and not configuration.unsettled
+    basis: Basis = "pose" if search.regular and certainty == "proved" else "motion"
     return _worded(findings, basis, exhaustive=exhaustive, further=further)
 
 
-def _unmoved(configuration: Configuration, found: Branches) -> tuple[int | None, Certainty]:
+def _unmoved(configuration: Configuration, branches: Branches) -> tuple[int | None, Certainty]:
     """Return the freedoms where nothing moves, with the evidence: proved if nothing nearly moves either.
 
     Where the digits alone give the precision, coordinates may have larger errors that nothing shows: a mechanism
     nearby may then be the intended one.
     """
-    if not found.exhaustive or configuration.unsettled:
+    if not branches.exhaustive or configuration.unsettled:
         return None, "not known"
     precision = configuration.precision
     nearby = isinstance(configuration, SheetConfiguration) and configuration.nearest is not None
@@ -213,9 +215,9 @@ def _marked(configuration: Configuration, own: int) -> tuple[int | None, Marked 
     return chosen.number, chosen.marked
 
 
-def _branches_of(configuration: Configuration, found: Branches) -> tuple[MotionBranch, ...]:
+def _branches_of(configuration: Configuration, branches: Branches) -> tuple[MotionBranch, ...]:
     """Return the branches that were followed, which come first; of a longer search all."""
-    followed = [branch for branch in found.branches if branch.begun or configuration.more]
+    followed = [branch for branch in branches.branches if branch.begun or configuration.more]
     return tuple(_branch(configuration, branch) for branch in followed)
 
 

@@ -194,8 +194,8 @@ def clusters_of(graph: SCGraph, still: Sequence[JointId]) -> tuple[tuple[LinkId,
     together = nx.Graph()
     together.add_edges_from(graph.joints[joint] for joint in still)
     order = {link: place for place, link in enumerate(graph)}
-    found = [tuple(sorted(links, key=order.__getitem__)) for links in nx.connected_components(together)]
-    return tuple(sorted(found, key=lambda links: order[links[0]]))
+    clusters = [tuple(sorted(links, key=order.__getitem__)) for links in nx.connected_components(together)]
+    return tuple(sorted(clusters, key=lambda links: order[links[0]]))
 
 
 _ASSIGNMENT = {

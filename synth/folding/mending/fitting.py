@@ -225,14 +225,14 @@ class MeantAngles:
 
 def _straight(sectors: Sequence[_Sector]) -> list[_Sum]:
     """Return what keeps creases straight that go on through a vertex."""
-    found = []
+    sums = []
     for first in range(len(sectors)):
         angle, error = 0.0, sectors[first].error
         for sector in sectors[first:]:
             angle += sector.angle
             if abs(angle - pi) <= error + sector.error:
-                found.append(_Sum((sectors[first].joints[0], sector.joints[1]), (-1, 1), pi))
-    return found
+                sums.append(_Sum((sectors[first].joints[0], sector.joints[1]), (-1, 1), pi))
+    return sums
 
 
 def _alike(sectors: Sequence[_Sector]) -> list[_Sum]:
@@ -438,7 +438,7 @@ class Fitting:
     def _most_open(self, state: _State, motions: Sequence[_Motion]) -> tuple[Floats, _Motion] | None:
         """Return the configuration along the motions that stays open most, with its motion."""
         closure, worst = self._closure(state), DOUBLE.closed
-        found = None
+        most_open = None
         for motion in motions:
             locked, here, direction = closure.locked(motion.still), self._start, motion.rates
             for turn in _FOLLOWED:
@@ -447,9 +447,9 @@ class Fitting:
                 if error > _BEYOND * max(self._displacement(state), DOUBLE.closed):
                     break
                 if error > worst:
-                    found, worst = (there, motion), error
+                    most_open, worst = (there, motion), error
                 direction, here = there - here, there
-        return found
+        return most_open
 
     def _closed(self, state: _State) -> _State | None:
         """Return what closes near a state, by Newton's method."""

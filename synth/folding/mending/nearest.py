@@ -126,12 +126,12 @@ class NearBranch:
     def begun(self) -> list[list[Floats]]:
         """Rates of the motions: with joints still that hardly move, as they are, and with slow joints still."""
         largest = np.abs(self.motions).max(axis=0)
-        found = [list(self.motions)]
+        beginnings = [list(self.motions)]
         for place, small in ((0, self.small), (2, _SLOW)):
             hardly = (largest <= small) & (largest > 0.0)
             if hardly.any():
-                found.insert(place, [np.where(largest > small, rates, 0.0) for rates in self.motions])
-        return found
+                beginnings.insert(place, [np.where(largest > small, rates, 0.0) for rates in self.motions])
+        return beginnings
 
     def agreement(self, wanted: Floats) -> float:
         """Return how many joints begin as is wanted, less those that do not."""
@@ -152,21 +152,21 @@ def near_branches(
     linkage: PosedLinkage, zero: float, wanted: Floats, most: int, known: Sequence[NearBranch] = ()
 ) -> tuple[list[NearBranch], bool]:
     """Return up to `most` branches that a linkage nearly has, but for known ones, and whether these are all."""
-    found: list[NearBranch] = []
+    branches: list[NearBranch] = []
     spaces, complete = spaces_at(linkage, most, zero)
     for space in spaces:
         motions = _motions(space, wanted)
-        if motions and not any(_alike(space, one.space) for one in (*known, *found)):
-            found.append(NearBranch(space, motions, min(_HARDLY, _ERRORS * zero)))
-    return sorted(found, key=lambda one: -one.agreement(wanted)), complete
+        if motions and not any(_alike(space, one.space) for one in (*known, *branches)):
+            branches.append(NearBranch(space, motions, min(_HARDLY, _ERRORS * zero)))
+    return sorted(branches, key=lambda one: -one.agreement(wanted)), complete
 
 
 def spaces_at(linkage: PosedLinkage, most: int, zero: float = DOUBLE.zero) -> tuple[list[RateSpace], bool]:
     """Return the spaces of rates that agree to second order, and whether these are all."""
     tangent, allowance = rates_at(ClosureEquations(linkage), linkage.angles, zero), Allowance(_WORK_NEAR)
     spaces = spaces_within(tangent, quadrics_of(linkage), zero, allowance)
-    found = list(islice(spaces, most + 1))
-    return largest_only(found[:most], zero), len(found) <= most and not allowance.used_up
+    spaces_found = list(islice(spaces, most + 1))
+    return largest_only(spaces_found[:most], zero), len(spaces_found) <= most and not allowance.used_up
 
 
 def covers(space: RateSpace, near: RateSpace) -> bool:
@@ -188,14 +188,14 @@ def _motions(space: RateSpace, wanted: Floats) -> tuple[Floats, ...]:
     for number in range(min(size, _BESIDE) if size > 1 else 1):
         chance = np.random.default_rng((*space.basis.shape, number))
         starts.append(space.basis @ (chance.uniform(0.5, 1.0, size) * chance.choice([-1.0, 1.0], size)))
-    found: list[Floats] = []
+    motions: list[Floats] = []
     for start in starts:
         rates = rates_towards(space, start) if space.left else space.basis @ (space.basis.T @ start)
         largest = float(np.abs(rates).max())
         if largest > DOUBLE.zero_rate:
             scaled = rates / largest
-            found.append(np.where(np.abs(scaled) > MARGIN, scaled, 0.0))
-    return tuple(found if size > 1 else found[:1])
+            motions.append(np.where(np.abs(scaled) > MARGIN, scaled, 0.0))
+    return tuple(motions if size > 1 else motions[:1])
 
 
 ALL_BRANCHES = 120
@@ -286,9 +286,9 @@ def beyond_precision(written: WrittenPattern) -> MendedPattern | None:
     for size in _FARTHER:
         if size > written.precision.size:
             near = nearby(replace(written, precision=Precision(size, "a larger one, tried")), 1)
-            found = [*near.within[:1], *([near.beyond] if near.beyond else [])]
-            if found:
-                return replace(found[0], precision=written.precision)
+            patterns = [*near.within[:1], *([near.beyond] if near.beyond else [])]
+            if patterns:
+                return replace(patterns[0], precision=written.precision)
     return None
 
 

@@ -68,9 +68,9 @@ def folded_start(closure: ClosureEquations, wanted: Floats) -> FoldedStart | Non
         if back is None:
             continue
         small, largest = back, float(np.abs(back).max())
-        found = FoldedStart(small / largest, _agreement(small, wanted), float(np.abs(angles).max()), largest)
-        if best is None or found.agree > best.agree:
-            best = found
+        motion = FoldedStart(small / largest, _agreement(small, wanted), float(np.abs(angles).max()), largest)
+        if best is None or motion.agree > best.agree:
+            best = motion
         if best.agree == goal:
             break
     return best
@@ -178,13 +178,13 @@ def _from_folded(
     """Return rates near those of a motion that is followed back from a folded state; None where none is found."""
     if np.abs(linkage.angles).max(initial=0.0) > DOUBLE.parallel:
         return None
-    found = folded_start(closure, wanted)
-    if found is None:
+    folded = folded_start(closure, wanted)
+    if folded is None:
         return None
-    near = rates_near(closure, linkage.angles, quadrics, found.rates)
-    lost = near is None or _agreement(near, wanted) < found.agree
-    rates = found.rates if lost or near is None else near / np.abs(near).max()
-    return InitialMotion(rates, rigid=False, folded=found)
+    near = rates_near(closure, linkage.angles, quadrics, folded.rates)
+    lost = near is None or _agreement(near, wanted) < folded.agree
+    rates = folded.rates if lost or near is None else near / np.abs(near).max()
+    return InitialMotion(rates, rigid=False, folded=folded)
 
 
 def _agreement(rates: Floats | None, wanted: Floats) -> int:
@@ -252,10 +252,10 @@ class _EquationGroups:
             here = np.flatnonzero(np.isin(left, numbers))
             places = np.searchsorted(numbers, left[here])
             across, local = np.linalg.qr(basis[joints[places]].transpose(0, 2, 1))
-            found = inertia(local @ forms[places] @ local.transpose(0, 2, 1), self._zero)
-            number = found.values.shape[1]
-            values[here, :number], signs[here, :number] = found.values, found.signs
-            axes[here, :, :number] = across @ found.vectors
+            local_inertia = inertia(local @ forms[places] @ local.transpose(0, 2, 1), self._zero)
+            number = local_inertia.values.shape[1]
+            values[here, :number], signs[here, :number] = local_inertia.values, local_inertia.signs
+            axes[here, :, :number] = across @ local_inertia.vectors
         return Inertia(values, axes, signs)
 
     def _part(self, basis: Floats, normals: Floats) -> Floats:

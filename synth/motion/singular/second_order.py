@@ -122,11 +122,11 @@ def rows_of(linkage: PosedLinkage) -> int:
 
 def local_forms(basis: Floats, quadrics: Sequence[Quadric]) -> Floats:
     """Return the forms of equations on a space of rates, each as part of its size: float[n, s, s]."""
-    made = np.zeros((len(quadrics), basis.shape[1], basis.shape[1]))
+    forms = np.zeros((len(quadrics), basis.shape[1], basis.shape[1]))
     for number, quadric in enumerate(quadrics):
         local = basis[list(quadric.joints)]
-        made[number] = local.T @ quadric.form @ local / np.abs(quadric.form).max()
-    return made
+        forms[number] = local.T @ quadric.form @ local / np.abs(quadric.form).max()
+    return forms
 
 
 def _beyond(rows: Floats, known: Floats, zero: float) -> Floats:
@@ -183,10 +183,10 @@ def definite_weights(forms: Floats, clear: float) -> tuple[Floats, float] | None
         if shares is None:
             return None
         weights = shares @ seen
-        found = inertia(np.tensordot(weights, forms, 1), clear)
-        if (found.signs > 0).all():
-            return weights, float(found.values[0] / found.values[-1])
-        new = np.einsum("i,nij,j->n", found.vectors[:, 0], forms, found.vectors[:, 0])
+        total = inertia(np.tensordot(weights, forms, 1), clear)
+        if (total.signs > 0).all():
+            return weights, float(total.values[0] / total.values[-1])
+        new = np.einsum("i,nij,j->n", total.vectors[:, 0], forms, total.vectors[:, 0])
         if np.linalg.norm(weights) <= _NEAR * size or weights @ (weights - new) <= _GAINS * (weights @ weights):
             return None
         seen = np.concatenate([seen[shares > 0.0], new[None]])
@@ -370,12 +370,12 @@ def _simplified(case: _Case) -> tuple[_Case, tuple[Floats, Floats] | None]:
         case = case.only(np.flatnonzero(np.abs(case.forms).max(axis=(1, 2), initial=0.0) > case.zero))
         if not case.left:
             return case, None
-        found = inertia(case.forms, case.zero)
-        definite = np.flatnonzero((found.positive == 0) | (found.negative == 0))
+        local = inertia(case.forms, case.zero)
+        definite = np.flatnonzero((local.positive == 0) | (local.negative == 0))
         if not len(definite):
-            products = np.flatnonzero((found.positive == 1) & (found.negative == 1))
-            return case, _factors(found.values[products[0]], found.vectors[products[0]]) if len(products) else None
-        normals = [found.vectors[one][:, found.signs[one] != 0] for one in definite]
+            products = np.flatnonzero((local.positive == 1) & (local.negative == 1))
+            return case, _factors(local.values[products[0]], local.vectors[products[0]]) if len(products) else None
+        normals = [local.vectors[one][:, local.signs[one] != 0] for one in definite]
         case = case.across(np.concatenate(normals, axis=1))
     return case.only(np.zeros(0, dtype=np.int64)), None
 

@@ -214,12 +214,12 @@ def free_rates(closure: ClosureEquations, angles: Floats, moving: Ints | None = 
     space = TangentSpace(jacobian if moving is None else jacobian[:, moving])
     size = len(angles) if moving is None else len(moving)
     chance = np.random.default_rng(size)
-    found: list[Floats] = []
-    while len(found) < min(_MOST, size):
-        found += [space.projected(chance.normal(size=size)) for _ in range(_BLOCK)]
+    projected: list[Floats] = []
+    while len(projected) < min(_MOST, size):
+        projected += [space.projected(chance.normal(size=size)) for _ in range(_BLOCK)]
         # projected random rates have singular values of their number's root, or none
-        basis = row_space(np.array(found), DOUBLE.singular, float(np.sqrt(size)))
-        if basis.shape[1] < len(found):
+        basis = row_space(np.array(projected), DOUBLE.singular, float(np.sqrt(size)))
+        if basis.shape[1] < len(projected):
             return basis
     return None
 

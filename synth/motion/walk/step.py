@@ -272,18 +272,18 @@ class RankWatch:
         self._values, self._steps = [*self._values, value][-3:], [*self._steps, step][-2:]
         if self._looks >= _MOST_LOOKS:
             return None
-        found = None
+        drop = None
         if flat or abs(value) <= DOUBLE.singular:
-            found = self._deficient(step.after.angles, step)
+            drop = self._deficient(step.after.angles, step)
         elif len(self._values) > 1 and self._values[-2] * value < 0.0:
-            found = self._examined(step)
+            drop = self._examined(step)
         elif self._dips():
-            found = self._examined(self._steps[0]) or self._examined(step)
+            drop = self._examined(self._steps[0]) or self._examined(step)
         else:
             return None
-        self.singular |= found is not None and found[0] is step.after.angles
+        self.singular |= drop is not None and drop[0] is step.after.angles
         self._values = [] if self.singular else [value]
-        return found
+        return drop
 
     def _followed(self, step: Step) -> float:
         """Return the least singular value at the end of a step, with the sign that continuity gives it."""

@@ -347,10 +347,10 @@ class KeptSigns(Event):
         signs = self._kept = self._signs.copy()
         signs[held] = 0.0
         while True:
-            found, bound = _nearest(here, rates, signs, held, length)
-            if found is not None:
+            nearest, bound = _nearest(here, rates, signs, held, length)
+            if nearest is not None:
                 self.bound = np.flatnonzero(bound).tolist()
-                return found / np.abs(found).max(), length
+                return nearest / np.abs(nearest).max(), length
             if length > _SHORTEST:
                 length = max(length / 4.0, _SHORTEST)
                 continue
