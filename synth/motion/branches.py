@@ -75,10 +75,12 @@ class FlatVertices:
         self._ways: list[Floats | None] = []
         flat = [np.abs(linkage.angles).max(initial=0.0) <= DOUBLE.parallel]
         for loop in linkage.loops:
-            outward = _outward(linkage, loop)
+            outward, folds = _outward(linkage, loop), None
+            if outward is not None:  # 1 for creases that fold one way at a positive angle, -1 for others
+                folds = np.sign((outward * linkage.directions[list(loop.joints)]).sum(axis=1)) * loop.signs
             # opposite sectors make 180 degrees
             flat.append(outward is not None and abs(sectors(outward)[::2].sum() - pi) <= DOUBLE.parallel)
-            self._ways.append(None if outward is None else _ways(linkage, loop, outward))
+            self._ways.append(folds)
         self.linear = bool(all(flat))
 
     def modes(self, rates: Floats) -> tuple[tuple[int, int] | None, ...]:
@@ -98,12 +100,6 @@ def _mode(loop: PosedLoop, ways: Floats | None, rates: Floats) -> tuple[int, int
     same = int(alike[1] > alike[0] + MARGIN * abs(float(alike[0])))
     first, second = sorted(loop.joints[same::2])
     return (first, second) if alike[same] > DOUBLE.zero_rate**2 else None
-
-
-def _ways(linkage: PosedLinkage, loop: PosedLoop, outward: Floats) -> Floats:
-    """Return 1 for creases that fold one way at a positive angle, -1 for others: float[4]."""
-    along = (outward * linkage.directions[list(loop.joints)]).sum(axis=1)
-    return np.asarray(np.sign(along) * loop.signs)
 
 
 def _outward(linkage: PosedLinkage, loop: PosedLoop) -> Floats | None:

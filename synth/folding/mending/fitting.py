@@ -45,10 +45,9 @@ class VertexPlaces:
         assert sheet.coordinates is not None
         self.given: Floats = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
         self.loops = linkage.loops
-        free = [replace(loop, centre=Centre.NONE) for loop in linkage.loops]  # axes need not stay parallel
-        loops = zip(linkage.loops, free, strict=True)
-        kept = tuple(six if loop.centre is Centre.INFINITE else loop for loop, six in loops)
-        self._linkage = replace(linkage, loops=kept)
+        parallel = Centre.INFINITE  # such axes need not stay parallel
+        loops = (replace(loop, centre=Centre.NONE) if loop.centre is parallel else loop for loop in linkage.loops)
+        self._linkage = replace(linkage, loops=tuple(loops))
         ends = [mechanism.hinges[joint] for joint in linkage.graph.joints]  # type: ignore[index]
         self.ends: Ints = np.array(ends, dtype=np.int64).reshape(-1, 2)
         ways = ((self.given[self.ends[:, 1]] - self.given[self.ends[:, 0]]) * linkage.directions).sum(axis=1)
@@ -195,9 +194,8 @@ class MeantAngles:
         away = (self._places.given[others] - self._places.given[vertex]) @ self._places.along.T
         headings, errors = np.arctan2(away[:, 1], away[:, 0]), self._precision / np.linalg.norm(away, axis=1)
         order = np.argsort(headings)
-        following = np.roll(order, -1)
         sectors = []
-        for i, j in zip(order, following, strict=True):
+        for i, j in zip(order, np.roll(order, -1), strict=True):
             angle, error = float(headings[j] - headings[i]) % (2 * pi), float(errors[i] + errors[j])
             sectors.append(_Sector((joints[i], joints[j]), angle, error))
         return sectors
@@ -251,18 +249,8 @@ def _alike(sectors: Sequence[_Sector]) -> list[_Sum]:
     return sums
 
 
-class EquationBlock(NamedTuple):
-    """Equations of one configuration: what does not hold, and the derivatives by vertices and by its angles."""
-
-    off: Floats
-    by_vertices: Floats
-    by_angles: Floats
-
-
-def least_step(
-    off: Floats, by_vertices: Floats, blocks: Sequence[EquationBlock], least: float
-) -> tuple[Floats, list[Floats]]:
-    """Return the least change of the vertices, float[u], and of the angles of each block, to leave no residual.
+def _least_step(off: Floats, by_vertices: Floats, poses: Sequence[_Pose], least: float) -> list[Floats]:
+    """Return the least change of the vertices, float[u], and of the angles of each pose, to leave no residual.
 
     The derivatives by the angles of a configuration are taken apart, T = U S V'. Then its equations say of each
     angle along V alone how far it has to turn for a change u of the vertices, (r + B u) / s along U, where r does
@@ -273,19 +261,18 @@ def least_step(
     unknowns = by_vertices.shape[1]
     rows, right_sides = [by_vertices / least, np.eye(unknowns)], [-off / least, np.zeros(unknowns)]
     apart = []
-    for block in blocks:
-        parts = split(block.by_angles)
-        sizes = np.full(len(block.off), least)
+    for pose in poses:
+        parts = split(pose.by_angles.toarray())
+        sizes = np.full(len(pose.residual), least)
         count = len(parts.values)
         sizes[:count] = np.maximum(parts.values, least)
-        own, by = parts.left.T @ block.off, parts.left.T @ block.by_vertices
+        own, by = parts.left.T @ (pose.residual / pose.size), parts.left.T @ pose.by_vertices.toarray()
         rows.append(by / sizes[:, None])
         right_sides.append(-own / sizes)
         shares = parts.values / sizes[:count] ** 2  # of values below the least only a part: no angle turns far
         apart.append((parts.right[:count], shares, own[:count], by[:count]))
     change = np.linalg.lstsq(np.concatenate(rows), np.concatenate(right_sides), rcond=EPSILON)[0]
-    turns = [-right.T @ (shares * (own + by @ change)) for right, shares, own, by in apart]
-    return change, turns
+    return [change, *(-right.T @ (shares * (own + by @ change)) for right, shares, own, by in apart)]
 
 
 _TURNS = tuple(radians(turn) for turn in (12.0, 30.0, 55.0, 90.0))
@@ -346,11 +333,6 @@ class _Motion(NamedTuple):
     driver: int
     still: tuple[int, ...]
 
-    @classmethod
-    def begun(cls, rates: Floats) -> _Motion:
-        """Return the motion that begins at some rates, of which some may be zero."""
-        return cls(rates, leading(rates), tuple(np.flatnonzero(rates == 0.0).tolist()))
-
     def at(self, start: Floats, turn: float) -> float:
         """Return the angle of the driven joint after a turn, radians."""
         return float(start[self.driver] + np.sign(self.rates[self.driver]) * turn)
@@ -396,7 +378,7 @@ class Fitting:
         fitted = Fitting(self._places, self._angles, self._start, self._allowance)
         self.error = 0.0
         state: _State | None = self._state
-        begun = [_Motion.begun(rates) for rates in motions]
+        begun = [_Motion(rates, leading(rates), tuple(np.flatnonzero(rates == 0.0).tolist())) for rates in motions]
         for number, motion in enumerate(begun):
             if state is not None:
                 state = self._with_motion(state, motion, most, _BESIDE if number else _TURNS)
@@ -499,10 +481,6 @@ class _Pose(NamedTuple):
     by_vertices: scipy.sparse.csr_matrix
     by_angles: scipy.sparse.csr_matrix
 
-    def block(self) -> EquationBlock:
-        """Return the divided equations with full matrices."""
-        return EquationBlock(self.residual / self.size, self.by_vertices.toarray(), self.by_angles.toarray())
-
 
 class _Equations(NamedTuple):
     """Residuals and derivatives of equations between vertices alone, and the equations of all configurations."""
@@ -520,10 +498,10 @@ class _Equations(NamedTuple):
         """Return the state after the least step that takes all away."""
         if max([len(self.fixed), *(len(pose.residual) for pose in self.poses)]) > _DENSE:
             return self._solved_sparse(state)
-        blocks = [pose.block() for pose in self.poses]
         least = max(_LEAST_VALUE, _SHARE * self.error)
-        change, turns = least_step(self.fixed, self.by_vertices.toarray(), blocks, least)
-        return state.onwards(np.concatenate([change, *turns]))
+        return state.onwards(
+            np.concatenate(_least_step(self.fixed, self.by_vertices.toarray(), self.poses, least))
+        )
 
     def _solved_sparse(self, state: _State) -> _State:
         """Return the same by regularised normal equations, of large sheets."""

@@ -347,11 +347,9 @@ class _Search(_PatternSearch):
             known = len(self.near)
             self.near += more
             self.unsettled |= not complete
-            exactly = self._had_by(linkage, range(len(self.near)), follow=False)
+            exactly = self._had_by(linkage, follow=False)
             left = [number for number in range(len(self.near)) if number not in exactly]
-            new = [
-                number for number in left if number >= known
-            ]  # for others another attempt ends as the first did
+            new = [number for number in left if number >= known]  # another attempt at others ends as the first did
             if new or bent:
                 self._mend(new)
             if exactly or self.candidates:
@@ -360,16 +358,14 @@ class _Search(_PatternSearch):
         mended = tuple(one.mended for one in within if one.mended is not None)
         beyond = self.beyond if not within else None
         unsettled = self.unsettled or bool(self._open(left) and self.allowance.used_up)
-        first = bool(within and within[0].mended is None)
-        return NearbyPatterns(
-            mended, beyond, unsettled, bool(left), first, any(one.mended is None for one in within)
-        )
+        as_written = [one.mended is None for one in within]
+        return NearbyPatterns(mended, beyond, unsettled, bool(left), as_written[:1] == [True], any(as_written))
 
     def _mend(self, left: Sequence[int]) -> None:
         """Move vertices so that the pattern has the near branches that are left, as far as that is possible."""
         for fitting, why in self.bases:
             if fitting.moved > EXACT:
-                self._add(self.mended(fitting, why), fitting)
+                self._add(self.mended(fitting, why))
             if self._open(left):
                 self._fit(fitting, left)
             if self.candidates and not self._open(left):
@@ -379,14 +375,14 @@ class _Search(_PatternSearch):
         """Return the near branches that no mechanism has yet."""
         return [number for number in left if not any(number in one.has for one in self.candidates)]
 
-    def _had_by(self, linkage: PosedLinkage, numbers: Sequence[int], *, follow: bool) -> frozenset[int]:
+    def _had_by(self, linkage: PosedLinkage, *, follow: bool) -> frozenset[int]:
         """Return which near branches a linkage has; where that is not clear at the pose they are followed."""
         spaces, _ = spaces_at(linkage, MOST_BRANCHES)
         closure, linear = ClosureEquations(linkage), FlatVertices(linkage).linear
         had = set()
-        for number in numbers:
+        for number, near in enumerate(self.near):
             for space in spaces:
-                if covers(space, self.near[number].space):
+                if covers(space, near.space):
                     if not follow or (linear and not space.left) or self._moves(closure, linkage, space, number):
                         had.add(number)
                     break
@@ -402,9 +398,9 @@ class _Search(_PatternSearch):
         end, freedoms = followed(linkage, closure, rates, still), self.near[number].space.basis.shape[1]
         return end.far > 0.0 and (bool(space.left) or (end.freedoms or 0) >= freedoms)
 
-    def _add(self, mended: MendedPattern, fitting: Fitting) -> _Candidate | None:
+    def _add(self, mended: MendedPattern) -> _Candidate | None:
         """Take a mended pattern among the candidates if it has any near branch."""
-        has = self._had_by(self.linkage(mended), range(len(self.near)), follow=True)
+        has = self._had_by(self.linkage(mended), follow=True)
         if not has and self.near:
             return None
         if mended.moved > self.reach:
@@ -422,8 +418,8 @@ class _Search(_PatternSearch):
             if number not in self._open(left) or tried >= _SEPARATE:
                 continue
             fitted = self._fitted(dict.fromkeys((together, base)), number)
-            found = None if fitted is None else self._add(self.mended(fitted, _ALONG), fitted)
-            if fitted is not None and found is not None and number in found.has:
+            candidate = None if fitted is None else self._add(self.mended(fitted, _ALONG))
+            if fitted is not None and candidate is not None and number in candidate.has:
                 together = fitted
             else:
                 tried += 1
