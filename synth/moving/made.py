@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
 from typing import Any
 
 import networkx as nx
@@ -96,7 +97,10 @@ def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
     directions = _directions(rods, ends)
     tolerances = Tolerances.of(precision_of(list(model.coordinates.values())).size)
     hinges = _Hinges(list(range(len(rods))))
-    meetings = _meetings(model, rods)
+    meetings: dict[Hashable, list[int]] = {vertex: [] for vertex in model.nodes}
+    for number, rod in enumerate(rods):
+        for vertex in rod:
+            meetings[vertex].append(number)
     tree = _tree(meetings, directions, tolerances.parallel)
     for first, second, vertex in tree:
         across = _across(directions[first], directions[second], tolerances.parallel)
@@ -134,24 +138,16 @@ def _directions(rods: list[tuple[Any, Any]], ends: Floats) -> Floats:
     return unit(along / sizes[:, None])
 
 
-def _meetings(model: PolyhedronModel, rods: list[tuple[Any, Any]]) -> dict[Hashable, list[int]]:
-    """Return the rods at each vertex."""
-    meetings: dict[Hashable, list[int]] = {vertex: [] for vertex in model.nodes}
-    for number, (a, b) in enumerate(rods):
-        meetings[a].append(number)
-        meetings[b].append(number)
-    return meetings
+_Meeting = tuple[int, int, Hashable]
+"""Two rods, and the vertex at which they meet."""
 
 
-def _tree(
-    meetings: dict[Hashable, list[int]], directions: Floats, parallel: float
-) -> list[tuple[int, int, Hashable]]:
+def _tree(meetings: Mapping[Hashable, list[int]], directions: Floats, parallel: float) -> list[_Meeting]:
     """Return a tree of the rods, (rod, next rod, vertex) from the first; the first two are not in line."""
     touching = nx.Graph()
     touching.add_nodes_from(range(len(directions)))
     for vertex, here in meetings.items():
-        for place, first in enumerate(here):
-            touching.add_edges_from((first, second, {"vertex": vertex}) for second in here[place + 1 :])
+        touching.add_edges_from(combinations(here, 2), vertex=vertex)
     root, turn = _beginning(touching, directions, parallel)
     order = [(root, turn), *nx.bfs_edges(touching, root)] if turn is not None else []
     seen, tree = {root}, []
@@ -176,9 +172,7 @@ def _beginning(touching: nx.Graph, directions: Floats, parallel: float) -> tuple
     return int(first), int(second)
 
 
-def _others(
-    meetings: dict[Hashable, list[int]], tree: list[tuple[int, int, Hashable]]
-) -> list[tuple[int, int, Hashable]]:
+def _others(meetings: Mapping[Hashable, list[int]], tree: list[_Meeting]) -> list[_Meeting]:
     """Return the meetings that the tree leaves out: at each vertex all rods are joined, without circles."""
     left = []
     for vertex, here in meetings.items():
