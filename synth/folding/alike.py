@@ -47,11 +47,9 @@ _LARGEST_GROUP = 24
 
 @dataclass(frozen=True, slots=True)
 class _Plane:
-    """A flat pattern seen in its plane, in units of the extent.
+    """A flat pattern in its plane, in extents: middles and directions of creases, float[J, 2], and its border.
 
-    Middles and directions are those of creases, float[J, 2], sides the ends of those of the border, float[n, 2,
-    2]. Middles and directions of creases closer than `same` are one: both arms that a motion takes to each other
-    may err.
+    Middles and directions closer than `same` are one: both arms that a motion takes to each other may err.
     """
 
     middles: Floats
@@ -134,8 +132,7 @@ def _vertices(plane: _Plane, linkage: PosedLinkage) -> list[_Vertex]:
 def _maps(plane: _Plane, vertices: list[_Vertex]) -> Iterator[Ints]:
     """Yield the motions of the plane that take a vertex to a vertex and agree wherever pattern and image overlap.
 
-    Each as the crease that each crease is taken to, -1 for none: int[J]. One vertex of each degree is taken to
-    all.
+    Each as the crease that each crease is taken to, -1 for none: int[J].
     """
     tree = cKDTree(plane.middles) if len(plane.middles) else None
     first: dict[int, _Vertex] = {}
@@ -211,11 +208,7 @@ _STEPS = 1000
 
 @dataclass(frozen=True, slots=True)
 class _Start:
-    """A motion at its beginning.
-
-    The equations are those of all motions, or of those that keep classes of joints alike; the largest of the
-    rates, float[J], is 1 or -1.
-    """
+    """Equations of all motions, or of those that keep classes of joints alike, and rates with which one begins."""
 
     pattern: SheetConfiguration
     closure: ClosureEquations

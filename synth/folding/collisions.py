@@ -94,11 +94,7 @@ class Panels:
         return np.asarray(np.minimum(high, other_high) - np.maximum(low, other_low) > self._touching)
 
     def _stretch(self, heights: Floats, along: Floats) -> tuple[Floats, Floats]:
-        """Return the ends, along the line of both planes, of where pieces meet the other's plane.
-
-        Pieces on one side of it, or that only touch it, have an empty stretch: from infinity to -infinity. Heights
-        over the other plane and places along the line are those of the corners, float[pairs, k].
-        """
+        """Return the ends, along both planes' line, of where pieces meet the other's plane; inf, -inf if none."""
         after, along_after = np.roll(heights, -1, axis=1), np.roll(along, -1, axis=1)
         passes = heights * after < 0.0
         part = heights / np.where(passes, heights - after, 1.0)

@@ -43,10 +43,7 @@ __all__ = ["SheetConfiguration", "configuration_of_sheet", "opened"]
 
 
 def opened(sheet: Sheet, mechanism: SheetMechanism) -> Sheet:
-    """Return a sheet in which panels share a vertex only if hinges round it join them, or they are one.
-
-    Places in the list of edges stay as they are, and so do ids of joints; further edges come last.
-    """
+    """Return a sheet in which panels share a vertex only if hinges join them there; new edges come last."""
     beside: dict[frozenset[int], list[int]] = {}
     for face, around in enumerate(sheet.faces):
         for side in sides_of_face(around):

@@ -29,11 +29,9 @@ __all__ = ["SheetDerivatives", "axis_motions", "dependence_on_vertices", "larges
 def vertex_places(
     sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage, angles: Floats
 ) -> tuple[Floats, Floats]:
-    """Return where the vertices of a crease pattern are, and how far panels disagree on that.
+    """Return where vertices are at fold angles float[F, J], and how far panels disagree on that.
 
-    At fold angles float[F, J], radians: places float[F, vertices, 3] in the unit of the coordinates, where
-    vertices of no face stay, and the largest distance between places of one vertex, float[F], in units of the
-    extent.
+    Places are float[F, vertices, 3] in the unit of the coordinates, distances float[F] in units of the extent.
     """
     assert sheet.coordinates is not None
     local = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
@@ -121,12 +119,7 @@ def _fold_angles(creases: Creases, corners: Floats) -> scipy.sparse.csr_matrix:
 
 @dataclass(frozen=True, slots=True)
 class SheetChange:
-    """How a folded sheet follows a change of its vertices.
-
-    Changes of the fold angles, radians, are zero for driven creases; those of places, float[V, 3], are in the unit
-    of the coordinates. The residual is as of `ConfigurationChange`, `rank_residual` as `Sensitivity.rank_residual`
-    returns it.
-    """
+    """How a folded sheet follows a change of its vertices: a `ConfigurationChange`, and places float[V, 3]."""
 
     angles: Floats
     places: Floats

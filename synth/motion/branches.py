@@ -63,11 +63,11 @@ __all__ = [
 
 
 class FlatVertices:
-    """The loops of a linkage that are flat vertices of four creases.
+    """The loops of a linkage that are flat vertices of four creases, each with two modes.
 
-    In any mode of such a vertex one pair of opposite creases folds the same way and the other does not: which
-    pair, distinguishes the two modes. Where opposite sectors make 180 degrees, tan(fold / 2) of the four are in
-    proportion in each; `linear` says whether every loop is such a vertex, and all creases are flat.
+    In either mode one pair of opposite creases folds the same way and the other does not. `linear` says that in
+    all loops opposite sectors make 180 degrees, and all creases are flat: tan(fold / 2) are in proportion in each
+    mode.
     """
 
     def __init__(self, linkage: PosedLinkage) -> None:
@@ -84,11 +84,7 @@ class FlatVertices:
         self.linear = bool(all(flat))
 
     def modes(self, rates: Floats) -> tuple[tuple[int, int] | None, ...]:
-        """Return the mode in which each vertex begins to fold: places of the opposite creases that fold alike.
-
-        Rates are general ones of a branch, the largest 1 or -1. None for immobile vertices and for all other
-        loops.
-        """
+        """Return the opposite creases (places) that fold alike at each vertex, by general rates; else None."""
         return tuple(_mode(loop, ways, rates) for loop, ways in zip(self._loops, self._ways, strict=True))
 
 
@@ -185,8 +181,8 @@ class Branch:
         does not decide.
     certainty : {"proved", "numerical", "not known"}
         Proved: the configuration is regular, the branch is linear in tan(fold / 2), or all that second order adds
-        is one equation that is not degenerate. Numerical: followed with closed loops. Not known: rates agree to
-        second order, and no motion was found.
+        is one equation that is not degenerate. Numerical: followed with closed loops. Not known: no motion was
+        found.
     space : RateSpace
         The rates at which it can begin.
     rates : float[J]
@@ -194,8 +190,7 @@ class Branch:
     still : tuple of int
         Places of the joints that are immobile on it.
     modes : tuple of (int, int) or None
-        For each loop that is a flat vertex of four creases the places of the opposite ones that fold the same way;
-        None for other loops, and for vertices that are immobile.
+        For each loop that is a moving flat vertex of four creases the places of the opposite ones that fold alike.
     sample : float[J]
         Joint angles of a configuration on it, radians.
     error : float
@@ -207,11 +202,9 @@ class Branch:
 
     Examples
     --------
-    >>> from synth.moving.made import configuration_of
-    >>> from synth.patterns import generate
-    >>> branches = configuration_of(generate("miura", rows=2, columns=2).mechanism).branches.branches
-    >>> [(branch.freedoms, branch.certainty) for branch in branches]
-    [(1, 'proved'), (1, 'proved')]
+    >>> import synth
+    >>> synth.move(synth.generate("miura", rows=2, columns=2).mechanism).branches.branches
+    (<Branch: +---, freedoms 1, proved>, <Branch: +00+, freedoms 1, proved>)
     """
 
     freedoms: int | None
@@ -514,8 +507,8 @@ class _BranchSearch:
         """Return the freedoms of the branch that begins at some rates; None where second order does not tell.
 
         If the equations of all self-stresses have independent slopes there, the configurations beside the pose in
-        that direction are a manifold: the implicit function theorem, on closure equations divided by the square of
-        the time.
+        that direction are a manifold: the implicit function theorem, on closure equations over the square of the
+        time.
         """
         if len(self._quadrics) != self._stresses:
             return None

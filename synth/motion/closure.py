@@ -274,7 +274,7 @@ singular value is too small to count and too large to be none."""
 
 
 class TangentSpace:
-    """Least-squares solutions with the derivatives of closure equations at one place, sparse float[rows, J].
+    """Least-squares solutions with derivatives of closure equations, sparse float[rows, J], at one place.
 
     `regular` times the largest diagonal entry of the normal equations is added to all of them.
     """
@@ -287,10 +287,7 @@ class TangentSpace:
         self._moves: dict[int, Floats] = {}
 
     def step(self, residual: Floats, held: Sequence[int] = ()) -> Floats:
-        """Return the least change of joint angles that takes a residual, float[rows], away to first order.
-
-        Joints at the places `held` do not move, unless they must.
-        """
+        """Return the least change of angles that takes a residual away; held joints stay if they can."""
         change = self._least_exactly(-residual)
         if not held:
             return change
@@ -382,9 +379,10 @@ class TangentSpace:
 
 
 def _refined(correction: Callable[[Floats], Floats], total: Floats, residual: Floats) -> Floats:
-    """Return the sum of corrections, each measured by the sum so far or the residual vector.
+    """Return the sum of corrections, each of which leaves a part m / (s^2 + m) of what was to be taken off.
 
-    Each leaves a part m / (s^2 + m) of what was to be taken off: s is a singular value, m the regularisation.
+    Here s is a singular value and m the regularisation; corrections are measured by the sum so far or the
+    residual.
     """
     last, size = np.inf, _largest(residual)
     for _ in range(_SWEEPS):

@@ -80,11 +80,7 @@ no products: each may part the rates into two halves."""
 
 
 class PointPlaces(NamedTuple):
-    """Where the points of a mechanism are at joint angles.
-
-    `points`, float[F, n, 3], are vertices of a sheet, else a point on each axis, in the unit of the coordinates;
-    `apart`, float[F], is by how much bodies disagree on a shared point, in units of the extent.
-    """
+    """Points float[F, n, 3] of a mechanism at joint angles, and by how much bodies disagree on one, in extents."""
 
     points: Floats
     apart: Floats
@@ -165,10 +161,7 @@ class Configuration:
         return ()
 
     def of_branch(self, branch: int | str | None) -> tuple[Configuration, int | str | None]:
-        """Return the configuration that has a branch, by its number or signs, and its number or signs there.
-
-        The branches here come first, then those elsewhere; an unknown branch is left to this configuration.
-        """
+        """Return the configuration that has a branch, by number or signs, and its number or signs there."""
         own = 0 if self.branches is None else len(self.branches.branches)
         if isinstance(branch, int) and own <= branch < own + len(self.elsewhere):
             return self.elsewhere[branch - own]

@@ -218,10 +218,7 @@ def driven_from(configuration: Configuration, options: MotionOptions) -> DrivenM
 
 
 def _signs(configuration: Configuration, rates: Floats, driven: Sequence[int]) -> Floats:
-    """Return the signs that fold angles are to keep: those they have, those of the rates at zero, else the marks.
-
-    Driven joints go where they are driven. The marks count, or their opposites, where all rates agree with them.
-    """
+    """Return the signs that fold angles are to keep: their own, else of rates, else of marks that agree."""
     angles, marks = configuration.linkage.angles, configuration.marks
     rates = np.where(np.abs(rates) > DOUBLE.zero_rate, rates, 0.0)
     turned = rates * marks

@@ -327,11 +327,7 @@ def link_motions(
 def joints_outwards(
     linkage: PosedLinkage, ground: LinkId | None = None
 ) -> Iterator[tuple[LinkId, LinkId, int, float]]:
-    """Yield joints that carry links, those nearer to the fixed links first.
-
-    Each as a link, the link that it carries, the place of the joint between them, and 1 or -1: by which of its
-    angle the far one is turned. The ground is as in `link_motions`.
-    """
+    """Yield from the fixed link outwards: a link, the one it carries, the place of their joint, and its sense."""
     graph = linkage.graph
     column = {joint: place for place, joint in enumerate(graph.joints)}
     between = nx.Graph()

@@ -164,10 +164,7 @@ def _least_against(basis: Floats, marks: Floats) -> Floats:
 
 
 def _fewer(one: Disagreement, space: RateSpace, marks: Floats) -> Disagreement:
-    """Let those of the joints that disagree agree, in turn, that can do so while all others go on to.
-
-    Where the rest agrees, those that are left turn the other way or not at all, and are given room to turn.
-    """
+    """Let joints that disagree agree, in turn, that can while others go on to; the rest gets room to turn."""
     against = [*one.opposite, *one.immobile][:_TRIED]
     if space.left or space.basis.shape[1] == 1 or one.size > _TRIED:
         return one

@@ -276,10 +276,7 @@ def motion_of(configuration: Configuration, options: MotionOptions, *, collision
 
 
 def motion_along(configuration: Configuration, driven: DrivenMotion) -> Motion:
-    """Return a motion with its points in each frame, as far as panels hold together.
-
-    A crease of several pieces that are in line but for rounding has one axis, and panels part at the other pieces.
-    """
+    """Return a motion with its points in each frame, until panels part at creases that rounding has bent."""
     path = driven.path
     points, apart = configuration.placed(path.angles)
     if (apart > DOUBLE.same_point).any():

@@ -159,11 +159,7 @@ def driven_path(
 
 
 class Drive:
-    """Joints driven from one goal to the next: frames of a walk from a closed configuration, float[J].
-
-    With one freedom the walk goes on past the turning points of the driven joint, until that has its angle, the
-    walk comes round, or ends.
-    """
+    """Joints driven from one goal to the next; with one freedom past the turning points of the driven joint."""
 
     def __init__(
         self, closure: ClosureEquations, start: Floats, drivers: Sequence[int], options: PathOptions

@@ -289,8 +289,7 @@ def _made(mechanism: Movable, orientations: Orientations | None) -> tuple[PosedL
 def with_precision(mechanism: Mechanism, precision: float | None) -> Mechanism | Configuration:
     """Return a mechanism whose coordinates are stated to be wrong by no more than a length, in their unit.
 
-    A sheet keeps its precision, any other mechanism has one at its configuration; without a length it is returned
-    as it is. Raises `InvariantError` if that is no length, `UnsolvableError` without coordinates.
+    A sheet keeps its precision, any other mechanism has one at its configuration.
     """
     if precision is None:
         return mechanism

@@ -111,10 +111,7 @@ class SurfaceLinks:
         return {link: (turn, extent * shift + middle - turn @ middle) for link, (turn, shift) in moved.items()}
 
     def spans(self, angles: Floats) -> Floats:
-        """Return how far links lie outside the surface, at least and at most, less rounding: float[F, N, 2].
-
-        Lengths are in units of the distance from the apex, or of the radius.
-        """
+        """Return how far links lie outside the surface, least and most, less rounding: float[F, N, 2]."""
         motions = self.motions(angles)
         spans = np.empty((len(angles), len(self.names), 2))
         for number, (link, (begin, length)) in enumerate(zip(self.names, self._arcs, strict=True)):

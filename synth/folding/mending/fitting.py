@@ -518,10 +518,7 @@ def _largest(residuals: Sequence[Floats]) -> float:
 
 
 def _sizes(jacobian: scipy.sparse.csr_matrix, turned: Floats) -> Floats:
-    """Return how large residuals may be in each equation, float[rows]: near a singular pose of second order.
-
-    That of the largest turn of a joint of its loop: some loops may move much less than others.
-    """
+    """Return how large residuals may be, float[rows]: squares of the largest turn of the joints of the loop."""
     starts, ends = jacobian.indptr[:-1], jacobian.indptr[1:]
     largest = np.zeros(len(starts))
     some = ends > starts

@@ -425,10 +425,7 @@ class _Search(_PatternSearch):
                 tried += 1
 
     def _fitted(self, starts: Iterable[Fitting], number: int) -> Fitting | None:
-        """Return the first fitting along the motions of a near branch, begun with others, that closes.
-
-        Once a branch was found beyond reach, it is looked for no farther off than is near to the reach.
-        """
+        """Return the first fitting along a near branch that closes; none much beyond one found beyond reach."""
         unsettled = False
         most = _AROUND * self.reach if number in self.only_beyond else FARTHEST_PATTERN
         for start, motions in product(starts, self.near[number].begun):

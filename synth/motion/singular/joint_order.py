@@ -31,10 +31,7 @@ _SHARES = (1.0, 0.731, 0.519, 0.347)
 
 
 def joint_order(linkage: PosedLinkage, marks: Floats | None = None) -> Ints:
-    """Return the places of the joints, int[J], in an order that renaming, moving and mirroring leave as it is.
-
-    Joints that are alike are distinguished by marks, float[J], 1, -1 or 0 each, up to the sign of all.
-    """
+    """Return the joints, int[J], in an order that renaming, moving and mirroring leave; marks part like ones."""
     joints = len(linkage.angles)
     if joints < 2:
         return np.arange(joints)

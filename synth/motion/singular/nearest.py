@@ -130,10 +130,7 @@ _DEAD_ENDS = 200
 
 @dataclass(frozen=True, slots=True)
 class InitialMotion:
-    """Rates with which a motion begins, the largest 1 or -1; None where none were found.
-
-    `rigid` says that all choices leave nothing: nothing moves. `folded` is the folded state that led to the rates.
-    """
+    """Initial rates, the largest 1 or -1, if any; whether it is rigid; the folded state that led to them."""
 
     rates: Floats | None
     rigid: bool

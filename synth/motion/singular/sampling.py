@@ -128,11 +128,7 @@ def followed(
     still: tuple[int, ...] = (),
     allowance: Allowance | None = None,
 ) -> TracedBranch:
-    """Follow a branch until the joint that moves most has turned by ten degrees, or as far as it goes.
-
-    Initial rates agree to second order, and joints at the places `still` do not begin to move. The allowance
-    counts steps.
-    """
+    """Follow a branch for ten degrees, or as far as it goes, by joints that are not `still`."""
     ways = [closure.locked(still), closure] if still else [closure]
     for way in ways:
         end, error = walked(linkage.angles, way, rates, allowance)

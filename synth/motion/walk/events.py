@@ -225,10 +225,7 @@ def free_rates(closure: ClosureEquations, angles: Floats, moving: Ints | None = 
 
 
 def independent_joints(basis: Floats, first: int) -> list[int]:
-    """Return joints whose rates determine those of all others, a preferred one first, others far apart.
-
-    The basis, float[n, F], has rates as columns; the first joint is left out where it does not move.
-    """
+    """Return joints, one first, others far apart, whose rates in a basis float[n, F] determine all others."""
     chosen = []
     left = basis
     own = basis[first]

@@ -27,11 +27,7 @@ __all__ = ["STRAY", "WATCHED", "Allowance", "EventKind", "PathEvent", "RankWatch
 
 @dataclass(slots=True)
 class Allowance:
-    """Work that a search may do altogether, such as the steps of all its paths.
-
-    Where panels are all but nothing branches are endless. Work is counted, not timed, so that answers are the same
-    on slow and on fast machines; `left` is the number of steps, or of other units of work.
-    """
+    """Work that a search may do, such as steps: counted, not timed, to be the same on every machine."""
 
     left: float
 
@@ -347,10 +343,7 @@ class RankWatch:
 
 
 def _across_freedoms(space: TangentSpace, start: Floats) -> Floats:
-    """Return the part of a unit vector across the freedoms, to begin with: a unit vector float[J].
-
-    Where most rates are freedoms, a random vector mostly is one, and would be taken for a singular value of zero.
-    """
+    """Return the part of a unit vector across the freedoms, to begin with; if all rates are free, itself."""
     across = start - space.projected(start)
     size = float(np.linalg.norm(across))
     return across / size if size > DOUBLE.clear else start

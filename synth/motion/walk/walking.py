@@ -222,10 +222,7 @@ class Walk(Iterator[Step]):
         return "" if allowed else "the allowance of steps was used up"
 
     def _onwards(self) -> Floats:
-        """Return the rates to go on with, the largest 1 or -1: the least ones that move the driven joints.
-
-        Where these hardly can, or branches meet, those nearest to the rates before. Zeros if nothing moves.
-        """
+        """Return the least rates that move the driven joints, or else those nearest to the rates before."""
         rates = self._chosen()
         size = float(np.abs(rates).max(initial=0.0))
         return rates / size if size else rates
