@@ -227,7 +227,7 @@ class Drive:
 
 
 def circuit_through(
-    closure: ClosureEquations, start: Floats, towards: Floats | None = None, events: Sequence[Event] = ()
+    closure: ClosureEquations, start: Floats, *, towards: Floats | None = None, events: Sequence[Event] = ()
 ) -> Path:
     """Follow the configurations of a linkage of one freedom from one of them, in one sense.
 

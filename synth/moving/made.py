@@ -310,7 +310,7 @@ def _with_slides(mechanism: JointedLinkage) -> tuple[PosedLinkage, Precision]:
     if not axes:
         raise UnsolvableError(f"motion needs coordinates, and {mechanism!r} has none")
     slides = [joint for joint, kind in mechanism.kinds.items() if kind is JointKind.PRISMATIC]
-    return _with_centres(linkage_of_axes(mechanism.chain, axes, slides)), _precision_of_axes(axes)
+    return _with_centres(linkage_of_axes(mechanism.chain, axes, slides=slides)), _precision_of_axes(axes)
 
 
 def sheet_of(mechanism: Mechanism) -> Sheet | None:

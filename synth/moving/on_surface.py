@@ -211,7 +211,9 @@ class Course:
     ) -> Course:
         """Return the course that begins towards some rates."""
         sides, at = SidesOfSurface(links, driver), Turns(driver, turns)
-        circuit = circuit_through(closure, links.linkage.angles, towards, [TurningPoint(driver), sides, at])
+        circuit = circuit_through(
+            closure, links.linkage.angles, towards=towards, events=[TurningPoint(driver), sides, at]
+        )
         return cls(circuit, sides.begun, sides.now, sides.crossings, at.places)
 
     @property
@@ -516,10 +518,10 @@ class SurfaceMotion(Motion):
 
 def move_on_surface(
     on_surface: OnSurface,
+    *,
     ground: LinkId | None = None,
     driver: JointId | None = None,
     at: Sequence[float] = (),
-    *,
     points: Sequence[LinkPoint] = (),
     axes: Sequence[tuple[LinkId, LinkId]] = (),
 ) -> SurfaceMotion:
