@@ -518,10 +518,10 @@ class SurfaceMotion(Motion):
 
 def move_on_surface(
     on_surface: OnSurface,
-    *,
     ground: LinkId | None = None,
     driver: JointId | None = None,
     at: Sequence[float] = (),
+    *,
     points: Sequence[LinkPoint] = (),
     axes: Sequence[tuple[LinkId, LinkId]] = (),
 ) -> SurfaceMotion:

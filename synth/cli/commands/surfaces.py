@@ -442,9 +442,9 @@ def move_command(kind: Kind) -> click.Command:
             motions = [
                 move_on_surface(
                     linkage,
-                    ground=None if ground is None else link_named(linkage.chain, ground),
-                    driver=None if driver is None else joint_named(linkage.chain, driver),
-                    at=in_radians(at or ()),
+                    None if ground is None else link_named(linkage.chain, ground),
+                    None if driver is None else joint_named(linkage.chain, driver),
+                    in_radians(at or ()),
                     points=[_point(linkage, text) for text in points],
                     axes=[_pair(linkage, text) for text in axes],
                 )
