@@ -9,12 +9,15 @@ PARALLEL ?= -n logical --dist loadgroup
 # Byte code is kept, whatever the shell says: the tests start many processes, and pytest rewrites every file.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test test-slow test-web test-machines page check data pictures docs examples release clean help
+.PHONY: demo test test-unit test-slow test-night durations test-web test-machines page check data pictures docs examples release clean help
 
 help:
 	@echo "make demo       install into $(VENV), ask some mechanisms for their mobility, and compile what enumerations need"
 	@echo "make test       all tests but the slow ones"
-	@echo "make test-slow  the slow tests too, at their full sizes"
+	@echo "make test-unit  the quickest of them, of single functions and classes: half a minute"
+	@echo "make test-slow  the slow tests too, at their full sizes: 90 minutes at most on two idle cores"
+	@echo "make test-night the slow tests of more than ten minutes each"
+	@echo "make durations  run all tests but those of the night and the web, and write what they take to tests/durations.json"
 	@echo "make test-web   what is shown in a notebook, which is run, and the tests of the page of synth view, in node and in Chromium"
 	@echo "make test-machines  check that answers are the same under other BLAS kernels, threads, hash seeds, and without AVX2"
 	@echo "make page       build the script of that page, if its sources have changed"
@@ -63,8 +66,19 @@ page: $(STAMP)
 test: $(STAMP) $(COMPILED)
 	$(BIN)/python -m pytest $(PARALLEL) -m "not slow and not web"
 
+test-unit: $(STAMP) $(COMPILED)
+	$(BIN)/python -m pytest $(PARALLEL) -m unit
+
 test-slow: $(STAMP)
-	$(BIN)/python -m pytest $(PARALLEL)
+	$(BIN)/python -m pytest $(PARALLEL) -m "not night"
+
+test-night: $(STAMP)
+	$(BIN)/python -m pytest $(PARALLEL) -m night
+
+durations: $(STAMP) $(COMPILED)
+	@.ci/changed tests/durations.json -- sh -ec '\
+	  $(BIN)/python -m pytest $(PARALLEL) -m "not slow and not web" --store-durations; \
+	  $(BIN)/python -m pytest $(PARALLEL) -m "slow and not night" --store-durations'
 
 # Kernels that this processor lacks are left out, and named.
 test-machines: $(STAMP) $(COMPILED)

@@ -20,6 +20,8 @@ from golden_numbers import golden_numbers
 from hypothesis import HealthCheck, settings
 from real_patterns import folder_of_patterns
 
+pytest_plugins = ["kinds"]
+
 ROOT = Path(__file__).resolve().parent.parent
 
 

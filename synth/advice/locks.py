@@ -24,11 +24,11 @@ from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.folding.configuration import SheetConfiguration
-from synth.motion.branches import Branches
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
 from synth.motion.driving import BranchChoice, beginning
 from synth.motion.linkage import PosedLinkage, linkage_of_sheet, moved
+from synth.motion.singular.sampling import finite_rates
 from synth.motion.singular.second_order import rates_at
 from synth.motion.walk.step import Allowance
 from synth.verdict.verdict import flaps_of
@@ -98,29 +98,35 @@ def general_pose(configuration: Configuration, branch: int | str | None = None) 
         rates = rates_at(configuration.closure, linkage.angles)
         return GeneralPose(linkage, rates, None, sheet=here[0], mechanism=here[1], rigid=True)
     number, _ = beginning(configuration, BranchChoice(branch))
+    chosen = branches.branches[number or 0]
+    angles, rates = _regular(configuration, linkage.angles if number is None else chosen.sample, chosen.freedoms)
     if number is None:
-        return GeneralPose(linkage, _rates(linkage, branches, number), None, *here)
-    angles = branches.branches[number].sample
+        return GeneralPose(linkage, rates, None, *here)
     if sheet is None:
-        posed = moved(linkage, angles)
-    else:
-        here = (sheet.at(angles), sheet.mechanism)
-        posed = linkage_of_sheet(here[0], sheet.mechanism)
-    return GeneralPose(posed, _rates(posed, branches, number), number, *here)
+        return GeneralPose(moved(linkage, angles), rates, number)
+    placed = sheet.at(angles)
+    return GeneralPose(linkage_of_sheet(placed, sheet.mechanism), rates, number, placed, sheet.mechanism)
 
 
-def _rates(linkage: PosedLinkage, branches: Branches, number: int | None) -> Floats:
-    """Return the rates at a pose, if there are as many as freedoms."""
-    rates = rates_at(ClosureEquations(linkage), linkage.angles)
-    freedoms = branches.branches[number or 0].freedoms
-    if freedoms != rates.shape[1]:
-        first = numbered(rates.shape[1], "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
-        finite = "an unknown number" if freedoms is None else str(freedoms)
-        raise NumericalError(
-            f"no regular configuration was found: {first} beside {finite} of finite motion, "
-            f"at fold angles up to {degrees(float(np.abs(linkage.angles).max())):.3g}°"
-        )
-    return rates
+def _regular(configuration: Configuration, angles: Floats, freedoms: int | None) -> tuple[Floats, Floats]:
+    """Return a configuration of a branch and the rates there, float[J, M], if they are as many as freedoms.
+
+    Of a linkage that is shaky in all its configurations, such as scissors on a polyhedron, more rates close to
+    first order than it moves by; those that close to second order are taken then.
+    """
+    posed = moved(configuration.linkage, angles)
+    rates = rates_at(ClosureEquations(posed), posed.angles)
+    if rates.shape[1] == freedoms:
+        return angles, rates
+    located, finite = finite_rates(configuration.linkage, configuration.closure, angles)
+    if finite is not None and finite.shape[1] == freedoms:
+        return located, finite
+    first = numbered(rates.shape[1], "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
+    known = "an unknown number" if freedoms is None else str(freedoms)
+    raise NumericalError(
+        f"no regular configuration was found: {first} beside {known} of finite motion, "
+        f"at fold angles up to {degrees(float(np.abs(angles).max())):.3g}°"
+    )
 
 
 Cost = tuple[float, ...]

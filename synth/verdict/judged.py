@@ -111,22 +111,8 @@ def _of_one_motion(configuration: Configuration, generic: int | None) -> Verdict
     rates = begun.rates
     end = linkage.angles if rates is None else walked(linkage.angles, closure, rates)[0]
     far = float(np.abs(end - linkage.angles).max())
-    if (
-        rates is None or far <= DOUBLE.moved
-    ):  # no motion was seen: rigid if that is proved and coordinates are exact
-        settled = begun.rigid and configuration.exact
-        findings = MotionFindings(
-            configuration,
-            (),
-            None,
-            0 if settled else None,
-            "proved" if settled else "not known",
-            begun.rigid,
-            generic,
-            joints if settled else (),
-            written=AsWritten(0, "proved") if begun.rigid else None,
-        )
-        return _worded(findings, "motion", exhaustive=settled)
+    if rates is None or far <= DOUBLE.moved:
+        return _of_no_motion(configuration, generic, rigid=begun.rigid)
     moving = np.flatnonzero((np.abs(rates) > DOUBLE.zero_rate) | (np.abs(end - linkage.angles) > DOUBLE.immobile))
     basis = free_rates(closure, end, moving)
     freedoms = None if basis is None else basis.shape[1]
@@ -140,6 +126,23 @@ def _of_one_motion(configuration: Configuration, generic: int | None) -> Verdict
         configuration, (branch,), branch, freedoms, "numerical", False, generic, immobile, marked
     )
     return _worded(findings, "motion")
+
+
+def _of_no_motion(configuration: Configuration, generic: int | None, *, rigid: bool) -> Verdict:
+    """Return the verdict where no motion was seen: rigid, if that is proved and coordinates are exact.
+
+    No mechanism nearby is looked for in so large a sheet, so that one remains possible where the digits alone say
+    that the coordinates are exact.
+    """
+    settled = rigid and configuration.exact
+    by_digits = isinstance(configuration, SheetConfiguration) and configuration.precision.evidence == BY_DIGITS
+    certainty: Certainty = ("numerical" if by_digits else "proved") if settled else "not known"
+    freedoms, immobile = (0, configuration.joints) if settled else (None, ())
+    written = AsWritten(0, "proved") if rigid else None
+    findings = MotionFindings(
+        configuration, (), None, freedoms, certainty, rigid, generic, immobile, written=written
+    )
+    return _worded(findings, "motion", exhaustive=settled)
 
 
 def _as_marked(marks: Floats, rates: Floats) -> Marked | None:

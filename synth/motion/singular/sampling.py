@@ -32,6 +32,7 @@ from synth.motion.walk.step import Allowance
 
 __all__ = [
     "TracedBranch",
+    "finite_rates",
     "followed",
     "freedoms_at",
     "general_rates",
@@ -162,19 +163,26 @@ def in_half_tangents(closure: ClosureEquations, space: RateSpace, rates: Floats)
 
 
 def freedoms_at(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats) -> int | None:
-    """Return the freedoms of motions through a general closed pose, to second order; None if that does not tell.
+    """Return the freedoms of motions through a general closed pose, to second order; None where it cannot tell."""
+    rates = finite_rates(linkage, closure, angles)[1]
+    return None if rates is None else int(rates.shape[1])
+
+
+def finite_rates(linkage: PosedLinkage, closure: ClosureEquations, angles: Floats) -> tuple[Floats, Floats | None]:
+    """Return the pose that is located at a general closed pose, and orthonormal rates of motions, float[J, M].
 
     Rates that close to first order may be more than a linkage can use at every pose of a branch: a sheet that is
     folded along one straight line, for instance, has creases that lie in one plane. There Newton's method ends a
-    little beside the branch, and the configuration on it is located first.
+    little beside the branch, and the configuration on it is located first. Of the rates there, those that close
+    to second order are returned; None if they are no linear space, or not known to be one.
     """
     angles = located(closure, angles)
     tangent = rates_at(closure, angles)
     quadrics = all_quadrics(moved(linkage, angles), tangent)
     spaces = largest_only(list(islice(spaces_within(tangent, quadrics), _SPACES)))
     if len(spaces) != 1 or spaces[0].left:
-        return None if spaces else 0
-    return int(spaces[0].basis.shape[1])
+        return angles, None if spaces else tangent[:, :0]
+    return angles, spaces[0].basis
 
 
 def rates_towards(space: RateSpace, wanted: Floats) -> Floats:

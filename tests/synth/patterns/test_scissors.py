@@ -8,6 +8,8 @@ import pytest
 
 from graphs.errors import InvariantError
 from graphs.tolerances import DOUBLE
+from synth.advice import advise
+from synth.compliance import states
 from synth.motion.singular import freedoms_at
 from synth.motion.singular.second_order import rates_at
 from synth.moving.made import configuration_of
@@ -90,3 +92,14 @@ def test_the_cube_has_one_freedom_at_nine_configurations(pin):
 @pytest.mark.parametrize("corners", [OCTAHEDRON, TETRAHEDRON, prism(3), prism(5)])
 def test_other_polyhedra_have_one_freedom(corners, opening):
     assert freedoms(scissor_polyhedron(corners, opening)) == 1
+
+
+@pytest.mark.parametrize("pin", [1.2, 1.6])
+def test_advice_and_states_of_the_cube_follow_its_one_freedom(pin):
+    cube = scissor_polyhedron(CUBE, acos(pin / sqrt(3.0)))
+    answer = advise(cube, 0)
+    assert answer.freedoms == 1
+    assert all(len(lock.joints) == 1 for lock in answer.locks)
+    assert answer.locks[0].joints[0].startswith("pin")
+    locked = states(cube, answer.locks[0].joints)
+    assert [state.freedoms for state in locked.sets] == [0, 1]
