@@ -56,7 +56,7 @@ def test_an_answer_prints_as_the_command_does(data):
     answer = synth.mobility(synth.read(file))
     printed = [line.rstrip() for line in run("mobility", file).stdout.rstrip().splitlines()]
     assert [str(file), *str(answer).splitlines()] == printed
-    assert repr(answer) == "<JudgedMobility: A generic realisation has 1 degree of freedom (exact rank).>"
+    assert repr(answer) == "<JudgedMobility: 1 degree of freedom, proved>"
     html = answer._repr_html_()
     assert "<table>" in html
     assert "mobility M = 1" in html

@@ -25,7 +25,6 @@ from graphs.tolerances import DOUBLE, leading
 from graphs.types import Floats, JointId, LinkId
 from synth.motion.branches import MOST_JOINTS, branches_of, search_for
 from synth.motion.closure import ClosureEquations, corrected, exactly_held
-from synth.motion.driving import check_closed
 from synth.motion.linkage import PosedLinkage, joints_outwards, link_motions
 from synth.motion.path import driven_path
 
@@ -97,7 +96,7 @@ class ElasticLinkage:
         joints = tuple(linkage.graph.joints)
         springs.check_joints(joints)
         self.linkage, self.closure = linkage, ClosureEquations(linkage)
-        check_closed(self.closure, linkage)
+        self.closure.check_closed(linkage.angles)
         self.stiffness = np.array([springs.stiffness.get(joint, 0.0) for joint in joints])
         zero = zip(joints, linkage.angles.tolist(), strict=True)
         self.rest = np.array([springs.rest.get(joint, angle) for joint, angle in zero])

@@ -1,12 +1,10 @@
 """Motions in which creases that look alike fold alike: those that keep a symmetry of a flat pattern.
 
 Motions of the plane that take the whole pattern to itself make a group; its orbits, and those of its subgroups,
-are classes of creases. A piece of a tessellation has few such motions, but more that agree wherever the pattern
-and its image overlap; these join the creases that are alike in the whole tessellation.
-
-With several freedoms the motions at an angle are many, and the least rates that move one crease lead off every
-symmetric one: by rounding, if by nothing else. So a pattern is folded to an angle first along the motions that
-keep a symmetry, which have few freedoms or one. Theory: docs/theory/folding.md.
+are classes of creases. A piece of a tessellation has more that agree wherever the pattern and its image overlap.
+With several freedoms the least rates that move one crease lead off every symmetric motion: so a pattern is folded
+to an angle first along the motions that keep a symmetry, which have few freedoms or one. Theory:
+docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -49,11 +47,9 @@ _LARGEST_GROUP = 24
 
 @dataclass(frozen=True, slots=True)
 class _Plane:
-    """A flat pattern seen in its plane, in units of the extent.
+    """A flat pattern in its plane, in extents: middles and directions of creases, float[J, 2], and its border.
 
-    Middles and directions are those of creases, float[J, 2], sides the ends of the sides of the border, float[n,
-    2, 2]. Middles and directions of creases closer than `same` are one: both arms that a motion takes to each
-    other may err.
+    Middles and directions closer than `same` are one: both arms that a motion takes to each other may err.
     """
 
     middles: Floats
@@ -63,10 +59,7 @@ class _Plane:
     same: float
 
     def inside(self, places: Floats) -> Flags:
-        """Tell which places float[n, 2] are within the border.
-
-        A ray from there crosses it an odd number of times. Places on the border are not within.
-        """
+        """Tell which places float[n, 2] are within the border: a ray crosses it an odd number of times."""
         (x1, y1), (x2, y2) = self.sides[:, 0].T, self.sides[:, 1].T
         x, y = places[:, :1], places[:, 1:]
         spans = (y1 > y) != (y2 > y)
@@ -94,9 +87,8 @@ def alike_classes(
     """Return classes of creases of a flat sheet that look alike, int[J] each, those of the largest symmetry first.
 
     First those that are alike in the tessellation that the pattern is a piece of, then the orbits of all motions
-    that take the pattern to itself, then those of their subgroups. There are none where no vertex is surrounded by
-    creases, and none that leave all creases by themselves. A motion keeps marks, float[J]: 1 for valleys, -1 for
-    mountains, 0 without a mark.
+    that take the pattern to itself, then those of their subgroups; none that leave all creases by themselves. A
+    motion keeps marks, float[J]: 1 for valleys, -1 for mountains, 0 without a mark.
     """
     plane, count = _plane(sheet, linkage, marks, tolerances), len(marks)
     maps = list(_maps(plane, _vertices(plane, linkage)))
@@ -127,21 +119,20 @@ def _plane(sheet: Sheet, linkage: PosedLinkage, marks: Floats, tolerances: Toler
 
 def _vertices(plane: _Plane, linkage: PosedLinkage) -> list[_Vertex]:
     """Return the vertices about which loops close: where the lines of their creases meet."""
-    found = []
+    vertices = []
     for loop in linkage.loops:
         if loop.centre is not Centre.FINITE:
             continue
         joints = np.array(loop.joints, dtype=np.int64)
         place = lines_meet(plane.middles[joints], plane.directions[joints]).point
-        found.append(_Vertex(place, joints, unit(plane.middles[joints] - place)))
-    return found
+        vertices.append(_Vertex(place, joints, unit(plane.middles[joints] - place)))
+    return vertices
 
 
 def _maps(plane: _Plane, vertices: list[_Vertex]) -> Iterator[Ints]:
     """Yield the motions of the plane that take a vertex to a vertex and agree wherever pattern and image overlap.
 
-    Each as the crease that each crease is taken to, -1 for none: int[J]. Of the vertices with as many creases one
-    is taken to all.
+    Each as the crease that each crease is taken to, -1 for none: int[J].
     """
     tree = cKDTree(plane.middles) if len(plane.middles) else None
     first: dict[int, _Vertex] = {}
@@ -183,11 +174,10 @@ def _joined(maps: list[Ints], count: int) -> Ints:
 
 
 class AlikeClosure(ClosureEquations):
-    """Closure equations of a linkage, and an equation for each joint whose angle is that of another of its class.
+    """Closure equations of a linkage, and one for each joint whose angle is that of another of its class.
 
-    Any motion of these is a motion of the linkage, whatever the classes, int[J], are; its rank and its freedoms
-    are those of the motions that keep the angles of a class equal. Rounding cannot lead off them, since an
-    inequality is an error like a loop that does not close.
+    Any motion of these is a motion of the linkage; rounding cannot lead off the motions that keep the angles of a
+    class equal, since an inequality is an error like a loop that does not close.
     """
 
     def __init__(self, linkage: PosedLinkage, classes: Ints) -> None:
@@ -218,11 +208,7 @@ _STEPS = 1000
 
 @dataclass(frozen=True, slots=True)
 class _Start:
-    """A motion at its beginning.
-
-    The equations are those of all motions, or of those that keep classes of joints alike; the largest of the
-    rates, float[J], is 1 or -1.
-    """
+    """Equations of all motions, or of those that keep classes of joints alike, and rates with which one begins."""
 
     pattern: SheetConfiguration
     closure: ClosureEquations
@@ -231,41 +217,28 @@ class _Start:
     branch: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class FoldingReach:
-    """A folding, and how far it came.
-
-    The angle is that of the driven crease at its end, radians, without sign; `alike` says whether creases that
-    look alike fold alike on it.
-    """
-
-    folding: Motion
-    angle: float
-    alike: bool
-
-
-def fold_to(sheet: Sheet, angle: float) -> FoldingReach:
+def fold_to(sheet: Sheet, angle: float) -> Motion:
     """Fold a flat pattern as assigned until the crease that moves most has an angle, radians, above 0.
 
     Tried are, until one leads there: the motion on which creases that look alike fold alike; those that keep less
-    of the symmetry; the branch that agrees best with the marks; others that agree with them. On each of these the
-    motion goes straight on first, then by the least rates that move the driven crease; where that turns back, the
-    next one is driven. Raises `UnsolvableError` if nothing folds, or all motions that were tried end before; the
-    farthest is named.
+    of the symmetry; the branch that agrees best with the marks; others that agree with them. Each goes straight on
+    first, then by the least rates that move the driven crease; where that turns back, the next one is driven.
+    Raises `UnsolvableError` if nothing folds, or all motions that were tried end before; the farthest is named.
     """
-    best = None
+    farthest, stopped = -1.0, ""
     for start in _starts(sheet):
         for driver in _drivers(start):
             for straight in (True, False):
-                reached = _followed(start, driver, angle, straight=straight)
-                if not reached.folding.path.stopped:
-                    return reached
-                if best is None or reached.angle > best.angle + DOUBLE.same_configuration:
-                    best = reached
-    if best is None:
+                motion = _followed(start, driver, angle, straight=straight)
+                if not motion.path.stopped:
+                    return motion
+                reached = float(abs(motion.path.angles[-1, driver]))
+                if reached > farthest + DOUBLE.same_configuration:
+                    farthest, stopped = reached, motion.path.stopped
+    if not stopped:
         raise UnsolvableError("found no motion that folds the pattern with its assignment")
-    limit = f"the pattern folds to {degrees(best.angle):.6g}°; expected {degrees(angle):.6g}°"
-    raise UnsolvableError(f"{limit}: {best.folding.path.stopped}")
+    limit = f"the pattern folds to {degrees(farthest):.6g}°; expected {degrees(angle):.6g}°"
+    raise UnsolvableError(f"{limit}: {stopped}")
 
 
 def _starts(sheet: Sheet) -> Iterator[_Start]:
@@ -320,10 +293,9 @@ def _drivers(start: _Start) -> list[int]:
     return drivers
 
 
-def _followed(start: _Start, driver: int, angle: float, *, straight: bool) -> FoldingReach:
+def _followed(start: _Start, driver: int, angle: float, *, straight: bool) -> Motion:
     """Drive a joint to an angle on a motion."""
-    pattern = start.pattern
-    joints = tuple(pattern.linkage.graph.joints)
+    pattern, joints = start.pattern, start.pattern.joints
     goal = float(np.sign(start.rates[driver])) * angle
     limited = np.ones(len(joints), dtype=bool)
     still, allowance = tuple[int, ...](), Allowance(_STEPS)
@@ -331,6 +303,4 @@ def _followed(start: _Start, driver: int, angle: float, *, straight: bool) -> Fo
         still = pattern.branches.branches[start.branch].still
     options = PathOptions(start.rates, limited, straight, names=joints, allowance=allowance, locked=still)
     path = driven_path(start.closure, pattern.linkage.angles, [driver], [[goal]], options=options)
-    folding = motion_along(pattern, DrivenMotion(start.branch, [driver], {joints[driver]: goal}, path))
-    alike = int(start.classes.max(initial=0)) + 1 < len(joints)
-    return FoldingReach(folding, float(abs(folding.path.angles[-1, driver])), alike)
+    return motion_along(pattern, DrivenMotion(start.branch, [driver], {joints[driver]: goal}, path))

@@ -1,15 +1,14 @@
 """Panels that pass through each other: found pose by pose, and how far a path leads before the first time.
 
 Two plane convex pieces cross if each has corners on both sides of the other's plane and the stretches that they
-cut out of the line of both planes overlap. For panels that share a vertex this is the crossing of the arcs that
-they cut out of a sphere about it; panels that share a crease, lie on each other or touch do not cross. Pairs are
-sorted out by bounding boxes first. Theory: docs/theory/folding.md.
+cut out of the line of both planes overlap. Panels that share a crease, lie on each other or touch do not cross.
+Pairs are sorted out by bounding boxes first. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from math import ceil, radians
 
 import numpy as np
@@ -19,7 +18,8 @@ from graphs.mechanism.precision import extent_of
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Flags, Floats, Ints
 from synth.motion.closure import ClosureEquations, corrected
-from synth.motion.walk.step import Step
+from synth.motion.path import Path
+from synth.motion.walk.step import PathEvent, Step
 from synth.motion.walk.walking import Event, Walk
 
 __all__ = ["Collision", "Panels"]
@@ -94,11 +94,7 @@ class Panels:
         return np.asarray(np.minimum(high, other_high) - np.maximum(low, other_low) > self._touching)
 
     def _stretch(self, heights: Floats, along: Floats) -> tuple[Floats, Floats]:
-        """Return the ends, along the line of both planes, of where pieces meet the other's plane.
-
-        Pieces that lie on one side of it, or only touch it, have an empty stretch: from infinity to -infinity.
-        Heights over the other plane and places along the line are those of the corners, float[pairs, k].
-        """
+        """Return the ends, along both planes' line, of where pieces meet the other's plane; inf, -inf if none."""
         after, along_after = np.roll(heights, -1, axis=1), np.roll(along, -1, axis=1)
         passes = heights * after < 0.0
         part = heights / np.where(passes, heights - after, 1.0)
@@ -110,27 +106,11 @@ class Panels:
         return np.where(both, low, np.inf), np.where(both, high, -np.inf)
 
 
-@dataclass(frozen=True, slots=True)
-class PanelCrossing:
-    """Where panels pass through each other in the frames of a path.
-
-    `frame` is the last one before they do, or the first of all; the angles, float[J], are those at which the two
-    panels begin to, radians, to a thousandth of what they change between two frames; `frames` are the numbers of
-    those in which any do.
-    """
-
-    frame: int
-    angles: Floats
-    panels: tuple[int, ...]
-    frames: tuple[int, ...]
-
-
 class Collision(Event):
     """Panels begin to pass through each other: a walk ends before, at its last frame.
 
-    Configurations are looked at so that no joint turns by more than three degrees between two of them: panels that
-    pass through each other altogether in less are not seen. `places` gives the places of the vertices, float[F,
-    vertices, 3], at joint angles float[F, J].
+    No joint turns by more than three degrees between configurations that are looked at: what passes through in
+    less is not seen. `places` gives the vertices, float[F, vertices, 3], at joint angles float[F, J].
     """
 
     def __init__(self, panels: Panels, places: Callable[[Floats], Floats]) -> None:
@@ -164,21 +144,25 @@ class Collision(Event):
         if self._met is not None:
             walk.ended = self._record(walk, self._met)
 
-    def among(self, closure: ClosureEquations, angles: Floats, places: Floats) -> PanelCrossing | None:
-        """Return where panels cross in frames float[F, J] of a path with vertices float[F, V, 3]; else None."""
+    def among(
+        self, closure: ClosureEquations, path: Path, places: Floats, driver: int
+    ) -> tuple[Path, tuple[int, ...]]:
+        """Return a path with the event that panels begin to cross, and the frames in which they do.
+
+        Vertices in its frames are float[F, V, 3]. It is known to a thousandth of the way between two.
+        """
         crossing = [self._panels.crossing(vertices) for vertices in places]
         frames = [frame for frame, pair in enumerate(crossing) if pair is not None]
         if not frames:
-            return None
-        first = frames[0]
-        panels, at = self._begun(closure, angles[max(first - 1, 0)], angles[first])
-        return PanelCrossing(max(first - 1, 0), at, panels, tuple(frames))
+            return path, ()
+        before = max(frames[0] - 1, 0)
+        panels, angles = self._begun(closure, path.angles[before], path.angles[frames[0]])
+        event = PathEvent("collision", before, driver, (driver,), angles, panels=panels)
+        events = sorted((*path.events, event), key=lambda event: event.frame)
+        return replace(path, events=tuple(events)), tuple(frames)
 
     def _begun(self, closure: ClosureEquations, free: Floats, crossed: Floats) -> tuple[tuple[int, ...], Floats]:
-        """Return which panels first pass through each other between two frames, and joint angles there.
-
-        By halves, on closed configurations near the straight line between the ends, as long as there are any.
-        """
+        """Return which panels first cross between two frames, and joint angles there: by halves."""
         panels: tuple[int, ...] = self._crossing(crossed) or ()
         for _ in range(_REFINED):
             middle = corrected(closure, (free + crossed) / 2.0)

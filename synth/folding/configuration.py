@@ -25,8 +25,8 @@ from synth.folding.collisions import Collision, Panels
 from synth.folding.derivatives import vertex_places
 from synth.folding.mending.nearest import (
     ALL_BRANCHES,
-    Mended,
-    Nearby,
+    MendedPattern,
+    NearbyPatterns,
     WrittenPattern,
     beyond_precision,
     covers,
@@ -35,19 +35,14 @@ from synth.folding.mending.nearest import (
 )
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT, Configuration, PointPlaces, doubt_of, doubt_of_rigid
-from synth.motion.driving import check_closed
 from synth.motion.linkage import PosedLinkage, linkage_of_sheet
 from synth.motion.path import Path
-from synth.motion.walk.step import PathEvent
 
 __all__ = ["SheetConfiguration", "configuration_of_sheet", "opened"]
 
 
 def opened(sheet: Sheet, mechanism: SheetMechanism) -> Sheet:
-    """Return a sheet in which panels share a vertex only if hinges round it join them, or they are one.
-
-    Places in the list of edges stay as they are, and so do ids of joints; further edges come last.
-    """
+    """Return a sheet in which panels share a vertex only if hinges join them there; new edges come last."""
     beside: dict[frozenset[int], list[int]] = {}
     for face, around in enumerate(sheet.faces):
         for side in sides_of_face(around):
@@ -109,16 +104,16 @@ class SheetConfiguration(Configuration):
     `drawn` is the sheet as it was read, `dual` its mechanism, in its plane if it is meant to lie in one. `sheet`
     has separate vertices where cuts part it, and vertices where they were moved to; `mechanism` is that of this
     sheet, `repairs` what was done to the coordinates. `near` has the mechanisms within the precision, or the
-    nearest one beyond, `written` is the configuration as the coordinates are written, where vertices were moved,
-    and `alternatives` are other mechanisms within the precision, which have branches that this one has not.
+    nearest one beyond, `written` is the configuration as written, where vertices were moved, and `alternatives`
+    are other mechanisms within the precision, which have branches that this one has not.
     """
 
     drawn: Sheet = field(kw_only=True)
     dual: SheetMechanism = field(kw_only=True)
     sheet: Sheet = field(kw_only=True)
     mechanism: SheetMechanism = field(kw_only=True)
-    repairs: tuple[Mended, ...] = field(kw_only=True, default=())
-    near: Nearby = field(kw_only=True, default=Nearby())
+    repairs: tuple[MendedPattern, ...] = field(kw_only=True, default=())
+    near: NearbyPatterns = field(kw_only=True, default=NearbyPatterns())
     written: SheetConfiguration | None = field(kw_only=True, default=None)
     alternatives: tuple[SheetConfiguration, ...] = field(kw_only=True, default=())
 
@@ -163,7 +158,7 @@ class SheetConfiguration(Configuration):
         return self.near.unsettled
 
     @cached_property
-    def nearest(self) -> Mended | None:
+    def nearest(self) -> MendedPattern | None:
         """The nearest mechanism, beyond the precision, to one that does not move; None if none was found."""
         if self.near.within or self.near.beyond or self.near.unsettled:
             return self.near.beyond
@@ -212,12 +207,7 @@ class SheetConfiguration(Configuration):
 
     def passed(self, path: Path, points: Floats, driver: int) -> tuple[Path, tuple[int, ...]]:
         """Return a path with the event that panels pass through each other, and the frames in which they do."""
-        crossed = self.collision().among(self.closure, path.angles, points)
-        if crossed is None:
-            return path, ()
-        event = PathEvent("collision", crossed.frame, driver, (driver,), crossed.angles, panels=crossed.panels)
-        events = sorted((*path.events, event), key=lambda event: event.frame)
-        return replace(path, events=tuple(events)), crossed.frames
+        return self.collision().among(self.closure, path, points, driver)
 
     def collision(self) -> Collision:
         """Return what ends a walk before panels pass through each other."""
@@ -250,8 +240,7 @@ def configuration_of_sheet(
 ) -> SheetConfiguration:
     """Return a crease pattern at the configuration of its coordinates, opened along cuts and mended.
 
-    The options are those of `synth.moving.made.configuration_of`. Raises `UnsolvableError` if the sheet has no
-    coordinates, or panels do not fit, `InvariantError` if a crease has no length, or there is no such frame.
+    Options and errors are those of `synth.moving.made.configuration_of`.
     """
     sheet = stated(sheet_in_frame(sheet, frame), precision)
     if sheet.coordinates is None:
@@ -266,7 +255,7 @@ def configuration_of_sheet(
         apart = keeping(apart, read)
     mechanism = dual if apart is whole else mechanism_of_sheet(apart, hinge_flat=hinge_flat)
     linkage = linkage_of_sheet(apart, mechanism)
-    check_closed(ClosureEquations(linkage), linkage)
+    ClosureEquations(linkage).check_closed(linkage.angles)
     at = SheetConfiguration(
         linkage, read, read.size <= EXACT, sheet, drawn=sheet, dual=dual, sheet=apart, mechanism=mechanism
     )
@@ -284,7 +273,7 @@ def _mended(written: SheetConfiguration) -> SheetConfiguration:
     return replace(others[0], near=near, written=written, alternatives=(*others[1:], *kept))
 
 
-def _on(written: SheetConfiguration, mended: Mended) -> SheetConfiguration:
+def _on(written: SheetConfiguration, mended: MendedPattern) -> SheetConfiguration:
     """Return a configuration with its vertices moved."""
     linkage = linkage_of_sheet(mended.sheet, written.mechanism)
     repairs = (*written.repairs, mended)

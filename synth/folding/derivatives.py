@@ -5,7 +5,7 @@ Creases that are driven are held at their angles. Theory: docs/theory/folding.md
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,11 +29,9 @@ __all__ = ["SheetDerivatives", "axis_motions", "dependence_on_vertices", "larges
 def vertex_places(
     sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage, angles: Floats
 ) -> tuple[Floats, Floats]:
-    """Return where the vertices of a crease pattern are, and how far panels disagree on that.
+    """Return where vertices are at fold angles float[F, J], and how far panels disagree on that.
 
-    At fold angles float[F, J], radians: places float[F, vertices, 3] in the unit of the coordinates, where
-    vertices of no face stay, and the largest distance between two places of one vertex by different panels,
-    float[F], in units of the extent.
+    Places are float[F, vertices, 3] in the unit of the coordinates, distances float[F] in units of the extent.
     """
     assert sheet.coordinates is not None
     local = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
@@ -59,10 +57,7 @@ def largest_panel(panels: Sequence[Sequence[Any]]) -> int:
 
 
 def axis_motions(ends: Ints, corners: Floats) -> scipy.sparse.csr_matrix:
-    """Return how axes through two vertices each (ends: int[J, 2]) rotate and translate with all vertices.
-
-    Sparse, float[6 J, 3 V]: rotation about the origin and translation of each axis.
-    """
+    """Return how axes through two vertices each (ends: int[J, 2]) rotate and translate: sparse float[6 J, 3 V]."""
     near, far = corners[ends[:, 0]], corners[ends[:, 1]]
     along = far - near
     turn = crossing(along / (along**2).sum(axis=1, keepdims=True))  # w = along x (far - near) / length^2
@@ -82,12 +77,7 @@ def _in_blocks(blocks: Floats, columns: Ints, width: int) -> scipy.sparse.csr_ma
 
 
 def dependence_on_vertices(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> AxisDependence:
-    """Return how the linkage of a sheet depends on the coordinates of its vertices.
-
-    Axes go with the ends of their creases; the fold angles that the coordinates have, with the normals of the
-    panels beside. Those of a flat sheet stay zero while it is flat. It is by the coordinates in turn, two or three
-    for each vertex as the sheet has them.
-    """
+    """Return how the linkage of a sheet depends on the coordinates of its vertices, two or three of each."""
     if sheet.coordinates is None:
         raise UnsolvableError("derivatives by vertices need coordinates, and the sheet has none")
     corners = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
@@ -129,13 +119,7 @@ def _fold_angles(creases: Creases, corners: Floats) -> scipy.sparse.csr_matrix:
 
 @dataclass(frozen=True, slots=True)
 class SheetChange:
-    """How a folded sheet follows a change of its vertices.
-
-    Changes of the fold angles, radians, are zero for driven creases; those of places, float[V, 3], are in the unit
-    of the coordinates. `residual`, float[rows], is the inconsistent part of the change, as in
-    `synth.motion.derivatives.ConfigurationChange`; `rank_residual` says by how much redundant equations cease to
-    be redundant, as `Sensitivity.rank_residual` does.
-    """
+    """How a folded sheet follows a change of its vertices: a `ConfigurationChange`, and places float[V, 3]."""
 
     angles: Floats
     places: Floats
@@ -201,22 +185,12 @@ class SheetDerivatives:
         self.placed: Ints = np.flatnonzero(self.link_of >= 0)
 
     def at(self, angles: Floats, driven: Sequence[int] = ()) -> SheetSensitivity:
-        """Return the derivatives at a closed configuration float[J], driven creases (places of joints) held.
-
-        Raises `UnsolvableError` if loops are not closed, or the driven creases cannot be held.
-        """
+        """Return the derivatives at a closed configuration float[J], driven creases (places of joints) held."""
         return SheetSensitivity(self, Sensitivity(self.closure, angles, driven))
-
-    def along(self, frames: Floats, driven: Sequence[int] = ()) -> Iterator[SheetSensitivity]:
-        """Yield the derivatives at each configuration of a path, float[F, J]; driven creases as in that frame."""
-        return (self.at(angles, driven) for angles in frames)
 
 
 class SheetSensitivity:
-    """The derivatives of a sheet by the coordinates of its vertices at one configuration.
-
-    They rest on the sensitivity by the axes of its creases; `poses` are those of the panels.
-    """
+    """The derivatives of a sheet by the coordinates of its vertices at one configuration."""
 
     def __init__(self, shape: SheetDerivatives, sensitivity: Sensitivity) -> None:
         self.shape = shape
@@ -229,10 +203,7 @@ class SheetSensitivity:
         return self.sensitivity.degenerate
 
     def forward(self, change: Floats) -> SheetChange:
-        """Return how the folded sheet follows a change of the coordinates, float[V, 2 or 3] as the sheet has them.
-
-        Raises `UnsolvableError` if the configuration is degenerate.
-        """
+        """Return how the folded sheet follows a change of its coordinates, float[V, 2 or 3]."""
         shape = self.shape
         axes = shape.dependence.forward(np.ravel(change))
         follows = self.sensitivity.forward(axes)
@@ -247,12 +218,7 @@ class SheetSensitivity:
         return SheetChange(follows.angles, places, follows.residual, rank_residual)
 
     def adjoint(self, by_angles: Floats | None = None, by_places: Floats | None = None) -> Floats:
-        """Return the gradient by all coordinates of a number that depends on fold angles and places of vertices.
-
-        Its gradients are given by fold angles, float[J], per radian, and by places, float[V, 3], in the unit of
-        the coordinates; the answer is float[V, 2 or 3]. Raises `UnsolvableError` if the configuration is
-        degenerate.
-        """
+        """Return the gradient by coordinates from those by fold angles float[J] and places float[V, 3]."""
         shape = self.shape
         angles = np.zeros(len(shape.linkage.angles)) if by_angles is None else by_angles
         if by_places is None:

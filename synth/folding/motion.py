@@ -59,10 +59,6 @@ def fold(
     report : callable, optional
         Called with the number of frames after each.
 
-    Returns
-    -------
-    Motion
-
     Raises
     ------
     UnsolvableError
@@ -87,23 +83,19 @@ def fold(
     return motion_of(at, MotionOptions(drive or {}, along or {}, branch, frames, report), collisions=collisions)
 
 
-def assign_branch(sheet: Sheet | SheetConfiguration, branch: int | str) -> SheetEdit:
+def assign_branch(mechanism: Sheet | SheetConfiguration, branch: int | str) -> SheetEdit:
     """Give a flat crease pattern the mountains and valleys with which a branch begins.
 
     Of a branch with several freedoms they are those nearest to the assignment it has, up to the sign of all.
+    Creases that do not move on the branch become flat (F): panels stay one there, so that the pattern folds on
+    this branch as assigned. Fold angles keep their size and take the sign of their crease.
 
     Parameters
     ----------
-    sheet : Sheet or SheetConfiguration
+    mechanism : Sheet or SheetConfiguration
         With coordinates, flat.
     branch : int or str
         Its number as `synth fold --branches` and the answers of `mobility` have it, or its signs.
-
-    Returns
-    -------
-    SheetEdit
-        Creases that do not move on the branch are flat (F): panels stay one there, so that the pattern folds on
-        this branch as assigned. Fold angles keep their size and take the sign of their crease.
 
     Raises
     ------
@@ -122,8 +114,8 @@ def assign_branch(sheet: Sheet | SheetConfiguration, branch: int | str) -> Sheet
     >>> [assign_branch(sheet, number).sheet.assignments[:4] for number in (0, 1)]
     ['VMMM', 'MFMF']
     """
-    check_argument("assign_branch", sheet, Sheet | SheetConfiguration)
-    at = sheet if isinstance(sheet, SheetConfiguration) else configuration_of_sheet(sheet)
+    check_argument("assign_branch", mechanism, Sheet | SheetConfiguration)
+    at = mechanism if isinstance(mechanism, SheetConfiguration) else configuration_of_sheet(mechanism)
     if not at.flat:
         raise UnsolvableError("an assignment says how a flat sheet begins to fold, and this sheet is folded")
     number, _ = beginning(at, BranchChoice(branch))

@@ -13,7 +13,6 @@ from synth.motion.derivatives import (
     Sensitivity as Sensitivity,
     dependence_on_axes as dependence_on_axes,
     derivatives_by_parameters as derivatives_by_parameters,
-    sensitivities as sensitivities,
     spatial as spatial,
 )
 from synth.motion.linkage import (

@@ -1,10 +1,9 @@
 """Motion branches of a linkage from a configuration.
 
 At a regular configuration there is one. At a singular one, such as a flat sheet, the rates that agree to second
-order fall into spaces (`synth.motion.singular.second_order`), and what equations are left on one may part it into
-two halves that only the configuration joins. Each is followed to a fold of ten degrees; its degrees of freedom are
-those there. Branches are listed up to the sign of all rates together; farther off, two of them may be one curve.
-Theory: docs/theory/folding.md.
+order fall into spaces (`synth.motion.singular.second_order`), and equations left on one may part it into halves.
+Each branch is followed to a fold of ten degrees; its degrees of freedom are those there. Branches are listed up to
+the sign of all rates together; farther off, two of them may be one curve. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -64,12 +63,11 @@ __all__ = [
 
 
 class FlatVertices:
-    """The loops of a linkage that are flat vertices of four creases.
+    """The loops of a linkage that are flat vertices of four creases, each with two modes.
 
-    In any mode of such a vertex one pair of opposite creases folds the same way and the other does not: three
-    mountains and a valley, or the other way round, or a single straight line. Which pair it is distinguishes the
-    two modes. Where opposite sectors make 180 degrees, tan(fold / 2) of the four are in proportion in each.
-    `linear` says whether every loop is one of these, and all creases are flat.
+    In either mode one pair of opposite creases folds the same way and the other does not. `linear` says that in
+    all loops opposite sectors make 180 degrees, and all creases are flat: tan(fold / 2) are in proportion in each
+    mode.
     """
 
     def __init__(self, linkage: PosedLinkage) -> None:
@@ -77,19 +75,16 @@ class FlatVertices:
         self._ways: list[Floats | None] = []
         flat = [np.abs(linkage.angles).max(initial=0.0) <= DOUBLE.parallel]
         for loop in linkage.loops:
-            outward = _outward(linkage, loop)
+            outward, folds = _outward(linkage, loop), None
+            if outward is not None:  # 1 for creases that fold one way at a positive angle, -1 for others
+                folds = np.sign((outward * linkage.directions[list(loop.joints)]).sum(axis=1)) * loop.signs
             # opposite sectors make 180 degrees
             flat.append(outward is not None and abs(sectors(outward)[::2].sum() - pi) <= DOUBLE.parallel)
-            self._ways.append(None if outward is None else _ways(linkage, loop, outward))
+            self._ways.append(folds)
         self.linear = bool(all(flat))
 
     def modes(self, rates: Floats) -> tuple[tuple[int, int] | None, ...]:
-        """Return in which mode each vertex begins to fold.
-
-        A mode is the places of the opposite creases that fold the same way. Rates are general ones of a branch,
-        the largest 1 or -1. None for a vertex that does not move, for loops that are no flat vertices, and for
-        those with other than four creases.
-        """
+        """Return the opposite creases (places) that fold alike at each vertex, by general rates; else None."""
         return tuple(_mode(loop, ways, rates) for loop, ways in zip(self._loops, self._ways, strict=True))
 
 
@@ -101,12 +96,6 @@ def _mode(loop: PosedLoop, ways: Floats | None, rates: Floats) -> tuple[int, int
     same = int(alike[1] > alike[0] + MARGIN * abs(float(alike[0])))
     first, second = sorted(loop.joints[same::2])
     return (first, second) if alike[same] > DOUBLE.zero_rate**2 else None
-
-
-def _ways(linkage: PosedLinkage, loop: PosedLoop, outward: Floats) -> Floats:
-    """Return 1 for creases that fold one way at a positive angle, -1 for others: float[4]."""
-    along = (outward * linkage.directions[list(loop.joints)]).sum(axis=1)
-    return np.asarray(np.sign(along) * loop.signs)
 
 
 def _outward(linkage: PosedLinkage, loop: PosedLoop) -> Floats | None:
@@ -192,8 +181,8 @@ class Branch:
         does not decide.
     certainty : {"proved", "numerical", "not known"}
         Proved: the configuration is regular, the branch is linear in tan(fold / 2), or all that second order adds
-        is one equation that is not degenerate. Numerical: followed with closed loops. Not known: rates agree to
-        second order, and no motion was found.
+        is one equation that is not degenerate. Numerical: followed with closed loops. Not known: no motion was
+        found.
     space : RateSpace
         The rates at which it can begin.
     rates : float[J]
@@ -201,8 +190,7 @@ class Branch:
     still : tuple of int
         Places of the joints that are immobile on it.
     modes : tuple of (int, int) or None
-        For each loop that is a flat vertex of four creases the places of the opposite ones that fold the same way;
-        None for other loops, and for vertices that are immobile.
+        For each loop that is a moving flat vertex of four creases the places of the opposite ones that fold alike.
     sample : float[J]
         Joint angles of a configuration on it, radians.
     error : float
@@ -214,11 +202,9 @@ class Branch:
 
     Examples
     --------
-    >>> from synth.moving.made import configuration_of
-    >>> from synth.patterns import generate
-    >>> branches = configuration_of(generate("miura", rows=2, columns=2).mechanism).branches.branches
-    >>> [(branch.freedoms, branch.certainty) for branch in branches]
-    [(1, 'proved'), (1, 'proved')]
+    >>> import synth
+    >>> synth.move(synth.generate("miura", rows=2, columns=2).mechanism).branches.branches
+    (<Branch: +---, freedoms 1, proved>, <Branch: +00+, freedoms 1, proved>)
     """
 
     freedoms: int | None
@@ -240,6 +226,9 @@ class Branch:
     def has_signs(self, signs: str) -> bool:
         """Tell whether it has these signs, or all of them turned."""
         return self.signs in (signs, signs.translate(str.maketrans("+-", "-+")))
+
+    def __repr__(self) -> str:
+        return f"<Branch: {self.signs}, freedoms {self.freedoms}, {self.certainty}>"
 
     def to_json(self, joints: Sequence[JointId]) -> dict[str, Any]:
         """Return plain data, joints by their ids: those of the linkage, in order."""
@@ -264,17 +253,17 @@ class Branches:
         Those on which most joints move first; of these, those with most rates; then by their signs in the order of
         the joints.
     exhaustive : bool
-        Whether there are no others: every choice of modes was tried, and rates that agree to second order are
-        all there are; the configuration is regular, and the one branch has as many freedoms as there are rates;
-        all that second order adds is one equation that is not degenerate; or nothing moves, and that is proved.
+        Whether there are no others: every choice of modes was tried, and rates that agree to second order are all
+        there are; the configuration is regular, and the one branch has as many freedoms as there are rates; all
+        that second order adds is one equation that is not degenerate; or nothing moves, and that is proved.
     regular : bool
         Whether the configuration is regular, with one branch.
     complete : bool
         Whether the search came to its end.
     method : {"regular pose", "all modes", "second order", "random starts"}
-        How they were found. All modes: of vertices that are linear in tan(fold / 2), every combination. Second
-        order: the rates that agree to it, all of them, each continued. Random starts: used for the rates where
-        several equations are left that are no products.
+        How they were found: by every combination of modes of vertices that are linear in tan(fold / 2); by all
+        rates that agree to second order, each continued; random starts where several equations are left on these
+        that are no products.
     rigidity : Rigidity or None
         Without branches: whether it is proved that nothing moves.
     order : tuple of int
@@ -315,10 +304,6 @@ def branches_of(
     search : Search, optional
         Where it ends.
 
-    Returns
-    -------
-    Branches
-
     Examples
     --------
     >>> from synth.moving.made import configuration_of
@@ -327,19 +312,21 @@ def branches_of(
     >>> len(branches.branches), branches.exhaustive
     (2, True)
     """
-    looking = _Looking(linkage, closure, search or Search())
-    spaces, order = looking.spaces(), looking.order
-    if not spaces and looking.complete:
-        rigidity = rigidity_of(linkage, closure, looking.search.zero)
+    branch_search = _BranchSearch(linkage, closure, search or Search())
+    spaces, order = branch_search.spaces(), branch_search.order
+    if not spaces and branch_search.complete:
+        rigidity = rigidity_of(linkage, closure, branch_search.search.zero)
         proved = rigidity.certainty == "proved"
-        return Branches((), proved, False, True, looking.method(spaces), rigidity, order)
-    regular = looking.is_regular(spaces)
-    cone = looking.is_cone()
-    branches = looking.branches(spaces, proved=cone or (regular and looking.full_row_rank()))
+        return Branches((), proved, False, True, branch_search.method(spaces), rigidity, order)
+    regular = branch_search.is_regular(spaces)
+    cone = branch_search.is_cone()
+    branches = branch_search.branches(spaces, proved=cone or (regular and branch_search.full_row_rank()))
     agrees = regular and branches[0].freedoms == spaces[0].basis.shape[1]
-    exhaustive = agrees or cone or (looking.vertices.linear and not any(space.left for space in spaces))
-    method: Method = "regular pose" if regular else looking.method(spaces)
-    return Branches(branches, exhaustive and looking.complete, regular, looking.complete, method, order=order)
+    exhaustive = agrees or cone or (branch_search.vertices.linear and not any(space.left for space in spaces))
+    method: Method = "regular pose" if regular else branch_search.method(spaces)
+    return Branches(
+        branches, exhaustive and branch_search.complete, regular, branch_search.complete, method, order=order
+    )
 
 
 def first_branch(
@@ -359,10 +346,6 @@ def first_branch(
     search : Search, optional
         Where it ends.
 
-    Returns
-    -------
-    Branch or None
-
     Examples
     --------
     A vertex of four creases, of which the first is to fold as a valley and the second as a mountain:
@@ -373,22 +356,18 @@ def first_branch(
     >>> first_branch(linkage, lambda rates: rates[0] * rates[1] < 0.0).signs
     '+---'
     """
-    looking = _Looking(linkage, None, search or Search())
-    for space, found in looking.parts(looking.spaces()):
-        rates = looking.ahead(found)
-        if admitted(looking.as_filed(rates)):
-            branch = looking.branch(space, rates, proved=False, late=False)
+    branch_search = _BranchSearch(linkage, None, search or Search())
+    for space, part_rates in branch_search.parts(branch_search.spaces()):
+        rates = branch_search.ahead(part_rates)
+        if admitted(branch_search.as_filed(rates)):
+            branch = branch_search.branch(space, rates, proved=False, late=False)
             if branch.certainty != "not known":
-                return looking.branch_as_filed(branch)
+                return branch_search.branch_as_filed(branch)
     return None
 
 
-class _Looking:
-    """A search for branches.
-
-    All arrays are in an order of the joints that does not depend on the file (`joint_order`), until branches are
-    returned.
-    """
+class _BranchSearch:
+    """A search for branches, in an order of the joints that does not depend on the file until its end."""
 
     def __init__(self, linkage: PosedLinkage, closure: ClosureEquations | None, search: Search) -> None:
         self._order = joint_order(linkage, search.towards)
@@ -434,20 +413,16 @@ class _Looking:
 
     def spaces(self) -> list[RateSpace]:
         """Return the spaces of rates that agree to second order, as far as the search goes."""
-        found: list[RateSpace] = []
+        spaces: list[RateSpace] = []
         for space in spaces_within(self._tangent, self._quadrics, self.search.zero, self._work):
-            if len(found) == self.search.most:
+            if len(spaces) == self.search.most:
                 self.complete = False
                 break
-            found.append(space)
+            spaces.append(space)
         self.complete = self.complete and not self._work.used_up
         if not self.complete:
-            found = [*self._towards(), *found]
-        return largest_only(found, self.search.zero)
-
-    def _late(self) -> bool:
-        """Tell whether there is no work left for a start of Newton's method."""
-        return not self._work.take(_START)
+            spaces = [*self._towards(), *spaces]
+        return largest_only(spaces, self.search.zero)
 
     def _towards(self) -> list[RateSpace]:
         """Return the space near to the rates that are wanted, if any are."""
@@ -465,11 +440,7 @@ class _Looking:
         return alone and spaces[0].basis.shape[1] == self._tangent.shape[1]
 
     def is_cone(self) -> bool:
-        """Tell whether one equation is all that second order adds, and its form is not degenerate.
-
-        Then the configurations near the pose are as its solutions are, by Morse's lemma. Joints in no loop turn
-        freely, whatever the equation says.
-        """
+        """Tell whether all that second order adds is one nondegenerate equation (Morse's lemma)."""
         free = len(self.linkage.angles) - len({joint for loop in self.linkage.loops for joint in loop.joints})
         if self._stresses != 1 or len(self._quadrics) != 1:
             return False
@@ -490,18 +461,19 @@ class _Looking:
 
     def parts(self, spaces: list[RateSpace]) -> list[tuple[RateSpace, Floats]]:
         """Return general rates of each part of all spaces, with the space, in the order of branches."""
-        found: list[tuple[RateSpace, Floats]] = []
+        parts: list[tuple[RateSpace, Floats]] = []
+        search, work = self.search, self._work
         for space in spaces:
-            here, whole = general_rates(space, self.search.most, self.search.towards, self._late)
+            here, whole = general_rates(space, search.most, search.towards, lambda: not work.take(_START))
             self.complete = self.complete and whole
-            found += [(space, rates) for rates in here]
-        return [found[place] for place in canonical_order([_rank_of(*part) for part in found])]
+            parts += [(space, rates) for rates in here]
+        return [parts[place] for place in canonical_order([_rank_of(*part) for part in parts])]
 
     def branches(self, spaces: list[RateSpace], *, proved: bool) -> tuple[Branch, ...]:
         """Return the branches of all spaces in the order of the file, those that were not followed last."""
-        found = [self.branch_as_filed(branch) for branch in self._branches(spaces, proved=proved)]
-        ranks = canonical_order([_rank_of(branch.space, branch.rates) for branch in found])
-        ranked = [found[place] for place in ranks]
+        branches = [self.branch_as_filed(branch) for branch in self._branches(spaces, proved=proved)]
+        ranks = canonical_order([_rank_of(branch.space, branch.rates) for branch in branches])
+        ranked = [branches[place] for place in ranks]
         return tuple(sorted(ranked, key=lambda branch: (not branch.begun, branch.certainty == "not known")))
 
     def _branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:
@@ -535,8 +507,8 @@ class _Looking:
         """Return the freedoms of the branch that begins at some rates; None where second order does not tell.
 
         If the equations of all self-stresses have independent slopes there, the configurations beside the pose in
-        that direction are a manifold, by the implicit function theorem: the closure equations are divided by the
-        square of the time.
+        that direction are a manifold: the implicit function theorem, on closure equations over the square of the
+        time.
         """
         if len(self._quadrics) != self._stresses:
             return None

@@ -1,13 +1,10 @@
 """Closure equations of a linkage, their derivatives, and Newton's method for the nearest joint angles that close.
 
 A loop closes if the product of its joint rotations, each about its axis where the linkage was read, is the
-identity (product of exponentials). About a finite centre that are three equations (a rotation), about an infinite
-one three (a motion in a plane), else six (a screw). The derivative by a joint angle is the axis of the joint where
-it is now.
-
-The equations may depend on each other (most linkages that move are overconstrained) and leave freedoms, so each
-step of Newton's method is the least one in the sense of least squares, by normal equations with a trace of
-regularisation. Rounding of these does no harm: the residual is always that of the loops themselves. Theory:
+identity (product of exponentials): three equations about a finite centre (a rotation) or an infinite one (a motion
+in a plane), else six (a screw). The derivative by a joint angle is the axis of the joint where it is now.
+Equations may depend on each other and leave freedoms, so each step of Newton's method is the least one in the
+sense of least squares, by regularised normal equations; the residual is always that of the loops. Theory:
 docs/theory/folding.md.
 """
 
@@ -23,7 +20,7 @@ import scipy.linalg
 import scipy.sparse
 from scipy.sparse.linalg import splu
 
-from graphs.errors import NumericalError
+from graphs.errors import NumericalError, UnsolvableError
 from graphs.geometry import common_direction, frame_about, rotations
 from graphs.loops.loop import Centre
 from graphs.tolerances import DOUBLE
@@ -34,7 +31,7 @@ __all__ = ["ClosureEquations", "Corrected", "TangentSpace", "carried", "correcte
 
 
 @dataclass(frozen=True, slots=True)
-class _Alike:
+class _LoopGroup:
     """Loops of one kind and length k, at the pose: joints and signs [L, k], axes and points float[L, k, 3].
 
     Frames, float[L, 3, 3], are those of loops with parallel axes: two directions across the axes, and theirs. Of
@@ -61,15 +58,15 @@ class _Alike:
         steps, slid = rotations(self.axes, values * self.turning), self._slid(values)
         before = carried(np.broadcast_to(np.eye(3), (loops, 3, 3)), np.zeros((loops, 3)))
         rotation, moved = np.broadcast_to(np.eye(3), (loops, 3, 3)), np.zeros((loops, 3))
-        made = np.empty((loops, 6, k, 6))
+        changes = np.empty((loops, 6, k, 6))
         for i in range(k):
             point = self.points[:, i, :, None]
             moved = moved + (rotation @ (point - steps[:, i] @ point + slid[:, i, :, None]))[..., 0]
             rotation = rotation @ steps[:, i]
             after = carried(rotation, moved)
-            made[:, :, i] = before - after
+            changes[:, :, i] = before - after
             before = after
-        twists = made.reshape(loops, 6, 6 * k)
+        twists = changes.reshape(loops, 6, 6 * k)
         if self.centre is Centre.FINITE:
             return twists[:, :3]
         return self._in_plane(twists) if self.centre is Centre.INFINITE else twists
@@ -150,43 +147,28 @@ class ClosureEquations:
         self._free: Floats | None = None
 
     def locked(self, joints: Sequence[int]) -> ClosureEquations:
-        """Return the equations of the same linkage with some joints locked: derivatives by these are zero.
-
-        Parameters
-        ----------
-        joints : sequence of int
-            Places of the joints that keep their angles.
-        """
+        """Return the equations with the joints at some places locked: derivatives by these are zero."""
         equations = copy(self)
         equations._free = np.ones(self.joints)
         equations._free[list(joints)] = 0.0
         return equations
 
     def by_axes(self, angles: Floats) -> scipy.sparse.csr_matrix:
-        """Return the derivatives of the residuals by small motions of the axes.
+        """Return the derivatives of the residuals by small motions of the axes: sparse float[rows, 6 J].
 
-        Where an axis is moved by a rotation w about the origin and a shift v, the loops it is in change as if its
-        links were: exp(t x) becomes g exp(t x) g^-1.
-
-        Parameters
-        ----------
-        angles : float[J]
-            Radians, from the zero of each joint.
-
-        Returns
-        -------
-        sparse float[rows, 6 J]
-            By (w, v) of each joint in turn, at the pose of the linkage.
+        By a rotation w about the origin and a shift v of each axis in turn, at the pose of the linkage; joint
+        angles, float[J], are radians. The loops that an axis is in change as if its links were moved: exp(t x)
+        becomes g exp(t x) g^-1.
         """
         rows, columns, values, start = [], [], [], 0
         for group in self._groups:
-            made = group.by_axes(angles - self._zero)
-            row = start + np.arange(made.shape[0] * made.shape[1]).reshape(*made.shape[:2], 1)
-            column = (6 * group.joints[..., None] + np.arange(6)).reshape(made.shape[0], 1, -1)
-            rows.append(np.broadcast_to(row, made.shape).ravel())
-            columns.append(np.broadcast_to(column, made.shape).ravel())
-            values.append(made.ravel())
-            start += made.shape[0] * made.shape[1]
+            changes = group.by_axes(angles - self._zero)
+            row = start + np.arange(changes.shape[0] * changes.shape[1]).reshape(*changes.shape[:2], 1)
+            column = (6 * group.joints[..., None] + np.arange(6)).reshape(changes.shape[0], 1, -1)
+            rows.append(np.broadcast_to(row, changes.shape).ravel())
+            columns.append(np.broadcast_to(column, changes.shape).ravel())
+            values.append(changes.ravel())
+            start += changes.shape[0] * changes.shape[1]
         if not rows:
             return scipy.sparse.csr_matrix((0, 6 * self.joints))
         places = (np.concatenate(rows), np.concatenate(columns))
@@ -207,17 +189,9 @@ class ClosureEquations:
         return order, column_of[order], starts
 
     def at(self, angles: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
-        """Return the residuals of the equations at joint angles, and their derivatives by these.
+        """Return the residuals float[rows] at joint angles float[J], and their derivatives, sparse float[rows, J].
 
-        Parameters
-        ----------
-        angles : float[J]
-            Radians, from the zero of each joint.
-
-        Returns
-        -------
-        (float[rows], sparse float[rows, J])
-            Radians, and lengths in units of the extent.
+        Angles are radians, from the zero of each joint; residuals are radians, and lengths in units of the extent.
         """
         evaluated = [group.evaluated(angles - self._zero) for group in self._groups]
         residual = np.concatenate([np.zeros(0), *(off.ravel() for off, _ in evaluated)])
@@ -232,16 +206,23 @@ class ClosureEquations:
         """Return the loop-closure residual at joint angles, float[J]: the largest equation."""
         return float(np.abs(self.at(angles)[0]).max(initial=0.0))
 
+    def check_closed(self, angles: Floats) -> None:
+        """Raise `UnsolvableError` if loops miss by more than 1e-12 at joint angles, float[J]."""
+        error = self.error(angles)
+        if error > DOUBLE.closed:
+            most = f"expected at most {DOUBLE.closed:.0e}"
+            raise UnsolvableError(f"the loop-closure residual is {error:.1e} at this configuration; {most}")
+
 
 def carried(rotations: Floats, shifts: Floats) -> Floats:
     """Return the adjoint matrices of rigid motions, for twists (w, v): rotation about the origin and shift."""
-    made = np.zeros((len(rotations), 6, 6))
-    made[:, :3, :3] = made[:, 3:, 3:] = rotations
-    made[:, 3:, :3] = np.cross(shifts[:, None, :], rotations.transpose(0, 2, 1)).transpose(0, 2, 1)
-    return made
+    adjoints = np.zeros((len(rotations), 6, 6))
+    adjoints[:, :3, :3] = adjoints[:, 3:, 3:] = rotations
+    adjoints[:, 3:, :3] = np.cross(shifts[:, None, :], rotations.transpose(0, 2, 1)).transpose(0, 2, 1)
+    return adjoints
 
 
-def _grouped(linkage: PosedLinkage) -> list[_Alike]:
+def _grouped(linkage: PosedLinkage) -> list[_LoopGroup]:
     kinds: dict[tuple[Centre, int], list[PosedLoop]] = {}
     for loop in linkage.loops:
         kinds.setdefault((loop.centre, len(loop.joints)), []).append(loop)
@@ -255,7 +236,7 @@ def _grouped(linkage: PosedLinkage) -> list[_Alike]:
         frames = np.zeros((len(loops), 3, 3))
         if centre is Centre.INFINITE:
             frames = frames_of(axes * turning[..., None])
-        groups.append(_Alike(joints, axes, linkage.points[joints], signs, centre, frames, turning))
+        groups.append(_LoopGroup(joints, axes, linkage.points[joints], signs, centre, frames, turning))
     return groups
 
 
@@ -293,7 +274,7 @@ singular value is too small to count and too large to be none."""
 
 
 class TangentSpace:
-    """Least-squares solutions with the derivatives of closure equations at one place, sparse float[rows, J].
+    """Least-squares solutions with derivatives of closure equations, sparse float[rows, J], at one place.
 
     `regular` times the largest diagonal entry of the normal equations is added to all of them.
     """
@@ -306,10 +287,7 @@ class TangentSpace:
         self._moves: dict[int, Floats] = {}
 
     def step(self, residual: Floats, held: Sequence[int] = ()) -> Floats:
-        """Return the least change of joint angles that takes a residual, float[rows], away to first order.
-
-        Joints at the places `held` do not move, unless they must.
-        """
+        """Return the least change of angles that takes a residual away; held joints stay if they can."""
         change = self._least_exactly(-residual)
         if not held:
             return change
@@ -326,59 +304,39 @@ class TangentSpace:
         return kept
 
     def sharpened(self, across: Floats) -> Floats:
-        """Return a unit vector, float[J], nearer to the least singular vector across the freedoms.
+        """Return a unit vector nearer to the least singular vector across the freedoms: inverse iteration.
 
-        One step of inverse iteration. Of a vector that has become a freedom, its part along the freedoms.
+        Of a vector that has become a freedom, its part along the freedoms.
         """
         free = self.projected(across)
         kept = across - free
         size = float(np.linalg.norm(kept))
         if size <= _FREE * float(np.linalg.norm(across)):
             return np.asarray(free / np.linalg.norm(free))
-        found = self._solve(kept / size)
-        found = found - self.projected(found)
-        return np.asarray(found / np.linalg.norm(found))
+        sharper = self._solve(kept / size)
+        sharper = sharper - self.projected(sharper)
+        return np.asarray(sharper / np.linalg.norm(sharper))
 
     def solution(self, off: Floats) -> tuple[Floats, Floats]:
-        """Return the least rates that part loops as nearly as they can by `off`, and what is left of that.
-
-        Both to all digits. Raises `NumericalError` if the rank of the derivatives is not clear.
-        """
+        """Return the least rates that part loops nearly by `off`, and what is left of that, to all digits."""
         left = self.beyond(off)
-        within = off - left
-
-        def more(rates: Floats) -> Floats:
-            return self._least(within - self._jacobian @ rates)
-
-        return _refined(more, np.zeros(self._joints), off), left
+        within, none = off - left, np.zeros(self._joints)
+        return _refined(lambda rates: self._least(within - self._jacobian @ rates), none, off), left
 
     def beyond(self, off: Floats) -> Floats:
         """Return the part of float[rows] that no rates make: what redundant equations say of it, to all digits."""
-
-        def more(part: Floats) -> Floats:
-            return self.image(self._solve(self._transposed @ (off - part)))
-
-        return off - _refined(more, np.zeros_like(off), off)
+        none = np.zeros_like(off)
+        return off - _refined(lambda part: self.image(self._solve(self._transposed @ (off - part))), none, off)
 
     def free(self, rates: Floats) -> Floats:
         """Return the rates nearest to some that keep loops closed: `projected` to all digits, float[J]."""
-
-        def more(across: Floats) -> Floats:
-            return self._least(self._jacobian @ (rates - across))
-
-        return rates - _refined(more, np.zeros_like(rates), rates)
+        none = np.zeros_like(rates)
+        return rates - _refined(lambda across: self._least(self._jacobian @ (rates - across)), none, rates)
 
     def forces(self, rates: Floats) -> Floats:
-        """Return the least forces float[rows] whose sum of rows is the part of float[J] across the freedoms.
-
-        So `solution` and this are each other's transposed.
-        """
-        across = rates - self.free(rates)
-
-        def more(forces: Floats) -> Floats:
-            return self.image(self._solve(across - self._transposed @ forces))
-
-        return _refined(more, np.zeros(self._jacobian.shape[0]), rates)
+        """Return the least forces float[rows] whose sum of rows is the part of float[J] across the freedoms."""
+        across, none = rates - self.free(rates), np.zeros(self._jacobian.shape[0])
+        return _refined(lambda forces: self.image(self._solve(across - self._transposed @ forces)), none, rates)
 
     def image(self, rates: Floats) -> Floats:
         """Return by what loops part at some rates: float[rows]."""
@@ -420,24 +378,24 @@ class TangentSpace:
         return rates if possible and moves[:, places].max() > DOUBLE.zero else np.zeros_like(rates)
 
 
-def _refined(more: Callable[[Floats], Floats], found: Floats, given: Floats) -> Floats:
-    """Return the sum of corrections: each leaves a part m / (s^2 + m) of what was to be taken off.
+def _refined(correction: Callable[[Floats], Floats], total: Floats, residual: Floats) -> Floats:
+    """Return the sum of corrections, each of which leaves a part m / (s^2 + m) of what was to be taken off.
 
-    Here s is a singular value and m the regularisation. Corrections are measured by the sum so far or the given
-    vector.
+    Here s is a singular value and m the regularisation; corrections are measured by the sum so far or the
+    residual.
     """
-    last, size = np.inf, _largest(given)
+    last, size = np.inf, _largest(residual)
     for _ in range(_SWEEPS):
-        change = more(found)
-        found = found + change
-        largest, whole = _largest(change), max(_largest(found), size)
+        change = correction(total)
+        total = total + change
+        largest, whole = _largest(change), max(_largest(total), size)
         if largest <= _SETTLED * whole or (last / 2 <= largest <= _UNSETTLED * whole):
-            return found
+            return total
         last = largest
     if last > _UNSETTLED * whole:
         unclear = "the rank of the closure equations is not clear"
         raise NumericalError(f"the configuration is nearly singular: {unclear}")
-    return found
+    return total
 
 
 def _solver(
@@ -451,13 +409,13 @@ def _solver(
         added = regular * max(float(diagonal.max(initial=0.0)), 1.0)
         diagonal += added
         factor = scipy.linalg.cho_factor(normal, lower=True, overwrite_a=True, check_finite=False)
-        return lambda given: np.asarray(scipy.linalg.cho_solve(factor, given, check_finite=False)), added
+        return lambda right_side: np.asarray(scipy.linalg.cho_solve(factor, right_side, check_finite=False)), added
     sparse = (transposed @ jacobian).tocsc()
     diagonal = sparse.diagonal()
     added = regular * max(float(diagonal.max(initial=0.0)), 1.0)
     sparse.setdiag(diagonal + added)
     factors = splu(sparse, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-    return lambda given: np.asarray(factors.solve(given)), added
+    return lambda right_side: np.asarray(factors.solve(right_side)), added
 
 
 @dataclass(frozen=True)
@@ -481,11 +439,10 @@ class Corrected:
 
 
 def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = ()) -> Corrected:
-    """Return joint angles near some at which all loops close, radians.
+    """Return joint angles near some at which all loops close, radians; held joints stay if others can follow.
 
-    Held joints (by their places) stay if the others can follow. Matrices are factorised anew only where a step
-    with the last one left too much. It ends when loops are closed and a further step would not make them better,
-    or steps do not make the error less.
+    Matrices are factorised anew only where a step with the last one left too much. It ends when loops are closed
+    and a further step would not make them better, or steps do not make the error less.
     """
     residual, jacobian = closure.at(angles)
     best, off = Corrected(angles, _largest(residual), 0, jacobian), residual
@@ -510,10 +467,9 @@ def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = (
 
 
 def exactly_held(closure: ClosureEquations, pose: Corrected, held: Sequence[int], values: Floats) -> Corrected:
-    """Return a pose with held joints at their angles to the last digit; its error is that of the angles it has.
+    """Return a pose found with joints held, with these at `values`, radians, to the last digit.
 
-    Newton's method keeps held joints to some digits only, and what it left in them is error of the loops. The pose
-    was found with the joints at these places held; values are their angles, radians.
+    Newton's method keeps held joints to some digits only, and what it left in them is error of the loops.
     """
     places = list(held)
     for _ in range(_HOLDS):

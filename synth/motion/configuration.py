@@ -1,8 +1,8 @@
 """A mechanism at a configuration: what every question about motion is asked of.
 
-It is made once, by `synth.moving.made.configuration_of`, from anything that has coordinates, and handed on:
-closure equations, tolerances and branches are computed when they are first needed, and kept. Theory:
-docs/theory/folding.md, docs/theory/mending.md.
+`synth.moving.made.configuration_of` makes it, from anything that has coordinates; closure equations, tolerances
+and branches are computed when they are first needed, and kept. Theory: docs/theory/folding.md,
+docs/theory/mending.md.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import ceil, floor, log10, pi, radians, tau
+from math import ceil, floor, log10
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,7 +25,7 @@ from graphs.types import Floats, JointId
 from synth.motion.branches import MOST_JOINTS, Branch, Branches, branches_of, search_for
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, moved
-from synth.motion.marked import Disagreement, MarkedWay, agreeing_best, marked_way, nearest_way
+from synth.motion.marked import AssignedBranch, Disagreement, agreeing_best, assigned_branch, nearest_branch
 from synth.motion.path import Path
 from synth.motion.singular.nearest import InitialMotion, begun_near
 from synth.motion.singular.second_order import rates_at
@@ -50,9 +50,8 @@ def doubt_of_rigid(
 ) -> str:
     """Return how near a rigid pattern is to one that moves, after "rigid"; empty where there is nothing to add.
 
-    The misfit is the largest displacement of a vertex, in units of the extent, in the nearest pattern that moves,
-    or None if none was found; `unsettled` says that motion within the precision is neither found nor excluded,
-    `too_large` why no pattern was searched for.
+    The misfit is that of the nearest pattern that moves (`Configuration.misfit`), None if none was found;
+    `too_large` says why none was searched for.
     """
     exact = precision.size <= EXACT
     within = "" if exact else f" within the drawing's precision, {precision}"
@@ -78,16 +77,10 @@ _MOST_FLEXES = 100
 _ONE_WAY, _HALVES = 100, 8
 """For flat sheets of more creases one motion as assigned is enough if the equations of more vertices are
 no products: each may part the rates into two halves."""
-_WHOLE = radians(179.0)
-"""How far a joint is driven that ends at 180 degrees, where panels lie on each other."""
 
 
 class PointPlaces(NamedTuple):
-    """Where the points of a mechanism are at joint angles.
-
-    `points`, float[F, n, 3], are vertices of a sheet, else a point on each axis, in the unit of the coordinates;
-    `apart`, float[F], is by how much bodies disagree on a point that they share, in units of the extent.
-    """
+    """Points float[F, n, 3] of a mechanism at joint angles, and by how much bodies disagree on one, in extents."""
 
     points: Floats
     apart: Floats
@@ -95,20 +88,11 @@ class PointPlaces(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Configuration:
-    """A mechanism at a configuration.
+    """A mechanism at a configuration: its linkage, and the precision of its coordinates as read.
 
-    Attributes
-    ----------
-    linkage : PosedLinkage
-        Links, axes and joint angles.
-    precision : Precision
-        Of the coordinates as read.
-    exact : bool, optional
-        Whether the axes are exact but for the rounding of double precision: the coordinates were, or were mended.
-    given : Sheet, HingedSolids, PolyhedronModel, ..., optional
-        The mechanism that was read.
-    more : bool, optional
-        Whether its branches are looked for with a hundred times the usual allowance.
+    The axes are `exact` but for the rounding of double precision if the coordinates were, or were mended; `given`
+    is the mechanism that was read; with `more` its branches are looked for with a hundred times the usual
+    allowance.
 
     Examples
     --------
@@ -177,10 +161,7 @@ class Configuration:
         return ()
 
     def of_branch(self, branch: int | str | None) -> tuple[Configuration, int | str | None]:
-        """Return the configuration that has a branch, by its number or signs, and its number or signs there.
-
-        The branches here come first, then those elsewhere; an unknown branch is left to this configuration.
-        """
+        """Return the configuration that has a branch, by number or signs, and its number or signs there."""
         own = 0 if self.branches is None else len(self.branches.branches)
         if isinstance(branch, int) and own <= branch < own + len(self.elsewhere):
             return self.elsewhere[branch - own]
@@ -200,16 +181,6 @@ class Configuration:
     def reading(self) -> Reading | None:
         """The report on the drawing it was read from; None if it was not traced."""
         return self.given.reading if isinstance(self.given, Sheet) else None
-
-    @property
-    def most(self) -> float:
-        """The largest angle a joint can have, radians."""
-        return pi if self.limited else float(np.finfo(float).max)
-
-    @property
-    def whole(self) -> float:
-        """How far a joint is driven by default, radians."""
-        return _WHOLE if self.limited else tau
 
     @cached_property
     def tolerances(self) -> Tolerances:
@@ -235,22 +206,22 @@ class Configuration:
         return begun_near(self.closure, self.linkage, self.wanted)
 
     @cached_property
-    def marked(self) -> MarkedWay:
+    def marked(self) -> AssignedBranch:
         """The branch that begins as a flat sheet is assigned, if there is one."""
         if self.branches is None or not self.flat:
-            return MarkedWay(None, None)
-        way = marked_way(self.branches, self.linkage, self.marks)
+            return AssignedBranch(None, None)
+        way = assigned_branch(self.branches, self.linkage, self.marks)
         folded = self.begun.folded if way.marked == "none found" else None
         if folded is None or folded.agree < np.count_nonzero(self.marks):
             return way
-        return marked_way(self.branches, self.linkage, self.marks, self.begun.rates)
+        return assigned_branch(self.branches, self.linkage, self.marks, self.begun.rates)
 
     @cached_property
     def chosen(self) -> int | None:
         """Number of the branch that is taken by default; None where there is none.
 
-        That which begins as assigned, or else that with which the fewest assigned joints disagree; without an
-        assignment, that on which most joints go alike.
+        That which begins as assigned, or with which the fewest assigned joints disagree; without an assignment,
+        that on which most joints go alike.
         """
         if self.branches is None or not self.branches.branches:
             return None
@@ -266,7 +237,7 @@ class Configuration:
             return None
         number, _, rates = self.marked
         if number is None or rates is None:
-            return nearest_way(self.branches, self.marks)
+            return nearest_branch(self.branches, self.marks)
         return Disagreement(number, (), (), rates)
 
     def nearest_to_json(self) -> dict[str, Any] | None:
@@ -317,10 +288,10 @@ class Configuration:
     @cached_property
     def one_way(self) -> bool:
         """Whether one motion stands for all: others are not looked for, or only folded states led to one."""
-        found = self.branches
-        if found is None:
+        branches = self.branches
+        if branches is None:
             return True
-        known = found.exhaustive or any(branch.certainty != "not known" for branch in found.branches)
+        known = branches.exhaustive or any(branch.certainty != "not known" for branch in branches.branches)
         return not known and self.flat and self.begun.folded is not None
 
     def _one_way_enough(self) -> bool:
@@ -337,36 +308,23 @@ class Configuration:
         points = np.array([moved(linkage, one).points for one in angles]).reshape(len(angles), -1, 3)
         return PointPlaces(points * linkage.extent + linkage.middle, np.zeros(len(angles)))
 
-    def ends_of(self, joints: Sequence[JointId]) -> dict[JointId, tuple[tuple[float, ...], tuple[float, ...]]]:
-        """Return the two ends of joints that are creases, in the unit of the coordinates; of others nothing."""
-        return {}
-
     def at(self, angles: Floats, points: Floats | None = None) -> Sheet | PosedLinkage:
         """Return the mechanism at joint angles float[J], radians: a linkage, or for a sheet the sheet."""
         return moved(self.linkage, angles)
 
     def passed(self, path: Path, points: Floats, driver: int) -> tuple[Path, tuple[int, ...]]:
-        """Return a path with the event that panels pass through each other, and the frames in which they do.
-
-        Points, float[F, n, 3], are those of its frames; a joint is driven. Without panels there is no such event.
-        """
+        """Return a path with the event that panels pass through each other, and the frames in which they do."""
         return path, ()
 
     def collision(self) -> Event:
-        """Return the event that ends a walk before panels pass through each other.
-
-        Raises `UnsolvableError` if there are no panels.
-        """
+        """Return the event that ends a walk before panels cross; `UnsolvableError` without panels."""
         raise UnsolvableError("collisions require the panels of a sheet, and this mechanism has none")
 
     def to_json(self, branch: Branch | None = None, other_question: str | None = None) -> dict[str, Any]:
-        """Return the key ``configuration`` of an answer (docs/command-json.md).
-
-        It has the branch that the answer is about, or why it is about none, `other_question`.
-        """
-        found = None if other_question else self.branches
+        """Return the key ``configuration`` of an answer: its branch, or `other_question`, why it has none."""
+        branches = None if other_question else self.branches
         freedoms, still = (None, None) if branch is None else (branch.freedoms, branch.still)
-        if found is not None and found.no_motion == "proved":
+        if branches is not None and branches.no_motion == "proved":
             freedoms, still = 0, tuple(range(len(self.joints)))
         return {
             "links": len(self.linkage.graph),
@@ -374,7 +332,9 @@ class Configuration:
             "loops": len(self.linkage.loops),
             **self.precision.to_json(),
             "flat": self.flat,
-            "branches": None if found is None else {"number": len(found.branches), "exhaustive": found.exhaustive},
+            "branches": None
+            if branches is None
+            else {"number": len(branches.branches), "exhaustive": branches.exhaustive},
             "branch": None if branch is None else branch.signs,
             "freedoms": freedoms,
             "immobile_joints": None if still is None else [str(self.joints[place]) for place in still],

@@ -8,7 +8,7 @@ Vertices of sheets: `synth.folding.derivatives`. Theory: docs/theory/derivatives
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -32,7 +32,6 @@ __all__ = [
     "Sensitivity",
     "dependence_on_axes",
     "derivatives_by_parameters",
-    "sensitivities",
     "spatial",
 ]
 
@@ -71,11 +70,7 @@ class AxisChange:
 
 @dataclass(frozen=True, slots=True)
 class ConfigurationChange:
-    """How a configuration follows a change of its axes.
-
-    Changes of joint angles, radians, are zero for driven joints. The residual, float[rows], is the inconsistent
-    part: what the closure equations miss whatever the angles are; zero where loops stay closed to first order.
-    """
+    """Changes of joint angles, radians, and what the closure equations miss whatever they are: float[rows]."""
 
     angles: Floats
     residual: Floats
@@ -123,22 +118,16 @@ class Sensitivity:
         self.closure = closure
         self.angles = angles
         self.driven = list(driven)
-        off, self._jacobian = closure.at(angles)
-        error = float(np.abs(off).max(initial=0.0))
-        if error > DOUBLE.closed:
-            most = f"expected at most {DOUBLE.closed:.0e}"
-            raise UnsolvableError(f"the loop-closure residual is {error:.1e} at this configuration; {most}")
+        closure.check_closed(angles)
+        self._jacobian = closure.at(angles)[1]
         self._space = TangentSpace(self._jacobian)
         units = np.eye(closure.joints)[self.driven]
         self._moves = np.array([self._space.free(unit) for unit in units]).reshape(units.shape).T
-        self._shares = self._inverted(self._moves[self.driven])
-
-    @staticmethod
-    def _inverted(products: Floats) -> Floats:
+        products = self._moves[self.driven]
         if len(products) and float(np.linalg.eigvalsh(products)[0]) < DOUBLE.zero:
             reasons = "one is immobile or at a turning point, or they depend on each other"
             raise UnsolvableError(f"the driven joints cannot be held at this configuration: {reasons}")
-        return np.asarray(np.linalg.inv(products))
+        self._shares = np.linalg.inv(products)
 
     @cached_property
     def _by_twists(self) -> scipy.sparse.csr_matrix:
@@ -146,11 +135,10 @@ class Sensitivity:
 
     @cached_property
     def degenerate(self) -> bool:
-        """Whether the rank of the closure equations is below that of neighbouring configurations.
+        """Whether the rank of the closure equations is below that of neighbouring configurations: no derivative.
 
-        Then some infinitesimal motion begins no motion, or motion branches meet here; nothing can be
-        differentiated. It is seen in the second derivatives: a self-stress w, rates r and s that keep loops closed
-        to first order, and w . D^2 f (r, s) is not zero.
+        It is seen in the second derivatives: a self-stress w, rates r and s that keep loops closed to first order,
+        and w . D^2 f (r, s) is not zero. Some infinitesimal motion begins no motion then, or motion branches meet.
         """
         first, second = self._flexes
         if not first.any():
@@ -158,16 +146,13 @@ class Sensitivity:
         return self._bent(self._along(first) @ second) > DOUBLE.singular
 
     @cached_property
-    def _flexes(self) -> tuple[Floats, Floats]:
+    def _flexes(self) -> Floats:
         """Two general flexes, largest rates 1; zeros if there are none. What vanishes for these does for all."""
         ways = np.random.default_rng(0).normal(size=(2, self.closure.joints))
-        first, second = (self._unit(self._space.free(way), float(np.abs(way).max(initial=0.0))) for way in ways)
-        return first, second
-
-    @staticmethod
-    def _unit(flex: Floats, size: float) -> Floats:
-        largest = float(np.abs(flex).max(initial=0.0))
-        return flex / largest if largest > DOUBLE.singular * size else np.zeros_like(flex)
+        flexes = np.array([self._space.free(way) for way in ways])
+        largest = np.abs(flexes).max(axis=1, initial=0.0, keepdims=True)
+        moving = largest > DOUBLE.singular * np.abs(ways).max(axis=1, initial=0.0, keepdims=True)
+        return np.where(moving, flexes / np.where(moving, largest, 1.0), 0.0)
 
     def _along(self, rates: Floats) -> scipy.sparse.csr_matrix:
         """Return how the derivatives of the closure equations change along rates: sparse float[rows, J]."""
@@ -185,16 +170,7 @@ class Sensitivity:
     def forward(self, axes: AxisChange) -> ConfigurationChange:
         """Return how the configuration follows a change of the axes.
 
-        Parameters
-        ----------
-        axes : AxisChange
-
-        Raises
-        ------
-        UnsolvableError
-            If the configuration is degenerate.
-        NumericalError
-            If it is nearly so.
+        Raises `UnsolvableError` if the configuration is degenerate, `NumericalError` if it is nearly so.
         """
         self._regular()
         off = self._jacobian @ axes.zeros - self._by_twists @ axes.twists
@@ -204,19 +180,9 @@ class Sensitivity:
         return ConfigurationChange(angles, -residual)
 
     def adjoint(self, by_angles: Floats) -> AxisChange:
-        """Return the gradient by the axes of a number that depends on the joint angles.
+        """Return the gradient by the axes of a number whose gradient by the joint angles is float[J].
 
-        Parameters
-        ----------
-        by_angles : float[J]
-            Its gradient by the joint angles.
-
-        Raises
-        ------
-        UnsolvableError
-            If the configuration is degenerate.
-        NumericalError
-            If it is nearly so.
+        Raises `UnsolvableError` if the configuration is degenerate, `NumericalError` if it is nearly so.
         """
         self._regular()
         loads = by_angles.copy()
@@ -226,51 +192,18 @@ class Sensitivity:
         return AxisChange(-(self._by_twists.T @ forces), self._jacobian.T @ forces)
 
     def rank_residual(self, axes: AxisChange, change: ConfigurationChange) -> float:
-        """Return by how much redundant equations cease to be redundant with a change of the axes.
+        """Return by how much redundant equations cease to be so with a change of the axes, and what follows it.
 
         Loops may stay closed to first order, and no motion be left: of a linkage at its own pose they always do.
-        Zero is: the rank stays as it is, and the change is one of mobile mechanisms.
-
-        Parameters
-        ----------
-        axes : AxisChange
-        change : ConfigurationChange
-            As it follows.
-
-        Returns
-        -------
-        float
-            Largest rate at which loops part, per unit of the change and of the largest joint rate.
+        The number is the largest rate at which loops part, per unit of the change and of the largest joint rate;
+        zero is: the change is one of mobile mechanisms.
         """
         flex = self._flexes[0]
         if not flex.any():
             return 0.0
-        nudged = (self.closure.by_axes(self.angles + way * _NUDGE * flex) @ axes.twists for way in (1.0, -1.0))
-        ahead, back = nudged
+        nudged = [self.angles + way * _NUDGE * flex for way in (1.0, -1.0)]
+        ahead, back = (self.closure.by_axes(angles) @ axes.twists for angles in nudged)
         return self._bent(self._along(change.angles - axes.zeros) @ flex + (ahead - back) / (2.0 * _NUDGE))
-
-
-def sensitivities(closure: ClosureEquations, frames: Floats, driven: Sequence[int] = ()) -> Iterator[Sensitivity]:
-    """Yield the sensitivity of each configuration of a path, driven joints held at their angles of that frame.
-
-    Parameters
-    ----------
-    closure : ClosureEquations
-    frames : float[F, J]
-        Closed configurations, radians: `Path.angles`.
-    driven : sequence of int, optional
-        Places of the driven joints.
-
-    Examples
-    --------
-    >>> from synth.moving.motion import move
-    >>> from synth.patterns import generate
-    >>> motion = move(generate("bennett").mechanism, frames=2)
-    >>> closure = motion.configuration.closure
-    >>> [at.degenerate for at in sensitivities(closure, motion.path.angles[1:2], [0])]
-    [False]
-    """
-    return (Sensitivity(closure, angles, driven) for angles in frames)
 
 
 @dataclass(frozen=True, slots=True)
@@ -290,8 +223,7 @@ class AxisDependence:
     >>> from graphs.mechanism.sc import SCGraph
     >>> from synth.motion.linkage import linkage_of_axes
     >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((2, 0, 0), (0, 0, 1))})
-    >>> by_radius = dependence_on_axes(hinge).after(np.eye(6)[:, :1])
-    >>> by_radius.forward(np.array([1.0])).twists.tolist()
+    >>> dependence_on_axes(hinge).after(np.eye(6)[:, :1]).forward(np.array([1.0])).twists.tolist()
     [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]
     """
 
@@ -307,13 +239,7 @@ class AxisDependence:
         return np.asarray(self.twists.T @ gradient.twists + self.zeros.T @ gradient.zeros)
 
     def after(self, slopes: Floats) -> AxisDependence:
-        """Return the same by the parameters on which these numbers depend.
-
-        Parameters
-        ----------
-        slopes : float[n, m]
-            Derivatives of the numbers by m parameters: `derivatives_by_parameters`.
-        """
+        """Return the same by the m parameters on which these numbers depend, by their derivatives float[n, m]."""
         inner = scipy.sparse.csr_matrix(slopes)
         return AxisDependence((self.twists @ inner).tocsr(), (self.zeros @ inner).tocsr())
 
@@ -355,10 +281,6 @@ def spatial(linkage: PosedLinkage) -> PosedLinkage:
     Parameters
     ----------
     linkage : PosedLinkage
-
-    Returns
-    -------
-    PosedLinkage
 
     Examples
     --------
@@ -443,9 +365,7 @@ def _by_complex_steps(function: Callable[[Floats], Floats], parameters: Floats) 
 
 
 class BodyTree:
-    """A tree of joints that carry links, from one that stays.
-
-    Links are handled level by level, those that as many joints carry from the ground together.
+    """A tree of joints that carry links, from one that stays, level by level.
 
     Parameters
     ----------
@@ -524,10 +444,7 @@ class BodyPoses:
         return np.asarray(moved[self.tree.near] - moved[self.tree.far])
 
     def forward(self, angles: Floats, axes: AxisChange) -> Floats:
-        """Return the twists of links with changes of joint angles and axes, the ground held: float[L, 6].
-
-        Changes of angles are in radians.
-        """
+        """Return the twists of links with changes of joint angles, radians, and axes: float[L, 6]."""
         tree = self.tree
         turned = (angles - axes.zeros)[tree.joints, None] * self._screws()
         steps = turned + np.einsum("eij,ej->ei", self._by_axes(), axes.twists.reshape(-1, 6)[tree.joints])
@@ -537,10 +454,7 @@ class BodyPoses:
         return twists
 
     def adjoint(self, wrenches: Floats) -> tuple[Floats, AxisChange]:
-        """Return the gradients by joint angles and by axes of a number that depends on the poses of links.
-
-        Its gradient by the twists of links is float[L, 6]; that by axes is for joint angles held.
-        """
+        """Return the gradients by joint angles, and by axes with these held, from that by twists, float[L, 6]."""
         tree = self.tree
         borne = wrenches.copy()
         for level in reversed(tree.levels):  # a joint bears what all links beyond it bear
@@ -557,10 +471,7 @@ class BodyPoses:
         return np.asarray(np.einsum("nij,nj->ni", self.rotations[links], points) + self.shifts[links])
 
     def places_forward(self, links: Ints, points: Floats, twists: Floats, changes: Floats) -> Floats:
-        """Return how places change with twists of links, and of the points themselves: float[N, 3].
-
-        The points, float[N, 3], and their changes are at the pose of the linkage.
-        """
+        """Return how places change, float[N, 3], with twists of links and changes of the points at the pose."""
         there, twist = self.places(links, points), twists[links]
         own = np.einsum("nij,nj->ni", self.rotations[links], changes)
         return np.asarray(np.cross(twist[:, :3], there) + twist[:, 3:] + own)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from math import degrees, pi
+from math import degrees, pi, radians, tau
 
 import numpy as np
 
@@ -20,7 +20,6 @@ from graphs.types import Floats, JointId
 from synth.motion.branches import MOST_JOINTS, Branch, Branches
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
-from synth.motion.linkage import PosedLinkage
 from synth.motion.marked import marked_rates, rates_as_marked
 from synth.motion.path import Path, PathOptions, driven_path
 from synth.motion.singular.nearest import begun_near
@@ -29,7 +28,7 @@ from synth.motion.singular.second_order import RateSpace
 from synth.motion.walk.step import Allowance
 from synth.motion.walk.walking import Event
 
-__all__ = ["BranchChoice", "DrivenMotion", "MotionOptions", "beginning", "check_closed", "driven_from", "goals_of"]
+__all__ = ["BranchChoice", "DrivenMotion", "MotionOptions", "beginning", "driven_from", "goals_of"]
 
 _LARGE = 10**9
 _STARTS = 8
@@ -42,9 +41,8 @@ _DIGITS = 6
 class BranchChoice:
     """The options for the beginning of a motion.
 
-    The branch is given by its number or signs; by default the configuration chooses it. `turns` says how far each
-    driven joint (by its place) is to turn, radians; with `along` they are rates, and the branch that points along
-    them best is taken.
+    The branch is a number or signs; by default the configuration chooses it. `turns` says how far each driven
+    joint (by its place) is to turn, radians; with `along` they are rates, and the branch nearest to them is taken.
     """
 
     branch: int | str | None = None
@@ -61,111 +59,106 @@ class BranchChoice:
         return rates
 
 
-def beginning(configuration: Configuration, wanted: BranchChoice) -> tuple[int | None, Floats]:
-    """Return the branch to take, None where there is no choice, and initial rates on it, near to the assignment.
-
-    Raises `UnsolvableError` if no motion begins there, or none with the driven joints, `InvariantError` if there
-    is no such branch.
-    """
-    found, towards = configuration.branches, wanted.towards(configuration)
-    if found is None or (configuration.one_way and wanted.branch is None):
-        if wanted.branch is not None:
+def beginning(configuration: Configuration, choice: BranchChoice) -> tuple[int | None, Floats]:
+    """Return the branch to take, None without a choice, and initial rates on it; an error if nothing moves."""
+    branches, towards = configuration.branches, choice.towards(configuration)
+    if branches is None or (configuration.one_way and choice.branch is None):
+        if choice.branch is not None:
             limits = f"more than {MOST_JOINTS} joints, or large and with many vertices of more than 4 creases"
             raise UnsolvableError(f"no branches are listed for this mechanism: it has {limits}")
         closure, linkage = configuration.closure, configuration.linkage
-        begun = begun_near(closure, linkage, towards) if wanted.along else configuration.begun
+        begun = begun_near(closure, linkage, towards) if choice.along else configuration.begun
         if begun.rates is None:
             raise UnsolvableError(f"found no motion near the assignment{configuration.doubt}")
         return None, begun.rates
-    if not found.branches:
+    if not branches.branches:
         written = "exactly as written, " if configuration.nearly else ""
-        raise UnsolvableError(f"{written}{_no_motion(found)}{configuration.doubt}")
-    number = _chosen(configuration, found, wanted)
+        raise UnsolvableError(f"{written}{_no_motion(branches)}{configuration.doubt}")
+    number = _chosen(configuration, branches, choice)
     marked = configuration.marked.rates
-    if marked is not None and wanted.branch is None and len(wanted.driven) < 2 and not wanted.along:
-        return None if found.regular else number, marked
-    rates = _rates(found.branches[number], wanted, towards, configuration.marks)
-    return None if found.regular else number, rates
+    if marked is not None and choice.branch is None and len(choice.driven) < 2 and not choice.along:
+        return None if branches.regular else number, marked
+    rates = _rates(branches.branches[number], choice, towards, configuration.marks)
+    return None if branches.regular else number, rates
 
 
-def _no_motion(found: Branches) -> str:
+def _no_motion(branches: Branches) -> str:
     """Return that nothing moves from here, with the proof if there is one."""
     proofs = {
         "no rates": "no rates close the loops to first order",
         "definite stress": "a self-stress is definite on all flexes",
         "cases": "no rates agree to second order",
     }
-    proof = found.rigidity.proof if found.rigidity is not None else None
+    proof = branches.rigidity.proof if branches.rigidity is not None else None
     if proof:
         return f"no motion begins at this configuration (proved: {proofs[proof]})"
     return "no motion was found at this configuration"
 
 
-def _chosen(configuration: Configuration, found: Branches, wanted: BranchChoice) -> int:
-    every, name = found.branches, wanted.branch
+def _chosen(configuration: Configuration, branches: Branches, choice: BranchChoice) -> int:
+    every, name = branches.branches, choice.branch
     if isinstance(name, int):
         if not 0 <= name < len(every):
             label = str(name) if abs(name) < _LARGE else "of so large a number"
             raise InvariantError("branch", f"there is no branch {label}", f"one from 0 to {len(every) - 1}")
         return name
     if isinstance(name, str):
-        number = found.number_of(name)
+        number = branches.number_of(name)
         if number is None:
             signs = known([branch.signs for branch in every], name)
             raise InvariantError("branch", f"no branch has the signs {shown(name)}", signs)
         return number
-    if not wanted.along:
+    if not choice.along:
         return configuration.chosen or 0
-    towards = wanted.towards(configuration)
-    return max(range(len(every)), key=lambda number: (_cosine(every[number], wanted, towards), -number))
+    towards = choice.towards(configuration)
+    return max(range(len(every)), key=lambda number: (_cosine(every[number], choice, towards), -number))
 
 
-def _cosine(branch: Branch, wanted: BranchChoice, towards: Floats) -> float:
+def _cosine(branch: Branch, choice: BranchChoice, towards: Floats) -> float:
     """Return the cosine between wanted rates and the nearest ones of a branch, of the joints that have any."""
-    begun = rates_towards(branch.space, towards)[list(wanted.driven)]
-    sizes = float(np.linalg.norm(begun) * np.linalg.norm(wanted.turns))
-    return round(float(begun @ wanted.turns) / sizes, _DIGITS) if sizes else -1.0
+    begun = rates_towards(branch.space, towards)[list(choice.driven)]
+    sizes = float(np.linalg.norm(begun) * np.linalg.norm(choice.turns))
+    return round(float(begun @ choice.turns) / sizes, _DIGITS) if sizes else -1.0
 
 
-def _rates(branch: Branch, wanted: BranchChoice, towards: Floats, marks: Floats) -> Floats:
-    """Return rates of a branch at which several driven joints begin in the proportions they are to turn in.
-
-    With all marks, if there are such.
-    """
-    space = _in_proportion(branch.space, wanted) if len(wanted.driven) > 1 else branch.space
-    if len(wanted.driven) < 2 and not wanted.along:
-        return rates_as_marked(branch, towards) if wanted.branch is None else branch.rates
-    assigned = marked_rates(space, marks, _STARTS) if marks.any() and not wanted.along else []
+def _rates(branch: Branch, choice: BranchChoice, towards: Floats, marks: Floats) -> Floats:
+    """Return rates of a branch at which driven joints begin in proportion; with all marks, if there are such."""
+    space = _in_proportion(branch.space, choice) if len(choice.driven) > 1 else branch.space
+    if len(choice.driven) < 2 and not choice.along:
+        return rates_as_marked(branch, towards) if choice.branch is None else branch.rates
+    assigned = marked_rates(space, marks, _STARTS) if marks.any() and not choice.along else []
     for begun in assigned:
-        if np.abs(begun[list(wanted.driven)]).max() > DOUBLE.zero_rate:
+        if np.abs(begun[list(choice.driven)]).max() > DOUBLE.zero_rate:
             return np.asarray(begun / np.abs(begun).max())
     for start in (towards, space.basis.sum(axis=1)):
         begun = rates_towards(space, start)
-        if np.abs(begun[list(wanted.driven)]).max() > DOUBLE.zero_rate:
+        if np.abs(begun[list(choice.driven)]).max() > DOUBLE.zero_rate:
             return begun
-    which = "joints" if wanted.along else "driven joints"
+    which = "joints" if choice.along else "driven joints"
     raise UnsolvableError(f"the {which} cannot begin to turn in these proportions on this branch")
 
 
-def _in_proportion(space: RateSpace, wanted: BranchChoice) -> RateSpace:
+def _in_proportion(space: RateSpace, choice: BranchChoice) -> RateSpace:
     """Return the part of a space in which driven joints turn in proportion."""
-    across = null_space(wanted.turns[None])
-    normals = space.basis[list(wanted.driven)].T @ across  # of unit vectors: what is small beside 1 is none
+    across = null_space(choice.turns[None])
+    normals = space.basis[list(choice.driven)].T @ across  # of unit vectors: what is small beside 1 is none
     return replace(space, basis=canonical_basis(space.basis @ null_space(normals.T, scale=1.0)))
 
 
 _STEPS, _STEPS_OF_FRAME = 1_000, 20
 """Steps that a motion may take, and as many more for each of its frames: ten times what real patterns need."""
+_NEARLY_HALF = radians(179.0)
+"""How far a joint is driven by default that ends at 180 degrees, where panels lie on each other."""
 
 
 @dataclass(frozen=True, slots=True)
 class MotionOptions:
     """The options of a motion.
 
-    `drive` gives the angles of driven joints, radians; without any, the joint that moves most goes as far as it
-    can. `along` gives initial rates in their place, and the path goes straight on. The branch is a number or
-    signs; `frames` counts those after the first, `report` is called with their number after each; `events` are
-    looked for on the way.
+    `drive` gives the angles of driven joints, radians; by default the joint that moves most goes as far as it can.
+    `along` gives initial rates in their place, and the path goes straight on. The branch is a number or signs;
+    `frames` counts those after the first, `report` is called with their number; `events` are looked for on the
+    way.
     """
 
     drive: Mapping[JointId, float] = field(default_factory=dict)
@@ -178,10 +171,7 @@ class MotionOptions:
 
 @dataclass(frozen=True, slots=True)
 class DrivenMotion:
-    """A motion, with the branch taken (None where there was no choice).
-
-    `places` are those of the driven joints, `goals` the final angles they were to reach, radians.
-    """
+    """The branch taken (None without a choice), driven joints (places), their final angles, and the path."""
 
     branch: int | None
     places: list[int]
@@ -189,19 +179,8 @@ class DrivenMotion:
     path: Path
 
 
-def check_closed(closure: ClosureEquations, linkage: PosedLinkage) -> None:
-    """Raise `UnsolvableError` if loops miss by more than 1e-12, in radians and units of the extent."""
-    error = closure.error(linkage.angles)
-    if error > DOUBLE.closed:
-        most = f"expected at most {DOUBLE.closed:.0e}"
-        raise UnsolvableError(f"the loop-closure residual is {error:.1e} at this configuration; {most}")
-
-
 def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: float) -> tuple[list[int], Floats]:
-    """Return the places and the goals of driven joints, radians.
-
-    Raises `InvariantError` if there is no such joint, or an angle is no number or larger than the most.
-    """
+    """Return the places and the goals of driven joints, radians; `InvariantError` if one does not exist."""
     places = _places(joints, drive)
     for joint, angle in drive.items():
         if not abs(angle) <= most:
@@ -211,28 +190,25 @@ def goals_of(joints: tuple[JointId, ...], drive: Mapping[JointId, float], most: 
 
 
 def driven_from(configuration: Configuration, options: MotionOptions) -> DrivenMotion:
-    """Drive joints from a configuration, on the branch of the options.
-
-    Raises `UnsolvableError` if nothing moves, or not with the driven joints, `InvariantError` if there is no such
-    joint or branch, or an angle is out of range.
-    """
-    linkage, closure, found = configuration.linkage, configuration.closure, configuration.branches
+    """Drive joints from a configuration, on the branch of the options; the errors are those of `motion_of`."""
+    linkage, closure, branches = configuration.linkage, configuration.closure, configuration.branches
     joints = configuration.joints
-    places, goals = goals_of(joints, options.drive, configuration.most)
-    wanted = BranchChoice(options.branch, places, goals - linkage.angles[places])
-    number, rates = beginning(configuration, _along(configuration, options) if options.along else wanted)
+    largest = pi if configuration.limited else float(np.finfo(float).max)
+    places, goals = goals_of(joints, options.drive, largest)
+    choice = BranchChoice(options.branch, places, goals - linkage.angles[places])
+    number, rates = beginning(configuration, _along(configuration, options) if options.along else choice)
     if not places:
         places = [leading(rates)]
-        goals = configuration.whole * np.sign(rates[places])
+        goals = (_NEARLY_HALF if configuration.limited else tau) * np.sign(rates[places])
     start = linkage.angles[places]
     if (goals - start) @ rates[places] < -MARGIN * float(np.linalg.norm(goals - start)):
         rates = -rates
     steps = np.arange(1, options.frames + 1)[:, None] / options.frames
     limited = np.full(len(joints), configuration.limited)
-    by_least_rates = found is not None and found.regular and len(options.drive) == 1
+    by_least_rates = branches is not None and branches.regular and len(options.drive) == 1
     direction = None if by_least_rates else rates  # any others might soon turn the driven joint back
     allowance = Allowance(_STEPS + _STEPS_OF_FRAME * options.frames)
-    still = () if number is None or found is None else found.branches[number].still
+    still = () if number is None or branches is None else branches.branches[number].still
     signs = _signs(configuration, rates, places) if configuration.limited else None
     straight, report, events = bool(options.along), options.report, options.events
     on_path = PathOptions(direction, limited, straight, report, joints, allowance, still, events, signs)
@@ -242,10 +218,7 @@ def driven_from(configuration: Configuration, options: MotionOptions) -> DrivenM
 
 
 def _signs(configuration: Configuration, rates: Floats, driven: Sequence[int]) -> Floats:
-    """Return the signs that fold angles are to keep: those they have, those of the rates at zero, else the marks.
-
-    Driven joints go where they are driven. The marks count, or their opposites, where all rates agree with them.
-    """
+    """Return the signs that fold angles are to keep: their own, else of rates, else of marks that agree."""
     angles, marks = configuration.linkage.angles, configuration.marks
     rates = np.where(np.abs(rates) > DOUBLE.zero_rate, rates, 0.0)
     turned = rates * marks

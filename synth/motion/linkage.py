@@ -1,8 +1,8 @@
 """A linkage at a configuration: links, joint axes, loops that have to close, and links at other joint angles.
 
-The configuration is that of the coordinates. Joint angles count from a zero of their own: of a crease, from flat,
-with valley folds positive, as in FOLD files; of other joints, from this configuration. Lengths are in units of the
-extent, about the middle of all points. Theory: docs/theory/folding.md.
+Joint angles count from a zero of their own: of a crease, from flat, with valley folds positive, as in FOLD files;
+of other joints, from this configuration. Lengths are in units of the extent, about the middle of all points.
+Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -42,8 +42,7 @@ __all__ = [
 class PosedLoop:
     """A loop of a linkage at a pose: places of its joints in loop order, and the centre of their axes.
 
-    A sign is 1 where the loop goes from a joint's first link to its second. The axes meet in a finite centre, and
-    directions close; they are parallel for an infinite one.
+    A sign is 1 where the loop goes from a joint's first link to its second.
     """
 
     joints: tuple[int, ...]
@@ -92,6 +91,7 @@ class PosedLinkage:
 def linkage_of_axes(
     graph: SCGraph,
     axes: Mapping[JointId, tuple[Sequence[float], Sequence[float]]],
+    *,
     slides: Collection[JointId] = (),
 ) -> PosedLinkage:
     """Return a linkage with joint axes in space.
@@ -172,7 +172,7 @@ def linkage_of_sheet(
     directions = creases.directions(corners)
     areas = creases.area_vectors(corners)
     first, second = unit(areas[creases.sides.T])
-    angles = _fold_angles(first, second, directions)
+    angles = np.arctan2((np.cross(first, second) * directions).sum(axis=1), (first * second).sum(axis=1))
     lengths = np.linalg.norm(corners[edges[:, 1]] - corners[edges[:, 0]], axis=1)
     widths = np.linalg.norm(areas[creases.sides], axis=2).min(axis=1, initial=np.inf) / (2.0 * lengths)
     # rounding turns a panel about a crease by as much as it moves points, over the width of the panel
@@ -186,11 +186,7 @@ def linkage_of_sheet(
 
 
 def axis_lengths(linkage: PosedLinkage) -> Floats:
-    """Return how long the pieces of the axes are by which their directions are known: float[J], of the extent.
-
-    A crease lies half on either side of its point, from the vertex that its loop goes round. Other axes are taken
-    to be known as if they were as long as the extent.
-    """
+    """Return the lengths, in extents, by which axes are known: of creases from their vertex, of others 1."""
     lengths = np.ones(len(linkage.angles))
     for loop in linkage.loops:
         joints = list(loop.joints)
@@ -229,10 +225,7 @@ class Creases:
     faces: tuple[tuple[int, ...], ...]
 
     def directions(self, corners: Floats) -> Floats:
-        """Return the unit vectors along the axes with vertices at float[V, 3]: float[J, 3].
-
-        Raises `InvariantError` if a crease has no length.
-        """
+        """Return the unit vectors along the axes with vertices at float[V, 3]; an error if one has no length."""
         along = corners[self.ends[:, 1]] - corners[self.ends[:, 0]]
         lengths = np.linalg.norm(along, axis=1)
         for place in np.flatnonzero(lengths == 0.0):
@@ -248,10 +241,6 @@ class Creases:
         vectors = np.zeros((len(self.faces), 3))
         np.add.at(vectors, of, np.cross(corners[ends[:, 0]], corners[ends[:, 1]]))
         return vectors
-
-    def normals(self, corners: Floats) -> Floats:
-        """Return the unit normals of the faces, zeros where a face has no area: float[faces, 3]."""
-        return unit(self.area_vectors(corners))
 
 
 def creases_of(sheet: Sheet, mechanism: SheetMechanism) -> Creases:
@@ -286,18 +275,13 @@ def _turned(sheet: Sheet, beside: Mapping[tuple[int, int], Sequence[int]]) -> li
     return faces
 
 
-def _fold_angles(first: Floats, second: Floats, axes: Floats) -> Floats:
-    """Return the angles about axes from first to second normals, radians."""
-    return np.asarray(np.arctan2((np.cross(first, second) * axes).sum(axis=1), (first * second).sum(axis=1)))
-
-
 def _marks(sheet: Sheet) -> dict[tuple[int, int], float]:
     """Return the fold angle that a sheet gives for each edge, radians, or 1 for a valley and -1 for a mountain."""
     marks = {}
     for number, (a, b) in enumerate(sheet.edges):
-        given = None if sheet.fold_angles is None else sheet.fold_angles[number]
+        angle = None if sheet.fold_angles is None else sheet.fold_angles[number]
         letter = {"V": 1.0, "M": -1.0}.get(sheet.assignments[number], 0.0)
-        marks[min(a, b), max(a, b)] = given or letter
+        marks[min(a, b), max(a, b)] = angle or letter
     return marks
 
 
@@ -322,7 +306,6 @@ def link_motions(
     Examples
     --------
     >>> from graphs.mechanism.sc import SCGraph
-    >>> from synth.motion.linkage import linkage_of_axes
     >>> hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
     >>> rotation, _ = link_motions(hinge, np.array([[np.pi / 2]]))[1]
     >>> (rotation[0] @ [1.0, 0.0, 0.0]).round(12).tolist()
@@ -344,12 +327,7 @@ def link_motions(
 def joints_outwards(
     linkage: PosedLinkage, ground: LinkId | None = None
 ) -> Iterator[tuple[LinkId, LinkId, int, float]]:
-    """Yield joints that carry links, those nearer to the fixed links first.
-
-    Yields a link, the link that it carries, the place of the joint between them in the list of joints, and 1 or
-    -1: by which of its angle the far one is turned. The ground, by default the first link, is fixed; each part of
-    a linkage in several parts has one fixed link.
-    """
+    """Yield from the fixed link outwards: a link, the one it carries, the place of their joint, and its sense."""
     graph = linkage.graph
     column = {joint: place for place, joint in enumerate(graph.joints)}
     between = nx.Graph()

@@ -20,14 +20,14 @@ from synth.motion.singular.sampling import rates_towards, same_part
 from synth.motion.singular.second_order import RateSpace, rates_at
 
 __all__ = [
+    "AssignedBranch",
     "Disagreement",
     "Marked",
-    "MarkedWay",
     "agreeing_best",
+    "assigned_branch",
     "disagreement_with",
     "marked_rates",
-    "marked_way",
-    "nearest_way",
+    "nearest_branch",
     "rates_as_marked",
 ]
 
@@ -41,7 +41,7 @@ _STARTS, _LEAST, _TOGETHER = 40, 4, 600
 space, and on all together."""
 
 
-class MarkedWay(NamedTuple):
+class AssignedBranch(NamedTuple):
     """The branch that the assignment chooses: of several that begin with it the freest, None if there is none.
 
     "none has" is proved, by linear programming on the rates that close to first order, or on all branches; "none
@@ -54,11 +54,10 @@ class MarkedWay(NamedTuple):
 
 
 class Disagreement(NamedTuple):
-    """How the assignment differs from a branch, which has a number.
+    """How the assignment differs from a branch, by its number, at the rates float[J] nearest to it.
 
-    `opposite` and `immobile` are places of joints: those assigned the other way than they turn at the rates,
-    float[J], of the branch that are nearest to the assignment, up to the sign of all; and those assigned that stay
-    as they are.
+    `opposite` and `immobile` are places of joints: those assigned the other way than they turn there, up to the
+    sign of all; and those assigned that stay as they are.
     """
 
     number: int
@@ -72,17 +71,19 @@ class Disagreement(NamedTuple):
         return len(self.opposite) + len(self.immobile)
 
 
-def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats, first: Floats | None = None) -> MarkedWay:
-    """Return the way that begins with all marked joints as they are marked, or all against it.
+def assigned_branch(
+    branches: Branches, linkage: PosedLinkage, marks: Floats, first: Floats | None = None
+) -> AssignedBranch:
+    """Return the branch that begins with all marked joints as they are marked, or all against it.
 
-    Marks are 1 for valleys, -1 for mountains, 0 for joints without; the branches begin at the linkage's pose.
-    Rates float[J] that have all marks may be given, from which those of a branch are looked for first.
+    Marks are 1 for valleys, -1 for mountains, 0 for joints without; those of a branch are looked for first from
+    the rates `first`, float[J], that have all marks.
     """
-    if not marks.any() or not found.branches:
-        return MarkedWay(None, None)
-    spaces = {id(branch.space): branch.space for branch in found.branches}
+    if not marks.any() or not branches.branches:
+        return AssignedBranch(None, None)
+    spaces = {id(branch.space): branch.space for branch in branches.branches}
     starts = min(_STARTS, max(_LEAST, _TOGETHER // len(spaces)))
-    order = np.array(found.order, dtype=np.int64)
+    order = np.array(branches.order, dtype=np.int64)
     in_order = signed(marks[order])
     turn, place = float(np.sign(in_order @ marks[order])), np.argsort(order)
     begin = None if first is None else turn * first[order]
@@ -90,15 +91,15 @@ def marked_way(found: Branches, linkage: PosedLinkage, marks: Floats, first: Flo
     for number, space in spaces.items():
         ordered = marked_rates(space.in_order(order), in_order, starts, begin)
         begun[number] = [turn * rates[place] for rates in ordered]
-    parts = [_on_part(branch, begun[id(branch.space)]) for branch in found.branches]
+    parts = [_on_part(branch, begun[id(branch.space)]) for branch in branches.branches]
     agree = {number: rates for number, rates in enumerate(parts) if rates is not None}
     if agree:
-        freest = max(agree, key=lambda number: (found.branches[number].freedoms or 0, -number))
-        return MarkedWay(freest, "has", _begun_as_marked(found.branches[freest], agree[freest], marks))
+        freest = max(agree, key=lambda number: (branches.branches[number].freedoms or 0, -number))
+        return AssignedBranch(freest, "has", _begun_as_marked(branches.branches[freest], agree[freest], marks))
     tangent = rates_at(ClosureEquations(linkage), linkage.angles)
-    linear = found.exhaustive and not any(branch.space.left for branch in found.branches)
+    linear = branches.exhaustive and not any(branch.space.left for branch in branches.branches)
     sure = linear or _rates_with(tangent, marks) is None
-    return MarkedWay(None, "none has" if sure else "none found")
+    return AssignedBranch(None, "none has" if sure else "none found")
 
 
 def rates_as_marked(branch: Branch, marks: Floats) -> Floats:
@@ -109,31 +110,31 @@ def rates_as_marked(branch: Branch, marks: Floats) -> Floats:
     return -branch.rates if branch.rates @ marks < -DOUBLE.zero_rate else branch.rates
 
 
-def agreeing_best(found: Branches, marks: Floats) -> int:
+def agreeing_best(branches: Branches, marks: Floats) -> int:
     """Return the number of the branch on which most joints begin as they are assigned, less those that do not."""
 
     def agreement(branch: Branch) -> int:
         rates = rates_as_marked(branch, marks)
         return int((np.sign(np.where(np.abs(rates) > DOUBLE.zero_rate, rates, 0.0)) * marks).sum())
 
-    return max(range(len(found.branches)), key=lambda number: (agreement(found.branches[number]), -number))
+    return max(range(len(branches.branches)), key=lambda number: (agreement(branches.branches[number]), -number))
 
 
-def nearest_way(found: Branches, marks: Floats) -> Disagreement:
+def nearest_branch(branches: Branches, marks: Floats) -> Disagreement:
     """Return how the assignment differs from the branch with which the fewest joints disagree.
 
-    Of several such that with which fewest turn the other way, then the freest, then the first. On a branch of one
+    Of several, that with which fewest turn the other way, then the freest, then the first. On a branch of one
     freedom the number is exact. On a larger linear one the disagreements are fewest in sum of rates, and of those
     of the best branches none can be left out; where equations are left, they are those of the rates nearest to the
     marks.
     """
-    near = [disagreement_with(number, branch, marks) for number, branch in enumerate(found.branches)]
+    near = [disagreement_with(number, branch, marks) for number, branch in enumerate(branches.branches)]
 
     def order(one: Disagreement) -> tuple[int, int, int, int]:
-        return one.size, len(one.opposite), -(found.branches[one.number].freedoms or 0), one.number
+        return one.size, len(one.opposite), -(branches.branches[one.number].freedoms or 0), one.number
 
     best = sorted(near, key=order)[:_REFINED]
-    return min((_fewer(one, found.branches[one.number].space, marks) for one in best), key=order)
+    return min((_fewer(one, branches.branches[one.number].space, marks) for one in best), key=order)
 
 
 def disagreement_with(number: int, branch: Branch, marks: Floats) -> Disagreement:
@@ -158,15 +159,12 @@ def _least_against(basis: Floats, marks: Floats) -> Floats:
     rows = np.hstack([-marks[marked, None] * basis[marked], -np.eye(len(marked))])
     cost = np.repeat([0.0, 1.0], [basis.shape[1], len(marked)])
     bounds = [(None, None)] * basis.shape[1] + [(0.0, None)] * len(marked)
-    found = linprog(cost, A_ub=rows, b_ub=-np.ones(len(marked)), bounds=bounds, method="highs")
-    return np.asarray(basis @ found.x[: basis.shape[1]])
+    solution = linprog(cost, A_ub=rows, b_ub=-np.ones(len(marked)), bounds=bounds, method="highs")
+    return np.asarray(basis @ solution.x[: basis.shape[1]])
 
 
 def _fewer(one: Disagreement, space: RateSpace, marks: Floats) -> Disagreement:
-    """Let those of the joints that disagree agree, in turn, that can do so while all others go on to.
-
-    Where the rest agrees, those that are left turn the other way or not at all, and are given room to turn.
-    """
+    """Let joints that disagree agree, in turn, that can while others go on to; the rest gets room to turn."""
     against = [*one.opposite, *one.immobile][:_TRIED]
     if space.left or space.basis.shape[1] == 1 or one.size > _TRIED:
         return one
@@ -184,8 +182,8 @@ def _fewer(one: Disagreement, space: RateSpace, marks: Floats) -> Disagreement:
     rows = np.block([[keep, np.zeros((len(agree), room))], [turn, np.eye(room)]])
     most = np.repeat([-1.0, 0.0], [len(agree), room])
     bounds = [(None, None)] * free + [(0.0, 1.0)] * room
-    found = linprog(np.repeat([0.0, -1.0], [free, room]), A_ub=rows, b_ub=most, bounds=bounds, method="highs")
-    return one if found.x is None else _differing(one.number, space.basis @ found.x[:free], marks)
+    solution = linprog(np.repeat([0.0, -1.0], [free, room]), A_ub=rows, b_ub=most, bounds=bounds, method="highs")
+    return one if solution.x is None else _differing(one.number, space.basis @ solution.x[:free], marks)
 
 
 def _on_part(branch: Branch, begun: Sequence[Floats]) -> Floats | None:
@@ -208,7 +206,7 @@ def marked_rates(space: RateSpace, marks: Floats, starts: int, first: Floats | N
     inside = _rates_with(space.basis, marks)
     if inside is None or not space.left:
         return [] if inside is None else [inside]
-    marked, largest, found = marks != 0.0, np.abs(inside).max(), list[Floats]()
+    marked, largest, begun = marks != 0.0, np.abs(inside).max(), list[Floats]()
     for number in range(starts):
         start = (marks * largest if first is None else first, inside)[number % 2]
         if number > 1:  # other sizes, the same signs
@@ -216,15 +214,12 @@ def marked_rates(space: RateSpace, marks: Floats, starts: int, first: Floats | N
         rates = rates_towards(space, start)
         turned = (rates * marks)[marked]
         if (turned > DOUBLE.zero_rate).all() or (turned < -DOUBLE.zero_rate).all():
-            found.append(rates)
-    return found
+            begun.append(rates)
+    return begun
 
 
 def _rates_with(basis: Floats, marks: Floats) -> Floats | None:
-    """Return rates within a space, columns of float[J, s], that have all marks; None if there are none.
-
-    Each marked joint has a rate of 1 at least, their sum is least.
-    """
+    """Return rates within a space, float[J, s], of 1 at least along each mark, least in sum; else None."""
     marked = marks != 0.0
     rows = -marks[marked, None] * basis[marked]
     inside = linprog(-rows.sum(axis=0), A_ub=rows, b_ub=-np.ones(len(rows)), bounds=(None, None), method="highs")

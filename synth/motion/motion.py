@@ -104,7 +104,7 @@ class Motion(Printed):
     @property
     def closure(self) -> float:
         """The largest loop-closure residual of all frames."""
-        return float(self.path.errors.max(initial=0.0))
+        return self.path.error
 
     def frames(self) -> list[Sheet | PosedLinkage]:
         """Return the mechanism in each frame: a sheet with coordinates in space and fold angles, or a linkage."""
@@ -112,17 +112,13 @@ class Motion(Printed):
         return [self.configuration.at(angles, points) for angles, points in every]
 
     def path_of(self, link: LinkId, point: Sequence[float]) -> Floats:
-        """Return where a point of a link is in each frame, the first link held: a coupler curve.
+        """Return where a point of a link is in each frame, the first link held: a coupler curve, float[F, 3].
 
         Parameters
         ----------
         link : link id
         point : sequence of 2 or 3 floats
             Where the point is in the initial configuration, in the unit of the coordinates.
-
-        Returns
-        -------
-        float[F, 3]
 
         Raises
         ------
@@ -148,15 +144,15 @@ class Motion(Printed):
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
-        found, taken, reading = self.branches, self.taken, self.configuration.reading
+        branches, taken, reading = self.branches, self.taken, self.configuration.reading
         columns = zip(self.joints, np.degrees(self.path.angles.T).tolist(), strict=True)
         return {
             "configuration": self.configuration.to_json(taken),
             "freedoms": self.freedoms,
             "certainty": None if taken is None else taken.certainty,
-            "branches": None if found is None else [one.to_json(self.joints) for one in found.branches],
-            "exhaustive": None if found is None else found.exhaustive,
-            "search": None if found is None else found.method,
+            "branches": None if branches is None else [one.to_json(self.joints) for one in branches.branches],
+            "exhaustive": None if branches is None else branches.exhaustive,
+            "search": None if branches is None else branches.method,
             "branch": self.branch,
             "driven": {str(joint): degrees(angle) for joint, angle in self.driven.items()},
             "frames": len(self.path.angles),
@@ -225,51 +221,48 @@ class Motion(Printed):
         }
 
     def _lines_of_assignment(self) -> list[Block]:
-        found = self._of_assignment()
-        if found is None:
+        report = self._of_assignment()
+        if report is None:
             return []
         lines: list[Block] = []
-        if found["reversed"]:
+        if report["reversed"]:
             lines.append("the assignment is reversed: mountains fold as valleys, valleys as mountains")
-        if found["against"]:
-            creases = found["against"]
-            noun, frame = "crease" if len(creases) == 1 else "creases", found["first_frame_against"]
+        if report["against"]:
+            creases = report["against"]
+            noun, frame = "crease" if len(creases) == 1 else "creases", report["first_frame_against"]
             lines.append(f"against the assignment, from frame {frame} on: {noun} {listed(creases)}")
         return lines
 
     def _lines_of_branch(self) -> list[Block]:
-        found, taken = self.branches, self.taken
-        if found is None or taken is None:
+        branches, taken = self.branches, self.taken
+        if branches is None or taken is None:
             return []
-        which = "" if found.regular else f"branch {self.branch}: "
+        which = "" if branches.regular else f"branch {self.branch}: "
         if taken.freedoms is None:
             freedoms = "degrees of freedom unknown"
         else:
             evidence = "not proved" if taken.certainty == "not known" else taken.certainty
             freedoms = f"{numbered(taken.freedoms, 'degree of freedom', 'degrees of freedom')} ({evidence})"
         lines: list[Block] = [f"{which}{freedoms}; signs {taken.signs}"]
-        if not found.regular:
-            lines.append(self._line_of_search(found))
+        if not branches.regular:
+            flat = self.configuration.flat
+            kind, start = ("folding branch", "the flat state") if flat else ("motion branch", "this configuration")
+            all_found = "all there are" if branches.exhaustive else "not proved exhaustive"
+            more = "" if branches.complete else "; there may be many more"
+            count = numbered(len(branches.branches), kind, f"{kind}es")
+            lines.append(f"{count} from {start} ({_SEARCHES[branches.method]}; {all_found}{more})")
         if self.configuration.disagreeing:
             lines.append(self.configuration.disagreeing)
         return lines
 
-    def _line_of_search(self, found: Branches) -> str:
-        """Return how many branches there are, and whether these are all."""
-        flat = self.configuration.flat
-        kind, start = ("folding branch", "the flat state") if flat else ("motion branch", "this configuration")
-        evidence = _SEARCHES[found.method] + ("; all there are" if found.exhaustive else "; not proved exhaustive")
-        evidence += "" if found.complete else "; there may be many more"
-        return f"{numbered(len(found.branches), kind, f'{kind}es')} from {start} ({evidence})"
-
     def __repr__(self) -> str:
-        return f"<Motion: {len(self.path.angles)} frames of {self.linkage!r}>"
+        return f"<Motion: {numbered(len(self.path.angles), 'frame')} of {numbered(len(self.joints), 'joint')}>"
 
 
 def motion_of(configuration: Configuration, options: MotionOptions, *, collisions: bool = False) -> Motion:
     """Return the motion from a configuration; with `collisions` it ends before panels pass through each other.
 
-    Raises `UnsolvableError` if nothing moves, or not with the driven joints, or if there are no panels to collide;
+    Raises `UnsolvableError` if nothing moves, or not with the driven joints, or there are no panels to collide;
     `InvariantError` if there is no such joint or branch, or an angle is out of range.
     """
     if not configuration.joints:
@@ -284,11 +277,7 @@ def motion_of(configuration: Configuration, options: MotionOptions, *, collision
 
 
 def motion_along(configuration: Configuration, driven: DrivenMotion) -> Motion:
-    """Return a motion with its points in each frame, as far as panels hold together.
-
-    Loops close by the axes of creases. One of several pieces that are in line but for rounding has one axis, and
-    panels part at the other pieces.
-    """
+    """Return a motion with its points in each frame, until panels part at creases that rounding has bent."""
     path = driven.path
     points, apart = configuration.placed(path.angles)
     if (apart > DOUBLE.same_point).any():

@@ -1,9 +1,8 @@
 """Paths of closed configurations with driven joints, and circuits: closed curves past all dead points.
 
-With one freedom turning points of the driver are passed. Where a path ends before its goal it says why and how far
-it came; the events on the way are recorded. A path ends where its driven joints cannot come nearer to their
-angles; a circuit has no driver: the walk goes along the curve itself, until it comes back to where it began. How
-steps are taken: `synth.motion.walk`. Theory: docs/theory/folding.md, docs/theory/moving.md.
+With one freedom turning points of the driver are passed. A path ends where its driven joints cannot come nearer to
+their angles, and says why; a circuit has no driver: the walk goes along the curve until it comes back to where it
+began. How steps are taken: `synth.motion.walk`. Theory: docs/theory/folding.md, docs/theory/moving.md.
 """
 
 from __future__ import annotations
@@ -109,6 +108,9 @@ class Path:
         """Numbers of its frames that are turning points of a joint, if these were looked for."""
         return [event.frame for event in self.events if event.kind == "turning point"]
 
+    def __repr__(self) -> str:
+        return f"<Path: {numbered(len(self.angles), 'frame')}, {numbered(len(self.events), 'event')}>"
+
     def up_to(self, frames: int) -> Path:
         """Return the first frames, and the events before the last of them."""
         events = tuple(event for event in self.events if event.frame < frames - 1)
@@ -136,10 +138,6 @@ def driven_path(
         Their angles in each frame, radians.
     options : PathOptions, optional
 
-    Returns
-    -------
-    Path
-
     Examples
     --------
     A Bennett linkage, its first joint turned by 90 degrees:
@@ -161,11 +159,7 @@ def driven_path(
 
 
 class Drive:
-    """Joints driven from one goal to the next: frames of a walk from a closed configuration, float[J].
-
-    With one freedom the walk goes on past the points at which the driven joint turns back, until that has its
-    angle, the walk comes round, or ends.
-    """
+    """Joints driven from one goal to the next; with one freedom past the turning points of the driven joint."""
 
     def __init__(
         self, closure: ClosureEquations, start: Floats, drivers: Sequence[int], options: PathOptions
@@ -233,7 +227,7 @@ class Drive:
 
 
 def circuit_through(
-    closure: ClosureEquations, start: Floats, towards: Floats | None = None, events: Sequence[Event] = ()
+    closure: ClosureEquations, start: Floats, *, towards: Floats | None = None, events: Sequence[Event] = ()
 ) -> Path:
     """Follow the configurations of a linkage of one freedom from one of them, in one sense.
 
@@ -249,10 +243,6 @@ def circuit_through(
         Rates whose sense the circuit takes.
     events : sequence of Event, optional
         Events to record. The frames of the walk are the configurations of the circuit.
-
-    Returns
-    -------
-    Path
 
     Raises
     ------

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -37,7 +38,6 @@ from synth.guidance.fourbars import GuidedFourBar
 from synth.guidance.orientations import Orientations
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT, Configuration
-from synth.motion.driving import check_closed
 from synth.motion.linkage import PosedLinkage, linkage_of_axes
 
 __all__ = ["Movable", "configuration_of", "linkage_of_rods", "posed_on_surface", "sheet_of", "with_precision"]
@@ -51,7 +51,7 @@ class _Hinges:
     joints: dict[Hashable, tuple[Hashable, Hashable]] = field(default_factory=dict)
     axes: dict[Hashable, tuple[list[float], list[float]]] = field(default_factory=dict)
 
-    def join(self, first: int, second: int, point: Floats, directions: Floats) -> None:
+    def join(self, first: int, second: int, point: Sequence[float], directions: Floats) -> None:
         """Join two rods at a point, by hinges one after the other; small bodies lie between these."""
         name = f"{first}-{second}"
         between: list[Hashable] = [f"{name}.{number}" for number in range(1, len(directions))]
@@ -60,7 +60,7 @@ class _Hinges:
         for number, direction in enumerate(directions):
             joint = name if len(directions) == 1 else f"{name}.{'abc'[number]}"
             self.joints[joint] = (ends[number], ends[number + 1])
-            self.axes[joint] = (point.tolist(), direction.tolist())
+            self.axes[joint] = (list(point), direction.tolist())
 
 
 def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
@@ -70,17 +70,12 @@ def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
     each has just the hinges that its direction needs: two where it meets the rod before it, across it and each
     other, one where that is the first of all, whose own turning is that of the whole. Where rods meet beside the
     tree, three hinges stand for the ball between them. So the freedoms are those of the model: 3 V - 6 less the
-    redundant ones.
+    redundant ones. Links are the rods, by their place in the list of rods, and bodies between hinges.
 
     Parameters
     ----------
     model : PolyhedronModel
         With coordinates; rods only.
-
-    Returns
-    -------
-    PosedLinkage
-        Links are the rods, by their place in the list of rods, and bodies between hinges.
 
     Raises
     ------
@@ -105,13 +100,16 @@ def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
     directions = _directions(rods, ends)
     tolerances = Tolerances.of(precision_of(list(model.coordinates.values())).size)
     hinges = _Hinges(list(range(len(rods))))
-    meetings = _meetings(model, rods)
+    meetings: dict[Hashable, list[int]] = {vertex: [] for vertex in model.nodes}
+    for number, rod in enumerate(rods):
+        for vertex in rod:
+            meetings[vertex].append(number)
     tree = _tree(meetings, directions, tolerances.parallel)
     for first, second, vertex in tree:
         across = _across(directions[first], directions[second], tolerances.parallel)
-        hinges.join(first, second, _at(model, vertex), across[:1] if not hinges.joints else across)
+        hinges.join(first, second, model.coordinates[vertex], across[:1] if not hinges.joints else across)
     for first, second, vertex in _others(meetings, tree):
-        hinges.join(first, second, _at(model, vertex), np.eye(3))
+        hinges.join(first, second, model.coordinates[vertex], np.eye(3))
     return linkage_of_axes(SCGraph(hinges.links, hinges.joints), hinges.axes)
 
 
@@ -143,24 +141,16 @@ def _directions(rods: list[tuple[Any, Any]], ends: Floats) -> Floats:
     return unit(along / sizes[:, None])
 
 
-def _meetings(model: PolyhedronModel, rods: list[tuple[Any, Any]]) -> dict[Hashable, list[int]]:
-    """Return the rods at each vertex."""
-    meetings: dict[Hashable, list[int]] = {vertex: [] for vertex in model.nodes}
-    for number, (a, b) in enumerate(rods):
-        meetings[a].append(number)
-        meetings[b].append(number)
-    return meetings
+_Meeting = tuple[int, int, Hashable]
+"""Two rods, and the vertex at which they meet."""
 
 
-def _tree(
-    meetings: dict[Hashable, list[int]], directions: Floats, parallel: float
-) -> list[tuple[int, int, Hashable]]:
+def _tree(meetings: Mapping[Hashable, list[int]], directions: Floats, parallel: float) -> list[_Meeting]:
     """Return a tree of the rods, (rod, next rod, vertex) from the first; the first two are not in line."""
     touching = nx.Graph()
     touching.add_nodes_from(range(len(directions)))
     for vertex, here in meetings.items():
-        for place, first in enumerate(here):
-            touching.add_edges_from((first, second, {"vertex": vertex}) for second in here[place + 1 :])
+        touching.add_edges_from(combinations(here, 2), vertex=vertex)
     root, turn = _beginning(touching, directions, parallel)
     order = [(root, turn), *nx.bfs_edges(touching, root)] if turn is not None else []
     seen, tree = {root}, []
@@ -185,9 +175,7 @@ def _beginning(touching: nx.Graph, directions: Floats, parallel: float) -> tuple
     return int(first), int(second)
 
 
-def _others(
-    meetings: dict[Hashable, list[int]], tree: list[tuple[int, int, Hashable]]
-) -> list[tuple[int, int, Hashable]]:
+def _others(meetings: Mapping[Hashable, list[int]], tree: list[_Meeting]) -> list[_Meeting]:
     """Return the meetings that the tree leaves out: at each vertex all rods are joined, without circles."""
     left = []
     for vertex, here in meetings.items():
@@ -204,10 +192,6 @@ def _across(first: Floats, second: Floats, parallel: float) -> Floats:
     if np.linalg.norm(normal) <= parallel:
         return frame_about(second)[:2]
     return np.stack([unit(normal), np.cross(second, unit(normal))])
-
-
-def _at(model: PolyhedronModel, vertex: Hashable) -> Floats:
-    return np.array(model.coordinates[vertex], dtype=float)
 
 
 Movable: TypeAlias = Configuration | PosedLinkage | MechanismLike | GuidedFourBar | OnSurface
@@ -249,10 +233,6 @@ def configuration_of(
     slides : bool, optional
         Keep the prismatic joints of a linkage of revolute and prismatic joints, in place of equivalent revolutes.
 
-    Returns
-    -------
-    Configuration
-
     Raises
     ------
     UnsolvableError
@@ -273,7 +253,7 @@ def configuration_of(
     if isinstance(mechanism, Configuration):
         return mechanism
     if isinstance(mechanism, PosedLinkage):
-        check_closed(ClosureEquations(mechanism), mechanism)
+        ClosureEquations(mechanism).check_closed(mechanism.angles)
         return Configuration(mechanism, _EXACTLY)
     if isinstance(mechanism, Sheet) or (frame is None and isinstance(mechanism, PolyhedronModel)):
         sheet, options = sheet_of(mechanism), {"hinge_flat": hinge_flat, "mend": mend}
@@ -314,8 +294,7 @@ def _made(mechanism: Movable, orientations: Orientations | None) -> tuple[PosedL
 def with_precision(mechanism: Mechanism, precision: float | None) -> Mechanism | Configuration:
     """Return a mechanism whose coordinates are stated to be wrong by no more than a length, in their unit.
 
-    A sheet keeps its precision, any other mechanism has one at its configuration; without a length it is returned
-    as it is. Raises `InvariantError` if that is no length, `UnsolvableError` without coordinates.
+    A sheet keeps its precision, any other mechanism has one at its configuration.
     """
     if precision is None:
         return mechanism
@@ -336,7 +315,7 @@ def _with_slides(mechanism: JointedLinkage) -> tuple[PosedLinkage, Precision]:
     if not axes:
         raise UnsolvableError(f"motion needs coordinates, and {mechanism!r} has none")
     slides = [joint for joint, kind in mechanism.kinds.items() if kind is JointKind.PRISMATIC]
-    return _with_centres(linkage_of_axes(mechanism.chain, axes, slides)), _precision_of_axes(axes)
+    return _with_centres(linkage_of_axes(mechanism.chain, axes, slides=slides)), _precision_of_axes(axes)
 
 
 def sheet_of(mechanism: Mechanism) -> Sheet | None:
@@ -358,10 +337,6 @@ def posed_on_surface(linkage: OnSurface) -> PosedLinkage:
     Parameters
     ----------
     linkage : OnSurface
-
-    Returns
-    -------
-    PosedLinkage
 
     Raises
     ------

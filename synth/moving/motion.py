@@ -52,10 +52,6 @@ def move(
         As in `synth.fold`: initial rates, motion branch, number of frames, end before a collision, error of a
         coordinate, callback.
 
-    Returns
-    -------
-    Motion
-
     Raises
     ------
     UnsolvableError
@@ -67,9 +63,9 @@ def move(
     --------
     >>> import numpy as np
     >>> from synth.patterns import generate
-    >>> moved = move(generate("bennett").mechanism, drive={0: np.pi / 6}, frames=2)
-    >>> np.degrees(moved.path.angles[-1, 0]).round(6).tolist(), moved.taken.freedoms
-    (30.0, 1)
+    >>> motion = move(generate("bennett").mechanism, drive={0: np.pi / 6}, frames=2)
+    >>> motion, np.degrees(motion.path.angles[-1, 0]).round(6).tolist(), motion.taken.freedoms
+    (<Motion: 3 frames of 4 joints>, 30.0, 1)
     """
     check_argument("move", mechanism, Movable)
     at = configuration_of(mechanism, precision=precision)

@@ -56,7 +56,7 @@ class Sense:
 
     The limit is in radians, negative where the joint turns backward; `ends` says why there: ``turns back``,
     ``turns all round`` (the conformed position again), or why the curve could not be followed. `ways` has the
-    stretches of each link in order.
+    stretches of each link.
     """
 
     limit: float
@@ -111,10 +111,7 @@ class SurfaceLinks:
         return {link: (turn, extent * shift + middle - turn @ middle) for link, (turn, shift) in moved.items()}
 
     def spans(self, angles: Floats) -> Floats:
-        """Return how far links lie outside the surface, at least and at most, less rounding: float[F, N, 2].
-
-        Lengths are in units of the distance from the apex, or of the radius.
-        """
+        """Return how far links lie outside the surface, least and most, less rounding: float[F, N, 2]."""
         motions = self.motions(angles)
         spans = np.empty((len(angles), len(self.names), 2))
         for number, (link, (begin, length)) in enumerate(zip(self.names, self._arcs, strict=True)):
@@ -126,12 +123,7 @@ class SurfaceLinks:
 
 @dataclass(frozen=True, eq=False)
 class Crossing:
-    """A piece of a walk on which a link comes to lie inside or outside of the surface, or ceases to.
-
-    It begins after the circuit's configuration number `frame`; `sides` are those that change: inside (0), outside
-    (1). Where they do is computed only when needed: the circuit goes on past the turning points of the driving
-    joint.
-    """
+    """A piece of a walk, after configuration `frame`, on which a link changes `sides`: inside (0), outside (1)."""
 
     links: SurfaceLinks
     driver: int
@@ -153,10 +145,7 @@ class Crossing:
 
 
 class SidesOfSurface(Event):
-    """Links leave a side of the surface, or come to lie on it.
-
-    `begun` and `now`, bool[N, 2], say whether links are inside and outside soon after the start, and at the end.
-    """
+    """Links leave a side of the surface, or come to lie on it: bool[N, 2] soon after the start, and `now`."""
 
     def __init__(self, links: SurfaceLinks, driver: int) -> None:
         self._links, self._driver = links, driver
@@ -180,10 +169,7 @@ class SidesOfSurface(Event):
 
 
 class Turns(Event):
-    """The driving joint has one of some turns, whole ones aside.
-
-    `places` holds the number of the circuit's configuration before, the turn, and joint angles float[J].
-    """
+    """The driving joint has one of some turns: `places` are the configuration before, the turn, joint angles."""
 
     def __init__(self, driver: int, turns: Sequence[float]) -> None:
         self._driver, self._turns = driver, turns
@@ -225,7 +211,9 @@ class Course:
     ) -> Course:
         """Return the course that begins towards some rates."""
         sides, at = SidesOfSurface(links, driver), Turns(driver, turns)
-        circuit = circuit_through(closure, links.linkage.angles, towards, [TurningPoint(driver), sides, at])
+        circuit = circuit_through(
+            closure, links.linkage.angles, towards=towards, events=[TurningPoint(driver), sides, at]
+        )
         return cls(circuit, sides.begun, sides.now, sides.crossings, at.places)
 
     @property
@@ -412,15 +400,7 @@ class SurfaceMotion(Motion):
         return np.asarray(turn @ surface.place(point.azimuth, point.along, 0.0) + shift)
 
     def instant_axes(self, first: LinkId, second: LinkId) -> tuple[InstantAxis, ...]:
-        """Return the instant axis of two links at each position, by the rates of the joints there.
-
-        Examples
-        --------
-        >>> from synth.conformed.linkages import loop_on_cylinders
-        >>> [axis] = move_on_surface(loop_on_cylinders([4, 3, 5, 1])[0], at=[0.0]).instant_axes("1", "2")
-        >>> axis.point[[0, 2]].round(4).tolist()
-        [2.4596, -0.6182]
-        """
+        """Return the instant axis of two links at each position, by the rates of the joints there."""
         names = [link_named(self.on_surface.chain, str(link)) for link in (first, second)]
         places = [self.chain.links.index(name) for name in names]
         return tuple(InstantAxis(names[0], names[1], *self._axis(each.angles, *places)) for each in self.positions)
@@ -523,19 +503,17 @@ class SurfaceMotion(Motion):
                     ],
                     "instant_axes": [axis.to_json() for axis in axes],
                 }
-                for each, places, axes in zip(self.positions, self._all_places(), self._all_axes(), strict=True)
+                for each, places, axes in self._located
             ],
         }
 
-    def _all_places(self) -> list[list[list[float]]]:
-        """Return the places of all points at each position."""
-        by_point = [self.places_of(one).tolist() for one in self.points]
-        return [[places[number] for places in by_point] for number in range(len(self.positions))]
-
-    def _all_axes(self) -> list[list[InstantAxis]]:
-        """Return all instant axes at each position."""
-        by_pair = [self.instant_axes(*pair) for pair in self.axes]
-        return [[axes[number] for axes in by_pair] for number in range(len(self.positions))]
+    @cached_property
+    def _located(self) -> list[tuple[Position, list[list[float]], list[InstantAxis]]]:
+        """Each position with the places of all points, and all instant axes."""
+        places = [self.places_of(point).tolist() for point in self.points]
+        axes = [self.instant_axes(*pair) for pair in self.axes]
+        numbered_positions = enumerate(self.positions)
+        return [(each, [row[n] for row in places], [row[n] for row in axes]) for n, each in numbered_positions]
 
 
 def move_on_surface(
@@ -672,7 +650,7 @@ def _positions(motion: SurfaceMotion) -> list[Block]:
 def _places(motion: SurfaceMotion) -> list[Block]:
     rows = [
         (f"{degrees(each.at):g}", plain(one.link), f"{degrees(one.azimuth):g}", f"{one.along:g}", *_numbers(place))
-        for each, places in zip(motion.positions, motion._all_places(), strict=True)
+        for each, places, _ in motion._located
         for one, place in zip(motion.points, places, strict=True)
     ]
     numbers = ["at", "azimuth (deg)", "along", "x", "y", "z"]
@@ -682,7 +660,7 @@ def _places(motion: SurfaceMotion) -> list[Block]:
 def _axes(motion: SurfaceMotion) -> list[Block]:
     on_cylinder = isinstance(motion.on_surface.surface, Cylinder)
     rows = []
-    for each, axes in zip(motion.positions, motion._all_axes(), strict=True):
+    for each, _, axes in motion._located:
         for axis in axes:
             vector = axis.point if on_cylinder else axis.direction
             cells = ["none"] * 3 if vector is None else _numbers(vector.tolist())

@@ -25,7 +25,7 @@ def folded(sheet: Sheet, angle: float) -> Sheet:
 
     Raise UnsolvableError if it does not fold, or not so far.
     """
-    last_frame = fold_to(sheet, angle).folding.frames()[-1]
+    last_frame = fold_to(sheet, angle).frames()[-1]
     assert isinstance(last_frame, Sheet)
     return last_frame
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any, Literal, NamedTuple
+from typing import Any
 
 import networkx as nx
 import numpy as np
@@ -25,7 +25,6 @@ from graphs.types import Floats, JointId
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.branches import Branch, Branches, Certainty, signs_of
 from synth.motion.configuration import EXACT, Configuration
-from synth.motion.linkage import PosedLinkage
 from synth.motion.marked import Marked
 from synth.motion.singular.sampling import walked
 from synth.motion.walk.events import free_rates
@@ -33,75 +32,16 @@ from synth.moving.made import configuration_of, with_precision
 from synth.verdict.verdict import (
     AsWritten,
     Basis,
+    MotionBranch,
     MotionFindings,
     Verdict,
-    Way,
     WithinPrecision,
     clusters_of,
     in_words,
     text_of_motion,
 )
 
-__all__ = ["MOST_PANELS", "JudgedMobility", "mobility", "verdict_of_motion"]
-
-
-def verdict_of_large(configuration: Configuration, generic: int | None = None) -> Verdict:
-    """Trace one motion, near the assignment, and return its degrees of freedom at its end.
-
-    The sentence compares with the mobility of the type, `generic`.
-    """
-    linkage, closure = configuration.linkage, configuration.closure
-    joints = list(linkage.graph.joints)
-    if not linkage.loops:
-        loose = Way("+" * len(joints), len(joints), "proved", (), 0.0, configuration.misfit)
-        findings = MotionFindings(configuration, (loose,), None, True, generic, (), loose)
-        text = text_of_motion(findings, len(joints), "proved")
-        return Verdict(len(joints), "pose", "proved", text, (loose,), True)
-    begun = configuration.begun
-    rates = begun.rates
-    end = linkage.angles if rates is None else walked(linkage.angles, closure, rates)[0]
-    far = float(np.abs(end - linkage.angles).max())
-    if rates is None or far <= DOUBLE.moved:
-        return _unmoved_of_large(configuration, begun.rigid, generic)
-    moving = np.flatnonzero((np.abs(rates) > DOUBLE.zero_rate) | (np.abs(end - linkage.angles) > DOUBLE.immobile))
-    basis = free_rates(closure, end, moving)
-    freedoms = None if basis is None else basis.shape[1]
-    turning = set(moving.tolist())
-    still = tuple(joint for place, joint in enumerate(joints) if place not in turning)
-    from_folded = None if begun.folded is None else (begun.folded.found_at, begun.folded.back_to)
-    way = Way(signs_of(rates), freedoms, "numerical", still, far, configuration.misfit, from_folded)
-    stiff = still if freedoms == 1 and not configuration.flat else ()
-    marked = _as_marked(configuration.marks, rates)
-    findings = MotionFindings(configuration, (way,), marked, False, generic, stiff, way)
-    text = text_of_motion(findings, freedoms, "numerical")
-    clusters = clusters_of(linkage.graph, stiff)
-    return Verdict(freedoms, "motion", "numerical", text, (way,), False, stiff, clusters)
-
-
-def _unmoved_of_large(configuration: Configuration, rigid: bool, generic: int | None) -> Verdict:
-    """Return the verdict where no motion was seen: rigid, if that is proved and coordinates are exact.
-
-    No mechanism nearby is looked for in so large a sheet, so that one remains possible where the digits alone say
-    that the coordinates are exact.
-    """
-    written = AsWritten(0, "proved") if rigid else None
-    settled = rigid and configuration.exact
-    freedoms = 0 if settled else None
-    by_digits = isinstance(configuration, SheetConfiguration) and configuration.precision.evidence == BY_DIGITS
-    certainty: Certainty = ("numerical" if by_digits else "proved") if settled else "not known"
-    findings = MotionFindings(configuration, (), None, rigid, generic, (), None, written)
-    text = text_of_motion(findings, freedoms, certainty)
-    stiff = tuple(configuration.linkage.graph.joints) if settled else ()
-    clusters = clusters_of(configuration.linkage.graph, stiff)
-    return Verdict(freedoms, "motion", certainty, text, (), settled, stiff, clusters, as_written=written)
-
-
-def _as_marked(marks: Floats, rates: Floats) -> Marked | None:
-    """Tell whether all marked joints turn as they are marked, or all against it; None where nothing is marked."""
-    turned = (marks * rates)[marks != 0.0]
-    if not len(turned):
-        return None
-    return "has" if (turned > DOUBLE.zero_rate).all() or (turned < -DOUBLE.zero_rate).all() else "none found"
+__all__ = ["MOST_PANELS", "JudgedMobility", "mobility", "mobility_of_type", "verdict_of_motion"]
 
 
 def verdict_of_motion(configuration: Configuration, generic: int | None = None) -> Verdict:
@@ -113,13 +53,8 @@ def verdict_of_motion(configuration: Configuration, generic: int | None = None) 
     generic : int, optional
         The mobility of its type, with which the sentence compares.
 
-    Returns
-    -------
-    Verdict
-
     Examples
     --------
-    >>> from graphs.mechanism.sheet import Sheet
     >>> from synth.folding.configuration import configuration_of_sheet
     >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
     >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
@@ -129,80 +64,144 @@ def verdict_of_motion(configuration: Configuration, generic: int | None = None) 
     if not configuration.joints:
         lacking = "creases between panels" if configuration.limited else "joints"
         return Verdict(0, "motion", "proved", f"Rigid: there are no {lacking}.")
-    verdict = _verdict(configuration, generic)
-    return replace(verdict, places=configuration.ends_of(verdict.stiff_joints))
-
-
-def _verdict(configuration: Configuration, generic: int | None) -> Verdict:
-    found = configuration.branches
-    if found is None or configuration.one_way:
-        verdict = verdict_of_large(configuration, generic)
+    branches = configuration.branches
+    if branches is None or configuration.one_way:
+        verdict = _of_one_motion(configuration, generic)
     else:
-        verdict = _of_branches(configuration, found, generic)
-    known = verdict.as_written or _as_written(configuration)
-    written = known or AsWritten(verdict.freedoms, verdict.certainty)
+        verdict = _of_branches(configuration, branches, generic)
+    written = verdict.as_written or _as_written(configuration) or AsWritten(verdict.freedoms, verdict.certainty)
+    verdict = replace(verdict, as_written=written)
     if not isinstance(configuration, SheetConfiguration):
-        return replace(verdict, as_written=written)
-    nearest = None if verdict.ways else configuration.nearest
+        return verdict
+    nearest = None if verdict.branches else configuration.nearest
     misfit = configuration.misfit if nearest is None else nearest.moved
-    moves = bool(verdict.ways) or nearest is not None
+    moves = bool(verdict.branches) or nearest is not None
     size = configuration.precision.size
     within = WithinPrecision(verdict.freedoms, verdict.certainty, misfit if moves else None, size)
-    return replace(verdict, as_written=written, within_precision=within)
+    return replace(verdict, within_precision=within, places=configuration.ends_of(verdict.stiff_joints))
+
+
+def _worded(
+    findings: MotionFindings, basis: Basis, *, exhaustive: bool = False, further: int | None = None
+) -> Verdict:
+    """Return a verdict with its sentences, and with the links that move as one."""
+    clusters = clusters_of(findings.at.linkage.graph, findings.immobile)
+    return Verdict(
+        findings.freedoms,
+        basis,
+        findings.certainty,
+        text_of_motion(findings),
+        findings.branches,
+        exhaustive,
+        findings.immobile,
+        clusters,
+        as_written=findings.written,
+        further=further,
+    )
+
+
+def _of_one_motion(configuration: Configuration, generic: int | None) -> Verdict:
+    """Trace one motion, near the assignment, and return its degrees of freedom at its end."""
+    linkage, closure = configuration.linkage, configuration.closure
+    joints, misfit = configuration.joints, configuration.misfit
+    if not linkage.loops:
+        loose = MotionBranch("+" * len(joints), len(joints), "proved", (), 0.0, misfit)
+        findings = MotionFindings(configuration, (loose,), loose, len(joints), "proved", True, generic)
+        return _worded(findings, "pose", exhaustive=True)
+    begun = configuration.begun
+    rates = begun.rates
+    end = linkage.angles if rates is None else walked(linkage.angles, closure, rates)[0]
+    far = float(np.abs(end - linkage.angles).max())
+    if rates is None or far <= DOUBLE.moved:
+        return _of_no_motion(configuration, generic, rigid=begun.rigid)
+    moving = np.flatnonzero((np.abs(rates) > DOUBLE.zero_rate) | (np.abs(end - linkage.angles) > DOUBLE.immobile))
+    basis = free_rates(closure, end, moving)
+    freedoms = None if basis is None else basis.shape[1]
+    turning = set(moving.tolist())
+    still = tuple(joint for place, joint in enumerate(joints) if place not in turning)
+    from_folded = None if begun.folded is None else (begun.folded.found_at, begun.folded.back_to)
+    branch = MotionBranch(signs_of(rates), freedoms, "numerical", still, far, misfit, from_folded)
+    immobile = still if freedoms == 1 and not configuration.flat else ()
+    marked = _as_marked(configuration.marks, rates)
+    findings = MotionFindings(
+        configuration, (branch,), branch, freedoms, "numerical", False, generic, immobile, marked
+    )
+    return _worded(findings, "motion")
+
+
+def _of_no_motion(configuration: Configuration, generic: int | None, *, rigid: bool) -> Verdict:
+    """Return the verdict where no motion was seen: rigid, if that is proved and coordinates are exact.
+
+    No mechanism nearby is looked for in so large a sheet, so that one remains possible where the digits alone say
+    that the coordinates are exact.
+    """
+    settled = rigid and configuration.exact
+    by_digits = isinstance(configuration, SheetConfiguration) and configuration.precision.evidence == BY_DIGITS
+    certainty: Certainty = ("numerical" if by_digits else "proved") if settled else "not known"
+    freedoms, immobile = (0, configuration.joints) if settled else (None, ())
+    written = AsWritten(0, "proved") if rigid else None
+    findings = MotionFindings(
+        configuration, (), None, freedoms, certainty, rigid, generic, immobile, written=written
+    )
+    return _worded(findings, "motion", exhaustive=settled)
+
+
+def _as_marked(marks: Floats, rates: Floats) -> Marked | None:
+    """Tell whether all marked joints turn as they are marked, or all against it; None where nothing is marked."""
+    turned = (marks * rates)[marks != 0.0]
+    if not len(turned):
+        return None
+    return "has" if (turned > DOUBLE.zero_rate).all() or (turned < -DOUBLE.zero_rate).all() else "none found"
 
 
 def _as_written(configuration: Configuration) -> AsWritten | None:
     """Return what holds where no vertex is moved; None if the verdict says the same."""
     if not isinstance(configuration, SheetConfiguration):
         return None
-    found = configuration.branches
-    if configuration.written is None:
-        return AsWritten(0, "proved") if found is not None and found.no_motion == "proved" else None
-    return _of_written(configuration.written)
+    written = configuration.written
+    branches = configuration.branches if written is None else written.branches
+    if written is not None and branches is not None:
+        branch = _stated(_branches_of(written, branches), written.marked.number)
+        if branch is not None:
+            return AsWritten(branch.freedoms, branch.certainty)
+    if branches is not None and branches.no_motion == "proved":
+        return AsWritten(0, "proved")
+    return None if written is None else AsWritten(None, "not known")  # if it is large no motion was looked for
 
 
-def _of_written(written: SheetConfiguration) -> AsWritten:
-    """Return what holds at the coordinates of a configuration; if it is large no motion was looked for."""
-    found = written.branches
-    if found is None:
-        return AsWritten(None, "not known")
-    way = _stated_way(_ways_of(written, found), written.marked.number)
-    if way is None:
-        return AsWritten(0, "proved") if found.no_motion == "proved" else AsWritten(None, "not known")
-    return AsWritten(way.freedoms, way.certainty)
-
-
-def _of_branches(configuration: Configuration, found: Branches, generic: int | None) -> Verdict:
-    linkage = configuration.linkage
-    ways = _ways_of(configuration, found)
-    further = None if found.complete else len(found.branches) - len(ways)
-    number, marked = _marked(configuration, len(ways))
-    ways += tuple(_way_elsewhere(*one) for one in configuration.elsewhere)
-    known = found.complete and all(way.freedoms is not None for way in ways)
-    still = _common(linkage, ways) if known else ()
-    way = _stated_way(ways, number)
-    if way is None:
-        freedoms, certainty = _unmoved(configuration, found)
-    else:
-        freedoms, certainty = way.freedoms, way.certainty
-    if not ways and freedoms is None:
-        still = ()
+def _of_branches(configuration: Configuration, search: Branches, generic: int | None) -> Verdict:
+    branches = _branches_of(configuration, search)
+    further = None if search.complete else len(search.branches) - len(branches)
+    number, marked = _marked(configuration, len(branches))
+    for other, place in configuration.elsewhere:
+        branch = other.branch(place)
+        assert branch is not None
+        branches += (_branch(other, branch),)
+    known = search.complete and all(branch.freedoms is not None for branch in branches)
+    stated = _stated(branches, number)
+    freedoms, certainty = (
+        _unmoved(configuration, search) if stated is None else (stated.freedoms, stated.certainty)
+    )
+    immobile: tuple[JointId, ...] = ()
+    if known and (branches or freedoms is not None):  # those that are immobile on every branch
+        still = [set(branch.stiff_joints) for branch in branches]
+        immobile = tuple(joint for joint in configuration.joints if all(joint in joints for joints in still))
     written = _as_written(configuration)
-    findings = MotionFindings(configuration, ways, marked, found.complete, generic, still, way, written)
-    basis: Basis = "pose" if found.regular and certainty == "proved" else "motion"
-    text = text_of_motion(findings, freedoms, certainty)
-    clusters = clusters_of(linkage.graph, still)
-    exhaustive = found.exhaustive and not configuration.unsettled
-    return Verdict(freedoms, basis, certainty, text, ways, exhaustive, still, clusters, further=further)
+    findings = MotionFindings(
+        configuration, branches, stated, freedoms, certainty, search.complete, generic, immobile, marked, written
+    )
+    exhaustive = search.exhaustive and not configuration.unsettled
+    basis: Basis = "pose" if search.regular and certainty == "proved" else "motion"
+    return _worded(findings, basis, exhaustive=exhaustive, further=further)
 
 
-def _unmoved(configuration: Configuration, found: Branches) -> tuple[int | None, Certainty]:
+def _unmoved(configuration: Configuration, branches: Branches) -> tuple[int | None, Certainty]:
     """Return the freedoms where nothing moves, with the evidence: proved if nothing nearly moves either.
 
     Where the digits alone give the precision, coordinates may have larger errors that nothing shows: a mechanism
     nearby may then be the intended one.
     """
-    if not found.exhaustive or configuration.unsettled:
+    if not branches.exhaustive or configuration.unsettled:
         return None, "not known"
     precision = configuration.precision
     nearby = isinstance(configuration, SheetConfiguration) and configuration.nearest is not None
@@ -210,49 +209,34 @@ def _unmoved(configuration: Configuration, found: Branches) -> tuple[int | None,
     return 0, "numerical" if configuration.nearly or doubtful else "proved"
 
 
-def _marked(configuration: Configuration, ways: int) -> tuple[int | None, Marked | None]:
+def _marked(configuration: Configuration, own: int) -> tuple[int | None, Marked | None]:
     """Return the number of the branch that the assignment chooses, of all mechanisms, and whether one has it."""
     chosen = configuration.marked
     if chosen.marked not in (None, "has"):
         for place, (other, number) in enumerate(configuration.elsewhere):
             if other.marked.number == number:
-                return ways + place, "has"
+                return own + place, "has"
     return chosen.number, chosen.marked
 
 
-def _ways_of(configuration: Configuration, found: Branches) -> tuple[Way, ...]:
+def _branches_of(configuration: Configuration, branches: Branches) -> tuple[MotionBranch, ...]:
     """Return the branches that were followed, which come first; of a longer search all."""
-    return tuple(_way(configuration, branch) for branch in found.branches if branch.begun or configuration.more)
+    followed = [branch for branch in branches.branches if branch.begun or configuration.more]
+    return tuple(_branch(configuration, branch) for branch in followed)
 
 
-def _way_elsewhere(other: Configuration, number: int) -> Way:
-    branch = other.branch(number)
-    assert branch is not None
-    return _way(other, branch)
-
-
-def _way(configuration: Configuration, branch: Branch) -> Way:
-    linkage = configuration.linkage
-    joints = list(linkage.graph.joints)
-    apart = np.abs(branch.sample - linkage.angles) > DOUBLE.immobile
-    still = [joint for place, joint in enumerate(joints) if place in branch.still and not apart[place]]
+def _branch(configuration: Configuration, branch: Branch) -> MotionBranch:
+    apart = np.abs(branch.sample - configuration.linkage.angles) > DOUBLE.immobile
+    still = tuple(configuration.joints[place] for place in branch.still if not apart[place])
     freedoms, certainty, misfit = branch.freedoms, branch.certainty, configuration.misfit
-    return Way(branch.signs, freedoms, certainty, tuple(still), branch.followed, misfit)
+    return MotionBranch(branch.signs, freedoms, certainty, still, branch.followed, misfit)
 
 
-def _stated_way(ways: Sequence[Way], chosen: int | None) -> Way | None:
+def _stated(branches: Sequence[MotionBranch], chosen: int | None) -> MotionBranch | None:
     """Return the branch whose freedoms are stated: the assigned one, or the freest; None if there is none."""
-    if chosen is not None and chosen < len(ways):
-        return ways[chosen]
-    return max(ways, key=lambda way: (way.certainty != "not known", way.freedoms or 0), default=None)
-
-
-def _common(linkage: PosedLinkage, ways: Sequence[Way]) -> tuple[JointId, ...]:
-    """Return the joints that are immobile on every branch."""
-    if not ways:
-        return tuple(linkage.graph.joints)
-    still = set(ways[0].stiff_joints).intersection(*(way.stiff_joints for way in ways))
-    return tuple(joint for joint in linkage.graph.joints if joint in still)
+    if chosen is not None and chosen < len(branches):
+        return branches[chosen]
+    return max(branches, key=lambda one: (one.certainty != "not known", one.freedoms or 0), default=None)
 
 
 def verdict_of_type(answer: MobilityAnswer, left_out: str = "") -> Verdict:
@@ -293,29 +277,17 @@ MOST_PANELS = 1200
 
 @dataclass(frozen=True, slots=True, repr=False)
 class JudgedMobility(MobilityAnswer):
-    """The mobility of one mechanism, its verdict first.
+    """The mobility of one mechanism, its verdict first; other attributes are those of `MobilityAnswer`.
 
     Attributes
     ----------
     verdict : Verdict
     configuration : Configuration or None
         Where it moves from; None for a type, and where its motion was not looked for.
-
-    Notes
-    -----
-    The other attributes are those of :class:`graphs.answer.report.MobilityAnswer`.
     """
 
     verdict: Verdict | None = None
     configuration: Configuration | None = None
-
-    @classmethod
-    def judged(
-        cls, answer: MobilityAnswer, verdict: Verdict, configuration: Configuration | None = None
-    ) -> JudgedMobility:
-        """Return an answer with its verdict."""
-        parts = {part.name: getattr(answer, part.name) for part in fields(MobilityAnswer)}
-        return cls(**parts, verdict=verdict, configuration=configuration)
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
@@ -350,8 +322,7 @@ class JudgedMobility(MobilityAnswer):
         return [*self.unread(), *lines, *self.evidence(verbose=verbose), *self._precision(), *repaired]
 
     def __repr__(self) -> str:
-        text = "" if self.verdict is None else f": {self.verdict.text}"
-        return f"<JudgedMobility{text}>"
+        return f"<JudgedMobility: {'no verdict' if self.verdict is None else self.verdict.summary}>"
 
 
 def mobility(
@@ -359,7 +330,7 @@ def mobility(
     *,
     exact: bool | None = None,
     hinge_flat: bool = False,
-    pose: int | Literal[False] | None = None,
+    pose: int | None = None,
     geometry: bool = True,
     motion: bool | None = None,
     precision: float | None = None,
@@ -379,10 +350,6 @@ def mobility(
     more : bool, optional
         Look for motion branches with a hundred times the usual allowance, and list all that are found.
 
-    Returns
-    -------
-    JudgedMobility
-
     Raises
     ------
     UnsolvableError, FileError, InvariantError
@@ -401,47 +368,73 @@ def mobility(
     mechanism = mechanism_for("mobility", mechanism, Configuration | Mechanism | nx.Graph)
     if precision is not None and isinstance(mechanism, Mechanism):
         mechanism = with_precision(mechanism, precision)
-    counted_from = mechanism.given if isinstance(mechanism, Configuration) else mechanism
-    if counted_from is None:
-        raise UnsolvableError(f"mobility requires a mechanism to count, and {mechanism!r} has only axes")
-    question = _MotionQuestion(mechanism, pose, hinge_flat, demanded=bool(motion))
+    source = _counted_from(mechanism)
     at, reason = None, "its motion was not analysed" if motion is False else ""
-    looked_for = pose is not False and motion is not False
-    if looked_for and isinstance(counted_from, Sheet):
-        at, reason = question.of_sheet(sheet_in_frame(counted_from, pose))
+    demanded = bool(motion)
+    if motion is not False and isinstance(source, Sheet):
+        placed = sheet_in_frame(source, pose)
+        if isinstance(mechanism, Configuration):
+            at = mechanism
+        elif placed.coordinates is not None and len(placed.faces) > MOST_PANELS and not demanded:
+            reason = f"the motion of {len(placed.faces)} panels is analysed on request (--motion)"
+        elif placed.coordinates is not None or demanded:
+            at, reason = _configuration(mechanism, pose, hinge_flat, demanded=demanded)
     dual = at.dual if isinstance(at, SheetConfiguration) and geometry else None
-    answer = counted(counted_from, exact=exact, hinge_flat=hinge_flat, pose=pose, geometry=geometry, dual=dual)
-    if looked_for and not isinstance(counted_from, Sheet) and (answer.pose is not None or motion):
-        at, reason = question.made()
+    answer = counted(source, exact=exact, hinge_flat=hinge_flat, pose=pose, geometry=geometry, dual=dual)
+    if motion is not False and not isinstance(source, Sheet) and (answer.pose is not None or motion):
+        at, reason = _configuration(mechanism, pose, hinge_flat, demanded=demanded)
     if at is None:
-        return JudgedMobility.judged(answer, verdict_of_type(answer, reason if answer.pose is not None else ""))
+        return _judged(answer, verdict_of_type(answer, reason if answer.pose is not None else ""))
     at = replace(at, more=True) if more else at
-    return JudgedMobility.judged(answer, verdict_of_motion(at, answer.mobility), at)
+    return _judged(answer, verdict_of_motion(at, answer.mobility), at)
 
 
-class _MotionQuestion(NamedTuple):
-    """A mechanism whose motion is to be judged; `demanded` raises an error where that is not possible."""
+def mobility_of_type(
+    mechanism: Configuration | Mechanism | nx.Graph,
+    *,
+    exact: bool | None = None,
+    hinge_flat: bool = False,
+    geometry: bool = True,
+) -> JudgedMobility:
+    """Report the mobility of the type of a mechanism, without what holds at its configuration.
 
-    mechanism: Configuration | Mechanism | nx.Graph
-    frame: int | None
-    hinge_flat: bool
-    demanded: bool
+    Parameters
+    ----------
+    mechanism, exact, hinge_flat, geometry
+        As in `mobility`.
 
-    def of_sheet(self, placed: Sheet) -> tuple[Configuration | None, str]:
-        """Return the configuration of a sheet, or why there is none."""
-        if isinstance(self.mechanism, Configuration):
-            return self.mechanism, ""
-        if placed.coordinates is None and not self.demanded:
-            return None, ""
-        if len(placed.faces) > MOST_PANELS and not self.demanded:
-            return None, f"the motion of {len(placed.faces)} panels is analysed on request (--motion)"
-        return self.made()
+    Examples
+    --------
+    >>> from synth.patterns import generate
+    >>> print(mobility_of_type(generate("miura").mechanism).verdict)
+    A generic realisation is rigid (exact rank).
+    """
+    source = _counted_from(mechanism)
+    answer = counted(source, exact=exact, hinge_flat=hinge_flat, pose=False, geometry=geometry)
+    return _judged(answer, verdict_of_type(answer))
 
-    def made(self) -> tuple[Configuration | None, str]:
-        """Return the configuration, or why there is none."""
-        try:
-            return configuration_of(self.mechanism, frame=self.frame, hinge_flat=self.hinge_flat), ""
-        except SynthedraError as error:
-            if self.demanded:
-                raise
-            return None, f"its motion was not analysed: {error}"
+
+def _counted_from(mechanism: Configuration | Mechanism | nx.Graph) -> Mechanism | nx.Graph:
+    """Return what is counted: of a configuration, the mechanism that was read."""
+    if not isinstance(mechanism, Configuration):
+        return mechanism
+    if mechanism.given is None:
+        raise UnsolvableError(f"mobility requires a mechanism to count, and {mechanism!r} has only axes")
+    return mechanism.given
+
+
+def _configuration(
+    mechanism: Configuration | Mechanism | nx.Graph, frame: int | None, hinge_flat: bool, *, demanded: bool
+) -> tuple[Configuration | None, str]:
+    """Return the configuration whose motion is judged, or why there is none; an error if it is demanded."""
+    try:
+        return configuration_of(mechanism, frame=frame, hinge_flat=hinge_flat), ""
+    except SynthedraError as error:
+        if demanded:
+            raise
+        return None, f"its motion was not analysed: {error}"
+
+
+def _judged(answer: MobilityAnswer, verdict: Verdict, at: Configuration | None = None) -> JudgedMobility:
+    parts = {part.name: getattr(answer, part.name) for part in fields(MobilityAnswer)}
+    return JudgedMobility(**parts, verdict=verdict, configuration=at)

@@ -25,9 +25,9 @@ from synth.motion.marked import Marked
 __all__ = [
     "AsWritten",
     "Basis",
+    "MotionBranch",
     "MotionFindings",
     "Verdict",
-    "Way",
     "WithinPrecision",
     "clusters_of",
     "flaps_of",
@@ -39,7 +39,7 @@ Basis = Literal["motion", "pose", "generic", "count"]
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class MotionBranch:
     """One motion branch from the configuration of a file.
 
     Attributes
@@ -77,20 +77,16 @@ class Way:
             "stiff_joints": list(self.stiff_joints),
             "followed_deg": degrees(self.followed),
             "misfit": self.misfit,
-            "from_folded_deg": None if self.from_folded is None else [degrees(at) for at in self.from_folded],
+            "from_folded_deg": None if self.from_folded is None else list(map(degrees, self.from_folded)),
         }
 
 
 @dataclass(frozen=True, slots=True)
 class AsWritten:
-    """What holds for the coordinates exactly as they are written; no freedoms are given where they are unknown."""
+    """What holds for the coordinates exactly as they are written; freedoms are None where they are unknown."""
 
     freedoms: int | None
     certainty: Certainty
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data."""
-        return asdict(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,10 +104,6 @@ class WithinPrecision:
     misfit: float | None
     precision: float
 
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data."""
-        return asdict(self)
-
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
@@ -127,7 +119,7 @@ class Verdict:
         motions. Generic: the exact rank of a generic realisation. Count: a formula.
     certainty : {"proved", "numerical", "not known"}
     text : str
-    ways : tuple of Way
+    branches : tuple of MotionBranch
         Motion branches, where they were looked for; those that the search had nothing left to follow are left out.
     exhaustive : bool
         Whether there are no other branches.
@@ -147,21 +139,17 @@ class Verdict:
 
     Examples
     --------
-    >>> from graphs.mechanism.sheet import Sheet
-    >>> from synth.folding.configuration import configuration_of_sheet
-    >>> from synth.verdict.judged import verdict_of_motion
-    >>> corners = ((0, 0), (1, 0), (.5, 1), (-1, 0), (.5, -1))
-    >>> faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1))
-    >>> verdict = verdict_of_motion(configuration_of_sheet(Sheet(5, (), "", faces, corners)))
-    >>> verdict.freedoms, verdict.certainty, verdict.exhaustive, len(verdict.ways)
-    (1, 'proved', True, 2)
+    >>> import synth
+    >>> verdict = synth.mobility(synth.generate("miura", rows=2, columns=2).mechanism).verdict
+    >>> verdict, verdict.exhaustive, len(verdict.branches)
+    (<Verdict: 1 degree of freedom, proved>, True, 2)
     """
 
     freedoms: int | None
     basis: Basis
     certainty: Certainty
     text: str
-    ways: tuple[Way, ...] = ()
+    branches: tuple[MotionBranch, ...] = ()
     exhaustive: bool = False
     stiff_joints: tuple[JointId, ...] = ()
     clusters: tuple[tuple[LinkId, ...], ...] = ()
@@ -177,19 +165,28 @@ class Verdict:
             "freedoms": self.freedoms,
             "basis": self.basis,
             "certainty": self.certainty,
-            "branches": [way.to_json() for way in self.ways],
+            "branches": [branch.to_json() for branch in self.branches],
             "exhaustive": self.exhaustive,
             "not_followed": self.further,
             "stiff_joints": list(self.stiff_joints),
             "stiff_places": places,
             "clusters": [list(cluster) for cluster in self.clusters],
-            "as_written": None if self.as_written is None else self.as_written.to_json(),
-            "within_precision": None if self.within_precision is None else self.within_precision.to_json(),
+            "as_written": None if self.as_written is None else asdict(self.as_written),
+            "within_precision": None if self.within_precision is None else asdict(self.within_precision),
             "text": self.text,
         }
 
     def __str__(self) -> str:
         return self.text
+
+    @property
+    def summary(self) -> str:
+        """Degrees of freedom and certainty in a few words."""
+        freedoms = "degrees of freedom unknown" if self.freedoms is None else in_words(self.freedoms)
+        return f"{freedoms}, {self.certainty}"
+
+    def __repr__(self) -> str:
+        return f"<Verdict: {self.summary}>"
 
 
 def clusters_of(graph: SCGraph, still: Sequence[JointId]) -> tuple[tuple[LinkId, ...], ...]:
@@ -197,8 +194,8 @@ def clusters_of(graph: SCGraph, still: Sequence[JointId]) -> tuple[tuple[LinkId,
     together = nx.Graph()
     together.add_edges_from(graph.joints[joint] for joint in still)
     order = {link: place for place, link in enumerate(graph)}
-    found = [tuple(sorted(links, key=order.__getitem__)) for links in nx.connected_components(together)]
-    return tuple(sorted(found, key=lambda links: order[links[0]]))
+    clusters = [tuple(sorted(links, key=order.__getitem__)) for links in nx.connected_components(together)]
+    return tuple(sorted(clusters, key=lambda links: order[links[0]]))
 
 
 _ASSIGNMENT = {
@@ -213,19 +210,21 @@ _TO_GO_ON = "The search for branches ended at its work limit; try --more."
 class MotionFindings:
     """What a verdict on a motion is written from.
 
-    `marked` says whether a branch begins with the given mountain-valley assignment; `complete` whether the search
-    for branches came to its end; `generic` is the mobility of the type; `stiff` are the joints that are immobile
-    on every branch; the verdict states the degrees of freedom of `way`; `written` is what holds exactly as
-    written, if that differs.
+    The verdict states the degrees of freedom of the branch `stated`; `complete` says whether the search for
+    branches came to its end; `generic` is the mobility of the type; `immobile` are the joints that are so on every
+    branch; `marked` says whether a branch begins with the given mountain-valley assignment; `written` is what
+    holds exactly as written, if that differs.
     """
 
     at: Configuration
-    ways: Sequence[Way]
-    marked: Marked | None
+    branches: tuple[MotionBranch, ...]
+    stated: MotionBranch | None
+    freedoms: int | None
+    certainty: Certainty
     complete: bool
     generic: int | None
-    stiff: Sequence[JointId]
-    way: Way | None
+    immobile: tuple[JointId, ...] = ()
+    marked: Marked | None = None
     written: AsWritten | None = None
 
 
@@ -241,23 +240,23 @@ def flaps_of(graph: SCGraph) -> list[JointId]:
     return [joints[0] for pair, joints in between.items() if pair in bridges and len(joints) == 1]
 
 
-def text_of_motion(findings: MotionFindings, freedoms: int | None, certainty: Certainty) -> str:
-    """Return the verdict in sentences; `freedoms` of 0 is rigid, None unknown."""
-    way = findings.way
-    if freedoms is None and (way is None or certainty == "not known"):
+def text_of_motion(findings: MotionFindings) -> str:
+    """Return the verdict in sentences; degrees of freedom of 0 are rigid, None unknown."""
+    freedoms, branch, immobile = findings.freedoms, findings.stated, findings.immobile
+    if freedoms is None and (branch is None or findings.certainty == "not known"):
         return _unknown(findings)
     if freedoms == 0:
         return f"Rigid{findings.at.doubt}."
     flaps = flaps_of(findings.at.linkage.graph)
-    rest = len(findings.at.linkage.graph.joints) - len(flaps)
-    if flaps and freedoms == len(flaps) and findings.stiff and len(findings.stiff) == rest:
+    rest = len(findings.at.joints) - len(flaps)
+    if flaps and freedoms == len(flaps) and immobile and len(immobile) == rest:
         at = f"at the flap {_noun(flaps)} {listed(flaps)}"
-        return f"Rigid except for flaps: {in_words(freedoms)}, {at}. {_immobile(findings.stiff)}"
-    sentences = [_answer(findings, freedoms), *_branches(findings)]
-    if findings.stiff:
-        sentences.append(_immobile(findings.stiff))
-    if certainty != "proved":
-        sentences.append("Not proved." if way is None else f"Numerical: {_traced(way)}.")
+        return f"Rigid except for flaps: {in_words(freedoms)}, {at}. {_immobile(immobile)}"
+    sentences = [_answer(findings), *_branches(findings)]
+    if immobile:
+        sentences.append(_immobile(immobile))
+    if findings.certainty != "proved":
+        sentences.append("Not proved." if branch is None else f"Numerical: {_traced(branch)}.")
     sentences += _overconstrained(findings.generic, freedoms)
     return " ".join([*sentences, *_allowance(findings)])
 
@@ -276,22 +275,22 @@ def _unknown(findings: MotionFindings) -> str:
     return " ".join([none, *_allowance(findings)])
 
 
-def _answer(findings: MotionFindings, freedoms: int | None) -> str:
+def _answer(findings: MotionFindings) -> str:
     """Return the first sentence: whether it moves, from where, and with how many degrees of freedom."""
     moves = "Rigid-foldable" if findings.at.limited else "Mobile"
     start = "from the flat state" if findings.at.flat else "from this configuration"
-    count = "degrees of freedom unknown"
+    count, freedoms = "degrees of freedom unknown", findings.freedoms
     if freedoms is not None:
         count = in_words(freedoms)
-        if findings.marked != "has" and any(way.freedoms != freedoms for way in findings.ways):
-            most = findings.complete and all(way.freedoms is not None for way in findings.ways)
+        if findings.marked != "has" and any(branch.freedoms != freedoms for branch in findings.branches):
+            most = findings.complete and all(branch.freedoms is not None for branch in findings.branches)
             count = f"up to {count}" if most else f"{count} on the freest branch found"
     assignment = "" if findings.marked is None else _ASSIGNMENT[findings.marked]
     if findings.marked == "has":
         first = f"{moves} {start}{assignment}: {count}"
     else:
         first = f"{moves} {start}: {count}{assignment}"
-    misfit = None if findings.way is None else findings.way.misfit
+    misfit = None if findings.stated is None else findings.stated.misfit
     if not misfit:
         return f"{first}."
     moved = f"vertices moved by at most {at_most(misfit)} of the extent"
@@ -309,12 +308,12 @@ def _as_written(written: AsWritten | None) -> str:
 
 def _branches(findings: MotionFindings) -> list[str]:
     """Return the sentence that counts the branches, where there are several or others were not looked for."""
-    ways, kind = findings.ways, "folding branch" if findings.at.flat else "motion branch"
-    if len(ways) < 2:
-        lone = findings.at.flat and ways and not findings.complete and findings.marked != "has"
+    branches, kind = findings.branches, "folding branch" if findings.at.flat else "motion branch"
+    if len(branches) < 2:
+        lone = findings.at.flat and branches and not findings.complete and findings.marked != "has"
         return [f"Only 1 {kind} was searched for."] if lone else []
-    kinds = Counter(way.freedoms for way in ways)
-    count = ("" if findings.complete else "At least ") + numbered(len(ways), kind, f"{kind}es")
+    kinds = Counter(branch.freedoms for branch in branches)
+    count = ("" if findings.complete else "At least ") + numbered(len(branches), kind, f"{kind}es")
     if len(kinds) == 1:
         return [f"{count}."]
     most_first = sorted(kinds.items(), key=lambda item: -(item[0] or 0))
@@ -330,13 +329,13 @@ def _noun(joints: Sequence[JointId]) -> str:
     return "joint" if len(joints) == 1 else "joints"
 
 
-def _traced(way: Way) -> str:
+def _traced(branch: MotionBranch) -> str:
     """Return how far a branch was traced, and how well loops close there."""
     back = ""
-    if way.from_folded is not None:
-        folded, small = map(degrees, way.from_folded)
+    if branch.from_folded is not None:
+        folded, small = map(degrees, branch.from_folded)
         back = f"found folded by {folded:.3g}° and traced back to {small:.2g}°; "
-    return f"{back}traced to {degrees(way.followed):.3g}°, loop-closure residual below {DOUBLE.closed:.0e}"
+    return f"{back}traced to {degrees(branch.followed):.3g}°, loop-closure residual below {DOUBLE.closed:.0e}"
 
 
 def _overconstrained(generic: int | None, freedoms: int | None) -> list[str]:

@@ -39,7 +39,7 @@ def answer_to(guise: Guise) -> Answer:
     except SynthedraError:
         return Answer(refused=True)
     ways: Counter[tuple[str, str]] = Counter()
-    for way in verdict.ways:
+    for way in verdict.branches:
         moving = set(at.joints) - set(way.stiff_joints)
         ways[str(way.freedoms), str(len(_lines(moving, at, guise)))] += 1
     found = at.branches

@@ -115,7 +115,7 @@ def stated(sheet, size):
 
 def kinds(verdict):
     """How many ways have how many freedoms."""
-    return Counter(way.freedoms for way in verdict.ways)
+    return Counter(way.freedoms for way in verdict.branches)
 
 
 def sentence(verdict):

@@ -15,6 +15,7 @@ from graphs.convert.table import CONVERSIONS, FORMS, Mechanism, to_sc
 from graphs.count.report import mobility_report
 from graphs.errors import SynthedraError
 from graphs.files.formats import WRITERS, read_all
+from synth.verdict import mobility_of_type
 
 Question = Callable[[], object]
 
@@ -95,4 +96,4 @@ def _written_and_read(mechanism: Mechanism, kind: str | None, form: str | None, 
         again = synth.read(place)
     except SynthedraError as error:
         raise AssertionError(f"what was written is not read: {error}") from None
-    _told(synth.mobility(again, exact=False, pose=False))
+    _told(mobility_of_type(again, exact=False))

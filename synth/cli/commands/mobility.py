@@ -7,7 +7,7 @@ import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import click
 
@@ -88,26 +88,29 @@ def mobility(
       synth mobility data/patterns/bird-base.fold
     """
     from graphs.errors import FileError
-    from synth.verdict.judged import mobility as mobility_of
+    from synth.verdict.judged import mobility as mobility_of, mobility_of_type
 
     if no_pose and pose is not None:
         raise click.UsageError("--pose and --no-pose exclude each other")
-    frame: int | Literal[False] | None = False if no_pose else pose
     failures: list[str] = []
     answers: list[tuple[str, JudgedMobility]] = []
     with _no_collection():
         for entry in entries(files, failures):
             try:
                 with about(entry.label):
-                    answer = mobility_of(
-                        precise(entry.mechanism),
-                        exact=exact,
-                        hinge_flat=hinge_flat,
-                        pose=frame,
-                        geometry=not no_geometry,
-                        motion=look_for_motion,
-                        more=more,
-                    )
+                    mechanism, geometry = precise(entry.mechanism), not no_geometry
+                    if no_pose:
+                        answer = mobility_of_type(mechanism, exact=exact, hinge_flat=hinge_flat, geometry=geometry)
+                    else:
+                        answer = mobility_of(
+                            mechanism,
+                            exact=exact,
+                            hinge_flat=hinge_flat,
+                            pose=pose,
+                            geometry=geometry,
+                            motion=look_for_motion,
+                            more=more,
+                        )
                     answers.append((entry.label, answer))
             except FileError as error:
                 failures.append(str(error))

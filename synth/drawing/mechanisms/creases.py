@@ -351,7 +351,7 @@ def motions_by_verdict(sheet: Sheet | SheetConfiguration) -> Motions:
     pattern = configuration_of(sheet)
     verdict = verdict_of_motion(pattern)
     immobile = set() if verdict.certainty == "not known" else set(verdict.stiff_joints)
-    branches = [set(way.stiff_joints) for way in verdict.ways if way.certainty != "not known"]
+    branches = [set(way.stiff_joints) for way in verdict.branches if way.certainty != "not known"]
     of: dict[JointId, Doing] = {}
     for joint in pattern.linkage.graph.joints:
         if joint in immobile:

@@ -1,6 +1,6 @@
 from synth.folding.mending.nearest import (
-    Mended as Mended,
-    Nearby as Nearby,
+    MendedPattern as MendedPattern,
+    NearbyPatterns as NearbyPatterns,
     flattened as flattened,
     nearby as nearby,
 )

@@ -1,13 +1,10 @@
 """Vertices moved so that a crease pattern folds: configurations along its motions, all of which have to close.
 
 The vertices and the joint angles of every configuration are unknowns of one least-squares problem, together with
-angles that are meant to be alike and panels that are meant to be planar. A configuration is added farther along
-whenever the ones before close, from where the moved linkage nearly goes, and then wherever a motion that is
-followed stays open most.
-
-Sectors between neighbouring creases that agree within the precision of the coordinates, or make 180 degrees
-together, are meant to; so are creases that go straight on, and those of a loop whose creases are parallel. About
-flat vertices only these angles count for motion. Theory: docs/theory/mending.md.
+angles that are meant to be alike (sectors that agree within the precision of the coordinates, creases that go
+straight on) and panels that are meant to be planar. A configuration is added farther along whenever the ones
+before close, then wherever a motion that is followed stays open most. About flat vertices only angles between
+creases count for motion. Theory: docs/theory/mending.md.
 """
 
 from __future__ import annotations
@@ -39,19 +36,18 @@ __all__ = ["FARTHEST_PATTERN", "Fitting", "MeantAngles", "VertexPlaces"]
 class VertexPlaces:
     """Vertices that may be moved: in the plane of a flat sheet, else in space with panels kept planar.
 
-    Lengths are those of the linkage: in units of the extent, about the middle. `given`, float[V, 3], are the
-    places as written, `ends`, int[J, 2], the vertices at the ends of each crease; `along`, float[2 or 3, 3], are
-    the directions in which vertices may be moved, `unknowns` their number.
+    Lengths are in units of the extent, about the middle. `given`, float[V, 3], are the places as written, `ends`,
+    int[J, 2], the vertices at the ends of each crease; `along`, float[2 or 3, 3], are the directions in which
+    vertices may be moved, `unknowns` their number.
     """
 
     def __init__(self, sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage) -> None:
         assert sheet.coordinates is not None
         self.given: Floats = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
         self.loops = linkage.loops
-        free = [replace(loop, centre=Centre.NONE) for loop in linkage.loops]  # axes need not stay parallel
-        loops = zip(linkage.loops, free, strict=True)
-        kept = tuple(six if loop.centre is Centre.INFINITE else loop for loop, six in loops)
-        self._linkage = replace(linkage, loops=kept)
+        parallel = Centre.INFINITE  # such axes need not stay parallel
+        loops = (replace(loop, centre=Centre.NONE) if loop.centre is parallel else loop for loop in linkage.loops)
+        self._linkage = replace(linkage, loops=tuple(loops))
         ends = [mechanism.hinges[joint] for joint in linkage.graph.joints]  # type: ignore[index]
         self.ends: Ints = np.array(ends, dtype=np.int64).reshape(-1, 2)
         ways = ((self.given[self.ends[:, 1]] - self.given[self.ends[:, 0]]) * linkage.directions).sum(axis=1)
@@ -165,10 +161,7 @@ class _Sector:
 
 
 class MeantAngles:
-    """Equations between the headings of creases of a flat sheet; other sheets have none.
-
-    The precision is that of a coordinate, in units of the extent.
-    """
+    """Equations between the headings of creases of a flat sheet, by the precision of a coordinate in extents."""
 
     def __init__(self, places: VertexPlaces, precision: float) -> None:
         self._places = places
@@ -201,9 +194,8 @@ class MeantAngles:
         away = (self._places.given[others] - self._places.given[vertex]) @ self._places.along.T
         headings, errors = np.arctan2(away[:, 1], away[:, 0]), self._precision / np.linalg.norm(away, axis=1)
         order = np.argsort(headings)
-        following = np.roll(order, -1)
         sectors = []
-        for i, j in zip(order, following, strict=True):
+        for i, j in zip(order, np.roll(order, -1), strict=True):
             angle, error = float(headings[j] - headings[i]) % (2 * pi), float(errors[i] + errors[j])
             sectors.append(_Sector((joints[i], joints[j]), angle, error))
         return sectors
@@ -231,14 +223,14 @@ class MeantAngles:
 
 def _straight(sectors: Sequence[_Sector]) -> list[_Sum]:
     """Return what keeps creases straight that go on through a vertex."""
-    found = []
+    sums = []
     for first in range(len(sectors)):
         angle, error = 0.0, sectors[first].error
         for sector in sectors[first:]:
             angle += sector.angle
             if abs(angle - pi) <= error + sector.error:
-                found.append(_Sum((sectors[first].joints[0], sector.joints[1]), (-1, 1), pi))
-    return found
+                sums.append(_Sum((sectors[first].joints[0], sector.joints[1]), (-1, 1), pi))
+    return sums
 
 
 def _alike(sectors: Sequence[_Sector]) -> list[_Sum]:
@@ -257,41 +249,30 @@ def _alike(sectors: Sequence[_Sector]) -> list[_Sum]:
     return sums
 
 
-class EquationBlock(NamedTuple):
-    """Equations of one configuration: what does not hold, and the derivatives by vertices and by its angles."""
-
-    off: Floats
-    by_vertices: Floats
-    by_angles: Floats
-
-
-def least_step(
-    off: Floats, by_vertices: Floats, blocks: Sequence[EquationBlock], least: float
-) -> tuple[Floats, list[Floats]]:
-    """Return the least change of the vertices, float[u], and of the angles of each block, to leave no residual.
+def _least_step(off: Floats, by_vertices: Floats, poses: Sequence[_Pose], least: float) -> list[Floats]:
+    """Return the least change of the vertices, float[u], and of the angles of each pose, to leave no residual.
 
     The derivatives by the angles of a configuration are taken apart, T = U S V'. Then its equations say of each
     angle along V alone how far it has to turn for a change u of the vertices, (r + B u) / s along U, where r does
-    not hold and B are the derivatives by the vertices. The least step is the solution of a least-squares problem
-    in u alone, in which an equation that no angle takes away (s = 0) weighs most. Equations between vertices alone
-    do not hold by `off`, float[n], derivatives float[n, u]. Singular values below `least` count as that.
+    not hold and B are the derivatives by the vertices: a least-squares problem in u alone, in which an equation
+    that no angle takes away (s = 0) weighs most. Equations between vertices alone do not hold by `off`, float[n],
+    derivatives float[n, u]. Singular values below `least` count as that.
     """
     unknowns = by_vertices.shape[1]
     rows, right_sides = [by_vertices / least, np.eye(unknowns)], [-off / least, np.zeros(unknowns)]
     apart = []
-    for block in blocks:
-        parts = split(block.by_angles)
-        sizes = np.full(len(block.off), least)
+    for pose in poses:
+        parts = split(pose.by_angles.toarray())
+        sizes = np.full(len(pose.residual), least)
         count = len(parts.values)
         sizes[:count] = np.maximum(parts.values, least)
-        own, by = parts.left.T @ block.off, parts.left.T @ block.by_vertices
+        own, by = parts.left.T @ (pose.residual / pose.size), parts.left.T @ pose.by_vertices.toarray()
         rows.append(by / sizes[:, None])
         right_sides.append(-own / sizes)
         shares = parts.values / sizes[:count] ** 2  # of values below the least only a part: no angle turns far
         apart.append((parts.right[:count], shares, own[:count], by[:count]))
     change = np.linalg.lstsq(np.concatenate(rows), np.concatenate(right_sides), rcond=EPSILON)[0]
-    turns = [-right.T @ (shares * (own + by @ change)) for right, shares, own, by in apart]
-    return change, turns
+    return [change, *(-right.T @ (shares * (own + by @ change)) for right, shares, own, by in apart)]
 
 
 _TURNS = tuple(radians(turn) for turn in (12.0, 30.0, 55.0, 90.0))
@@ -352,11 +333,6 @@ class _Motion(NamedTuple):
     driver: int
     still: tuple[int, ...]
 
-    @classmethod
-    def begun(cls, rates: Floats) -> _Motion:
-        """Return the motion that begins at some rates, of which some may be zero."""
-        return cls(rates, leading(rates), tuple(np.flatnonzero(rates == 0.0).tolist()))
-
     def at(self, start: Floats, turn: float) -> float:
         """Return the angle of the driven joint after a turn, radians."""
         return float(start[self.driver] + np.sign(self.rates[self.driver]) * turn)
@@ -367,8 +343,8 @@ class Fitting:
 
     Motions start at joint angles `start`, radians; `corners`, float[V, 3], are in units of the extent, about the
     middle. The allowance counts unknowns in each round. `error` says by how much the last attempt that failed did
-    not close, 0 where it did not fail, and `displaced` how far a vertex was then; the error is infinite where the
-    allowance was used up.
+    not close, 0 where it did not fail, infinite where the allowance was used up; `displaced` how far a vertex was
+    then.
     """
 
     def __init__(self, places: VertexPlaces, angles: MeantAngles, start: Floats, allowance: Allowance) -> None:
@@ -402,7 +378,7 @@ class Fitting:
         fitted = Fitting(self._places, self._angles, self._start, self._allowance)
         self.error = 0.0
         state: _State | None = self._state
-        begun = [_Motion.begun(rates) for rates in motions]
+        begun = [_Motion(rates, leading(rates), tuple(np.flatnonzero(rates == 0.0).tolist())) for rates in motions]
         for number, motion in enumerate(begun):
             if state is not None:
                 state = self._with_motion(state, motion, most, _BESIDE if number else _TURNS)
@@ -444,7 +420,7 @@ class Fitting:
     def _most_open(self, state: _State, motions: Sequence[_Motion]) -> tuple[Floats, _Motion] | None:
         """Return the configuration along the motions that stays open most, with its motion."""
         closure, worst = self._closure(state), DOUBLE.closed
-        found = None
+        most_open = None
         for motion in motions:
             locked, here, direction = closure.locked(motion.still), self._start, motion.rates
             for turn in _FOLLOWED:
@@ -453,9 +429,9 @@ class Fitting:
                 if error > _BEYOND * max(self._displacement(state), DOUBLE.closed):
                     break
                 if error > worst:
-                    found, worst = (there, motion), error
+                    most_open, worst = (there, motion), error
                 direction, here = there - here, there
-        return found
+        return most_open
 
     def _closed(self, state: _State) -> _State | None:
         """Return what closes near a state, by Newton's method."""
@@ -505,10 +481,6 @@ class _Pose(NamedTuple):
     by_vertices: scipy.sparse.csr_matrix
     by_angles: scipy.sparse.csr_matrix
 
-    def block(self) -> EquationBlock:
-        """Return the divided equations with full matrices."""
-        return EquationBlock(self.residual / self.size, self.by_vertices.toarray(), self.by_angles.toarray())
-
 
 class _Equations(NamedTuple):
     """Residuals and derivatives of equations between vertices alone, and the equations of all configurations."""
@@ -526,13 +498,10 @@ class _Equations(NamedTuple):
         """Return the state after the least step that takes all away."""
         if max([len(self.fixed), *(len(pose.residual) for pose in self.poses)]) > _DENSE:
             return self._solved_sparse(state)
-        blocks = []
-        for pose in self.poses:
-            by_vertices, by_angles = pose.by_vertices.toarray(), pose.by_angles.toarray()
-            blocks.append(EquationBlock(pose.residual / pose.size, by_vertices, by_angles))
         least = max(_LEAST_VALUE, _SHARE * self.error)
-        change, turns = least_step(self.fixed, self.by_vertices.toarray(), blocks, least)
-        return state.onwards(np.concatenate([change, *turns]))
+        return state.onwards(
+            np.concatenate(_least_step(self.fixed, self.by_vertices.toarray(), self.poses, least))
+        )
 
     def _solved_sparse(self, state: _State) -> _State:
         """Return the same by regularised normal equations, of large sheets."""
@@ -549,10 +518,7 @@ def _largest(residuals: Sequence[Floats]) -> float:
 
 
 def _sizes(jacobian: scipy.sparse.csr_matrix, turned: Floats) -> Floats:
-    """Return how large what does not close may be in each equation: near a singular pose it is of second order.
-
-    That of the largest turn of a joint of its loop, float[rows]: some loops may move much less than others.
-    """
+    """Return how large residuals may be, float[rows]: squares of the largest turn of the joints of the loop."""
     starts, ends = jacobian.indptr[:-1], jacobian.indptr[1:]
     largest = np.zeros(len(starts))
     some = ends > starts

@@ -1,10 +1,9 @@
 """The nearest mechanisms that move: for each branch that a crease pattern nearly has, vertices at which it has it.
 
-Sheets of quadrilaterals fold because their geometry is special, and rounding takes that away: as it is written
-such a pattern is rigid. Where rates would agree but for differences that the coordinates cannot resolve, vertices
-are moved to where they do. Angles that are meant to be alike come first, since then most patterns have all their
-branches again; of the branches that are left each is fitted, together with those before it as long as that is
-possible, else by itself: mending along one may lose another. Theory: docs/theory/mending.md.
+Sheets of quadrilaterals fold because their geometry is special, and rounding takes that away. Where rates would
+agree but for differences that the coordinates cannot resolve, vertices are moved to where they do. Angles that are
+meant to be alike come first, since then most patterns have all their branches again; each branch that is left is
+fitted, together with those before it as long as that is possible, else by itself. Theory: docs/theory/mending.md.
 """
 
 from __future__ import annotations
@@ -38,26 +37,23 @@ from synth.motion.singular.second_order import (
 )
 from synth.motion.walk.step import Allowance
 
-__all__ = ["Mended", "Nearby", "WrittenPattern", "beyond_precision", "covers", "flattened", "nearby"]
+__all__ = [
+    "MendedPattern",
+    "NearbyPatterns",
+    "WrittenPattern",
+    "beyond_precision",
+    "covers",
+    "flattened",
+    "nearby",
+]
 
 FARTHEST = 4.0
 """Vertices are moved by this times the precision at most."""
 
 
 @dataclass(frozen=True, slots=True)
-class Mended:
-    """A crease pattern whose vertices were moved.
-
-    Attributes
-    ----------
-    sheet : Sheet
-    moved : float
-        Largest displacement of a vertex, in units of the extent.
-    precision : Precision
-        Of the coordinates as they were.
-    why : str
-        The property that the pattern has now and had not.
-    """
+class MendedPattern:
+    """A pattern with vertices moved, by a part of the extent; the precision before, and what it has now."""
 
     sheet: Sheet
     moved: float
@@ -69,7 +65,7 @@ class Mended:
         return f"vertices moved by up to {self.moved:.1g} of the extent so that {self.why} ({precise})"
 
 
-def flattened(sheet: Sheet, precision: Precision) -> Mended | None:
+def flattened(sheet: Sheet, precision: Precision) -> MendedPattern | None:
     """Return a sheet that is meant to be flat with its vertices in one plane; None if it is not, or is there.
 
     Examples
@@ -87,7 +83,7 @@ def flattened(sheet: Sheet, precision: Precision) -> Mended | None:
         return None
     plane = best_plane(points)
     flat = plane.middle + across(points - plane.middle, plane.direction)
-    return Mended(with_vertices(sheet, flat), off, precision, "they lie in one plane")
+    return MendedPattern(with_vertices(sheet, flat), off, precision, "they lie in one plane")
 
 
 def with_vertices(sheet: Sheet, corners: Floats) -> Sheet:
@@ -119,8 +115,7 @@ class NearBranch:
     """A branch that a pattern nearly has: a space of rates that nearly agree.
 
     `motions` are some of them, general ones, float[J], that nearest to the assignment first; the largest rate of
-    each is 1 or -1. Joints whose rates are no larger than `small` may be immobile on the intended branch: these
-    may be errors.
+    each is 1 or -1. Joints whose rates are no larger than `small` may be immobile on the intended branch.
     """
 
     space: RateSpace
@@ -131,12 +126,12 @@ class NearBranch:
     def begun(self) -> list[list[Floats]]:
         """Rates of the motions: with joints still that hardly move, as they are, and with slow joints still."""
         largest = np.abs(self.motions).max(axis=0)
-        found = [list(self.motions)]
+        beginnings = [list(self.motions)]
         for place, small in ((0, self.small), (2, _SLOW)):
             hardly = (largest <= small) & (largest > 0.0)
             if hardly.any():
-                found.insert(place, [np.where(largest > small, rates, 0.0) for rates in self.motions])
-        return found
+                beginnings.insert(place, [np.where(largest > small, rates, 0.0) for rates in self.motions])
+        return beginnings
 
     def agreement(self, wanted: Floats) -> float:
         """Return how many joints begin as is wanted, less those that do not."""
@@ -146,8 +141,8 @@ class NearBranch:
 def zeros_of(precision: float, lengths: Floats) -> list[float]:
     """Return below which parts of the largest values count as zero: what nearly agrees, the most likely first.
 
-    Errors of directions are those of short creases. They grow from vertex to vertex, by as much as rates differ;
-    and where lengths differ or errors are large, a zero that is too wide takes branches for one that are several.
+    Errors of directions are those of short creases. They grow from vertex to vertex; and where lengths differ or
+    errors are large, a zero that is too wide takes branches for one that are several.
     """
     length = float(np.percentile(lengths, _SHORT)) if len(lengths) else 1.0
     return list(dict.fromkeys(Tolerances.nearly(part * precision, length) for part in _WIDER))
@@ -156,26 +151,22 @@ def zeros_of(precision: float, lengths: Floats) -> list[float]:
 def near_branches(
     linkage: PosedLinkage, zero: float, wanted: Floats, most: int, known: Sequence[NearBranch] = ()
 ) -> tuple[list[NearBranch], bool]:
-    """Return the branches that a linkage nearly has, but for known ones, and whether these are all.
-
-    Those nearest to wanted rates come first. Values below the zero count as none. The search ends after `most`
-    spaces of rates.
-    """
-    found: list[NearBranch] = []
+    """Return up to `most` branches that a linkage nearly has, but for known ones, and whether these are all."""
+    branches: list[NearBranch] = []
     spaces, complete = spaces_at(linkage, most, zero)
     for space in spaces:
         motions = _motions(space, wanted)
-        if motions and not any(_alike(space, one.space) for one in (*known, *found)):
-            found.append(NearBranch(space, motions, min(_HARDLY, _ERRORS * zero)))
-    return sorted(found, key=lambda one: -one.agreement(wanted)), complete
+        if motions and not any(_alike(space, one.space) for one in (*known, *branches)):
+            branches.append(NearBranch(space, motions, min(_HARDLY, _ERRORS * zero)))
+    return sorted(branches, key=lambda one: -one.agreement(wanted)), complete
 
 
 def spaces_at(linkage: PosedLinkage, most: int, zero: float = DOUBLE.zero) -> tuple[list[RateSpace], bool]:
     """Return the spaces of rates that agree to second order, and whether these are all."""
     tangent, allowance = rates_at(ClosureEquations(linkage), linkage.angles, zero), Allowance(_WORK_NEAR)
     spaces = spaces_within(tangent, quadrics_of(linkage), zero, allowance)
-    found = list(islice(spaces, most + 1))
-    return largest_only(found[:most], zero), len(found) <= most and not allowance.used_up
+    spaces_found = list(islice(spaces, most + 1))
+    return largest_only(spaces_found[:most], zero), len(spaces_found) <= most and not allowance.used_up
 
 
 def covers(space: RateSpace, near: RateSpace) -> bool:
@@ -197,14 +188,14 @@ def _motions(space: RateSpace, wanted: Floats) -> tuple[Floats, ...]:
     for number in range(min(size, _BESIDE) if size > 1 else 1):
         chance = np.random.default_rng((*space.basis.shape, number))
         starts.append(space.basis @ (chance.uniform(0.5, 1.0, size) * chance.choice([-1.0, 1.0], size)))
-    found: list[Floats] = []
+    motions: list[Floats] = []
     for start in starts:
         rates = rates_towards(space, start) if space.left else space.basis @ (space.basis.T @ start)
         largest = float(np.abs(rates).max())
         if largest > DOUBLE.zero_rate:
             scaled = rates / largest
-            found.append(np.where(np.abs(scaled) > MARGIN, scaled, 0.0))
-    return tuple(found if size > 1 else found[:1])
+            motions.append(np.where(np.abs(scaled) > MARGIN, scaled, 0.0))
+    return tuple(motions if size > 1 else motions[:1])
 
 
 ALL_BRANCHES = 120
@@ -243,29 +234,19 @@ class WrittenPattern:
 
 
 @dataclass(frozen=True)
-class Nearby:
+class NearbyPatterns:
     """Mechanisms near a crease pattern that have branches which it nearly has.
 
-    Attributes
-    ----------
-    within : tuple of Mended
-        Within reach, that on which the assignment is a branch first, or else that with the most branches; each
-        with branches that those before it have not.
-    beyond : Mended or None
-        The nearest one beyond reach, where there is none within.
-    unsettled : bool
-        Whether some branch nearly agrees for which no mechanism was found: the fitting did not converge, or the
-        work was used up.
-    nearly : bool
-        Whether rates nearly agree that do not agree exactly.
-    written_first : bool
-        Whether the pattern as it is written is better than these: has the assignment, or more branches.
-    written_too : bool
-        Whether it has branches that these have not.
+    `within` reach comes first that on which the assignment is a branch, or that with the most branches; each has
+    branches that those before it have not. `beyond` is the nearest one beyond reach, where there is none within.
+    `unsettled` says that for some branch that nearly agrees no mechanism was found, as the fitting did not
+    converge or the work was used up, `nearly` that rates nearly agree that do not agree exactly. With
+    `written_first` the pattern as it is written is better than these: has the assignment, or more branches; with
+    `written_too` it has branches that these have not.
     """
 
-    within: tuple[Mended, ...] = ()
-    beyond: Mended | None = None
+    within: tuple[MendedPattern, ...] = ()
+    beyond: MendedPattern | None = None
     unsettled: bool = False
     nearly: bool = False
     written_first: bool = False
@@ -276,46 +257,42 @@ class Nearby:
 class _Candidate:
     """A mended pattern, None for that as it is written, and the numbers of the near branches that it has."""
 
-    mended: Mended | None
+    mended: MendedPattern | None
     has: frozenset[int]
 
 
-def nearby(written: WrittenPattern, levels: int = 3) -> Nearby:
+def nearby(written: WrittenPattern, levels: int = 3) -> NearbyPatterns:
     """Return the nearest mechanisms with the branches that a pattern nearly has.
 
     A vertex is displaced by four times the precision, at most. Nothing is done where a pattern has all of them as
-    it is written, or its coordinates are exact. What nearly agrees is looked for at wider and wider zeros, up to
-    three levels, until anything is found.
+    written, or its coordinates are exact. What nearly agrees is looked for at up to `levels` wider and wider
+    zeros, until anything is found.
     """
     places = VertexPlaces(written.sheet, written.mechanism, written.linkage)
     precision = written.precision
     if precision.size <= EXACT < places.bent:  # exact by their digits, but not by these
         precision = Precision(places.bent, "creases of several pieces")
     if precision.size <= EXACT:
-        return Nearby()
+        return NearbyPatterns()
     if not written.small:
         return _Large(written, places, precision).nearby()
     return _Search(written, places, precision).nearby(levels)
 
 
-def beyond_precision(written: WrittenPattern) -> Mended | None:
-    """Return the nearest mechanism that was found beyond the precision of a pattern that does not move.
-
-    Its branches are looked for at errors ten times larger each time; None where there is none, and of a pattern
-    too large for all its branches, which is not looked at.
-    """
+def beyond_precision(written: WrittenPattern) -> MendedPattern | None:
+    """Return the nearest mechanism at larger and larger errors beyond the precision; else None."""
     if not written.small:
         return None
     for size in _FARTHER:
         if size > written.precision.size:
             near = nearby(replace(written, precision=Precision(size, "a larger one, tried")), 1)
-            found = [*near.within[:1], *([near.beyond] if near.beyond else [])]
-            if found:
-                return replace(found[0], precision=written.precision)
+            patterns = [*near.within[:1], *([near.beyond] if near.beyond else [])]
+            if patterns:
+                return replace(patterns[0], precision=written.precision)
     return None
 
 
-class _Tried:
+class _PatternSearch:
     """The base of all searches: the reach, angles that are meant to be alike, patterns with moved vertices."""
 
     def __init__(self, written: WrittenPattern, places: VertexPlaces, precision: Precision) -> None:
@@ -338,29 +315,29 @@ class _Tried:
                 fittings.append((fitting, equal if len(meant) else straight))
         return fittings
 
-    def mended(self, fitting: Fitting, why: str) -> Mended:
+    def mended(self, fitting: Fitting, why: str) -> MendedPattern:
         """Return the pattern with its vertices moved."""
         linkage = self.written.linkage
         corners = fitting.corners * linkage.extent + linkage.middle
-        return Mended(with_vertices(self.written.sheet, corners), fitting.moved, self.precision, why)
+        return MendedPattern(with_vertices(self.written.sheet, corners), fitting.moved, self.precision, why)
 
-    def linkage(self, mended: Mended) -> PosedLinkage:
+    def linkage(self, mended: MendedPattern) -> PosedLinkage:
         """Return the linkage of a mended pattern."""
         return linkage_of_sheet(mended.sheet, self.written.mechanism)
 
 
-class _Search(_Tried):
+class _Search(_PatternSearch):
     """The search in a pattern of which all spaces of rates are looked for."""
 
     def __init__(self, written: WrittenPattern, places: VertexPlaces, precision: Precision) -> None:
         super().__init__(written, places, precision)
         self.near: list[NearBranch] = []
         self.candidates: list[_Candidate] = []
-        self.beyond: Mended | None = None
+        self.beyond: MendedPattern | None = None
         self.only_beyond: set[int] = set()  # near branches of mechanisms that were found beyond reach
         self.unsettled = False
 
-    def nearby(self, levels: int) -> Nearby:
+    def nearby(self, levels: int) -> NearbyPatterns:
         """Return what was found at the first of so many levels of what nearly agrees at which anything was."""
         lengths = self.places.lengths
         exactly, left, bent = frozenset[int](), list[int](), self.places.bent > EXACT
@@ -370,11 +347,9 @@ class _Search(_Tried):
             known = len(self.near)
             self.near += more
             self.unsettled |= not complete
-            exactly = self._had_by(linkage, range(len(self.near)), follow=False)
+            exactly = self._had_by(linkage, follow=False)
             left = [number for number in range(len(self.near)) if number not in exactly]
-            new = [
-                number for number in left if number >= known
-            ]  # for others another attempt ends as the first did
+            new = [number for number in left if number >= known]  # another attempt at others ends as the first did
             if new or bent:
                 self._mend(new)
             if exactly or self.candidates:
@@ -383,14 +358,14 @@ class _Search(_Tried):
         mended = tuple(one.mended for one in within if one.mended is not None)
         beyond = self.beyond if not within else None
         unsettled = self.unsettled or bool(self._open(left) and self.allowance.used_up)
-        first = bool(within and within[0].mended is None)
-        return Nearby(mended, beyond, unsettled, bool(left), first, any(one.mended is None for one in within))
+        as_written = [one.mended is None for one in within]
+        return NearbyPatterns(mended, beyond, unsettled, bool(left), as_written[:1] == [True], any(as_written))
 
     def _mend(self, left: Sequence[int]) -> None:
         """Move vertices so that the pattern has the near branches that are left, as far as that is possible."""
         for fitting, why in self.bases:
             if fitting.moved > EXACT:
-                self._add(self.mended(fitting, why), fitting)
+                self._add(self.mended(fitting, why))
             if self._open(left):
                 self._fit(fitting, left)
             if self.candidates and not self._open(left):
@@ -400,14 +375,14 @@ class _Search(_Tried):
         """Return the near branches that no mechanism has yet."""
         return [number for number in left if not any(number in one.has for one in self.candidates)]
 
-    def _had_by(self, linkage: PosedLinkage, numbers: Sequence[int], *, follow: bool) -> frozenset[int]:
+    def _had_by(self, linkage: PosedLinkage, *, follow: bool) -> frozenset[int]:
         """Return which near branches a linkage has; where that is not clear at the pose they are followed."""
         spaces, _ = spaces_at(linkage, MOST_BRANCHES)
         closure, linear = ClosureEquations(linkage), FlatVertices(linkage).linear
         had = set()
-        for number in numbers:
+        for number, near in enumerate(self.near):
             for space in spaces:
-                if covers(space, self.near[number].space):
+                if covers(space, near.space):
                     if not follow or (linear and not space.left) or self._moves(closure, linkage, space, number):
                         had.add(number)
                     break
@@ -423,9 +398,9 @@ class _Search(_Tried):
         end, freedoms = followed(linkage, closure, rates, still), self.near[number].space.basis.shape[1]
         return end.far > 0.0 and (bool(space.left) or (end.freedoms or 0) >= freedoms)
 
-    def _add(self, mended: Mended, fitting: Fitting) -> _Candidate | None:
+    def _add(self, mended: MendedPattern) -> _Candidate | None:
         """Take a mended pattern among the candidates if it has any near branch."""
-        has = self._had_by(self.linkage(mended), range(len(self.near)), follow=True)
+        has = self._had_by(self.linkage(mended), follow=True)
         if not has and self.near:
             return None
         if mended.moved > self.reach:
@@ -443,17 +418,14 @@ class _Search(_Tried):
             if number not in self._open(left) or tried >= _SEPARATE:
                 continue
             fitted = self._fitted(dict.fromkeys((together, base)), number)
-            found = None if fitted is None else self._add(self.mended(fitted, _ALONG), fitted)
-            if fitted is not None and found is not None and number in found.has:
+            candidate = None if fitted is None else self._add(self.mended(fitted, _ALONG))
+            if fitted is not None and candidate is not None and number in candidate.has:
                 together = fitted
             else:
                 tried += 1
 
     def _fitted(self, starts: Iterable[Fitting], number: int) -> Fitting | None:
-        """Return the first fitting along the motions of a near branch, begun with others, that closes.
-
-        Once a branch was found beyond reach, it is looked for no farther off than is near to the reach.
-        """
+        """Return the first fitting along a near branch that closes; none much beyond one found beyond reach."""
         unsettled = False
         most = _AROUND * self.reach if number in self.only_beyond else FARTHEST_PATTERN
         for start, motions in product(starts, self.near[number].begun):
@@ -467,10 +439,7 @@ class _Search(_Tried):
         return None
 
     def _sorted(self, exactly: frozenset[int]) -> list[_Candidate]:
-        """Return the candidates, the best first, each of which has what those before it have not.
-
-        The pattern as it is written is one of them where it has any near branch.
-        """
+        """Return the candidates and what is written, the best first, each with what those before have not."""
 
         def worth(one: _Candidate) -> tuple[float, ...]:
             spaces = [self.near[number].space.basis.shape[1] for number in one.has]
@@ -488,26 +457,26 @@ class _Search(_Tried):
         return chosen
 
 
-class _Large(_Tried):
+class _Large(_PatternSearch):
     """The search in a pattern that is too large for all its branches: along the assignment."""
 
-    def nearby(self) -> Nearby:
+    def nearby(self) -> NearbyPatterns:
         """Return what was found."""
         if self.places.bent <= EXACT and self._moves(self.written.linkage):
-            return Nearby()
+            return NearbyPatterns()
         rates = None
         for fitting, why in self.bases:
             mended = self.mended(fitting, why)
             if fitting.moved > EXACT and self._moves(self.linkage(mended)):
-                return Nearby((mended,), nearly=True)
+                return NearbyPatterns((mended,), nearly=True)
             rates = self._nearly() if rates is None else rates
             fitted = None if rates is None else fitting.along([rates])
             if fitted is None or fitted.moved > self.reach:
                 continue
             mended = self.mended(fitted, _ALONG)
             if self._moves(self.linkage(mended)):
-                return Nearby((mended,), nearly=True)
-        return Nearby(unsettled=rates is not None, nearly=rates is not None)
+                return NearbyPatterns((mended,), nearly=True)
+        return NearbyPatterns(unsettled=rates is not None, nearly=rates is not None)
 
     def _moves(self, linkage: PosedLinkage) -> bool:
         return self._rates(linkage) is not None

@@ -1,11 +1,10 @@
 """An order of the joints that depends on the mechanism alone, not on how a file numbers them.
 
-A search that is cut off, or that begins at random numbers, depends on the order of joints and of equations; so
-does a choice among equals. Branches are looked for in this order, and reported in that of the file. Joints are
-told apart by what a motion, a mirror and another unit of length leave: the links they share, the angles and
-moments between their axes, their distances from the centres of loops. Classes are refined until nothing changes
-(by colour refinement); of joints that are still alike, as those are that a symmetry takes to each other, one is
-taken out and refinement goes on. Theory: docs/theory/rounding.md.
+A search that is cut off, or begins at random numbers, depends on the order of joints; so does a choice among
+equals. Joints are told apart by what a motion, a mirror and another unit of length leave: the links they share,
+the angles and moments between their axes, their distances from the centres of loops. Classes are refined until
+nothing changes (colour refinement); of joints that are still alike one is taken out, and refinement goes on.
+Theory: docs/theory/rounding.md.
 """
 
 from __future__ import annotations
@@ -32,11 +31,7 @@ _SHARES = (1.0, 0.731, 0.519, 0.347)
 
 
 def joint_order(linkage: PosedLinkage, marks: Floats | None = None) -> Ints:
-    """Return the places of the joints, int[J], in an order that renaming, moving and mirroring leave as it is.
-
-    Marks, float[J], are 1, -1 or 0 for each joint; joints that are alike are distinguished by them, up to the sign
-    of all.
-    """
+    """Return the joints, int[J], in an order that renaming, moving and mirroring leave; marks part like ones."""
     joints = len(linkage.angles)
     if joints < 2:
         return np.arange(joints)
@@ -58,11 +53,7 @@ def _labels(linkage: PosedLinkage, marks: Floats | None) -> Ints:
 
 
 def _swept(linkage: PosedLinkage, labels: Ints) -> Ints:
-    """Return the joints loop by loop, from a loop far out to those that share most joints with the loops before.
-
-    So cases that do not fit come to nothing after few choices. Of loops that are alike the first by its labels is
-    taken.
-    """
+    """Return the joints loop by loop, from one far out to those that share most joints with the loops before."""
     rank = np.argsort(labels)
     centres = {number: _centre(linkage, loop) for number, loop in enumerate(linkage.loops) if _is_about(loop)}
     if not centres:
@@ -135,7 +126,7 @@ def _signs(colours: Ints, marks: Floats) -> tuple[float, ...]:
 class _Relations:
     """Invariant relations of joints and centres to each other: the mean over a class distinguishes its members.
 
-    `pairs`, float[n, n], is symmetric, the joints first, then the centres of loops about a point: a sum of
+    `pairs`, float[n, n], symmetric, the joints first, then the centres of loops about a point: a sum of
     invariants, each with a share of its own.
     """
 
@@ -194,10 +185,7 @@ class _Relations:
 
 
 def _classes(colours: Ints, seen: Floats) -> Ints:
-    """Return classes by the classes before, and within these by numbers that differ by more than rounding.
-
-    What is nearly symmetric, in rounded coordinates, is not.
-    """
+    """Return classes by the classes before, and within these by numbers that differ by more than rounding."""
     order = np.lexsort((seen, colours))
     new = (np.diff(colours[order]) > 0) | (np.diff(seen[order]) > DOUBLE.zero * np.abs(seen).max(initial=0.0))
     finer = np.empty(len(colours), dtype=np.int64)

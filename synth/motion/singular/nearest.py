@@ -1,10 +1,10 @@
 """One motion near wanted rates, without a search of all branches; for linkages too large for that.
 
 Rates that agree to second order are found by Newton's method, each equation on the few joints that it is between,
-so that one step costs as much as there are equations, however many rates there are. At the flat state the loops
-say of the signs of rates only what second order does, and Newton's method there comes to rest where branches meet.
-At fold angles of some tenths of a radian most configurations are regular: it needs few steps. A folded state
-belongs to a motion from flat only if it can be followed back there. Theory: docs/theory/folding.md.
+so that one step costs as much as there are equations. At the flat state the loops say of the signs of rates only
+what second order does, and Newton's method comes to rest where branches meet; at fold angles of some tenths of a
+radian most configurations are regular. A folded state belongs to a motion from flat only if it can be followed
+back there. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -47,8 +47,7 @@ class FoldedStart:
     """A motion that was found at a folded state and followed back towards the flat one.
 
     `rates`, float[J], are the fold angles at the end of the way back, the largest 1 or -1; `agree` joints turn as
-    wanted there. The largest fold angles are `found_at` where it was found and `back_to` where the way back ends,
-    radians.
+    wanted there. The largest fold angles are `found_at`, and `back_to` at the end of the way back, radians.
     """
 
     rates: Floats
@@ -58,11 +57,7 @@ class FoldedStart:
 
 
 def folded_start(closure: ClosureEquations, wanted: Floats) -> FoldedStart | None:
-    """Return a motion from the flat state on which most joints turn as is wanted; None where none was found.
-
-    Wanted are signs, float[J], 0 where there is none; the search ends at the first motion that has them all. The
-    linkage is flat where its angles are zero.
-    """
+    """Return a motion from the flat state on which most joints turn with wanted signs, float[J]; else None."""
     best = None
     goal = int(np.count_nonzero(wanted))
     for start in _starts(wanted):
@@ -73,9 +68,9 @@ def folded_start(closure: ClosureEquations, wanted: Floats) -> FoldedStart | Non
         if back is None:
             continue
         small, largest = back, float(np.abs(back).max())
-        found = FoldedStart(small / largest, _agreement(small, wanted), float(np.abs(angles).max()), largest)
-        if best is None or found.agree > best.agree:
-            best = found
+        motion = FoldedStart(small / largest, _agreement(small, wanted), float(np.abs(angles).max()), largest)
+        if best is None or motion.agree > best.agree:
+            best = motion
         if best.agree == goal:
             break
     return best
@@ -90,10 +85,7 @@ def _starts(wanted: Floats) -> Iterator[Floats]:
 
 
 def _closed(closure: ClosureEquations, start: Floats) -> Floats | None:
-    """Return a closed folded configuration near given angles, by Newton's method with all its derivatives.
-
-    It ends where the residual does not fall any more, or a joint has turned once round.
-    """
+    """Return a closed folded configuration near angles, by Newton's method with all its derivatives; or None."""
     angles, least, idle = start, np.inf, 0
     for _ in range(_STEPS):
         residual, jacobian = closure.at(angles)
@@ -138,11 +130,7 @@ _DEAD_ENDS = 200
 
 @dataclass(frozen=True, slots=True)
 class InitialMotion:
-    """Rates with which a motion begins, the largest 1 or -1; None where none were found.
-
-    `rigid` says that all choices leave nothing: nothing moves. `folded` is the folded state from which the motion
-    was followed back to its beginning, where it was found so.
-    """
+    """Initial rates, the largest 1 or -1, if any; whether it is rigid; the folded state that led to them."""
 
     rates: Floats | None
     rigid: bool
@@ -150,11 +138,11 @@ class InitialMotion:
 
 
 def begun_near(closure: ClosureEquations, linkage: PosedLinkage, wanted: Floats) -> InitialMotion:
-    """Return rates that agree to second order, near wanted ones, of a linkage too large for all its ways.
+    """Return rates that agree to second order, near wanted ones, of a linkage too large for all its branches.
 
     From folded states along the wanted rates, if the linkage is flat; unless these lead to a motion with all of
-    them, by Newton's method from the wanted rates too. Where that comes to nothing, since on most ways many joints
-    are still, within the nearest space. Wanted are rates or signs of them, float[J].
+    them, by Newton's method from the wanted rates too. Where that comes to nothing, since on most branches many
+    joints are immobile, within the nearest space. Wanted are rates or signs of them, float[J].
     """
     quadrics = quadrics_of(linkage)
     folded = _from_folded(closure, linkage, quadrics, wanted)
@@ -187,13 +175,13 @@ def _from_folded(
     """Return rates near those of a motion that is followed back from a folded state; None where none is found."""
     if np.abs(linkage.angles).max(initial=0.0) > DOUBLE.parallel:
         return None
-    found = folded_start(closure, wanted)
-    if found is None:
+    folded = folded_start(closure, wanted)
+    if folded is None:
         return None
-    near = rates_near(closure, linkage.angles, quadrics, found.rates)
-    lost = near is None or _agreement(near, wanted) < found.agree
-    rates = found.rates if lost or near is None else near / np.abs(near).max()
-    return InitialMotion(rates, rigid=False, folded=found)
+    near = rates_near(closure, linkage.angles, quadrics, folded.rates)
+    lost = near is None or _agreement(near, wanted) < folded.agree
+    rates = folded.rates if lost or near is None else near / np.abs(near).max()
+    return InitialMotion(rates, rigid=False, folded=folded)
 
 
 def _agreement(rates: Floats | None, wanted: Floats) -> int:
@@ -207,16 +195,15 @@ def spaces_near(
     """Yield spaces of rates that agree to second order, those near to wanted ones first; None for what is empty.
 
     Equations of one sign are used up first. Of the products, that one is decided which the wanted rates decide
-    most clearly; its factor that is nearer to vanishing at them does. The tangent, float[J, s], has orthonormal
-    columns: the rates that close to first order. Eigenvalues below `zero` times the largest are zero.
+    most clearly, by its factor that is nearer to vanishing at them. The tangent is as of `spaces_within`.
     """
-    stack = _Stack(quadrics, zero)
+    stack = _EquationGroups(quadrics, zero)
     for basis, left in stack.split(tangent, np.arange(len(quadrics)), wanted):
         left_there = tuple(quadrics[number] for number in left)
         yield RateSpace(canonical_basis(basis), left_there) if basis.shape[1] else None
 
 
-class _Stack:
+class _EquationGroups:
     """Equations, those between as many joints in one array each."""
 
     def __init__(self, quadrics: Sequence[Quadric], zero: float) -> None:
@@ -262,10 +249,10 @@ class _Stack:
             here = np.flatnonzero(np.isin(left, numbers))
             places = np.searchsorted(numbers, left[here])
             across, local = np.linalg.qr(basis[joints[places]].transpose(0, 2, 1))
-            found = inertia(local @ forms[places] @ local.transpose(0, 2, 1), self._zero)
-            number = found.values.shape[1]
-            values[here, :number], signs[here, :number] = found.values, found.signs
-            axes[here, :, :number] = across @ found.vectors
+            local_inertia = inertia(local @ forms[places] @ local.transpose(0, 2, 1), self._zero)
+            number = local_inertia.values.shape[1]
+            values[here, :number], signs[here, :number] = local_inertia.values, local_inertia.signs
+            axes[here, :, :number] = across @ local_inertia.vectors
         return Inertia(values, axes, signs)
 
     def _part(self, basis: Floats, normals: Floats) -> Floats:
@@ -277,8 +264,7 @@ def _clearest(values: Floats, axes: Floats, wanted: Floats, basis: Floats) -> tu
     """Return the normals of the factors between which wanted rates decide most clearly, the nearer one first.
 
     Values float[n, k] and axes float[n, s, k] are eigenvalues and eigenvectors of products: one value is positive,
-    one negative. Where the wanted rates are as near to both factors, the order of the joints, rows of the basis
-    float[J, s], decides.
+    one negative. Where both factors are as near, the order of the joints, rows of the basis float[J, s], decides.
     """
     each = np.arange(len(values))
     first, last = values.argmin(axis=1), values.argmax(axis=1)

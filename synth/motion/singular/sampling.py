@@ -52,9 +52,8 @@ def located(closure: ClosureEquations, angles: Floats) -> Floats:
 
     Along a flex that does not close to second order, loops closed to 1e-12 leave open the root of that: Newton's
     method ends anywhere within 1e-6 of the branch, and singular values that are zero on it are as large there. So
-    the end of a path is taken across its flexes to where these are zero, before its rank is. Singular values up to
-    `Tolerances.singular` are examined; the configuration is returned as it is where there are none but zeros, or
-    they do not vanish near it.
+    the end of a path is taken across its flexes to where these are zero, before its rank is. It is returned as it
+    is where no values but zeros are up to `Tolerances.singular`, or they do not vanish near it.
     """
     matrix = closure.at(angles)[1].toarray()
     if not _nearly(singular_values(matrix)):
@@ -82,8 +81,8 @@ def _nearly(values: Floats) -> int:
 def _across(closure: ClosureEquations, angles: Floats, parts: Split) -> Floats:
     """Return the least change along flexes at which none of them parts loops to first order: float[J].
 
-    Between flexes and self-stresses the derivatives J are a small matrix, S' J F; along each flex it changes at a
-    rate, and the changes that make it zero are a system of linear equations.
+    Between flexes and self-stresses the derivatives J are a small matrix, S' J F; the changes along flexes that
+    make it zero are a system of linear equations.
     """
     flexes, stresses = parts.right[parts.rank :], parts.left[:, parts.rank :]
 
@@ -130,11 +129,7 @@ def followed(
     still: tuple[int, ...] = (),
     allowance: Allowance | None = None,
 ) -> TracedBranch:
-    """Follow a branch until the joint that moves most has turned by ten degrees, or as far as it goes.
-
-    The linkage is closed at its pose; initial rates agree to second order, and joints at the places `still` do not
-    begin to move. The allowance counts steps.
-    """
+    """Follow a branch for ten degrees, or as far as it goes, by joints that are not `still`."""
     ways = [closure.locked(still), closure] if still else [closure]
     for way in ways:
         end, error = walked(linkage.angles, way, rates, allowance)
@@ -194,8 +189,8 @@ def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
     """Return rates of a space near wanted ones, the largest 1 or -1; zeros if there are none.
 
     By symmetry the way from wanted rates onto the equations may lead to where parts of their solutions meet, at
-    the apex of a cone for instance: there Newton's method finds rates to half their digits only. Then starts
-    beside the wanted ones are tried, and of what they come to the rates that point along these best are taken.
+    the apex of a cone for instance, where Newton's method finds half the digits only. Then starts beside the
+    wanted ones are tried, and of what they come to the rates that point along these best are taken.
     """
     start = np.asarray(space.basis.T @ wanted)
     turn = 1.0 if signed(start) is start else -1.0  # rates against wanted ones are those against what is found
@@ -217,12 +212,12 @@ def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
 def general_rates(
     space: RateSpace, most: int, towards: Floats | None = None, late: Callable[[], bool] = lambda: False
 ) -> tuple[list[Floats], bool]:
-    """Return general rates of a space, one for each part that its equations leave, up to sign.
+    """Return general rates of a space, one for each part that its equations leave; and whether these are all.
 
     Where two equations or more are left the parts are looked for from random starts: there may be others. Rates at
-    which the equations have fewer independent slopes than at others, where parts meet, are left out. The second
-    value is whether no limit ended the search. The search ends after `most` parts, then with the part near to the
-    rates `towards` among those returned, or once `late` says so, with one part at least if there is one.
+    which the equations have fewer independent slopes than at others, where parts meet, are left out. The search
+    ends after `most` parts, then with the part near to the rates `towards` among them, or once `late` says so,
+    after one part at least.
     """
     size = space.basis.shape[1]
     if not space.left:

@@ -1,17 +1,14 @@
 """Which rates at a singular configuration can begin a motion, to second order, and proofs that none does.
 
-Rates at which loops close to first order form a space. Round a loop the twists x_i of the joints, at rates r_i,
-sum to zero to first order. To second order the sum over i < j of r_i r_j [x_i, x_j] has to be made up for by
-accelerations, and what is across all twists sees none of these: a self-stress w gives the equation w . sum r_i r_j
-[x_i, x_j] = 0. A loop has self-stresses of its own (a flat vertex, the one across the sheet); several loops may
-have more together, since their accelerations are shared.
-
-Where an equation is a product of two linear ones the rates fall into two subspaces: the two modes of a vertex of
-four creases. The solutions are found by taking one mode or the other, as long as any equation is left. If no rates
-are left, nothing moves: suppose that a motion begins as t^k r; what is of order 2 k in the closure equations says
-that each self-stress's form vanishes at r. A sum of these forms that is positive on all rates is the shortest
-proof, and where there is none the rates may be used up case by case. R. Connelly and W. Whiteley, Second-order
-rigidity and prestress stability, SIAM Journal on Discrete Mathematics 9 (1996). Theory: docs/theory/folding.md.
+Round a loop the twists x_i of the joints, at rates r_i, sum to zero to first order. To second order the sum over i
+< j of r_i r_j [x_i, x_j] has to be made up for by accelerations, and what is across all twists sees none of these:
+a self-stress w gives the equation w . sum r_i r_j [x_i, x_j] = 0. A loop has self-stresses of its own (a flat
+vertex, the one across the sheet); several loops may have more together. Where an equation is a product of two
+linear ones the rates fall into two subspaces: one or the other is taken, as long as any equation is left. If no
+rates are left, nothing moves: a motion that begins as t^k r makes each self-stress's form vanish at r. A sum of
+these forms that is positive on all rates is the shortest proof; else the rates may be used up case by case. R.
+Connelly and W. Whiteley, Second-order rigidity and prestress stability, SIAM J. Discrete Mathematics 9 (1996).
+Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -85,8 +82,7 @@ def shared_quadrics(
     """Return the equations that self-stresses of several loops give beyond those of the loops alone.
 
     They are for the rates that agree to first order, orthonormal columns float[J, s]; none is a sum of others, or
-    of those of the loops alone (`quadrics_of`), on these rates. The matrix of all closure equations is dense here:
-    for `rows_of` up to `MOST_ROWS`.
+    of those of the loops alone (`quadrics_of`), on these rates. The matrix of all closure equations is dense here.
     """
     size = tangent.shape[1]
     twists = [_twists(linkage, loop) for loop in linkage.loops]
@@ -110,8 +106,7 @@ def shared_quadrics(
 def all_quadrics(linkage: PosedLinkage, tangent: Floats, zero: float = DOUBLE.zero) -> list[Quadric]:
     """Return the equations of the loops alone and, up to `MOST_ROWS` closure equations, `shared_quadrics`.
 
-    Which loops without a centre are listed is a choice among many: where others are sought, those that they have
-    alone are among these.
+    Loops without a centre that are listed are a choice among many: what they have alone is among the shared ones.
     """
     if rows_of(linkage) > MOST_ROWS:
         return quadrics_of(linkage, zero)
@@ -127,11 +122,11 @@ def rows_of(linkage: PosedLinkage) -> int:
 
 def local_forms(basis: Floats, quadrics: Sequence[Quadric]) -> Floats:
     """Return the forms of equations on a space of rates, each as part of its size: float[n, s, s]."""
-    made = np.zeros((len(quadrics), basis.shape[1], basis.shape[1]))
+    forms = np.zeros((len(quadrics), basis.shape[1], basis.shape[1]))
     for number, quadric in enumerate(quadrics):
         local = basis[list(quadric.joints)]
-        made[number] = local.T @ quadric.form @ local / np.abs(quadric.form).max()
-    return made
+        forms[number] = local.T @ quadric.form @ local / np.abs(quadric.form).max()
+    return forms
 
 
 def _beyond(rows: Floats, known: Floats, zero: float) -> Floats:
@@ -174,10 +169,10 @@ def definite_weights(forms: Floats, clear: float) -> tuple[Floats, float] | None
 
     The values that the forms take together, at unit vectors and mixtures of these, make a convex set. If its point
     nearest to zero is w, not zero itself, then the sum with multiples w is at least |w|^2 everywhere; if it is
-    zero, no sum is definite. It is looked for by Wolfe's method: the least point of the hull of values seen so far
-    says where to look next, at the eigenvector of its least eigenvalue. P. Wolfe, Finding the nearest point in a
-    polytope, Mathematical Programming 11 (1976). The smallest eigenvalue as part of the largest, which must be
-    more than `clear`, is returned too; None where no such multiples were found.
+    zero, no sum is definite. Wolfe's method: the least point of the hull of values seen so far says where to look
+    next, at the eigenvector of its least eigenvalue. P. Wolfe, Finding the nearest point in a polytope,
+    Mathematical Programming 11 (1976). The smallest eigenvalue as part of the largest is returned too, and more
+    than `clear`.
     """
     if not len(forms) or not forms.shape[1]:
         return None
@@ -188,10 +183,10 @@ def definite_weights(forms: Floats, clear: float) -> tuple[Floats, float] | None
         if shares is None:
             return None
         weights = shares @ seen
-        found = inertia(np.tensordot(weights, forms, 1), clear)
-        if (found.signs > 0).all():
-            return weights, float(found.values[0] / found.values[-1])
-        new = np.einsum("i,nij,j->n", found.vectors[:, 0], forms, found.vectors[:, 0])
+        total = inertia(np.tensordot(weights, forms, 1), clear)
+        if (total.signs > 0).all():
+            return weights, float(total.values[0] / total.values[-1])
+        new = np.einsum("i,nij,j->n", total.vectors[:, 0], forms, total.vectors[:, 0])
         if np.linalg.norm(weights) <= _NEAR * size or weights @ (weights - new) <= _GAINS * (weights @ weights):
             return None
         seen = np.concatenate([seen[shares > 0.0], new[None]])
@@ -241,8 +236,8 @@ def spaces_within(
 ) -> Iterator[RateSpace]:
     """Yield spaces that hold all rates which agree to second order, depth first; some may be part of others.
 
-    The tangent, float[J, s], holds the rates that agree to first order (`rates_at`). Eigenvalues below `zero`
-    times the largest are zero. The search ends where the allowance, counted in products of numbers, is used up.
+    The tangent, orthonormal float[J, s], holds the rates that agree to first order (`rates_at`). Eigenvalues below
+    `zero` times the largest are zero. The search ends where the allowance, in products of numbers, is used up.
     """
     quadrics = tuple(quadrics)
     case = _Case(tangent, quadrics, local_forms(tangent, quadrics), zero)
@@ -268,10 +263,9 @@ def rates_near(
 ) -> Floats | None:
     """Return rates that agree to second order, near wanted ones, by Newton's method; for linkages of any size.
 
-    Angles, radians, are those of the pose. Wanted are rates or their signs, float[J]; the answer is as long as
-    they are, and leaves at most `zero` of the equations; None where none were found near them. Where two solutions
-    cross, Newton's method comes near by halves and stays 1e-5 away, which squares of rates hardly show: of exact
-    coordinates `zero` is far below other zeros.
+    Wanted are rates or their signs, float[J]; the answer is as long as they are, and leaves at most `zero` of the
+    equations; None where none were found. Where two solutions cross, Newton's method comes near by halves and
+    stays 1e-5 away, which squares of rates hardly show: of exact coordinates `zero` is far below other zeros.
     """
     _, jacobian = closure.at(angles)
     size = float(np.linalg.norm(wanted))
@@ -369,19 +363,19 @@ def _split(case: _Case, allowance: Allowance) -> Iterator[RateSpace]:
 def _simplified(case: _Case) -> tuple[_Case, tuple[Floats, Floats] | None]:
     """Use up the equations that are linear on a space; return what is left, and one that is a product.
 
-    An equation that is a product is among those left too: it vanishes on either part. One whose form has one sign
-    holds only where all linear ones do that it is a sum of squares of.
+    A product is among those left too: it vanishes on either part. An equation whose form has one sign holds only
+    where all linear ones do that it is a sum of squares of.
     """
     while case.basis.shape[1]:
         case = case.only(np.flatnonzero(np.abs(case.forms).max(axis=(1, 2), initial=0.0) > case.zero))
         if not case.left:
             return case, None
-        found = inertia(case.forms, case.zero)
-        definite = np.flatnonzero((found.positive == 0) | (found.negative == 0))
+        local = inertia(case.forms, case.zero)
+        definite = np.flatnonzero((local.positive == 0) | (local.negative == 0))
         if not len(definite):
-            products = np.flatnonzero((found.positive == 1) & (found.negative == 1))
-            return case, _factors(found.values[products[0]], found.vectors[products[0]]) if len(products) else None
-        normals = [found.vectors[one][:, found.signs[one] != 0] for one in definite]
+            products = np.flatnonzero((local.positive == 1) & (local.negative == 1))
+            return case, _factors(local.values[products[0]], local.vectors[products[0]]) if len(products) else None
+        normals = [local.vectors[one][:, local.signs[one] != 0] for one in definite]
         case = case.across(np.concatenate(normals, axis=1))
     return case.only(np.zeros(0, dtype=np.int64)), None
 
@@ -440,10 +434,6 @@ def rigidity_of(
         Of this linkage, if already computed.
     zero : float, optional
         Singular values and eigenvalues below this part of the largest are zero.
-
-    Returns
-    -------
-    Rigidity
 
     Examples
     --------

@@ -1,8 +1,6 @@
 """Events of a walk: turning points, panels on each other, rank deficiencies, the return to where it began.
 
-Where the rank drops, rates r of the kernel close to second order if w . H(r, r) = 0 for all self-stresses w. Where
-the kernel is a plane these are quadratic forms in two variables; if they are multiples of one, its two lines are
-two branches. Theory: docs/theory/folding.md.
+Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -63,10 +61,7 @@ class Limit(Event):
             walk.record("limit", step.after.angles, joints=joints)
 
     def _flattened(self, step: Step) -> Step:
-        """Return the step, its end made exact where panels lie flat on each other.
-
-        Branches meet there, and loops tell angles to the root of their error only.
-        """
+        """Return the step, its end made exact where panels lie on each other: loops tell angles roughly there."""
         halves = np.round(step.after.angles / pi)
         near = _FLAT_BEYOND if self._beyond(step.after.angles).any() else _FLAT
         flat = self._limited & (np.abs(step.after.angles - halves * pi) <= near)
@@ -149,9 +144,9 @@ class TurningPoint(Event):
 
 
 class Return(Event):
-    """A walk comes to a configuration again, whole turns aside, the same way as it left it.
+    """A walk comes to a configuration float[J] again, whole turns aside, as it left it along a tangent.
 
-    Angles and the tangent on from there are float[J]; after `most` steps the walk ends.
+    After `most` steps the walk ends.
     """
 
     ROUND = "it comes round"
@@ -181,7 +176,9 @@ _NUDGE = 1e-3
 def other_ways(closure: ClosureEquations, angles: Floats) -> int | None:
     """Return how many other motion branches pass through a singular configuration of a curve, to second order.
 
-    Angles, float[J], are in radians. None where the kernel is not a plane, or second order does not decide.
+    Rates r of the kernel close to second order if w . H(r, r) = 0 for all self-stresses w: where the kernel is a
+    plane, quadratic forms in two variables. If they are multiples of one, its two lines are two branches. Angles,
+    float[J], are radians. None where the kernel is not a plane, or second order does not decide.
     """
     parts = split(closure.at(angles)[1].toarray(), DOUBLE.singular)
     kernel, stresses = parts.kernel.T, parts.cokernel.T
@@ -211,29 +208,24 @@ def free_rates(closure: ClosureEquations, angles: Floats, moving: Ints | None = 
 
     Nothing dense is made of the equations of large linkages. Angles, float[J], are in radians. `moving`, int[n],
     are the joints that move, of a branch on which others are immobile: these may have rates of their own there,
-    which begin other branches; by default all. The columns are orthonormal, float[n, F], with rows for the joints
-    that move.
+    which begin other branches; by default all. The columns are orthonormal, float[n, F].
     """
     jacobian = closure.at(angles)[1]
     space = TangentSpace(jacobian if moving is None else jacobian[:, moving])
     size = len(angles) if moving is None else len(moving)
     chance = np.random.default_rng(size)
-    found: list[Floats] = []
-    while len(found) < min(_MOST, size):
-        found += [space.projected(chance.normal(size=size)) for _ in range(_BLOCK)]
+    projected: list[Floats] = []
+    while len(projected) < min(_MOST, size):
+        projected += [space.projected(chance.normal(size=size)) for _ in range(_BLOCK)]
         # projected random rates have singular values of their number's root, or none
-        basis = row_space(np.array(found), DOUBLE.singular, float(np.sqrt(size)))
-        if basis.shape[1] < len(found):
+        basis = row_space(np.array(projected), DOUBLE.singular, float(np.sqrt(size)))
+        if basis.shape[1] < len(projected):
             return basis
     return None
 
 
 def independent_joints(basis: Floats, first: int) -> list[int]:
-    """Return joints whose rates determine those of all others, a preferred one first.
-
-    The others are as far apart as possible. The basis, float[n, F], has rates as columns; the first joint is left
-    out where it does not move.
-    """
+    """Return joints, one first, others far apart, whose rates in a basis float[n, F] determine all others."""
     chosen = []
     left = basis
     own = basis[first]

@@ -1,13 +1,9 @@
 """Parts of a walk: its steps, the work it may do, the record of its events, and the watch over the rank.
 
-A cubic through both ends of a step with the rates of both keeps to the curve to the fourth power of the step, so
-that Newton's method does not stray to another branch that passes there.
-
-The least singular value across the freedoms is followed by one step of inverse iteration per configuration, so
-that its vector goes on from one to the next; with a sign, kept by the continuity of its image, it passes through
-zero where the rank drops. Such steps, and those where it dips, are examined: a configuration is reported only
-where singular values are found to be zero. Of two values near each other the vector may go over from one to the
-other, and a drop with it be missed. Theory: docs/theory/folding.md.
+The least singular value across the freedoms is followed by one step of inverse iteration per configuration; with a
+sign, kept by the continuity of its image, it passes through zero where the rank drops. Such steps, and those where
+it dips, are examined: a configuration is reported only where singular values are found to be zero. Of two values
+near each other the vector may go over from one to the other, and a drop be missed. Theory: docs/theory/folding.md.
 """
 
 from __future__ import annotations
@@ -31,22 +27,7 @@ __all__ = ["STRAY", "WATCHED", "Allowance", "EventKind", "PathEvent", "RankWatch
 
 @dataclass(slots=True)
 class Allowance:
-    """Work that a search may do altogether, such as the steps of all its paths.
-
-    Where panels are all but nothing branches are endless. Work is counted, not timed, so that answers are the same
-    on slow and on fast machines.
-
-    Attributes
-    ----------
-    left : float
-        Steps, or other units of work.
-
-    Examples
-    --------
-    >>> allowance = Allowance(1)
-    >>> allowance.take(), allowance.take()
-    (True, False)
-    """
+    """Work that a search may do, such as steps: counted, not timed, to be the same on every machine."""
 
     left: float
 
@@ -71,29 +52,12 @@ rounding."""
 
 @dataclass(frozen=True, slots=True)
 class PathEvent:
-    """An event on a path.
+    """An event on a path, at joint angles float[J], radians; `frame` is the last one before it, or at it.
 
-    Attributes
-    ----------
-    kind : {"turning point", "limit", "rank drop", "collision", "turns over"}
-        Turning point: the driven joint has its extreme angle there. Limit: panels lie on each other. Rank drop:
-        the closure equations leave more rates than before and after; branches may meet there. Collision: panels
-        begin to pass through each other. Turns over: the angle of a crease changes its sign.
-    frame : int
-        The last frame before it, or at it.
-    driver : int
-        Place of the driven joint; of several, of the one that has farthest to go.
-    joints : tuple of int
-        Places of the joints that lie at 180 degrees, or turn over; for other kinds, the driver.
-    angles : float[J]
-        Joint angles there, radians: a turning point closes as frames do, a limit is bracketed to 1e-9 of a step,
-        and at a rank drop, where Newton's method would not keep to the path, they are interpolated.
-    drop : int
-        By how much the rank is less than beside it; 0 for other kinds.
-    other_ways : int or None
-        For a rank drop, other branches than that of the path, to second order; None where that does not decide.
-    panels : tuple of int
-        For a collision, the two links.
+    Turning point: the `driver` (its place) has its extreme angle. Limit: panels lie on each other at the `joints`.
+    Rank drop: the closure equations leave `drop` more rates than before and after; `other_ways` counts the other
+    motion branches there, to second order, None where that does not tell. Collision: two `panels` begin to pass
+    through each other. Turns over: the angle of a crease changes its sign.
     """
 
     kind: EventKind
@@ -178,7 +142,11 @@ class Step:
         return np.asarray(self.after.angles - self.before.angles)
 
     def expected(self, part: float) -> Floats:
-        """Return joint angles at a part of the step, 0 to 1, to fourth order: float[J], radians."""
+        """Return joint angles at a part of the step, 0 to 1: float[J], radians.
+
+        A cubic through both ends with the rates of both keeps to the curve to the fourth power of the step, so
+        that Newton's method does not stray to another branch that passes there.
+        """
         chord = self.chord
         size = float(np.linalg.norm(chord))
         out, back = (rates * (size / np.linalg.norm(rates)) for rates in (self.leaving, self.arriving))
@@ -209,10 +177,7 @@ class Step:
         return float(brentq(lambda part: of(self.at(part)), 0.0, 1.0, xtol=_NEAR))
 
     def landing(self, joint: int, value: float) -> Corrected | None:
-        """Return the configuration at which a joint has an angle between those it has at the ends.
-
-        None if there is no closed one.
-        """
+        """Return the closed configuration at which a joint has an angle between those at the ends; else None."""
         low, high = 0.0, 1.0
         ends = [float(end.angles[joint]) for end in (self.before, self.after)]
         for _ in range(_HALVINGS):
@@ -249,8 +214,8 @@ class Step:
     def passing(self, angles: Floats, near: float) -> Corrected | None:
         """Return a given closed configuration, whole turns on, if the step passes it to so many radians.
 
-        What is near the step need not be on it: another curve may pass there. So the configuration of the step
-        beside the given one is approached along the chord, and has to be the same.
+        What is near the step may be on another curve. So the configuration of the step beside the given one is
+        approached along the chord, and has to be the same.
         """
         chord = self.chord
         square = float(chord @ chord)
@@ -282,10 +247,7 @@ _MOST_LOOKS = 12
 
 
 class RankWatch:
-    """The least singular value across the freedoms, from configuration to configuration.
-
-    `singular` says whether the rank is less at the last one, or hardly more.
-    """
+    """The least singular value across the freedoms; `singular` if it is all but zero at the last place."""
 
     def __init__(self, closure: ClosureEquations) -> None:
         self._closure = closure
@@ -306,18 +268,18 @@ class RankWatch:
         self._values, self._steps = [*self._values, value][-3:], [*self._steps, step][-2:]
         if self._looks >= _MOST_LOOKS:
             return None
-        found = None
+        drop = None
         if flat or abs(value) <= DOUBLE.singular:
-            found = self._deficient(step.after.angles, step)
+            drop = self._deficient(step.after.angles, step)
         elif len(self._values) > 1 and self._values[-2] * value < 0.0:
-            found = self._examined(step)
+            drop = self._examined(step)
         elif self._dips():
-            found = self._examined(self._steps[0]) or self._examined(step)
+            drop = self._examined(self._steps[0]) or self._examined(step)
         else:
             return None
-        self.singular |= found is not None and found[0] is step.after.angles
+        self.singular |= drop is not None and drop[0] is step.after.angles
         self._values = [] if self.singular else [value]
-        return found
+        return drop
 
     def _followed(self, step: Step) -> float:
         """Return the least singular value at the end of a step, with the sign that continuity gives it."""
@@ -381,11 +343,7 @@ class RankWatch:
 
 
 def _across_freedoms(space: TangentSpace, start: Floats) -> Floats:
-    """Return the part of a unit vector across the freedoms, to begin with: a unit vector float[J].
-
-    Where most rates are freedoms, most of a random vector is one, and what is followed from there would be taken
-    for a singular value of zero. Where all are, the vector itself.
-    """
+    """Return the part of a unit vector across the freedoms, to begin with; if all rates are free, itself."""
     across = start - space.projected(start)
     size = float(np.linalg.norm(across))
     return across / size if size > DOUBLE.clear else start

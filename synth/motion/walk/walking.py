@@ -43,10 +43,7 @@ class Event:
         return ""
 
     def within(self, walk: Walk, step: Step) -> tuple[Step, str] | None:
-        """Return a step as far as the event, and why the walk ends there; None where it is not on the step.
-
-        Where that is empty the walk goes on from there.
-        """
+        """Return a step as far as the event, and why the walk ends there, empty if it goes on; else None."""
         return None
 
     def singular(self, step: Step) -> bool:
@@ -58,27 +55,11 @@ class Event:
 
 
 class Goal(Event):
-    """Driven joints have given angles. Of several the one that has farthest to go leads.
+    """Driven joints, at places `drivers`, have angles float[D], radians; the farthest from its angle leads.
 
-    Parameters
-    ----------
-    drivers : list of int
-        Places of the driven joints.
-    values : float[D]
-        Their angles, radians.
-    start : Corrected
-        Where the walk to it begins.
-    names : sequence of J joint ids
-        How messages call the joints.
-
-    Attributes
-    ----------
-    lead, joint : int
-        The joint that leads: its place among the driven ones, and among all.
-    way : float
-        1.0 or -1.0 as its angle is to grow or to fall, 0.0 at the goal.
-    turned : bool
-        Whether turning points of this joint were passed.
+    The walk begins at `start`; messages use the names of all joints. `lead` and `joint` are the place of the
+    leading joint among the driven ones and among all, `way` is 1.0 or -1.0 as its angle is to grow or to fall, 0.0
+    at the goal; `turned` says whether turning points of this joint were passed.
     """
 
     def __init__(self, drivers: list[int], values: Floats, start: Corrected, names: Sequence[JointId]) -> None:
@@ -139,48 +120,16 @@ class Goal(Event):
 class Walk(Iterator[Step]):
     """A walk along a curve of closed configurations, one step for each `next`, until an event ends it.
 
-    It goes straight on, or where it has a goal along the least rates that move the driven joints. Each event may
-    cut a step short, record itself, and end the walk; they are consulted in their order, and the first one on a
-    step counts. A walk that ended goes on when it has another goal.
-
-    Parameters
-    ----------
-    closure : ClosureEquations
-    start : float[J]
-        A closed configuration, radians.
-    tangent : float[J], optional
-        Initial rates; by default the least ones that move the driven joints of the first goal.
-    straight : bool, optional
-        Go straight on where there are several freedoms.
-    allowance : Allowance, optional
-    watch : RankWatch, optional
-        Watches the rank on the way.
-    kept : KeptSigns, optional
-        Angles that keep their signs as long as they can.
-
-    Attributes
-    ----------
-    here : Corrected
-        Where it is.
-    tangent : float[J] or None
-        The way on, of any size; None where the goal decides.
-    length : float
-        Length of the next step, radians of the joint that moves most.
-    straight : bool
-    events : list of Event
-    goal : Goal or None
-    frames : list of Corrected
-        The start, and what its caller adds.
-    met : list of PathEvent
-        The recorded events.
-    drop : (float[J], int) or None
-        Joint angles on the last step where the rank is less, and by how much.
-    ended : str
-        Why it went no farther; empty while it goes on.
+    It goes straight on, or where it has a goal along the least rates that move the driven joints: initial rates
+    are `tangent`, or these. Each event may cut a step short, record itself, and end the walk; they are consulted
+    in their order, and the first one on a step counts. A walk that ended goes on when it has another goal. It is
+    at `here`; `tangent` is the way on, of any size, None where the goal decides, `length` that of the next step,
+    radians of the joint that moves most. Its caller adds to `frames`; `met` are the recorded events, `drop` the
+    joint angles where the rank dropped on the last step and by how much, `ended` why it ended.
 
     Examples
     --------
-    A Bennett linkage, all the way round:
+    A circuit of a Bennett linkage:
 
     >>> from synth.motion.singular.second_order import rates_at
     >>> from synth.motion.walk.events import Return
@@ -273,10 +222,7 @@ class Walk(Iterator[Step]):
         return "" if allowed else "the allowance of steps was used up"
 
     def _onwards(self) -> Floats:
-        """Return the rates to go on with, the largest 1 or -1: the least ones that move the driven joints.
-
-        Where these hardly can, or branches meet, those nearest to the rates before. Zeros if nothing moves.
-        """
+        """Return the least rates that move the driven joints, or else those nearest to the rates before."""
         rates = self._chosen()
         size = float(np.abs(rates).max(initial=0.0))
         return rates / size if size else rates
@@ -299,7 +245,10 @@ class Walk(Iterator[Step]):
         """Return a step of the length that can be trusted, at most to what is left of the driven joints' way."""
         here, drivers, left, most = self.here, list[int](), np.zeros(0), inf
         several = self.goal is not None and self.goal.several
-        rates, bound = self._with_signs(rates)
+        bound: list[int] = []
+        if self.kept is not None and self._begun and not self.singular:
+            rates, self.length = self.kept.admitted(self, rates)
+            bound = self.kept.bound
         bend = np.zeros_like(rates) if several or bound else self._bend
         if self.goal is not None:
             drivers, left = self.goal.drivers, self.goal.left(here)
@@ -325,13 +274,6 @@ class Walk(Iterator[Step]):
             self.length = length / 2.0
         self.length = _FIRST
         return None
-
-    def _with_signs(self, rates: Floats) -> tuple[Floats, list[int]]:
-        """Return the rates at which angles keep their signs, and the joints that they are bound for."""
-        if self.kept is None or not self._begun or self.singular:
-            return rates, []
-        rates, self.length = self.kept.admitted(self, rates)
-        return rates, self.kept.bound
 
     def _arrive(self, step: Step) -> None:
         """Go to the end of a step; where it is singular, rates are more than the curve's."""
@@ -382,8 +324,8 @@ class KeptSigns(Event):
 
     The rates nearest to those that a walk would take, among those at which loops stay closed, driven joints go on
     as they do, and no crease that is nearly unfolded goes on to unfold: a least-distance problem with few
-    inequalities, solved as a non-negative least-squares problem (C. L. Lawson, R. J. Hanson, Solving Least Squares
-    Problems, 1974, chapter 23). Its solution is unique, so that it does not depend on bases.
+    inequalities, solved by non-negative least squares (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems,
+    1974, chapter 23). Its solution is unique, so that it does not depend on bases.
     """
 
     def __init__(self, signs: Floats) -> None:
@@ -392,20 +334,20 @@ class KeptSigns(Event):
         self.bound: list[int] = []  # joints whose rates Newton's method holds on the current step
 
     def admitted(self, walk: Walk, rates: Floats) -> tuple[Floats, float]:
-        """Return rates near given ones at which no sign is lost on the next step, and how long that may be.
+        """Return rates near others, the largest 1 or -1, that lose no sign on the next step, and its length.
 
-        Given rates, the largest 1 or -1, close to first order. Where no others keep all signs, though the step is
-        short, creases are given up until some do: of a contradiction the one first that would turn over fastest.
+        Where no others keep all signs, though the step is short, creases are given up until some do: of a
+        contradiction the one first that would turn over fastest.
         """
         here, length = walk.here, walk.length
         held = [] if walk.goal is None else walk.goal.drivers
         signs = self._kept = self._signs.copy()
         signs[held] = 0.0
         while True:
-            found, bound = _nearest(here, rates, signs, held, length)
-            if found is not None:
+            nearest, bound = _nearest(here, rates, signs, held, length)
+            if nearest is not None:
                 self.bound = np.flatnonzero(bound).tolist()
-                return found / np.abs(found).max(), length
+                return nearest / np.abs(nearest).max(), length
             if length > _SHORTEST:
                 length = max(length / 4.0, _SHORTEST)
                 continue
@@ -433,10 +375,7 @@ class KeptSigns(Event):
 def _nearest(
     here: Corrected, rates: Floats, signs: Floats, held: Sequence[int], length: float
 ) -> tuple[Floats | None, Flags]:
-    """Return the rates nearest to given ones at which signs are kept, or None and the joints that contradict.
-
-    Joints `held` keep the rates they have. Inequalities are added as they are needed.
-    """
+    """Return the rates nearest to given ones at which signs are kept, or None and the joints that contradict."""
     least, sized = _least_rates(here.angles, signs, length), DOUBLE.zero**0.5
     chosen, bound = rates, np.zeros(len(rates), dtype=bool)
     for _ in range(_ROUNDS):
@@ -475,7 +414,7 @@ def _moves(space: TangentSpace, places: Sequence[int], held: Sequence[int]) -> F
 def _least_change(moves: Floats, wanted: Floats) -> tuple[Floats | None, Flags]:
     """Return the least x with ``moves @ x >= wanted``, or None; and of which inequalities a sum contradicts.
 
-    The least-distance problem: of non-negative multiples of the rows [moves, wanted] the sum is taken that is
+    The least-distance problem: of non-negative multiples of the rows [moves, wanted] that sum is taken which is
     nearest to the last unit vector. What is left of that is x, but for a factor; if nothing is, there is no x.
     """
     size = max(float(np.abs(wanted).max()), DOUBLE.zero)

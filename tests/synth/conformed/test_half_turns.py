@@ -37,7 +37,7 @@ def test_both_arcs_do_what_they_do_on_a_cylinder(steps, ground):
     choices = behaviour.choices()
     assert len(choices) in (1, 2, 4)
     for choice in choices:
-        motion = move_on_surface(linkage.curved(begins(choice, behaviour.chain)), ground)
+        motion = move_on_surface(linkage.curved(begins(choice, behaviour.chain)), ground=ground)
         first = {sense.one_way[0] for sense in (motion.backward, motion.forward) if sense.one_way}
         assert (choice.intramobile, choice.extramobile) == (Way.INWARD in first, Way.OUTWARD in first)
     row = behaviour.table_row()

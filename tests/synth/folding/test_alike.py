@@ -35,13 +35,15 @@ def line_crease(diagonal, sector):
 @pytest.mark.parametrize(("name", "parameters", "goal"), ASKED)
 def test_patterns_fold_to_an_angle_with_rigid_panels(name, parameters, goal):
     flat = generate(name, **parameters).mechanism
-    reached = fold_to(flat, radians(goal))
-    assert reached.alike
-    assert reached.folding.path.stopped == ""
-    assert degrees(reached.angle) == pytest.approx(goal, abs=1e-9)
-    assert max(reached.folding.closure, reached.folding.apart) < 1e-11
+    motion = fold_to(flat, radians(goal))
+    (driven,) = motion.driven
+    assert motion.branch is None  # creases that look alike fold alike: no branch was looked for
+    assert motion.path.stopped == ""
+    end = motion.path.angles[-1, motion.joints.index(driven)]
+    assert degrees(abs(end)) == pytest.approx(goal, abs=1e-9)
+    assert max(motion.closure, motion.apart) < 1e-11
     letters = {"M": -1.0, "V": 1.0}
-    last = reached.folding.frames()[-1]
+    last = motion.frames()[-1]
     for letter, angle in zip(last.assignments, last.fold_angles, strict=True):
         assert letter not in letters or letters[letter] * angle > radians(0.1)
     before, after = (np.array(sheet.coordinates) for sheet in (flat, last))
@@ -54,7 +56,7 @@ def test_patterns_fold_to_an_angle_with_rigid_panels(name, parameters, goal):
 
 @pytest.mark.parametrize("goal", [30, 41.54, 90, 170])
 def test_the_waterbomb_base_agrees_with_a_spherical_triangle(goal):
-    angles = fold_to(waterbomb_base(), radians(goal)).folding.path.angles[-1]
+    angles = fold_to(waterbomb_base(), radians(goal)).path.angles[-1]
     line = -line_crease(radians(goal), pi / 4)
     np.testing.assert_allclose(angles, [line, radians(goal), radians(goal)] * 2, atol=1e-10)
     # The angles that the issue of this motion gives, in degrees.
@@ -74,7 +76,7 @@ def test_yoshimuras_pattern_rolls_up_with_one_angle_for_all_mountains(rows, colu
 
 def test_the_preliminary_base_keeps_its_open_diagonal_nearly_flat():
     """Without that diagonal it is a waterbomb base, to which the motion is near."""
-    angles = np.degrees(fold_to(preliminary_base(), pi / 2).folding.path.angles[-1])
+    angles = np.degrees(fold_to(preliminary_base(), pi / 2).path.angles[-1])
     np.testing.assert_allclose(angles[::2], 90, atol=1e-8)
     np.testing.assert_allclose(angles[1::4], angles[1], atol=1e-8)
     assert abs(angles[1]) < 10
@@ -111,11 +113,11 @@ def test_what_has_no_symmetry_has_no_classes():
 def test_a_turned_and_rounded_pattern_folds_to_the_same_angles():
     """Noise far above rounding leaves the classes and the motion as they are."""
     flat, random = generate("waterbomb").mechanism, np.random.default_rng(36)
-    exact = fold_to(flat, radians(60)).folding.path.angles[-1]
+    exact = fold_to(flat, radians(60)).path.angles[-1]
     turn = np.array([[cos(1.0), -np.sin(1.0)], [np.sin(1.0), cos(1.0)]])
     places = np.array(flat.coordinates) @ turn.T + random.normal(scale=1e-13, size=(flat.vertices, 2))
     again = fold_to(replace(flat, coordinates=tuple(map(tuple, places.tolist()))), radians(60))
-    np.testing.assert_allclose(again.folding.path.angles[-1], exact, atol=1e-6)
+    np.testing.assert_allclose(again.path.angles[-1], exact, atol=1e-6)
 
 
 def test_a_path_that_ends_is_told_as_that():

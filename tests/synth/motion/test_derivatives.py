@@ -19,7 +19,6 @@ from synth.motion.derivatives import (
     Sensitivity,
     dependence_on_axes,
     derivatives_by_parameters,
-    sensitivities,
     spatial,
 )
 from synth.motion.linkage import linkage_of_axes, linkage_of_sheet
@@ -139,7 +138,7 @@ def test_fold_angles_of_a_miura_sheet_change_as_its_closed_form_says():
 
 def test_a_flat_sheet_is_degenerate_and_a_folded_one_is_not():
     shape, angles, place = folded_sheet(miura(3, 3, 1.0), 0.8, STRAIGHT)
-    flat, *folded = shape.along(angles, [place])
+    flat, *folded = (shape.at(frame, [place]) for frame in angles)
     assert flat.degenerate
     assert [one.degenerate for one in folded] == [False, False]
     with pytest.raises(UnsolvableError, match="singular and has no derivative"):
@@ -214,7 +213,7 @@ def test_the_inconsistent_part_of_a_change_is_what_no_angles_close(rng):
 def test_forward_and_adjoint_agree_for_changes_that_are_not_consistent(rng):
     linkage, closure, frames = bennett_linkage()
     made = dependence_on_axes(linkage)
-    for at in sensitivities(closure, frames, [0]):
+    for at in (Sensitivity(closure, angles, [0]) for angles in frames):
         along, functional = rng.normal(size=24), rng.normal(size=4)
         forward = functional @ at.forward(made.forward(along)).angles
         assert abs(made.adjoint(at.adjoint(functional)) @ along - forward) < 1e-11

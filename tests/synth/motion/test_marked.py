@@ -8,7 +8,7 @@ import pytest
 from synth.folding.configuration import configuration_of_sheet
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
-from synth.motion.marked import marked_way
+from synth.motion.marked import assigned_branch
 from synth.motion.singular.second_order import rates_at
 from synth.patterns.creases import fan, miura
 from synth.verdict.judged import mobility
@@ -49,7 +49,7 @@ def test_the_marks_that_a_vertex_can_begin_with_are_those_of_random_rates(headin
     begun = {
         signs
         for signs in product((-1, 1), repeat=len(headings))
-        if marked_way(pattern.branches, pattern.linkage, np.array(signs, dtype=float)).marked == "has"
+        if assigned_branch(pattern.branches, pattern.linkage, np.array(signs, dtype=float)).marked == "has"
     }
     assert begun == possible
     assert 2 <= len(begun) < 2 ** len(headings)
@@ -59,7 +59,7 @@ def test_what_no_rates_have_is_proved_not_to_begin():
     """Valleys on one side and mountains on the other: rates along creases do not even add up to nothing."""
     pattern = configuration_of_sheet(fan(np.radians([0, 60, 120, 180, 240, 300])))
     marks = np.array([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
-    assert marked_way(pattern.branches, pattern.linkage, marks).marked == "none has"
+    assert assigned_branch(pattern.branches, pattern.linkage, marks).marked == "none has"
 
 
 def test_what_was_not_found_is_not_said_to_be_impossible():
@@ -74,6 +74,6 @@ def test_of_several_ways_with_all_marks_the_freest_is_chosen():
     branches = pattern.branches.branches
     three = next(number for number, branch in enumerate(branches) if branch.freedoms == 3)
     marks = np.sign(np.where(np.abs(branches[three].rates) > 1e-7, branches[three].rates, 0.0))
-    way = marked_way(pattern.branches, pattern.linkage, marks)
+    way = assigned_branch(pattern.branches, pattern.linkage, marks)
     assert way.marked == "has"
     assert way.number == three

@@ -124,7 +124,7 @@ def test_what_is_flat_folds_to_the_end_of_the_range(name):
 @pytest.mark.slow
 def test_a_hexagon_twist_with_two_other_vertices_has_15_ways():
     verdict = mobility(generate("hexagon-twist", other=2).mechanism, exact=False).verdict
-    assert (verdict.freedoms, len(verdict.ways), verdict.exhaustive) == (1, 15, True)
+    assert (verdict.freedoms, len(verdict.branches), verdict.exhaustive) == (1, 15, True)
     assert "with the given mountain-valley assignment" in verdict.text
 
 
@@ -197,7 +197,7 @@ def test_myards_linkage_is_goldbergs_with_a_right_angle():
 def test_a_hexagon_twist_is_rigid_but_at_its_twist():
     assert mobility(polygon_twist(6, 0.4), exact=False).verdict.freedoms == 0
     verdict = mobility(generate("hexagon-twist", other=1).mechanism, exact=False).verdict
-    assert (verdict.freedoms, len(verdict.ways), verdict.exhaustive) == (1, 6, True)
+    assert (verdict.freedoms, len(verdict.branches), verdict.exhaustive) == (1, 6, True)
     assert "with the given mountain-valley assignment" in verdict.text
     inner = np.array(generate("hexagon-twist", other=2).mechanism.coordinates[:6])
     assert np.arctan2(inner[1, 1], inner[1, 0]) == pytest.approx(pi / 6 - np.arcsin(1 / 4), abs=1e-12)

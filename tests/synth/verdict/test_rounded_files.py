@@ -116,7 +116,7 @@ def test_noise_that_is_estimated_or_stated(noise):
     assert (stated.source, stated.size) == ("stated", pytest.approx(noise, rel=0.01))
     exactly = synth.mobility(noisy, precision=0.0, exact=False).verdict
     # as written only a line of creases that is straight but for the noise may turn, in double precision
-    assert exactly.freedoms == 0 or (exactly.certainty, len(exactly.ways)) == ("numerical", 1)
+    assert exactly.freedoms == 0 or (exactly.certainty, len(exactly.branches)) == ("numerical", 1)
 
 
 def test_the_pose_far_away_is_ranked():

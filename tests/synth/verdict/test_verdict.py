@@ -13,7 +13,7 @@ import synth
 from graphs.files.formats import read, write
 from graphs.mechanism.sheet import Sheet
 from synth.patterns.creases import fan, miura
-from synth.verdict.judged import mobility
+from synth.verdict.judged import mobility, mobility_of_type
 
 KEYS = {
     "freedoms",
@@ -113,7 +113,7 @@ def test_what_moves_is_never_said_not_to():
         headings = np.sort(rng.uniform(0, 2 * np.pi, rng.integers(4, 7)))
         answer = mobility(fan(headings), exact=False)
         stiff = set(answer.verdict.stiff_joints)
-        for way in answer.verdict.ways:
+        for way in answer.verdict.branches:
             moving = {joint for joint, sign in zip(range(len(headings)), way.signs, strict=True) if sign != "0"}
             assert not moving & stiff
             assert stiff <= set(way.stiff_joints)
@@ -142,7 +142,7 @@ def test_motion_is_left_out_on_request():
     verdict = mobility(sheet, motion=False).verdict
     assert verdict.basis == "generic"
     assert "its motion was not analysed" in verdict.text
-    assert mobility(sheet, pose=False).verdict.basis == "generic"
+    assert mobility_of_type(sheet).verdict.basis == "generic"
 
 
 def test_the_command_gives_the_verdict_first(tmp_path, data):

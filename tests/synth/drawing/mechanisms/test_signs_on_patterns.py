@@ -39,7 +39,7 @@ def test_creases_that_disagree_have_bands_below_them():
     assert "2 of 12 assigned creases disagree with branch" in told(scene)
     assert [one.name for one in scene.layers].index("marks") < [one.name for one in scene.layers].index("creases")
     number = synth.mobility(sheet).to_json()["assignment"]["nearest_branch"]
-    others = [n for n in range(len(synth.mobility(sheet).verdict.ways)) if n != number]
+    others = [n for n in range(len(synth.mobility(sheet).verdict.branches)) if n != number]
     more = layer(synth.draw(sheet, "marks", branch=others[0]), "marks")
     assert len(more) > len(bands)
 

@@ -27,7 +27,7 @@ def test_a_tessellation_of_triangles_folds_as_assigned_with_all_its_freedoms(nam
     assert verdict.certainty == "numerical"
     assert "with the given mountain-valley assignment" in verdict.text
     assert "traced back" in verdict.text
-    (way,) = verdict.ways
+    (way,) = verdict.branches
     assert way.signs == "".join("+" if mark > 0 else "-" for mark in at.marks)
     found, small = way.from_folded
     assert found > np.radians(5.0) > np.radians(1.5) > small

@@ -96,7 +96,7 @@ def test_a_large_sheet_begins_as_it_is_assigned(monkeypatch):
     sheet = miura(4, 4, 1.0)
     asked = "".join({"V": "+", "M": "-"}.get(letter, "") for letter in sheet.assignments)
     monkeypatch.setattr(configurations, "MOST_JOINTS", 20)
-    [way] = mobility(sheet, exact=False).verdict.ways
+    [way] = mobility(sheet, exact=False).verdict.branches
     assert way.signs == asked
 
 
