@@ -26,17 +26,7 @@ from graphs.limits import check_work
 from graphs.mechanism.sheet import HINGES, Edge, Place, Reading, Repair, RepairKind, Sheet, sides_of_face
 from graphs.types import Floats
 
-__all__ = [
-    "MOST",
-    "TOLERANCES",
-    "Lines",
-    "Network",
-    "crossings",
-    "either_way",
-    "network_of",
-    "networks_of",
-    "trace_sheet",
-]
+__all__ = ["MOST", "TOLERANCES", "Lines", "crossings", "network_of", "networks_of", "trace_sheet"]
 
 _SAME = 1e-3
 """Crossings nearer than this, in units of the tolerance, are one that was found more than once."""

@@ -12,7 +12,7 @@ import numpy as np
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.mechanism.sheet import COLLINEAR, FLAT, Sheet, sides_of_face
 
-__all__ = ["creased_along", "edge_in_words", "vertex_in_words"]
+__all__ = ["creased_along", "edge_in_words"]
 
 
 def creased_along(

@@ -19,7 +19,7 @@ from graphs.mechanism.precision import precision_of_axes
 from graphs.tolerances import Tolerances
 from graphs.types import Floats, JointId
 
-__all__ = ["Knee", "KneeEnd", "knees_of_type", "placed", "placed_knees"]
+__all__ = ["placed", "placed_knees"]
 
 _ENDS = (JointKind.REVOLUTE, JointKind.UNIVERSAL, JointKind.SPHERICAL)
 

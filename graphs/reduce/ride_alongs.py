@@ -29,7 +29,7 @@ from graphs.printing import Block, Printed, plain
 from graphs.reduce.working import RULES, ReductionTerms, Removal, TakenAddendum, WorkingGraph, take_all
 from graphs.types import JointId, LinkId
 
-__all__ = ["Reduction", "ReductionStep", "links_of_loops_that_stay", "reduce"]
+__all__ = ["Reduction", "ReductionStep", "reduce"]
 
 
 class _FourBar(NamedTuple):

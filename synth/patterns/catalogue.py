@@ -30,8 +30,7 @@ _TRIANGLES = "all panels are triangles: the number of border vertices minus thre
 def _of_storey(values: Values) -> int:
     """Return the freedoms of a storey.
 
-    Round a panel the triangles' angles determine each other; rotated by half a side they do so both ways alike,
-    and an even number of them alternates between two.
+    Round a panel the triangles' angles determine each other; rotated by half a side they do so both ways alike.
     """
     sides = int(values["sides"])
     if not values["ends"]:

@@ -32,7 +32,6 @@ from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.printing import plain
 
 __all__ = [
-    "DrawnShape",
     "DxfLayer",
     "DxfLine",
     "DxfWord",
