@@ -76,10 +76,6 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, geometry: bool
     geometry : bool, optional
         Give loops along boundaries the centre where their axes meet or are parallel, if the sheet has coordinates.
 
-    Returns
-    -------
-    SheetMechanism
-
     Raises
     ------
     InvariantError

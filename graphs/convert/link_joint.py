@@ -60,10 +60,6 @@ def sc_from_link_joint_graph(
     closed : bool, optional
         Whether the face left out carries a centre too (a closed surface). Needs a planar graph.
 
-    Returns
-    -------
-    SCGraph
-
     Raises
     ------
     InvariantError

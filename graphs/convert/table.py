@@ -105,10 +105,6 @@ def to_scd(mechanism: Mechanism) -> SCDGraph:
     mechanism : Mechanism
         Any object that a file may hold.
 
-    Returns
-    -------
-    SCDGraph
-
     Raises
     ------
     UnsolvableError
@@ -146,10 +142,6 @@ def to_polyhedron(mechanism: Mechanism) -> PolyhedronModel:
     mechanism : Mechanism
         Any object that a file may hold.
 
-    Returns
-    -------
-    PolyhedronModel
-
     Raises
     ------
     UnsolvableError
@@ -186,10 +178,6 @@ def to_sheet(mechanism: Mechanism) -> Sheet:
     mechanism : Mechanism
         Any object that a file may hold.
 
-    Returns
-    -------
-    Sheet
-
     Raises
     ------
     UnsolvableError
@@ -216,10 +204,6 @@ def to_vertex_edge(mechanism: Mechanism) -> VertexEdgeGraph:
     ----------
     mechanism : Mechanism
         Any object that a file may hold.
-
-    Returns
-    -------
-    VertexEdgeGraph
 
     Raises
     ------

@@ -326,10 +326,6 @@ def reduce(
     keep : iterable of link ids, optional
         Links that stay: inputs, outputs. The ground link always stays.
 
-    Returns
-    -------
-    Reduction
-
     Raises
     ------
     InvariantError

@@ -110,10 +110,6 @@ def generate(name: str, *, fold: float | None = None, **parameters: float) -> Ge
     **parameters
         Those of the generator; lengths in any unit, angles in radians.
 
-    Returns
-    -------
-    Generated
-
     Raises
     ------
     InvariantError
