@@ -1,8 +1,8 @@
 """Cycles of joints in a sheet: round interior vertices, along boundaries; the centres that geometry gives them.
 
-Round a hole or a cut the creases that end there make a loop of panels that no vertex is the centre of. Where their
-lines are parallel it is planar, where they meet in one point spherical, at this configuration and folded: adjacent
-lines belong to one panel and keep their place to each other. Theory: docs/theory/crease-patterns.md.
+Round a hole or a cut the creases that end there make a loop of panels about no vertex. Where their lines are
+parallel it is planar, where they meet in one point spherical, at this configuration and folded: adjacent lines
+belong to one panel and keep their place to each other. Theory: docs/theory/crease-patterns.md.
 """
 
 from __future__ import annotations
@@ -172,10 +172,7 @@ def simple_cycles(walk: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
 
 
 def boundary_cycles(sheet: Sheet, hinged: HingedFaces) -> list[tuple[int, ...]]:
-    """Return the cycles of joints along boundaries, of holes, cuts and the whole, those of few joints first.
-
-    Along a boundary the creases that end there are passed in order.
-    """
+    """Return the cycles of joints along boundaries, of holes, cuts and the whole, those of few joints first."""
     edges_at: dict[tuple[int, int], tuple[Edge, Edge]] = {}
     for index, around in enumerate(sheet.faces):
         sides = [(a, b) if a < b else (b, a) for a, b in sides_of_face(around)]

@@ -1,8 +1,4 @@
-"""Independent loops of a bare link-joint graph: the faces of an embedding, or a shortest cycle basis.
-
-A planar graph takes the faces of an embedding. Blocks are embedded one by one, so that every face is one cycle; a
-block that is not planar takes a minimum cycle basis.
-"""
+"""Independent loops of a link-joint graph, by blocks: faces of an embedding, or a shortest cycle basis."""
 
 from __future__ import annotations
 
