@@ -2,14 +2,10 @@
 
 GraphML may have the type of each joint (``type`` of its edge), and then is a linkage with joints of all kinds.
 Other such files hold links and joints and no loops. Read, they get the faces of an embedding as loops with finite
-centres (:func:`graphs.convert.link_joint.sc_from_link_joint_graph`); written, loops and centres are lost.
+centres; written, loops and centres are lost.
 
-Edge lists are lines ``link link [joint]``, those that networkx writes, and tables of edges (CSV, pandas).
-networkx's ``write_edgelist`` ends each line with a dictionary of attributes of the edge; pandas writes a line
-of column names, and often a column of row numbers before them. Neither names joints: they are numbered.
-
-GraphML and edge lists hold names as text: an integer is written as its digits, and no two names of a graph are the
-same text. Read, names are integers if all of them are written as integers are.
+Edge lists are lines ``link link [joint]``, those that networkx writes, and tables of edges (CSV, pandas). GraphML
+and edge lists hold names as text. Read, names are integers if all of them are written as integers are.
 """
 
 from __future__ import annotations
@@ -111,10 +107,7 @@ def graph6_text(sc: SCGraph, *, sparse: bool) -> str:
 
 
 def read_graphml(path: Path) -> nx.MultiGraph:
-    """Read the link-joint graph of a GraphML file; directions are dropped, of attributes ``type`` is kept.
-
-    Names of links that are all integers become integers, and so do those of joints.
-    """
+    """Read the link-joint graph of a GraphML file; directions are dropped, of attributes ``type`` is kept."""
     text = read_text(path)
     try:
         graph = nx.read_graphml(BytesIO(text.encode("utf-8")), force_multigraph=True)
@@ -196,8 +189,7 @@ def read_edge_list(path: Path) -> nx.MultiGraph:
 
     A dictionary at the end of a line (networkx) is left alone. If the first line names columns for the ends of
     edges (source and target, from and to), the file is a table, of which these columns are read, and one called
-    joint if there is one. Names of links that are all integers become integers, and so do those of joints. A
-    FileError names the line.
+    joint.
     """
     lines = [
         (number, line)

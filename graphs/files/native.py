@@ -530,11 +530,7 @@ Rows = tuple[tuple[float, ...], ...]
 
 
 def orientation_rows(path: str | Path) -> tuple[str, Rows]:
-    """Return the key and the rows of a file of orientations.
-
-    The key is ``"quaternions"`` (scalar first) or ``"matrices"`` (nine numbers, row by row). Raise FileError if
-    the file cannot be read or has another form; that the rows are those of rotations is not checked here.
-    """
+    """Return the key, ``"quaternions"`` (scalar first) or ``"matrices"``, and the rows of such a file."""
     path = Path(path)
     return rows_from_document(load_json(path), path)
 

@@ -22,11 +22,7 @@ __all__ = ["Checker", "json_text", "load_json", "read_text"]
 
 
 def read_text(path: Path) -> str:
-    """Return the text of a file (UTF-8, with or without byte order mark).
-
-    Raise FileError if it is missing, a directory, a pipe, socket or device, not readable, too large, empty or not
-    text.
-    """
+    """Return the text of a regular file (UTF-8, with or without byte order mark), not empty and not too large."""
     try:
         raw = _bytes_of(path)
     except FileError:

@@ -49,9 +49,8 @@ _LONG_NUMBER = re.compile(r"[0-9]{101}")
 def check_work_of_svg(text: str, path: Path) -> None:
     """Refuse shapes that use shapes too often, or themselves, or nest too deeply, before any is drawn.
 
-    Raise FileError if shapes are drawn by use more often than the limit ``shapes``, elements (used ones included)
-    are nested more deeply than the limit ``levels``, a shape uses itself, or a number, transform or style sheet is
-    too long; ElementTree.ParseError if the text is not XML.
+    Raise FileError at the limits ``shapes``, ``levels`` and ``letters``; ElementTree.ParseError if the text is not
+    XML.
     """
     root = ElementTree.fromstring(text)
     named = {element.get("id"): element for element in root.iter() if element.get("id") is not None}
@@ -146,10 +145,9 @@ class _Digit(NamedTuple):
 
 
 def precision_of_shapes(shapes: Iterable[Any]) -> WrittenPrecision | None:
-    """Return the precision of written shapes of svgelements, None if nothing says it.
+    """Return the precision of written shapes of svgelements, in the unit of the drawing; None if nothing says it.
 
-    The length is in the unit of the drawing, after units and transforms. Errors of the numbers of relative
-    commands are independent, so they add up as the root of their number.
+    Errors of the numbers of relative commands are independent, so they add up as the root of their number.
     """
     written = [_as_written(shape) for shape in shapes]
     of_unit: defaultdict[float, list[float]] = defaultdict(list)
@@ -268,11 +266,7 @@ _PIECES = 8
 
 
 def sheet_from_svg(path: Path, legend: Legend = UNSTATED) -> Sheet:
-    """Read the lines of an SVG file and trace its faces; the legend has the stated assignments of strokes.
-
-    Raise FileError also if the lines make no pattern (:mod:`graphs.files.patterns.lines`), or most are not
-    understood.
-    """
+    """Read the lines of an SVG file and trace its faces; the legend has the stated assignments of strokes."""
     check = Checker(path)
     shapes = list(_stroked_shapes(path))
     strokes = [_stroke(shape, names) for shape, names in shapes]
@@ -399,10 +393,7 @@ def _fold_angle(letter: str, opacity: float) -> float | None:
 
 
 def svg_text(sheet: Sheet) -> str:
-    """Return the SVG text of a flat sheet, a line for each edge; opacity is the fold angle, full for 180 degrees.
-
-    Raise UnsolvableError if the sheet has no coordinates, is not flat, or has no line.
-    """
+    """Return the SVG text of a flat sheet, a line for each edge; full opacity is half a turn."""
     places = flat_places(sheet, "an SVG crease pattern")
     if not (sheet.edges or sheet.faces):
         raise UnsolvableError("an SVG crease pattern needs lines, and the sheet has none")
