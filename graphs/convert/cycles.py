@@ -77,8 +77,7 @@ class HingedFaces:
 def vertex_cycles(sheet: Sheet, hinged: HingedFaces) -> dict[tuple[int, ...], int]:
     """Return the cycles of joints round the interior vertices, and the vertex of each.
 
-    The faces at a vertex form fans; a fan that closes is an interior vertex. Where a panel comes back to the
-    vertex (its faces are merged elsewhere) the walk falls into several cycles with the same centre.
+    Where a panel comes back to the vertex (its faces are merged elsewhere) the walk falls into several cycles.
     """
     cycles: list[tuple[tuple[int, ...], int]] = []
     for vertex, fan in _closed_fans(sheet, hinged.faces_at):

@@ -19,20 +19,14 @@ __all__ = ["block_cycles", "sc_from_link_joint_graph"]
 
 @dataclass(frozen=True, slots=True)
 class BlockCycles:
-    """The cycles of one block (2-connected part) of a link-joint graph, each joint ids in cyclic order.
-
-    `inner` are independent. `outer` is the face that was left out, a longest one; None if the block is not planar.
-    """
+    """The independent cycles of a block (2-connected part), and the face left out; None if it is not planar."""
 
     inner: tuple[tuple[JointId, ...], ...]
     outer: tuple[JointId, ...] | None
 
 
 def block_cycles(links: Iterable[LinkId], joints: Joints) -> list[BlockCycles]:
-    """Return independent cycles of each block with a cycle of a link-joint graph; joints may be parallel.
-
-    Over all blocks there are J - N + c inner cycles.
-    """
+    """Return J - N + c independent cycles of a link-joint graph, by blocks; joints may be parallel."""
     simple, joint_of = _subdivided(links, joints)
     blocks = []
     for edges in nx.biconnected_component_edges(simple):

@@ -293,10 +293,7 @@ def _prune(network: Network) -> None:
 
 
 def _straightened(welded: Network, tolerance: float) -> Network:
-    """Take out vertices in the middle of a line: two edges of one kind, straight within the tolerance.
-
-    They are left where an end was welded to a line that it only touches, or where two ends were.
-    """
+    """Take out vertices in the middle of a line: two edges of one kind, straight within the tolerance."""
     edges, angles, repairs = dict(welded.edges), dict(welded.angles), dict(welded.repairs)
     network = replace(welded, tolerance=tolerance, edges=edges, angles=angles, repairs=repairs)
     at: dict[int, set[int]] = defaultdict(set)

@@ -18,10 +18,7 @@ __all__ = ["creased_along", "edge_in_words"]
 def creased_along(
     sheet: Sheet, start: int | Sequence[float], end: int | Sequence[float], letter: str
 ) -> tuple[Sheet, tuple[int, int]]:
-    """Return a sheet that lists all its edges with one more crease, and the vertices at its ends.
-
-    The errors are those of `graphs.creasing.edits.crease_sheet`.
-    """
+    """Return a sheet that lists all its edges with one more crease, and the vertices at its ends."""
     before = sheet
     ends = []
     for place in (start, end):

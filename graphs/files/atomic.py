@@ -238,10 +238,7 @@ class FolderBeside:
 
 
 class Beside:
-    """A file that is written beside its place and moved there when it is complete.
-
-    A file at its place is kept until :meth:`commit`, and replaced only with `force`.
-    """
+    """A file written beside its place and moved there when it is complete; what is there is kept until then."""
 
     def __init__(self, path: Path, *, force: bool = False) -> None:
         check_place(path, force=force)

@@ -94,10 +94,7 @@ def _order(text: str) -> int | None:
 
 
 def graph6_text(sc: SCGraph, *, sparse: bool) -> str:
-    """Return the graph6 (or sparse6) line of the link-joint graph; links become 0, 1, 2, ...
-
-    Raise UnsolvableError if two links share several joints and the form is graph6, which cannot express them.
-    """
+    """Return the graph6 line of the link-joint graph, which has no parallel joints, or its sparse6 line."""
     if sc.parallel_joints() and not sparse:
         raise UnsolvableError("graph6 cannot hold links that share several joints; write sparse6 (.s6)")
     numbered = nx.convert_node_labels_to_integers(nx.MultiGraph(sc))
@@ -132,10 +129,7 @@ def _named_anew(graph: nx.MultiGraph) -> nx.MultiGraph:
 
 
 def graphml_text(sc: SCGraph, kinds: Mapping[JointId, JointKind] = MappingProxyType({})) -> str:
-    """Return the GraphML text of the link-joint graph, with the types of the joints in `kinds`.
-
-    Raise UnsolvableError if a name has a character that XML does not allow.
-    """
+    """Return the GraphML text of the link-joint graph, with the types of the joints in `kinds`."""
     for name in (*sc.nodes, *sc.joints):
         if re.search("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]", str(name)):
             raise UnsolvableError(f"XML cannot hold the name {shown(name)}")
@@ -147,10 +141,7 @@ def graphml_text(sc: SCGraph, kinds: Mapping[JointId, JointKind] = MappingProxyT
 
 
 def as_linkage(graph: nx.MultiGraph, path: Path) -> SCGraph | JointedLinkage:
-    """Return the SC graph of a graph read from a file; if it has types of joints, a linkage without loops.
-
-    The errors are those of `as_sc`.
-    """
+    """Return the SC graph of a graph read from a file; if it has types of joints, a linkage without loops."""
     words = {key: str(kind) for *_, key, kind in graph.edges(keys=True, data="type") if kind is not None}
     if not words:
         return as_sc(graph, path)
@@ -268,10 +259,7 @@ def _graph_of(rows: list[Words], path: Path) -> nx.MultiGraph:
 
 
 def edge_list_text(sc: SCGraph) -> str:
-    """Return one line ``link link joint`` for each joint.
-
-    Raise UnsolvableError if a name has blanks, commas or ``#``, or a link has no joint.
-    """
+    """Return one line ``link link joint`` for each joint, if no name has blanks, commas or ``#``."""
     for name in (*sc.nodes, *sc.joints):
         if not re.fullmatch(r"[^\s,;#]+", str(name)):
             raise UnsolvableError(f"an edge list cannot hold the name {shown(name)}")

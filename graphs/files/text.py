@@ -69,10 +69,7 @@ def _check_regular(path: Path, entry: os.stat_result) -> None:
 
 
 def load_json(path: Path) -> Any:
-    """Return the JSON value in a file; refuse what strict JSON refuses: NaN, infinity, repeated keys.
-
-    A FileError names line and column of a syntax error.
-    """
+    """Return the JSON value in a file; refuse what strict JSON refuses: NaN, infinity, repeated keys."""
     text = read_text(path)
 
     def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -37,10 +37,7 @@ class _FourBar(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class _Choice:
-    """A block that came down to one four-bar: its last loop, here as a four-bar.
-
-    `there` are the four-bars that could stay, the last one among them.
-    """
+    """A block that came down to one four-bar: its last loop, here as a four-bar, and all that could stay."""
 
     last: int
     here: _FourBar
@@ -111,10 +108,7 @@ def _is_shared(work: WorkingGraph, which: int) -> bool:
 
 
 def _labels(work: WorkingGraph, choices: Sequence[_Choice], protected: Collection[LinkId]) -> Mapping[int, int]:
-    """Return canonical labels of the classes in the graph of the remaining links, joints and classes.
-
-    A four-bar whose class is open stands for itself, beside the classes that it may have.
-    """
+    """Return canonical labels of the classes in the graph of the remaining links, joints and classes."""
     colours: list[tuple[object, ...]] = []
     edges: list[tuple[int, int]] = []
 

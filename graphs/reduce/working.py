@@ -138,10 +138,7 @@ class WorkingGraph:
         return False, None
 
     def member_through(self, cycle: frozenset[JointId], middle: JointId) -> int | None:
-        """Return a loop through a joint that takes part in a sum of loops of one class giving a cycle.
-
-        None if the cycle is no such sum.
-        """
+        """Return a loop through a joint that takes part in a sum of loops of one class giving a cycle, or None."""
         known, member = self.member_at_once(cycle, middle)
         if known:
             return member

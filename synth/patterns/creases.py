@@ -78,19 +78,13 @@ def bird_base() -> Sheet:
 
 
 def miura(rows: int, columns: int, sector: float, straight: float = 1.0, zigzag: float = 1.0) -> Sheet:
-    """Return a flat Miura sheet: ``rows`` panels along each straight line, ``columns`` along each zigzag.
+    """Return a flat Miura sheet: ``rows`` panels along each straight line, ``columns`` along each zigzag."""
+    # K. Miura, "Method of packaging and deployment of large membranes in space" (1985).
 
-    Folded, tan(b / 2) = cos(sector) tan(a / 2), a on the zigzag creases, b on the straight ones. Source: K. Miura,
-    "Method of packaging and deployment of large membranes in space" (1985).
-    """
-    return _mesh(
-        rows,
-        columns,
-        lambda i, j: (j * zigzag * sin(sector), i * straight + j % 2 * zigzag * cos(sector)),
-        lambda i, j: "MV"[i % 2],
-        lambda i, j: "VM"[(i + j) % 2],
-        f"Miura sheet {rows} x {columns}",
-    )
+    def place(i: int, j: int) -> Place:
+        return (j * zigzag * sin(sector), i * straight + j % 2 * zigzag * cos(sector))
+
+    return _mesh(rows, columns, place, "MV", "VM", f"Miura sheet {rows} x {columns}")
 
 
 def folded_miura(
@@ -102,49 +96,37 @@ def folded_miura(
     zigzag: float = 1.0,
     title: str = "",
 ) -> Sheet:
-    """Return a Miura sheet folded until its panels are at an angle, the tilt (radians), to the base plane.
-
-    Lengths of the unit cell as in M. Schenk and S. D. Guest, "Geometry of Miura-folded metamaterials" (2013).
-    """
+    """Return a Miura sheet folded until its panels are at an angle, the tilt (radians), to the base plane."""
+    # Lengths of the unit cell: M. Schenk and S. D. Guest, "Geometry of Miura-folded metamaterials" (2013).
     height = straight * sin(tilt) * sin(sector)
     wide = cos(tilt) ** 2 * tan(sector) ** 2
     across = zigzag * cos(tilt) * tan(sector) / sqrt(1 + wide)
     along = straight * sqrt(1 - sin(tilt) ** 2 * sin(sector) ** 2)
     shift = zigzag / sqrt(1 + wide)
-    return _mesh(
-        rows,
-        columns,
-        lambda i, j: (j * across, i * along + j % 2 * shift, i % 2 * height),
-        lambda i, j: "MV"[i % 2],
-        lambda i, j: "MV"[(i + j) % 2],
-        title or f"Miura mesh {rows} x {columns}, folded",
-    )
+
+    def place(i: int, j: int) -> Place:
+        return (j * across, i * along + j % 2 * shift, i % 2 * height)
+
+    return _mesh(rows, columns, place, "MV", "MV", title or f"Miura mesh {rows} x {columns}, folded")
 
 
 def chickenwire(rows: int, columns: int, sector: float, straight: float = 2.0) -> Sheet:
-    """Return flat chicken wire: hexagons in columns, each halved along a straight line into two trapezoids.
+    """Return flat chicken wire: hexagons in columns, each halved along a straight line into two trapezoids."""
+    # T. A. Evans and others, "Rigidly foldable origami gadgets and tessellations" (2015).
 
-    Its vertices are those of a Miura sheet, each rotated by a half turn relative to the next along a straight
-    line. Source: T. A. Evans, R. J. Lang, S. P. Magleby, L. L. Howell, "Rigidly foldable origami gadgets and
-    tessellations" (2015).
-    """
-    return _mesh(
-        rows,
-        columns,
-        lambda i, j: (j * sin(sector), i * straight + (-1) ** (i + j) * cos(sector) / 2),
-        lambda i, j: "M",
-        lambda i, j: "MV"[(i + j) % 2],
-        f"Chicken wire {rows} x {columns}",
-    )
+    def place(i: int, j: int) -> Place:
+        return (j * sin(sector), i * straight + (-1) ** (i + j) * cos(sector) / 2)
+
+    return _mesh(rows, columns, place, "M", "MV", f"Chicken wire {rows} x {columns}")
 
 
 def huffman_grid(rows: int, columns: int, first: float, second: float, side: float = 1.0) -> Sheet:
     """Return Huffman's grid: copies of one quadrilateral, each rotated by a half turn about the side it shares.
 
     Raise InvariantError where the quadrilateral is not convex, or its angles `first` and `second` are equal or
-    supplementary. Sources: D. A. Huffman, "Curvature and creases" (1976); A. Kokotsakis (1933) and H. Stachel
-    (2010) for any convex quadrilateral.
+    supplementary.
     """
+    # D. A. Huffman, "Curvature and creases" (1976); any convex one: A. Kokotsakis (1933), H. Stachel (2010).
     if isclose(first, second, abs_tol=1e-3) or isclose(first + second, pi, abs_tol=1e-3):
         angles = f"{degrees(first):g} and {degrees(second):g} degrees"
         raise InvariantError("huffman-grid", f"angles of {angles}", "neither equal nor together 180 degrees")
@@ -164,44 +146,25 @@ def huffman_grid(rows: int, columns: int, first: float, second: float, side: flo
         return (x + j // 2 * right[0] + i // 2 * up[0], y + j // 2 * right[1] + i // 2 * up[1])
 
     # The smallest angle, the second, is between a mountain and a valley; three creases of a vertex are alike.
-    return _mesh(
-        rows,
-        columns,
-        place,
-        lambda i, j: "M",
-        lambda i, j: "MV"[(i + j) % 2],
-        f"Huffman's grid {rows} x {columns}",
-    )
+    return _mesh(rows, columns, place, "M", "MV", f"Huffman's grid {rows} x {columns}")
 
 
 def map_sheet(rows: int, columns: int, width: float = 1.3, height: float = 1.0) -> Sheet:
     """Return a map: a flat grid of rectangles, which folds across its columns, as assigned, or across its rows."""
-    return _mesh(
-        rows,
-        columns,
-        lambda i, j: (width * j, height * i),
-        lambda i, j: "U",
-        lambda i, j: "V",
-        f"Map {rows} x {columns}",
-    )
+    return _mesh(rows, columns, lambda i, j: (width * j, height * i), "U", "V", f"Map {rows} x {columns}")
 
 
 def _mesh(
-    rows: int,
-    columns: int,
-    place: Callable[[int, int], Place],
-    across: Callable[[int, int], str],
-    along: Callable[[int, int], str],
-    title: str,
+    rows: int, columns: int, place: Callable[[int, int], Place], across: str, along: str, title: str
 ) -> Sheet:
-    """Return a mesh by its vertices, and the letters of the edges from each to the next in its row and column."""
+    """Return a mesh by its vertices; edges in rows have letters in turn by row, others by diagonal."""
     number = {(i, j): i * (columns + 1) + j for i in range(rows + 1) for j in range(columns + 1)}
     letters = {}
     for (i, j), vertex in number.items():
         if j < columns:
-            letters[frozenset((vertex, number[i, j + 1]))] = across(i, j)
+            letters[frozenset((vertex, number[i, j + 1]))] = across[i % len(across)]
         if i < rows:
-            letters[frozenset((vertex, number[i + 1, j]))] = along(i, j)
+            letters[frozenset((vertex, number[i + 1, j]))] = along[(i + j) % len(along)]
     faces = [
         (number[i, j], number[i, j + 1], number[i + 1, j + 1], number[i + 1, j])
         for i in range(rows)
@@ -220,10 +183,8 @@ def _meeting(start: Place, way: float, other_start: Place, other_way: float) -> 
 
 
 def freedoms_of_triangles(sheet: Sheet) -> int:
-    """Return the freedoms of a disc of triangles: its border's vertices less three.
-
-    Each triangle more adds a border vertex and a freedom, or closes a vertex with three equations.
-    """
+    """Return the freedoms of a disc of triangles: its border's vertices less three."""
+    # Each triangle more adds a border vertex and a freedom, or closes a vertex with three equations.
     border = {
         v for edge, letter in zip(sheet.edges, sheet.assignments, strict=True) if letter == "B" for v in edge
     }
@@ -231,11 +192,8 @@ def freedoms_of_triangles(sheet: Sheet) -> int:
 
 
 def yoshimura(rows: int, columns: int, width: float = 1.0, height: float = 0.6) -> Sheet:
-    """Return Yoshimura's pattern: diamonds, each halved by a valley along its row.
-
-    Source: Y. Yoshimura, "On the mechanism of buckling of a circular cylindrical shell under axial compression"
-    (1955).
-    """
+    """Return Yoshimura's pattern: diamonds, each halved by a valley along its row."""
+    # Y. Yoshimura, "On the mechanism of buckling of a circular cylindrical shell under axial compression" (1955).
 
     def at(i: int, j: int) -> Place:
         return (width * (j + i % 2 / 2), height * i)
@@ -250,11 +208,8 @@ def yoshimura(rows: int, columns: int, width: float = 1.0, height: float = 0.6) 
 
 
 def waterbomb(rows: int, columns: int) -> Sheet:
-    """Return the waterbomb tessellation: waterbomb bases of side 2, columns shifted by half a square.
-
-    Inside six creases meet at every vertex; mountains are parallel to the sides. Source: Y. Chen, H. Feng, J. Ma,
-    R. Peng, Z. You, "Symmetric waterbomb origami" (2016).
-    """
+    """Return the waterbomb tessellation: waterbomb bases of side 2, columns shifted by half a square."""
+    # Y. Chen, H. Feng, J. Ma, R. Peng, Z. You, "Symmetric waterbomb origami" (2016).
     panels: list[list[Place]] = []
     for column in range(columns):
         for row in range(rows):
@@ -357,12 +312,7 @@ def square_twist(twist: float, radius: float = 0.35) -> Sheet:
 
 
 def hexagon_twist(other: int, radius: float = 0.35) -> Sheet:
-    """Return a rigid-foldable hexagon twist with 1 or 2 vertices in the `other` mode.
-
-    The radius is that of `polygon_twist`. Round the hexagon tangents of half the fold angles are multiplied at
-    each vertex, by a number for each mode; the product of the six is 1 at one twist only. Raise InvariantError for
-    other numbers of vertices.
-    """
+    """Return a rigid-foldable hexagon twist with 1 or 2 vertices in the `other` mode."""
     if other not in (1, 2):
         raise InvariantError("hexagon-twist", f"{other} vertices in the other mode", "1 or 2")
     firsts = "M" * other + "V" * (6 - other)
@@ -402,10 +352,8 @@ def _turned(point: Place, steps: int, sides: int) -> Place:
 
 
 def miura_tube(columns: int, sector: float, tilt: float, straight: float = 1.0, zigzag: float = 1.0) -> Sheet:
-    """Return two folded Miura strips, mirror images in the plane of their long edges, joined along these.
-
-    Source: T. Tachi and K. Miura, "Rigid-foldable cylinders and cells" (2012).
-    """
+    """Return two folded Miura strips, mirror images in the plane of their long edges, joined along these."""
+    # T. Tachi and K. Miura, "Rigid-foldable cylinders and cells" (2012).
     strip = folded_miura(2, columns, tilt, sector, straight, zigzag)
     assert strip.coordinates is not None
     upper: list[list[Place]] = [[strip.coordinates[v] for v in face] for face in strip.faces]
@@ -414,11 +362,8 @@ def miura_tube(columns: int, sector: float, tilt: float, straight: float = 1.0, 
 
 
 def kresling(sides: int, ends: int, turn: float = 0.5, height: float = 0.8) -> Sheet:
-    """Return one storey of Kresling's pattern: two regular polygons, one rotated, and triangles between them.
-
-    `ends` (0, 1 or 2) of the polygons are panels. Source: B. Kresling, "Plant 'design': mechanical simulations of
-    growth patterns and bionics" (1996).
-    """
+    """Return one storey of Kresling's pattern: two regular polygons, `ends` of them panels, triangles between."""
+    # B. Kresling, "Plant 'design': mechanical simulations of growth patterns and bionics" (1996).
     below = [(cos(2 * pi * k / sides), sin(2 * pi * k / sides), 0.0) for k in range(sides)]
     above = [(cos(2 * pi * k / sides + turn), sin(2 * pi * k / sides + turn), height) for k in range(sides)]
     panels: list[Corners] = []

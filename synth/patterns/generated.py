@@ -21,10 +21,7 @@ __all__ = ["Generated", "folded", "generate"]
 
 
 def folded(sheet: Sheet, angle: float) -> Sheet:
-    """Return a flat sheet folded on the branch of its assignment up to a largest fold angle, radians.
-
-    Raise UnsolvableError if it does not fold, or not so far.
-    """
+    """Return a flat sheet folded on the branch of its assignment up to a largest fold angle, radians."""
     last_frame: Sheet = fold_to(sheet, angle).folding.frames()[-1]
     return last_frame
 

@@ -24,11 +24,7 @@ __all__ = ["angle_pop_up", "beaked_box", "box_pop_up", "crash_lock", "parallel_p
 
 
 def parallel_pop_up(opening: float, left: float, right: float, first: float, second: float) -> HingedSolids:
-    """Return a card with two panels across its fold, their creases parallel to it.
-
-    Links are the left half, the panel on it, the panel on the right half, and that half. Raise InvariantError if
-    the panels do not meet at this opening.
-    """
+    """Return a card with two panels across its fold, their creases parallel to it; links from the left half on."""
     on_left = (-left * sin(opening / 2), left * cos(opening / 2))
     on_right = (right * sin(opening / 2), right * cos(opening / 2))
     x, y = on_right[0] - on_left[0], on_right[1] - on_left[1]
@@ -45,10 +41,7 @@ def parallel_pop_up(opening: float, left: float, right: float, first: float, sec
 
 
 def angle_pop_up(opening: float, base: float, rise: float) -> HingedSolids:
-    """Return a card with two panels across its fold whose creases meet on it: a V-fold, alike on both sides.
-
-    Raise InvariantError if the panels do not meet at this opening.
-    """
+    """Return a card with two panels across its fold whose creases meet on it: a V-fold, alike on both sides."""
     # The halves lean to both sides of the y axis about the fold, x; the ridge is in the plane between them.
     on_left = (cos(base), sin(base) * cos(opening / 2), sin(base) * sin(opening / 2))
     flat = sqrt(on_left[0] ** 2 + on_left[1] ** 2)
@@ -61,10 +54,7 @@ def angle_pop_up(opening: float, base: float, rise: float) -> HingedSolids:
 
 
 def slit_card(strips: int, depth: float = 1.0, more: float = 0.5, width: float = 1.0) -> Sheet:
-    """Return a flat card with strips between slits across its fold, creased beside the fold: boxes that pop up.
-
-    Slits are cuts: edges marked C. One strip is a box, several are a row of steps.
-    """
+    """Return a flat card with strips between cuts (C) across its fold, creased beside it: boxes that pop up."""
     far, high, knee = 3.0 * (depth + more), depth + more, more
     places: list[Place] = [(-far, 0.0), (far, 0.0), (0.0, 0.0)]
     left_side, right_side = [2], [2]  # of the halves, up the fold and round the strips' ends

@@ -103,11 +103,8 @@ _APART = 1e-3
 
 
 def bennett(first: float, twist: float, other: float) -> HingedSolids:
-    """Return Bennett's linkage: opposite solids alike, lengths in proportion to the sines of the twists.
-
-    Raise InvariantError if the twists are alike, or together a half turn: it is then planar or folded. Source: G.
-    T. Bennett, "A new mechanism" (1903).
-    """
+    """Return Bennett's linkage: opposite solids alike, lengths in proportion to the sines of the twists."""
+    # G. T. Bennett, "A new mechanism" (1903).
     return ring(lines_of(_bennett_frames(first, twist, other)))
 
 
@@ -115,10 +112,9 @@ def goldberg(first: float, twist: float, shared: float, other: float, offset: fl
     """Return Goldberg's linkage of five: two of Bennett's with a solid in common, which is left out.
 
     Beside the common solid two solids meet on an axis; they are made one, with the angle `offset` between them: 0
-    lays them over each other. Raise InvariantError if a linkage has twists that are alike or together a half turn,
-    or both linkages are the same. Source: M. Goldberg, "New five-bar and six-bar linkages in three dimensions"
-    (1943).
+    lays them over each other.
     """
+    # M. Goldberg, "New five-bar and six-bar linkages in three dimensions" (1943).
     if isclose(twist, other, abs_tol=_APART) and isclose(offset, 0.0, abs_tol=_APART):
         what = f"both linkages have the twist {degrees(twist):g} degrees and coincide"
         raise InvariantError("goldberg", what, "different twists, or an offset")
@@ -129,18 +125,14 @@ def goldberg(first: float, twist: float, shared: float, other: float, offset: fl
 
 
 def myard(first: float, twist: float) -> HingedSolids:
-    """Return Myard's linkage of five: Goldberg's of two mirror images whose common twist is a right angle.
-
-    Source: F. E. Myard, "Contribution a la geometrie des systemes articules" (1931).
-    """
+    """Return Myard's linkage of five: Goldberg's of two mirror images whose common twist is a right angle."""
+    # F. E. Myard, "Contribution a la geometrie des systemes articules" (1931).
     return goldberg(first, twist, pi / 2, pi - twist)
 
 
 def sarrus(side: float = 1.0, height: float = 1.6, out: float = 0.6) -> Sheet:
-    """Return the linkage of Sarrus of six panels: two square plates, and two pairs of panels between them.
-
-    Source: P. F. Sarrus, "Note sur la transformation des mouvements rectilignes alternatifs" (1853).
-    """
+    """Return the linkage of Sarrus of six panels: two square plates, and two pairs of panels between them."""
+    # P. F. Sarrus, "Note sur la transformation des mouvements rectilignes alternatifs" (1853).
     square = ((0.0, 0.0), (side, 0.0), (side, side), (0.0, side))
     corners = [(x, y, z) for z in (0.0, height) for x, y in square]
     half = height / 2
@@ -365,10 +357,8 @@ def _equal_frames(angles: Floats) -> Floats:
 
 
 def _off_closing(angles: Floats) -> Floats:
-    """Return by how much the end of a chain of solids with right twists and lengths 1 misses its beginning.
-
-    The whole rotation counts: its antisymmetric part alone is 0 at a half turn too.
-    """
+    """Return by how much the end of a chain of solids with right twists and lengths 1 misses its beginning."""
+    # The whole rotation counts: its antisymmetric part alone is 0 at a half turn too.
     off: Floats = (_equal_frames(angles)[-1] - np.eye(4))[:3].ravel()
     return off
 

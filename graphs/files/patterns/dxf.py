@@ -296,10 +296,7 @@ class DxfWord:
 def dxf_of(
     layers: Sequence[DxfLayer], lines: Sequence[DxfLine], words: Iterable[DxfWord] = (), *, remark: str = ""
 ) -> str:
-    """Return the DXF text of lines and words on layers; the remark is the first line of the file.
-
-    Coordinates are written so that they are read back to the last digit.
-    """
+    """Return the DXF text of lines and words on layers; the remark is the first line of the file."""
     pairs: list[tuple[int, object]] = [(999, plain(remark, _LONGEST_WORDS))] if remark else []
     pairs += [(0, "SECTION"), (2, "HEADER"), (9, "$ACADVER"), (1, "AC1009"), *_extent(lines), (0, "ENDSEC")]
     pairs += [(0, "SECTION"), (2, "TABLES"), *_LINE_TYPES, *_layers(layers), *_STYLES, (0, "ENDSEC")]
@@ -440,10 +437,7 @@ def _kind(record: Record, layer: _Layer, *, shape: bool) -> str:
 
 
 def dxf_text(sheet: Sheet) -> str:
-    """Return the DXF text (R12) of a flat sheet, a layer for each assignment.
-
-    Raise UnsolvableError if the sheet has no coordinates, does not lie in a plane, or has no line.
-    """
+    """Return the DXF text (R12) of a flat sheet, a layer for each assignment."""
     places = flat_places(sheet, "a DXF crease pattern")
     if not (sheet.edges or sheet.faces):
         raise UnsolvableError("a DXF crease pattern needs lines, and the sheet has none")

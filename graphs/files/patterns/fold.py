@@ -334,10 +334,7 @@ def _indices(value: Any, key: str, check: Checker) -> tuple[tuple[int, ...], ...
 
 
 def _all_between(rows: list[Any], least: float, greatest: float, kinds: set[type]) -> bool:
-    """Return whether rows are lists of numbers of some kinds in a range: fast, for large files.
-
-    If not, each is looked at closely to say which is wrong.
-    """
+    """Return whether rows are lists of numbers of some kinds in a range: fast, for large files."""
     if not set(map(type, rows)) <= {list}:
         return False
     numbers = [*chain.from_iterable(rows)]
@@ -396,10 +393,7 @@ def _fold_angles(value: dict[str, Any], edges: int, check: Checker) -> tuple[flo
 
 
 def fold_text_of_poses(sheet: Sheet, poses: Sequence[Sheet]) -> str:
-    """Return the text of a FOLD file whose key frame is a sheet, and whose other frames are poses of it.
-
-    A pose is the same sheet with other coordinates and fold angles.
-    """
+    """Return the text of a FOLD file whose key frame is a sheet, and whose other frames are poses of it."""
     document = json.loads(fold_text(sheet))
     document["file_classes"] = ["animation"]
     document["file_frames"] = [

@@ -95,10 +95,7 @@ def sheet_from_cp(path: Path) -> Sheet:
 
 
 def cp_text(sheet: Sheet) -> str:
-    """Return the ``.cp`` text of a flat sheet; unassigned creases are written as valleys, cuts as borders.
-
-    Raise UnsolvableError if the sheet has no coordinates, does not lie in a plane, or has no line.
-    """
+    """Return the ``.cp`` text of a flat sheet; unassigned creases are written as valleys, cuts as borders."""
     if not (sheet.edges or sheet.faces):
         raise UnsolvableError("a .cp file needs lines, and the sheet has none")
     sheet = with_all_edges(sheet)

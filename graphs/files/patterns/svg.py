@@ -47,11 +47,7 @@ _LONG_NUMBER = re.compile(r"[0-9]{101}")
 
 
 def check_work_of_svg(text: str, path: Path) -> None:
-    """Refuse shapes that use shapes too often, or themselves, or nest too deeply, before any is drawn.
-
-    Raise FileError at the limits ``shapes``, ``levels`` and ``letters``; ElementTree.ParseError if the text is not
-    XML.
-    """
+    """Refuse shapes that use shapes too often, or themselves, or nest too deeply, before any is drawn."""
     root = ElementTree.fromstring(text)
     named = {element.get("id"): element for element in root.iter() if element.get("id") is not None}
     drawn: dict[ElementTree.Element, int] = {}
