@@ -60,7 +60,12 @@ class Unfinished:
     def __init__(self, place: Path, *, folder: bool = False) -> None:
         self._lock: int | None = None
         while True:
-            self.path = _new_beside(place, folder)
+            if folder:
+                self.path = Path(tempfile.mkdtemp(_ENDING, _beginning(place), place.parent))
+            else:
+                handle, name = tempfile.mkstemp(_ENDING, _beginning(place), place.parent)
+                os.close(handle)
+                self.path = Path(name)
             try:
                 self._lock = _locked(self.path)
             except (BlockingIOError, FileNotFoundError):  # another run has just removed it as left over
@@ -72,14 +77,6 @@ class Unfinished:
         if self._lock is not None:
             _unlock(self._lock)
             self._lock = None
-
-
-def _new_beside(place: Path, folder: bool) -> Path:
-    if folder:
-        return Path(tempfile.mkdtemp(_ENDING, _beginning(place), place.parent))
-    handle, name = tempfile.mkstemp(_ENDING, _beginning(place), place.parent)
-    os.close(handle)
-    return Path(name)
 
 
 def _beginning(place: Path) -> str:
@@ -243,8 +240,9 @@ class Beside:
     def __init__(self, path: Path, *, force: bool = False) -> None:
         check_place(path, force=force)
         self._force = force
+        os.umask(mask := os.umask(0))  # it can only be read by setting it
         try:
-            self._mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask()
+            self._mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~mask
             self._unfinished = Unfinished(path)
             self.stream = self._unfinished.path.open("wb")
         except (OSError, ValueError) as error:
@@ -289,10 +287,3 @@ class Beside:
 def reason_of(error: OSError | ValueError) -> str:
     """Return the words of the system for an error, without its number and the file."""
     return error.strerror or "" if isinstance(error, OSError) else str(error)
-
-
-def _umask() -> int:
-    """Return the umask; it can only be read by setting it."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
