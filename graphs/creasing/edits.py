@@ -6,7 +6,8 @@ ones come last.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections import Counter
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -161,16 +162,21 @@ def remove_crease(sheet: Sheet, joint: int) -> SheetEdit:
         del faces[second]
         left -= between
     kept = [i for i, edge in enumerate(whole.edges) if frozenset(edge) not in pieces]
+    after = _with_faces(whole, faces, kept, (whole.assignments[i] for i in kept))
+    return SheetEdit(f"remove crease {joint}", sheet, after)
+
+
+def _with_faces(whole: Sheet, faces: Iterable[tuple[int, ...]], kept: list[int], letters: Iterable[str]) -> Sheet:
+    """Return a sheet with other faces, some of its edges, by their numbers, and their assignments."""
     angles = whole.fold_angles
-    after = replace(
+    return replace(
         whole,
         edges=tuple(whole.edges[i] for i in kept),
-        assignments="".join(whole.assignments[i] for i in kept),
+        assignments="".join(letters),
         faces=tuple(faces),
         fold_angles=None if angles is None else tuple(angles[i] for i in kept),
         frames=None,
     )
-    return SheetEdit(f"remove crease {joint}", sheet, after)
 
 
 def _pieces(sheet: Sheet, joint: int) -> tuple[Sheet, set[frozenset[int]]]:
@@ -233,22 +239,11 @@ def take_off_panels(sheet: Sheet, links: Collection[int]) -> SheetEdit:
     if len(gone) == len(sheet.faces):
         raise UnsolvableError("no panel would be left")
     whole = with_all_edges(sheet)
-    faces = tuple(face for number, face in enumerate(whole.faces) if number not in gone)
-    beside: dict[frozenset[int], int] = {}
-    for face in faces:
-        for side in sides_of_face(face):
-            beside[frozenset(side)] = beside.get(frozenset(side), 0) + 1
-    kept = [number for number, edge in enumerate(whole.edges) if frozenset(edge) in beside]
-    letters = (whole.assignments[number] if beside[frozenset(whole.edges[number])] > 1 else "B" for number in kept)
-    angles = whole.fold_angles
-    after = replace(
-        whole,
-        edges=tuple(whole.edges[number] for number in kept),
-        assignments="".join(letters),
-        faces=faces,
-        fold_angles=None if angles is None else tuple(angles[number] for number in kept),
-        frames=None,
-    )
+    faces = [face for number, face in enumerate(whole.faces) if number not in gone]
+    beside = Counter(frozenset(side) for face in faces for side in sides_of_face(face))
+    kept = [i for i, edge in enumerate(whole.edges) if frozenset(edge) in beside]
+    letters = (whole.assignments[i] if beside[frozenset(whole.edges[i])] > 1 else "B" for i in kept)
+    after = _with_faces(whole, faces, kept, letters)
     return SheetEdit(f"take off panels {', '.join(map(str, sorted(links)))}", sheet, after)
 
 
