@@ -8,7 +8,7 @@ belong to one panel and keep their place to each other. Theory: docs/theory/crea
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -109,38 +109,26 @@ def _closed_fans(sheet: Sheet, faces_at: Mapping[Edge, Sequence[int]]) -> list[t
         left = dict.fromkeys(sides_of)
         while left:
             start = next(iter(left))
-            fan: list[tuple[Edge, int]] = []
-            edge, face = sides_of[start][1], start
-            while True:
+            fan = list(_fan(start, sides_of[start][1], sides_of, faces_at))
+            if fan and fan[-1][1] == start:
+                fans.append((centre, fan))
+            else:  # its other half is no fan of its own
+                fan += _fan(start, sides_of[start][0], sides_of, faces_at)
+            for face in (start, *(face for _, face in fan)):
                 left.pop(face, None)
-                here = faces_at[edge]
-                if len(here) < 2:
-                    _drop_fan(start, sides_of, faces_at, left)
-                    break
-                face = here[0] if here[1] == face else here[1]
-                fan.append((edge, face))
-                if face == start:
-                    fans.append((centre, fan))
-                    break
-                one, two = sides_of[face]
-                edge = two if edge == one else one
     return fans
 
 
-def _drop_fan(
-    start: int,
-    sides_of: Mapping[int, tuple[Edge, Edge]],
-    faces_at: Mapping[Edge, Sequence[int]],
-    left: dict[int, None],
-) -> None:
-    """Take the other half of an open fan off the list."""
-    face, edge = start, sides_of[start][0]
-    while True:
-        beyond = [f for f in faces_at[edge] if f != face]
-        if not beyond:
+def _fan(
+    start: int, edge: Edge, sides_of: Mapping[int, tuple[Edge, Edge]], faces_at: Mapping[Edge, Sequence[int]]
+) -> Iterator[tuple[Edge, int]]:
+    """Walk from a face at a vertex across an edge, up to a border or back; yield edges and the faces entered."""
+    face = start
+    while len(here := faces_at[edge]) == 2:
+        face = here[0] if here[1] == face else here[1]
+        yield edge, face
+        if face == start:
             return
-        face = beyond[0]
-        left.pop(face, None)
         one, two = sides_of[face]
         edge = two if edge == one else one
 
