@@ -1,14 +1,14 @@
 """Cycles of joints in a sheet: round interior vertices, along boundaries; the centres that geometry gives them.
 
-Round a hole or a cut the creases that end there make a loop of panels that no vertex is the centre of. Where their
-lines are parallel it is planar, where they meet in one point spherical, at this configuration and folded: adjacent
-lines belong to one panel and keep their place to each other. Theory: docs/theory/crease-patterns.md.
+Round a hole or a cut the creases that end there make a loop of panels about no vertex. Where their lines are
+parallel it is planar, where they meet in one point spherical, at this configuration and folded: adjacent lines
+belong to one panel and keep their place to each other. Theory: docs/theory/crease-patterns.md.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -77,8 +77,7 @@ class HingedFaces:
 def vertex_cycles(sheet: Sheet, hinged: HingedFaces) -> dict[tuple[int, ...], int]:
     """Return the cycles of joints round the interior vertices, and the vertex of each.
 
-    The faces at a vertex form fans; a fan that closes is an interior vertex. Where a panel comes back to the
-    vertex (its faces are merged elsewhere) the walk falls into several cycles with the same centre.
+    Where a panel comes back to the vertex (its faces are merged elsewhere) the walk falls into several cycles.
     """
     cycles: list[tuple[tuple[int, ...], int]] = []
     for vertex, fan in _closed_fans(sheet, hinged.faces_at):
@@ -110,38 +109,26 @@ def _closed_fans(sheet: Sheet, faces_at: Mapping[Edge, Sequence[int]]) -> list[t
         left = dict.fromkeys(sides_of)
         while left:
             start = next(iter(left))
-            fan: list[tuple[Edge, int]] = []
-            edge, face = sides_of[start][1], start
-            while True:
+            fan = list(_fan(start, sides_of[start][1], sides_of, faces_at))
+            if fan and fan[-1][1] == start:
+                fans.append((centre, fan))
+            else:  # its other half is no fan of its own
+                fan += _fan(start, sides_of[start][0], sides_of, faces_at)
+            for face in (start, *(face for _, face in fan)):
                 left.pop(face, None)
-                here = faces_at[edge]
-                if len(here) < 2:
-                    _drop_fan(start, sides_of, faces_at, left)
-                    break
-                face = here[0] if here[1] == face else here[1]
-                fan.append((edge, face))
-                if face == start:
-                    fans.append((centre, fan))
-                    break
-                one, two = sides_of[face]
-                edge = two if edge == one else one
     return fans
 
 
-def _drop_fan(
-    start: int,
-    sides_of: Mapping[int, tuple[Edge, Edge]],
-    faces_at: Mapping[Edge, Sequence[int]],
-    left: dict[int, None],
-) -> None:
-    """Take the other half of an open fan off the list."""
-    face, edge = start, sides_of[start][0]
-    while True:
-        beyond = [f for f in faces_at[edge] if f != face]
-        if not beyond:
+def _fan(
+    start: int, edge: Edge, sides_of: Mapping[int, tuple[Edge, Edge]], faces_at: Mapping[Edge, Sequence[int]]
+) -> Iterator[tuple[Edge, int]]:
+    """Walk from a face at a vertex across an edge, up to a border or back; yield edges and the faces entered."""
+    face = start
+    while len(here := faces_at[edge]) == 2:
+        face = here[0] if here[1] == face else here[1]
+        yield edge, face
+        if face == start:
             return
-        face = beyond[0]
-        left.pop(face, None)
         one, two = sides_of[face]
         edge = two if edge == one else one
 
@@ -172,10 +159,7 @@ def simple_cycles(walk: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
 
 
 def boundary_cycles(sheet: Sheet, hinged: HingedFaces) -> list[tuple[int, ...]]:
-    """Return the cycles of joints along boundaries, of holes, cuts and the whole, those of few joints first.
-
-    Along a boundary the creases that end there are passed in order.
-    """
+    """Return the cycles of joints along boundaries, of holes, cuts and the whole, those of few joints first."""
     edges_at: dict[tuple[int, int], tuple[Edge, Edge]] = {}
     for index, around in enumerate(sheet.faces):
         sides = [(a, b) if a < b else (b, a) for a, b in sides_of_face(around)]

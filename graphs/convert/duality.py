@@ -1,8 +1,7 @@
 """From a sheet to its mechanism, by duality.
 
-Panels are links, creases are joints and an interior vertex is a finite centre. Loops along the boundaries of holes
-and cuts have a centre where their axes are parallel or meet; other loops are spatial. Theory:
-docs/theory/crease-patterns.md.
+Panels are links, creases are joints and an interior vertex is a finite centre. Loops round holes and cuts have a
+centre where their axes are parallel or meet; other loops are spatial. Theory: docs/theory/crease-patterns.md.
 """
 
 from __future__ import annotations
@@ -71,19 +70,11 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, geometry: bool
     Parameters
     ----------
     sheet : Sheet
+        InvariantError if an edge belongs to more than two faces.
     hinge_flat : bool, optional
         Make hinges of flat edges too; without it they merge the faces they part.
     geometry : bool, optional
         Give loops along boundaries the centre where their axes meet or are parallel, if the sheet has coordinates.
-
-    Returns
-    -------
-    SheetMechanism
-
-    Raises
-    ------
-    InvariantError
-        If an edge belongs to more than two faces.
 
     Examples
     --------

@@ -1,8 +1,8 @@
 """Faces of a sheet as it is read: creases on none of them, traced anew, refused where one crosses itself.
 
-Files written by hand or by several programs have a crease that no face has as a side, or faces whose sides are
-longer than the edges drawn along them. Where the sheet lies flat all its lines are traced. A face that crosses
-itself is refused: a panel has an inside. Theory: docs/theory/crease-patterns.md.
+Files written by hand or by several programs have creases that are no side of a face. Where the sheet lies flat all
+its lines are traced. A face that crosses itself is refused: a panel has an inside. Theory:
+docs/theory/crease-patterns.md.
 """
 
 from __future__ import annotations
@@ -43,10 +43,7 @@ def joins_faces(sheet: Sheet) -> bool:
 
 
 def traced_anew(sheet: Sheet) -> Sheet | None:
-    """Trace the faces of a sheet from its edges and the sides of its faces together.
-
-    Return None if the sheet does not lie flat, or its faces lie over each other, folded flat.
-    """
+    """Trace the faces of a sheet anew; None if it does not lie flat, or its faces lie over each other."""
     from graphs.convert.tracing import MOST, Lines, trace_sheet  # tracing loads shapely
 
     if sheet.coordinates is None or any(abs(x) >= MOST for place in sheet.coordinates for x in place):
@@ -77,10 +74,7 @@ def _overlap(places: Floats, faces: tuple[tuple[int, ...], ...]) -> bool:
 
 
 def with_simple_faces(sheet: Sheet) -> Sheet:
-    """Return a sheet; refuse a flat one with a face that crosses itself, by an InvariantError with face and point.
-
-    Faces of sheets that do not lie flat need not be planar, and pass.
-    """
+    """Return a sheet; InvariantError with face and point for a flat one with a face that crosses itself."""
     if all(len(face) == 3 for face in sheet.faces):
         return sheet
     flat = flattened(sheet)

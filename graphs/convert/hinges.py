@@ -17,7 +17,7 @@ from graphs.errors import numbered
 from graphs.mechanism.sheet import COLLINEAR, Edge
 from graphs.types import Floats
 
-__all__ = ["BENT", "HingeLines", "lines_of_hinges"]
+__all__ = ["HingeLines", "lines_of_hinges"]
 
 BENT = 0.03
 """Hinges farther off one line than this, in units of their lengths, are bent: equal ones by over 3.4 degrees."""
@@ -44,10 +44,9 @@ Groups = frozenset[tuple[int, ...]]
 class HingeLines:
     """Bundles of hinges, a bundle for two panels, grouped by the lines on which they lie.
 
-    For each bundle, each group has the indices of its hinges in the bundle, in order. `within` is the largest
-    deviation of two hinges of a group from one line, in units of their lengths. `loosely` is how many joints fewer
-    there are than with the tight tolerance, ``COLLINEAR``; `unclear` counts hinges that stay apart from others,
-    but may lie on a line with them.
+    For each bundle, each group has the indices of its hinges. `within` is the largest deviation of two hinges of a
+    group from one line, in units of their lengths, `loosely` how many joints fewer there are than with the
+    tolerance ``COLLINEAR``, `unclear` how many hinges stay apart from others, but may lie on a line with them.
     """
 
     groups: tuple[tuple[tuple[int, ...], ...], ...]
@@ -76,19 +75,10 @@ def lines_of_hinges(
     """Group the hinges between the same two panels, a bundle, by the lines on which they lie.
 
     Without coordinates every hinge is on a line of its own; `rounding` is their rounding error, if known, in units
-    of their extent.
-
-    The deviation of two hinges from one line: the line goes through the two of their ends that are farthest apart,
-    and the deviation is the distance of the ends of each from it, in units of the length of that hinge, the larger
-    of the two. So for hinges that meet it is an angle, half that of the bend if they are equally long, all of it
-    if one is short; for hinges beside each other it is large. Rounding moves ends by some length, and so rotates
-    short hinges more: what it explains is subtracted.
-
-    The tolerance is the foot of the coarsest plateau, a range of a decade or more between ``COLLINEAR`` and
-    ``BENT`` in which the number of lines does not change; ``COLLINEAR`` if there is none. The hinges of a group
-    fit each other two by two; hinges in a row that fit one to the next, but not the first to the last, are a
-    curve, and ``COLLINEAR`` holds for them. Unclear are hinges apart that all fit each other at ``BENT``, and
-    hinges that are bent or a curve by no more than rounding explains.
+    of their extent. The tolerance is the foot of the coarsest plateau, a range of a decade or more between
+    ``COLLINEAR`` and ``BENT`` in which the number of lines does not change; ``COLLINEAR`` if there is none. The
+    hinges of a group fit each other two by two; hinges in a row that fit one to the next, but not the first to the
+    last, are a curve, and ``COLLINEAR`` holds for them.
     """
     groups: list[tuple[tuple[int, ...], ...]] = [tuple((i,) for i in range(len(bundle))) for bundle in bundles]
     several = [i for i, bundle in enumerate(bundles) if len(bundle) > 1]
@@ -206,6 +196,8 @@ def _off_line(one: Floats, two: Floats, explained: float) -> Floats:
     """Return the deviations of pairs of hinges from one line, in units of their lengths, and what rounding leaves.
 
     `one` and `two` are the ends of the hinges of each pair, float[pairs, 2, dimensions]; returns float[2, pairs].
+    The line goes through the two of the four ends that are farthest apart. So for hinges that meet the deviation
+    is an angle, half that of the bend if they are equally long; for hinges beside each other it is large.
     """
     four = np.concatenate([one, two], axis=1)
     apart = np.linalg.norm(four[:, :, None] - four[:, None], axis=3).reshape(-1, 16)

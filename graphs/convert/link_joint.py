@@ -1,8 +1,4 @@
-"""Independent loops of a bare link-joint graph: the faces of an embedding, or a shortest cycle basis.
-
-A planar graph takes the faces of an embedding. Blocks are embedded one by one, so that every face is one cycle; a
-block that is not planar takes a minimum cycle basis.
-"""
+"""Independent loops of a link-joint graph, by blocks: faces of an embedding, or a shortest cycle basis."""
 
 from __future__ import annotations
 
@@ -18,25 +14,19 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.types import JointId, Joints, LinkId
 
-__all__ = ["BlockCycles", "block_cycles", "sc_from_link_joint_graph"]
+__all__ = ["block_cycles", "sc_from_link_joint_graph"]
 
 
 @dataclass(frozen=True, slots=True)
 class BlockCycles:
-    """The cycles of one block (2-connected part) of a link-joint graph, each joint ids in cyclic order.
-
-    `inner` are independent. `outer` is the face that was left out, a longest one; None if the block is not planar.
-    """
+    """The independent cycles of a block (2-connected part), and the face left out; None if it is not planar."""
 
     inner: tuple[tuple[JointId, ...], ...]
     outer: tuple[JointId, ...] | None
 
 
 def block_cycles(links: Iterable[LinkId], joints: Joints) -> list[BlockCycles]:
-    """Return independent cycles of each block with a cycle of a link-joint graph; joints may be parallel.
-
-    Over all blocks there are J - N + c inner cycles.
-    """
+    """Return J - N + c independent cycles of a link-joint graph, by blocks; joints may be parallel."""
     simple, joint_of = _subdivided(links, joints)
     blocks = []
     for edges in nx.biconnected_component_edges(simple):
@@ -59,10 +49,6 @@ def sc_from_link_joint_graph(
         The centre of every loop.
     closed : bool, optional
         Whether the face left out carries a centre too (a closed surface). Needs a planar graph.
-
-    Returns
-    -------
-    SCGraph
 
     Raises
     ------

@@ -49,7 +49,7 @@ def scd_from_panels(
     outer: tuple[Hashable, Hashable] | None = None,
     remote: Remote | None = None,
 ) -> SCDGraph:
-    """Return the SCD graph of panels, each a row of vertices.
+    """Return the SCD graph of panels, each a row of vertices; joint ids are indices, in the order of the panels.
 
     Parameters
     ----------
@@ -61,11 +61,6 @@ def scd_from_panels(
     remote : callable, optional
         Called with the ends of the joints and the cycles of joints round holes with an open edge in every corner;
         returns those that have a centre, as loops. Without it loops round holes are spatial.
-
-    Returns
-    -------
-    SCDGraph
-        Joint ids are indices, in the order of the panels.
 
     Raises
     ------
@@ -108,12 +103,7 @@ def oriented_panels(panels: Mapping[Any, Panel]) -> dict[LinkId, Panel]:
     Parameters
     ----------
     panels : mapping of link id to sequence of vertices
-        The vertices round each panel, one way or the other.
-
-    Returns
-    -------
-    dict of link id to sequence of vertices
-        The first panel of each piece stays as it is.
+        The vertices round each panel, one way or the other. The first panel of each piece stays as it is.
 
     Raises
     ------
@@ -223,10 +213,7 @@ def scd_of_placed_panels(sheet: Sheet) -> SCDGraph:
 
     The outer boundary is the one round the largest area. Where the creases of a loop round a hole meet in a point
     or are parallel, within the precision of the coordinates, it has an implicit centre there. Without coordinates
-    loops round holes are spatial, and the boundary with the most open edges is the outer. The errors are those of
-    `scd_from_panels`.
-
-    Four panels round a square hole, the creases on its diagonals: they meet in its middle.
+    loops round holes are spatial, and the boundary with the most open edges is the outer.
     """
     panels = oriented_panels(dict(enumerate(sheet.faces)))
     if sheet.coordinates is None:
@@ -280,13 +267,6 @@ class VertexStep:
         The kind of that face; the vertex *is* its centre if that is explicit.
     links : tuple of link ids
         The links that meet in the vertex, in the order of the walk round the face.
-
-    Examples
-    --------
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> steps = vertex_steps(scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")]))
-    >>> [sorted(step.links) for step in steps if step.kind is FaceKind.EXPLICIT]
-    [[0, 1, 2]]
     """
 
     vertex: int
@@ -296,16 +276,11 @@ class VertexStep:
 
 
 def vertex_steps(scd: SCDGraph) -> Iterator[VertexStep]:
-    """Walk round each face and yield its vertices, one for each run of links between open edges.
+    """Walk round each face and yield its vertices by their numbers, one for each run of links between open edges.
 
     Parameters
     ----------
     scd : SCDGraph
-
-    Yields
-    ------
-    VertexStep
-        In the order of the numbers of the vertices.
 
     Examples
     --------
@@ -329,11 +304,7 @@ def vertex_steps(scd: SCDGraph) -> Iterator[VertexStep]:
 
 
 def internal_rods(around: tuple[int, ...]) -> list[tuple[int, int]]:
-    """Return the 2n - 6 rods that make a body of n vertices and n sides rigid.
-
-    Two fans of n - 3 diagonals, from two neighbouring vertices, are with the n sides a triangulated sphere, which
-    is rigid in general position (thesis 2.3.3).
-    """
+    """Return the 2n - 6 rods that make a body of n vertices and n sides rigid, in two fans (thesis 2.3.3)."""
     first, second = around[0], around[1]
     from_first = [(first, other) for other in around[2:-1]]
     from_second = [(second, other) for other in around[3:]]
@@ -341,23 +312,17 @@ def internal_rods(around: tuple[int, ...]) -> list[tuple[int, int]]:
 
 
 def polyhedron_of(scd: SCDGraph) -> PolyhedronModel:
-    """Build the polyhedron model of an SCD graph.
+    """Build the polyhedron model of an SCD graph, with its vertices and without coordinates.
 
-    Each side of a link is a rod, shared where it is a joint; a link of n >= 4 sides gets 2n - 6 internal
-    rods; a loop with an implicit centre is a remote centre S_{+3} of the rods of its joints.
+    Each side of a link is a rod, shared where it is a joint; a link of n >= 4 sides gets 2n - 6 internal rods; a
+    loop with an implicit centre is a remote centre S_{+3} of the rods of its joints.
 
     Parameters
     ----------
     scd : SCDGraph
 
-    Returns
-    -------
-    PolyhedronModel
-        Vertices 0 .. V - 1 as in ``scd.vertices``; no coordinates.
-
     Examples
     --------
-    >>> from graphs.convert.panels import scd_from_panels
     >>> model = polyhedron_of(scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")]))
     >>> len(model), model.number_of_edges()
     (4, 6)

@@ -1,8 +1,4 @@
-"""From any object that a file may hold to any other; by the names of kinds and forms: `graphs.answer.convert`.
-
-One function for each target; each says what stands in the way if there is no road. The roads themselves are in
-:mod:`graphs.convert.panels`, :mod:`graphs.mechanism.sheet` and :mod:`graphs.mechanism.vertex_edge`.
-"""
+"""From any object that a file may hold to any other; by the names of kinds and forms: `graphs.answer.convert`."""
 
 from __future__ import annotations
 
@@ -47,22 +43,12 @@ Mechanism = SCGraph | PolyhedronModel | VertexEdgeGraph | Sheet | SurfaceLinkage
 
 
 def to_sc(mechanism: Mechanism) -> SCGraph:
-    """Return the SC graph of a mechanism.
+    """Return the SC graph of a mechanism; for a linkage on a cone, or hinged solids, the chain.
 
     Parameters
     ----------
     mechanism : Mechanism
-        Any object that a file may hold.
-
-    Returns
-    -------
-    SCGraph
-        For a linkage on a cone, or hinged solids, the chain.
-
-    Raises
-    ------
-    UnsolvableError
-        As `to_scd`, for a polyhedron model.
+        The errors of a polyhedron model are those of `to_scd`.
 
     Examples
     --------
@@ -102,16 +88,7 @@ def to_scd(mechanism: Mechanism) -> SCDGraph:
     Parameters
     ----------
     mechanism : Mechanism
-        Any object that a file may hold.
-
-    Returns
-    -------
-    SCDGraph
-
-    Raises
-    ------
-    UnsolvableError
-        If the order of the sides of the links is not known, or a model has more than panels.
+        UnsolvableError if the order of the sides of its links is not known, or a model has more than panels.
 
     Examples
     --------
@@ -125,13 +102,8 @@ def to_scd(mechanism: Mechanism) -> SCDGraph:
     if isinstance(mechanism, PolyhedronModel):
         if not mechanism.links:
             raise UnsolvableError("the polyhedron model does not say which vertices make up a link")
-        if (
-            mechanism.centres
-            or mechanism.on_line
-            or mechanism.on_plane
-            or mechanism.scissors
-            or mechanism.ground is not None
-        ):
+        points = (mechanism.centres, mechanism.on_line, mechanism.on_plane, mechanism.scissors)
+        if any(points) or mechanism.ground is not None:
             raise UnsolvableError("the polyhedron model has more than panels (remote centres, points, ground)")
         return scd_from_panels(mechanism.links)
     raise UnsolvableError("the order of the sides of the links is not known: write an SCD graph or a sheet")
@@ -143,16 +115,7 @@ def to_polyhedron(mechanism: Mechanism) -> PolyhedronModel:
     Parameters
     ----------
     mechanism : Mechanism
-        Any object that a file may hold.
-
-    Returns
-    -------
-    PolyhedronModel
-
-    Raises
-    ------
-    UnsolvableError
-        As `to_scd`.
+        The errors are those of `to_scd`.
 
     Examples
     --------
@@ -183,16 +146,7 @@ def to_sheet(mechanism: Mechanism) -> Sheet:
     Parameters
     ----------
     mechanism : Mechanism
-        Any object that a file may hold.
-
-    Returns
-    -------
-    Sheet
-
-    Raises
-    ------
-    UnsolvableError
-        As `to_scd`; also if a model does not know its links.
+        The errors are those of `to_scd`; UnsolvableError also if a model does not know its links.
 
     Examples
     --------
@@ -214,16 +168,7 @@ def to_vertex_edge(mechanism: Mechanism) -> VertexEdgeGraph:
     Parameters
     ----------
     mechanism : Mechanism
-        Any object that a file may hold.
-
-    Returns
-    -------
-    VertexEdgeGraph
-
-    Raises
-    ------
-    UnsolvableError
-        If it has no SC graph, or not that of a sheet of finite centres.
+        UnsolvableError if it has no SC graph, or not that of a sheet of finite centres.
 
     Examples
     --------
@@ -239,8 +184,7 @@ def to_vertex_edge(mechanism: Mechanism) -> VertexEdgeGraph:
 def to_solids(mechanism: Mechanism) -> HingedSolids:
     """Return a mechanism of revolutes with the axes of its joints; UnsolvableError if there are no axes.
 
-    Each joint of a linkage with joints of all kinds becomes the chain of revolutes that stands for it, each crease
-    of a pattern the axis on which it lies; the panels are dropped.
+    A joint of another kind becomes the chain of revolutes that stands for it, a crease the axis on which it lies.
     """
     if isinstance(mechanism, HingedSolids):
         return mechanism
@@ -252,10 +196,7 @@ def to_solids(mechanism: Mechanism) -> HingedSolids:
 
 
 def to_joints(mechanism: Mechanism) -> JointedLinkage:
-    """Return a linkage with joints of all kinds, in which chains of revolutes are the joints that they stand for.
-
-    Raise UnsolvableError if there are no axes by which to recognise them.
-    """
+    """Return a linkage with joints of all kinds, in which chains of revolutes are the joints they stand for."""
     return mechanism if isinstance(mechanism, JointedLinkage) else recognised(to_solids(mechanism))
 
 

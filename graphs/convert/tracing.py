@@ -1,8 +1,7 @@
 """From the lines of a planar crease pattern to its vertices, edges and faces.
 
-Lines cross, meet in the middle of each other, stop short, and come twice. They are welded by a tolerance (ends
-that nearly meet become one vertex), split where they meet, loose ends are pruned, and the faces are walked round.
-Theory: docs/theory/crease-patterns.md.
+Lines are welded by a tolerance (ends that nearly meet become one vertex), split where they meet, loose ends are
+pruned, and the faces are walked round. Theory: docs/theory/crease-patterns.md.
 """
 
 from __future__ import annotations
@@ -26,17 +25,7 @@ from graphs.limits import check_work
 from graphs.mechanism.sheet import HINGES, Edge, Place, Reading, Repair, RepairKind, Sheet, sides_of_face
 from graphs.types import Floats
 
-__all__ = [
-    "MOST",
-    "TOLERANCES",
-    "Lines",
-    "Network",
-    "crossings",
-    "either_way",
-    "network_of",
-    "networks_of",
-    "trace_sheet",
-]
+__all__ = ["MOST", "TOLERANCES", "Lines", "crossings", "networks_of", "trace_sheet"]
 
 _SAME = 1e-3
 """Crossings nearer than this, in units of the tolerance, are one that was found more than once."""
@@ -52,8 +41,8 @@ _RANK = "MVUFJBC"
 class Lines:
     """Straight lines of a planar pattern.
 
-    `ends`, float[n, 2, 2], are both ends of each line in any unit of length; `letters` has the assignment of each,
-    as in FOLD, and `angles` the fold angle, in radians.
+    `ends`, float[n, 2, 2], are their ends in any unit; `letters` has the assignment of each, as in FOLD, and
+    `angles` the fold angle, in radians.
     """
 
     ends: Floats
@@ -75,10 +64,9 @@ class Lines:
 class Network:
     """Vertices, float[n, 2], and edges with their assignments, after welding and splitting.
 
-    A vertex may have no edge. `tolerance` is the length within which ends were welded, and `spread` the root mean
-    square of how far ends of one vertex were apart; fold angles are in radians. `repairs` has the
-    places of each kind of repair, `gathered`, float[m, 3], where ends were moved to and how far; `dangling` counts
-    the lines that ended nowhere.
+    `tolerance` is the length within which ends were welded, `spread` the root mean square of how far ends of one
+    vertex were apart; fold angles are in radians. `repairs` has the places of each kind of repair, `gathered`,
+    float[m, 3], where ends were moved to and how far; `dangling` counts the lines that ended nowhere.
     """
 
     points: Floats
@@ -102,16 +90,11 @@ class Network:
             self.repairs[kind] = [*self.repairs.get(kind, []), *row]
 
 
-def network_of(lines: Lines, tolerance: float) -> Network:
-    """Weld ends, split lines where they cross and where an end lies on them, prune what ends nowhere.
-
-    The tolerance is in the length unit of the lines.
-    """
-    return networks_of(lines, [tolerance])[0]
-
-
 def networks_of(lines: Lines, tolerances: Sequence[float]) -> list[Network]:
-    """Return the network for each tolerance, the finest first; those that weld alike are welded once."""
+    """Weld ends, split lines where they meet, prune what ends nowhere, for each tolerance, the finest first.
+
+    Tolerances are in the length unit of the lines; those that weld alike are welded once.
+    """
     lines, again = _distinct(lines)
     networks = []
     for group in _alike(lines.ends, tolerances):
@@ -137,7 +120,7 @@ def _alike(ends: Floats, tolerances: Sequence[float]) -> list[list[float]]:
 def _distances(ends: Floats, finest: float, coarsest: float) -> Floats:
     """Return the distances that welding compares with a tolerance, up to the coarsest.
 
-    These are the lengths of lines; the distances of crossings from ends, of both from each other, and from lines.
+    These are lengths of lines, and distances of crossings and ends from each other and from lines.
     """
     reach = coarsest * (1 + _MARGIN)
     lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
@@ -207,10 +190,7 @@ def _spread(moved: Floats, vertices: npt.NDArray[np.int64]) -> float:
 
 
 def crossings(ends: Floats, tolerance: float) -> Floats:
-    """Return the points where two lines, float[n, 2, 2], cross away from all four ends; where many do, once.
-
-    Closer than the tolerance to an end they do not cross.
-    """
+    """Return the points where two lines, float[n, 2, 2], cross farther than the tolerance from all four ends."""
     found, apart = _meeting_points(ends, shapely.linestrings(ends))
     return _once(found[apart > tolerance], tolerance)
 
@@ -313,17 +293,9 @@ def _prune(network: Network) -> None:
 
 
 def _straightened(welded: Network, tolerance: float) -> Network:
-    """Take out vertices in the middle of a line: two edges of one kind, straight within the tolerance.
-
-    They are left where an end was welded to a line that it only touches, or where two ends were.
-    """
-    network = replace(
-        welded,
-        tolerance=tolerance,
-        edges=dict(welded.edges),
-        angles=dict(welded.angles),
-        repairs=dict(welded.repairs),
-    )
+    """Take out vertices in the middle of a line: two edges of one kind, straight within the tolerance."""
+    edges, angles, repairs = dict(welded.edges), dict(welded.angles), dict(welded.repairs)
+    network = replace(welded, tolerance=tolerance, edges=edges, angles=angles, repairs=repairs)
     at: dict[int, set[int]] = defaultdict(set)
     for a, b in network.edges:
         at[a].add(b)
@@ -372,39 +344,16 @@ _WHAT: Mapping[RepairKind, tuple[str, str]] = {
 
 
 def trace_sheet(lines: Lines, *, title: str = "", tolerance: float | None = None) -> Sheet:
-    """Return the sheet that lines draw.
+    """Return the sheet that lines draw: crossings split, ends welded, lines pruned that end nowhere.
 
     Parameters
     ----------
     lines : Lines
+        InvariantError if there is no line.
     title : str, optional
     tolerance : float, optional
-        Ends closer than this, in units of the size of the pattern, are one. Without it the tolerances of
-        ``TOLERANCES`` are tried; see Notes.
-
-    Returns
-    -------
-    Sheet
-        With its repairs: crossings split, ends welded, lines pruned that end nowhere.
-
-    Raises
-    ------
-    InvariantError
-        If there is no line.
-
-    Notes
-    -----
-    Without a tolerance the lines are welded at each of ``TOLERANCES``, and one network is chosen:
-
-    1. Those in which the fewest lines end nowhere;
-    2. of those, the ones with the most frequent number of edges less vertices: of faces, but for the parts.
-    3. A vertex split in two by a short edge leaves that number as it is. So of those the ones that show the fewest
-       signs of split vertices: edges shorter than the coarsest tolerance, and bends, vertices of two creases only;
-    4. of those, the ones with the most frequent number of vertices;
-    5. of those, the one whose tolerance lies farthest below its shortest edge.
-
-    If a face of it comes back to a vertex, which no panel does, the networks of which that is true are left out,
-    with those finer than the finest in 1, and the choice is made again.
+        Ends closer than this, in units of the size of the pattern, are one. Without it the lines are welded at
+        each of ``TOLERANCES``, and one network is chosen by the rules of docs/theory/crease-patterns.md.
 
     Examples
     --------
@@ -500,7 +449,11 @@ class _TracedNetwork:
 
 
 def _standing(traced: Sequence[_TracedNetwork], short: float) -> _TracedNetwork:
-    """Choose one of the networks, which are in the order of their tolerances, by the rules of `trace_sheet`."""
+    """Choose one of the networks, which are in the order of their tolerances.
+
+    If a face of it comes back to a vertex, which no panel does, the networks of which that is true are left out,
+    with those finer than the finest in which the fewest lines end nowhere, and the choice is made again.
+    """
     chosen = _stablest(traced, short)
     if chosen.simple:
         return chosen

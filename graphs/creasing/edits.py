@@ -6,15 +6,16 @@ ones come last.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections import Counter
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
+from graphs.convert.duality import mechanism_of_sheet
 from graphs.count.equations import relative_spherical_system
 from graphs.creasing.lines import creased_along, edge_in_words
-from graphs.edit.edits import counted_change, counts_as_json
+from graphs.edit.edits import Edit
 from graphs.edit.named import joint_named, known
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.mechanism.sheet import HINGES, Sheet, sides_of_face, with_all_edges
@@ -32,8 +33,6 @@ class SheetEdit:
         The edit in words.
     before, sheet : Sheet
         The pattern before and after.
-    equation : str
-        The equation that predicts the change of mobility.
 
     Examples
     --------
@@ -45,28 +44,32 @@ class SheetEdit:
     what: str
     before: Sheet
     sheet: Sheet
-    equation: str = "Eq. 6"
 
     @cached_property
-    def _mechanisms(self) -> tuple[SheetMechanism, SheetMechanism]:
-        return mechanism_of_sheet(self.before), mechanism_of_sheet(self.sheet)
+    def of_mechanism(self) -> Edit:
+        """The edit of the mechanism, whose loops all have centres: Eq. 6."""
+        before, after = (mechanism_of_sheet(sheet).sc for sheet in (self.before, self.sheet))
+        predicted = relative_spherical_system(len(after) - len(before), len(after.joints) - len(before.joints))
+        return Edit(self.what, before, after, predicted, self.equation)
+
+    @property
+    def equation(self) -> str:
+        """The equation that predicts the change of mobility."""
+        return "Eq. 6"
 
     @property
     def predicted(self) -> int:
-        """The change of mobility by the numbers of links and joints, all about centres."""
-        before, after = (mechanism.sc for mechanism in self._mechanisms)
-        return relative_spherical_system(len(after) - len(before), len(after.joints) - len(before.joints))
+        """The change of mobility by the numbers of links and joints."""
+        return self.of_mechanism.predicted
 
     @property
     def counted(self) -> int:
         """The change of mobility as the difference of the two counts."""
-        before, after = (mechanism.sc for mechanism in self._mechanisms)
-        return counted_change(before, after)
+        return self.of_mechanism.counted
 
     def to_json(self) -> dict[str, Any]:
         """Return the edit as plain data."""
-        keys = ("what", "equation", "predicted", "counted")
-        return {key: getattr(self, key) for key in keys} | counts_as_json(self._mechanisms[1].sc)
+        return self.of_mechanism.to_json()
 
 
 def lock_crease(sheet: Sheet, joint: int) -> SheetEdit:
@@ -76,21 +79,11 @@ def lock_crease(sheet: Sheet, joint: int) -> SheetEdit:
     ----------
     sheet : Sheet
     joint : int
-        Its id, the number of an edge.
-
-    Returns
-    -------
-    SheetEdit
-
-    Raises
-    ------
-    InvariantError
-        If there is no such joint.
+        Its id, the number of an edge; InvariantError if there is no such joint.
 
     Examples
     --------
-    >>> strip = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)))
-    >>> edit = lock_crease(strip, 0)
+    >>> edit = lock_crease(Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3))), 0)
     >>> edit.sheet.assignments[0], edit.predicted, edit.counted
     ('F', -1, -1)
     """
@@ -114,10 +107,6 @@ def crease_sheet(
         Vertices, or points on edges, which get a vertex there. Of a flat sheet the line may cross edges.
     letter : {"U", "M", "V"}, optional
         Assignment of the crease. Flat edges along the line become creases, creases stay.
-
-    Returns
-    -------
-    SheetEdit
 
     Raises
     ------
@@ -148,10 +137,6 @@ def remove_crease(sheet: Sheet, joint: int) -> SheetEdit:
     joint : int
         Its id, the number of an edge.
 
-    Returns
-    -------
-    SheetEdit
-
     Raises
     ------
     InvariantError
@@ -161,8 +146,7 @@ def remove_crease(sheet: Sheet, joint: int) -> SheetEdit:
 
     Examples
     --------
-    >>> strip = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)))
-    >>> edit = remove_crease(strip, 0)
+    >>> edit = remove_crease(Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3))), 0)
     >>> edit.sheet.faces, edit.counted
     (((0, 1, 2, 3),), -1)
     """
@@ -178,16 +162,21 @@ def remove_crease(sheet: Sheet, joint: int) -> SheetEdit:
         del faces[second]
         left -= between
     kept = [i for i, edge in enumerate(whole.edges) if frozenset(edge) not in pieces]
+    after = _with_faces(whole, faces, kept, (whole.assignments[i] for i in kept))
+    return SheetEdit(f"remove crease {joint}", sheet, after)
+
+
+def _with_faces(whole: Sheet, faces: Iterable[tuple[int, ...]], kept: list[int], letters: Iterable[str]) -> Sheet:
+    """Return a sheet with other faces, some of its edges, by their numbers, and their assignments."""
     angles = whole.fold_angles
-    after = replace(
+    return replace(
         whole,
         edges=tuple(whole.edges[i] for i in kept),
-        assignments="".join(whole.assignments[i] for i in kept),
+        assignments="".join(letters),
         faces=tuple(faces),
         fold_angles=None if angles is None else tuple(angles[i] for i in kept),
         frames=None,
     )
-    return SheetEdit(f"remove crease {joint}", sheet, after)
 
 
 def _pieces(sheet: Sheet, joint: int) -> tuple[Sheet, set[frozenset[int]]]:
@@ -250,53 +239,29 @@ def take_off_panels(sheet: Sheet, links: Collection[int]) -> SheetEdit:
     if len(gone) == len(sheet.faces):
         raise UnsolvableError("no panel would be left")
     whole = with_all_edges(sheet)
-    faces = tuple(face for number, face in enumerate(whole.faces) if number not in gone)
-    beside: dict[frozenset[int], int] = {}
-    for face in faces:
-        for side in sides_of_face(face):
-            beside[frozenset(side)] = beside.get(frozenset(side), 0) + 1
-    kept = [number for number, edge in enumerate(whole.edges) if frozenset(edge) in beside]
-    letters = (whole.assignments[number] if beside[frozenset(whole.edges[number])] > 1 else "B" for number in kept)
-    angles = whole.fold_angles
-    after = replace(
-        whole,
-        edges=tuple(whole.edges[number] for number in kept),
-        assignments="".join(letters),
-        faces=faces,
-        fold_angles=None if angles is None else tuple(angles[number] for number in kept),
-        frames=None,
-    )
+    faces = [face for number, face in enumerate(whole.faces) if number not in gone]
+    beside = Counter(frozenset(side) for face in faces for side in sides_of_face(face))
+    kept = [i for i, edge in enumerate(whole.edges) if frozenset(edge) in beside]
+    letters = (whole.assignments[i] if beside[frozenset(whole.edges[i])] > 1 else "B" for i in kept)
+    after = _with_faces(whole, faces, kept, letters)
     return SheetEdit(f"take off panels {', '.join(map(str, sorted(links)))}", sheet, after)
 
 
 def joint_of_sheet_named(sheet: Sheet, name: str) -> int:
-    """Return the joint of a sheet: by the number of any of its edges, or as the one between two panels.
+    """Return the joint of a sheet, the number of its first edge: by any of its edges, or by its two panels.
 
     Parameters
     ----------
     sheet : Sheet
     name : str
-        The number of an edge, such as ``"3"``, or two panels, such as ``"0,1"``.
-
-    Returns
-    -------
-    int
-        Id of the joint: the number of its first edge.
-
-    Raises
-    ------
-    InvariantError
-        If there is none; the message has the coordinates of edges.
+        The number of an edge, such as ``"3"``, or two panels, such as ``"0,1"``; else InvariantError, with the
+        coordinates of edges.
 
     Examples
     --------
     >>> strip = Sheet(4, ((0, 2), (0, 1)), "VB", ((0, 1, 2), (0, 2, 3)))
     >>> joint_of_sheet_named(strip, "0"), joint_of_sheet_named(strip, "0,1")
     (0, 0)
-    >>> joint_of_sheet_named(strip, "1")
-    Traceback (most recent call last):
-    ...
-    graphs.errors.InvariantError: edge 1 (B) from vertex 0 to vertex 1 is no joint; expected one of 0 [joint]
     """
     mechanism = mechanism_of_sheet(sheet)
     if "," in name:

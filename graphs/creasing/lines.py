@@ -12,16 +12,13 @@ import numpy as np
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.mechanism.sheet import COLLINEAR, FLAT, Sheet, sides_of_face
 
-__all__ = ["creased_along", "edge_in_words", "vertex_in_words"]
+__all__ = ["creased_along", "edge_in_words"]
 
 
 def creased_along(
     sheet: Sheet, start: int | Sequence[float], end: int | Sequence[float], letter: str
 ) -> tuple[Sheet, tuple[int, int]]:
-    """Return a sheet that lists all its edges with one more crease, and the vertices at its ends.
-
-    The errors are those of `graphs.creasing.edits.crease_sheet`.
-    """
+    """Return a sheet that lists all its edges with one more crease, and the vertices at its ends."""
     before = sheet
     ends = []
     for place in (start, end):
@@ -185,13 +182,10 @@ def _creased_between(sheet: Sheet, p: int, q: int, letter: str) -> Sheet:
 
 
 def _holds_middle(sheet: Sheet, face: int, p: int, q: int) -> bool:
-    """Return whether the middle of two vertices is in a face of a flat sheet, by the sides that a ray crosses."""
+    """Return whether the middle of two vertices is inside a face of a flat sheet."""
+    import shapely
+
     assert sheet.coordinates is not None
-    (px, py), (qx, qy) = (sheet.coordinates[v][:2] for v in (p, q))
-    x, y = (px + qx) / 2, (py + qy) / 2
-    inside = False
-    for a, b in sides_of_face(sheet.faces[face]):
-        (ax, ay), (bx, by) = (sheet.coordinates[v][:2] for v in (a, b))
-        if (ay > y) != (by > y) and x < ax + (y - ay) * (bx - ax) / (by - ay):
-            inside = not inside
-    return inside
+    middle = (np.array(sheet.coordinates[p][:2]) + sheet.coordinates[q][:2]) / 2
+    around = shapely.Polygon([sheet.coordinates[v][:2] for v in sheet.faces[face]])
+    return bool(around.contains(shapely.Point(middle)))

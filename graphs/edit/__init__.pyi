@@ -15,3 +15,4 @@ from graphs.edit.edits import (
     make_implicit as make_implicit,
     ride_along as ride_along,
 )
+from graphs.edit.named import joint_named as joint_named, link_named as link_named

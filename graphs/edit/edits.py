@@ -6,7 +6,7 @@ Wiener 2016, sections 4.2 and 6.3.2, Eqs. 5 to 7. Theory: docs/theory/edits.md.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Container, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Collection, Container, Hashable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from itertools import count, islice
 from typing import Any
@@ -25,7 +25,6 @@ __all__ = [
     "add_crease",
     "add_loop",
     "add_ride_along",
-    "counted_change",
     "counts_as_json",
     "crease_link",
     "fresh",
@@ -48,7 +47,7 @@ class Edit:
     before, graph : SCGraph
         The mechanism before and after.
     predicted : int
-        The change of mobility that the relative equation gives for the parts added and taken away.
+        The change of mobility by the relative equation, for the parts added and taken away.
     equation : str
         That equation.
 
@@ -68,20 +67,15 @@ class Edit:
     @property
     def counted(self) -> int:
         """The change of mobility as the difference of the two counts."""
-        return counted_change(self.before, self.graph)
+        before, after = (mobility_report(sc).mobility for sc in (self.before, self.graph))
+        assert before is not None
+        assert after is not None
+        return after - before
 
     def to_json(self) -> dict[str, Any]:
         """Return the edit as plain data."""
         keys = ("what", "equation", "predicted", "counted")
         return {key: getattr(self, key) for key in keys} | counts_as_json(self.graph)
-
-
-def counted_change(before: SCGraph, after: SCGraph) -> int:
-    """Return the difference of the mobility counts of two graphs."""
-    mobilities = mobility_report(before).mobility, mobility_report(after).mobility
-    assert mobilities[0] is not None
-    assert mobilities[1] is not None
-    return mobilities[1] - mobilities[0]
 
 
 def counts_as_json(sc: SCGraph) -> dict[str, Any]:
@@ -107,6 +101,8 @@ def add_loop(
 ) -> Edit:
     """Append a chain of new links between two links, and so close a loop.
 
+    dM = 3 k - 2 (k + 1) for k links and a loop with a centre (Eq. 6), k - 5 for a spatial one (Eq. 5).
+
     Parameters
     ----------
     sc : SCGraph
@@ -118,11 +114,6 @@ def add_loop(
         Of the new loop; ``"none"`` for a spatial one.
     through : sequence of joint ids, optional
         The rest of the loop, a path from a to b; by default the joint between them.
-
-    Returns
-    -------
-    Edit
-        dM = 3 k - 2 (k + 1) for k links and a loop with a centre (Eq. 6), k - 5 for a spatial one (Eq. 5).
 
     Raises
     ------
@@ -169,16 +160,7 @@ def add_ride_along(sc: SCGraph, a: LinkId, b: LinkId) -> Edit:
     ----------
     sc : SCGraph
     a, b : link ids
-        Links with one joint between them.
-
-    Returns
-    -------
-    Edit
-
-    Raises
-    ------
-    InvariantError, UnsolvableError
-        As :func:`add_loop`.
+        Links with one joint between them; else the errors are those of :func:`add_loop`.
 
     Examples
     --------
@@ -194,17 +176,14 @@ def add_ride_along(sc: SCGraph, a: LinkId, b: LinkId) -> Edit:
 def add_crease(sc: SCGraph, link: LinkId, moved: Collection[JointId]) -> Edit:
     """Crease a link: part of its joints goes to a new link, which a new joint joins to the old one. dM = 1.
 
+    A loop with a joint on either side of the crease passes the crease too.
+
     Parameters
     ----------
     sc : SCGraph
     link : link id
     moved : collection of joint ids
         The joints of the link that lie beyond the crease; none for a flap.
-
-    Returns
-    -------
-    Edit
-        A loop with a joint on either side of the crease passes the crease too.
 
     Raises
     ------
@@ -228,20 +207,19 @@ def add_crease(sc: SCGraph, link: LinkId, moved: Collection[JointId]) -> Edit:
     (crease,) = fresh(sc.joints, 1)
     joints = _moved_joints(sc, link, half, beyond)
     at_link = {joint for joint, ends in sc.joints.items() if link in ends}
-
-    def creased(loop: Loop) -> Loop:
-        here = at_link.intersection(loop.joints)
-        parted = bool(here & beyond) and bool(here - beyond)
-        return replace(loop, joints=(*loop.joints, crease)) if parted else loop
-
-    graph = SCGraph(
-        [*sc.nodes, half],
-        {**joints, crease: (link, half)},
-        map(creased, sc.loops),
-        closing=map(creased, sc.closing),
-        ground=sc.ground,
-    )
+    loops, closing = (_creased(some, at_link, beyond, crease) for some in (sc.loops, sc.closing))
+    links, joints = [*sc.nodes, half], {**joints, crease: (link, half)}
+    graph = SCGraph(links, joints, loops, closing=closing, ground=sc.ground)
     return Edit(f"crease in {shown(link)}", sc, graph, relative_spherical_system(1, 1), "Eq. 6")
+
+
+def _creased(loops: Sequence[Loop], at_link: Set[Side], beyond: Set[Side], crease: JointId) -> list[Loop]:
+    """Return loops; those with joints of the link on either side of its crease pass the crease too."""
+    heres = [at_link & set(loop.joints) for loop in loops]
+    return [
+        replace(loop, joints=(*loop.joints, crease)) if here & beyond and here - beyond else loop
+        for loop, here in zip(loops, heres, strict=True)
+    ]
 
 
 def _moved_joints(sc: SCGraph, link: LinkId, half: LinkId, moved: Container[object]) -> Joints:
@@ -270,10 +248,6 @@ def lock_joint(sc: SCGraph, joint: JointId) -> Edit:
     ----------
     sc : SCGraph
     joint : joint id
-
-    Returns
-    -------
-    Edit
 
     Raises
     ------
@@ -335,7 +309,9 @@ _EQUATION = "Eq. 7"
 
 
 def crease_link(scd: SCDGraph, link: LinkId, start: int, end: int | None = None) -> Edit:
-    """Crease a link between two of its vertices, or from a vertex to the open edge opposite. dM = 1.
+    """Crease a link between two of its vertices, or from one to the middle of an open edge (thesis 4.2.2).
+
+    dV = 0 and dE = -1 between vertices, dV = 1 and dE = 2 to an open edge.
 
     Parameters
     ----------
@@ -344,11 +320,6 @@ def crease_link(scd: SCDGraph, link: LinkId, start: int, end: int | None = None)
     start, end : int
         Vertices of the link, as numbered in ``scd.vertices``. Without ``end`` the crease runs to the middle of the
         first open edge that does not end in ``start``.
-
-    Returns
-    -------
-    Edit
-        dV = 0 and dE = -1 between vertices, dV = 1 and dE = 2 to an open edge (thesis 4.2.2).
 
     Raises
     ------
@@ -361,8 +332,7 @@ def crease_link(scd: SCDGraph, link: LinkId, start: int, end: int | None = None)
     --------
     >>> from graphs.convert.panels import scd_from_panels
     >>> mesh = scd_from_panels([(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7)])
-    >>> corner, opposite = mesh.vertices[0][0], mesh.vertices[0][2]
-    >>> edit = crease_link(mesh, 0, corner, opposite)
+    >>> edit = crease_link(mesh, 0, mesh.vertices[0][0], mesh.vertices[0][2])
     >>> edit.predicted, edit.counted
     (1, 1)
     """
@@ -383,19 +353,13 @@ def crease_link(scd: SCDGraph, link: LinkId, start: int, end: int | None = None)
     turned = sides[first + 1 :] + sides[: first + 1]
     cut = (second - first) % len(sides)
     beyond, kept = turned[:cut], turned[cut:]
-
-    def creased(loop: Loop) -> Loop:
-        here = [joint for joint in sides if joint in loop.joints]
-        parted = 0 < sum(joint in beyond for joint in here) < len(here)
-        return replace(loop, joints=(*loop.joints, crease)) if parted else loop
-
     graph = _rebuilt(
         scd,
         links=[*scd.nodes, half],
         joints={**_moved_joints(scd, link, half, beyond), crease: (link, half)},
         rotation={**scd.rotation, link: [*kept, crease], half: [*beyond, crease]},
-        loops=[creased(loop) for loop in scd.loops],
-        closing=[creased(loop) for loop in scd.closing],
+        loops=_creased(scd.loops, set(sides), set(beyond), crease),
+        closing=_creased(scd.closing, set(sides), set(beyond), crease),
     )
     return Edit(f"crease in {shown(link)}", scd, graph, predicted, _EQUATION)
 
@@ -403,21 +367,13 @@ def crease_link(scd: SCDGraph, link: LinkId, start: int, end: int | None = None)
 def make_implicit(scd: SCDGraph, loop: int) -> Edit:
     """Take the links off the centre of a loop: an open edge in each corner. dM = 0 (thesis 4.2.3).
 
+    dV = n - 1, dC = 1, dE = 3 n for a loop of n joints.
+
     Parameters
     ----------
     scd : SCDGraph
     loop : int
-        Index of the loop, whose centre is explicit.
-
-    Returns
-    -------
-    Edit
-        dV = n - 1, dC = 1, dE = 3 n for a loop of n joints.
-
-    Raises
-    ------
-    InvariantError
-        If there is no such loop or its centre is not explicit.
+        Index of the loop. InvariantError if there is no such loop, or its centre is not explicit.
 
     Examples
     --------
@@ -439,16 +395,13 @@ def make_implicit(scd: SCDGraph, loop: int) -> Edit:
 def make_explicit(scd: SCDGraph, loop: int) -> Edit:
     """Let the links of a loop reach its centre: the open edges in its face go. dM = 0.
 
+    dV = 1 - k, dC = -1, dE = -3 k for k open edges.
+
     Parameters
     ----------
     scd : SCDGraph
     loop : int
-        Index of the loop, whose centre is implicit.
-
-    Returns
-    -------
-    Edit
-        dV = 1 - k, dC = -1, dE = -3 k for k open edges.
+        Index of the loop.
 
     Raises
     ------
@@ -478,17 +431,14 @@ def make_explicit(scd: SCDGraph, loop: int) -> Edit:
 def ride_along(scd: SCDGraph, joint: JointId, sides: tuple[int, int] = (3, 3)) -> Edit:
     """Append a ride-along at an end of a joint where both its links have an open edge next to it. dM = 0.
 
+    dV = n + m - 5, dE = 3 n + 3 m - 15 (thesis 4.2.4.3, with the parentheses that are missing there).
+
     Parameters
     ----------
     scd : SCDGraph
     joint : joint id
     sides : (int, int), optional
         n and m, the numbers of sides of the new links.
-
-    Returns
-    -------
-    Edit
-        dV = n + m - 5, dE = 3 n + 3 m - 15 (thesis 4.2.4.3, with the parentheses that are missing there).
 
     Raises
     ------
@@ -500,8 +450,7 @@ def ride_along(scd: SCDGraph, joint: JointId, sides: tuple[int, int] = (3, 3)) -
     Examples
     --------
     >>> from graphs.convert.panels import scd_from_panels
-    >>> fan = scd_from_panels([(0, k, k % 6 + 1) for k in range(1, 7)])
-    >>> edit = ride_along(fan, 0)
+    >>> edit = ride_along(scd_from_panels([(0, k, k % 6 + 1) for k in range(1, 7)]), 0)
     >>> edit.predicted, edit.counted, len(edit.graph.loops)
     (0, 0, 2)
     """
@@ -528,15 +477,12 @@ def ride_along(scd: SCDGraph, joint: JointId, sides: tuple[int, int] = (3, 3)) -
 def lock_hinge(scd: SCDGraph, joint: JointId) -> Edit:
     """Lock a joint: its two links become one polygon, that of the first. dM = -1 (thesis 6.3.2).
 
+    dV = 0, dE = 1: a rod between the links becomes an internal one, and one more is needed.
+
     Parameters
     ----------
     scd : SCDGraph
     joint : joint id
-
-    Returns
-    -------
-    Edit
-        dV = 0, dE = 1: a rod between the links becomes an internal one, and one more is needed.
 
     Raises
     ------

@@ -27,16 +27,37 @@ def known(names: Iterable[Hashable], unknown: str) -> str:
 
 
 def link_named(sc: SCGraph, name: str) -> LinkId:
-    """Return the link whose name has this text; InvariantError if there is none."""
+    """Return the link whose name has this text.
+
+    Parameters
+    ----------
+    sc : SCGraph
+    name : str
+        InvariantError if no link has it.
+
+    Examples
+    --------
+    >>> link_named(SCGraph(["A", 7], {"j": ("A", 7)}), "7")
+    7
+    """
     return _named(list(sc.nodes), name, "link")
 
 
 def joint_named(sc: SCGraph, name: str) -> JointId:
     """Return the joint whose id has this text; else by its number in the list, else the one between two links.
 
-    Numbers in the list are for joints that have names: if ids are numbers themselves, no other number is one.
-    Names are ``3``, ``hinge``, or ``A,B``. Raises `InvariantError` if there is no such joint, or there are several
-    between the links.
+    Parameters
+    ----------
+    sc : SCGraph
+    name : str
+        Such as ``3``, ``hinge``, or ``A,B``. A number in the list is one only if ids are not numbers themselves.
+        InvariantError if there is no such joint, or there are several between the links.
+
+    Examples
+    --------
+    >>> chain = SCGraph(["A", "B", "C"], {"j": ("A", "B"), "k": ("B", "C")})
+    >>> joint_named(chain, "k"), joint_named(chain, "0"), joint_named(chain, "B,C")
+    ('k', 'j', 'k')
     """
     for joint in sc.joints:
         if str(joint) == name:

@@ -1,12 +1,9 @@
 """Files and folders written whole or not at all: beside their place first, moved there when they are complete.
 
-An existing file is replaced only with ``force``. Symbolic links and special files (pipes, devices) are never
-written to nor replaced.
-
-A process that is killed removes nothing. So whoever writes holds a lock of the system on the unfinished file,
-which ends with the process however that ends: what can be locked belongs to nobody. Names of unfinished files
-begin and end in a way that no other file has: ``.NAME.xxxxxxxx.unfinished``. Where the system or the file system
-has no such locks, no file is ever taken for left over.
+An existing file is replaced only with ``force``; symbolic links and special files never. Whoever writes holds a
+lock of the system on the unfinished file, which ends with the process however that ends: what can be locked
+belongs to nobody. Unfinished files are named ``.NAME.xxxxxxxx.unfinished``, as no other file is. Where there are
+no such locks, no file is ever taken for left over.
 """
 
 from __future__ import annotations
@@ -58,15 +55,17 @@ _removers: list[subprocess.Popen[bytes]] = []
 
 
 class Unfinished:
-    """An empty file or folder beside a place, locked by this process until it is released.
-
-    `place` is where it is moved when it is finished. Raise OSError or ValueError if it cannot be made.
-    """
+    """An empty file or folder beside a place, locked by this process until it is released."""
 
     def __init__(self, place: Path, *, folder: bool = False) -> None:
         self._lock: int | None = None
         while True:
-            self.path = _new_beside(place, folder)
+            if folder:
+                self.path = Path(tempfile.mkdtemp(_ENDING, _beginning(place), place.parent))
+            else:
+                handle, name = tempfile.mkstemp(_ENDING, _beginning(place), place.parent)
+                os.close(handle)
+                self.path = Path(name)
             try:
                 self._lock = _locked(self.path)
             except (BlockingIOError, FileNotFoundError):  # another run has just removed it as left over
@@ -80,14 +79,6 @@ class Unfinished:
             self._lock = None
 
 
-def _new_beside(place: Path, folder: bool) -> Path:
-    if folder:
-        return Path(tempfile.mkdtemp(_ENDING, _beginning(place), place.parent))
-    handle, name = tempfile.mkstemp(_ENDING, _beginning(place), place.parent)
-    os.close(handle)
-    return Path(name)
-
-
 def _beginning(place: Path) -> str:
     name = place.name
     if len(name) > _LONGEST:
@@ -96,7 +87,7 @@ def _beginning(place: Path) -> str:
 
 
 def _locked(path: Path) -> int | None:
-    """Lock a file or folder; return the descriptor that holds the lock, None where there are no locks.
+    """Lock a file or folder; return the descriptor of the lock, None where there are no locks.
 
     Raise BlockingIOError if a living process has it, FileNotFoundError if it is gone.
     """
@@ -134,10 +125,7 @@ if sys.platform != "win32":
 
 
 def remove_left(place: Path) -> None:
-    """Remove what processes that have ended left unfinished beside a place, and nothing else.
-
-    Unfinished files for other places stay, and so does what cannot be removed: it hinders nobody.
-    """
+    """Remove what processes that have ended left unfinished beside a place, and nothing else."""
     pattern = re.compile(re.escape(_beginning(place)) + "[a-z0-9_]{8}" + re.escape(_ENDING))
     left: list[Path] = []
     with suppress(OSError), os.scandir(place.parent) as entries:
@@ -176,10 +164,7 @@ def _remover(folder: Path) -> subprocess.Popen[bytes]:
 
 
 def check_place(path: Path, *, force: bool) -> None:
-    """Raise OpenError at the place of a file (without ``force``), a folder, a symbolic link or a special file.
-
-    Also if there is no folder to write to.
-    """
+    """Raise OpenError at the place of a file (without ``force``), a folder, a link or a special file."""
     try:
         mode = path.lstat().st_mode
     except FileNotFoundError:
@@ -210,10 +195,7 @@ def _check_parent(path: Path) -> None:
 
 
 def write_text(path: Path, text: str, *, force: bool = False) -> None:
-    """Write a file beside its place and move it there, so that it is never half written.
-
-    Raise OpenError if it cannot be written, or exists and ``force`` is not set; an existing file is kept.
-    """
+    """Write a file beside its place and move it there; OpenError if it exists and ``force`` is not set."""
     write_chunks(path, [text], force=force)
 
 
@@ -229,10 +211,7 @@ def write_chunks(path: Path, chunks: Iterable[str], *, force: bool = False) -> N
 
 
 class FolderBeside:
-    """A new folder, made beside its place and moved there when it is complete.
-
-    Raise OpenError if something is at its place, or it cannot be made.
-    """
+    """A new folder, made beside its place, where nothing may be, and moved there when it is complete."""
 
     def __init__(self, path: Path) -> None:
         check_new_folder(path)
@@ -256,17 +235,14 @@ class FolderBeside:
 
 
 class Beside:
-    """A file that is written beside its place and moved there when it is complete.
-
-    A file at its place is kept until :meth:`commit`, and replaced only with `force`. The errors are those of
-    `check_place`, and OpenError if the folder cannot be written to.
-    """
+    """A file written beside its place and moved there when it is complete; what is there is kept until then."""
 
     def __init__(self, path: Path, *, force: bool = False) -> None:
         check_place(path, force=force)
         self._force = force
+        os.umask(mask := os.umask(0))  # it can only be read by setting it
         try:
-            self._mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask()
+            self._mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~mask
             self._unfinished = Unfinished(path)
             self.stream = self._unfinished.path.open("wb")
         except (OSError, ValueError) as error:
@@ -311,10 +287,3 @@ class Beside:
 def reason_of(error: OSError | ValueError) -> str:
     """Return the words of the system for an error, without its number and the file."""
     return error.strerror or "" if isinstance(error, OSError) else str(error)
-
-
-def _umask() -> int:
-    """Return the umask; it can only be read by setting it."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

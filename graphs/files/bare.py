@@ -2,14 +2,10 @@
 
 GraphML may have the type of each joint (``type`` of its edge), and then is a linkage with joints of all kinds.
 Other such files hold links and joints and no loops. Read, they get the faces of an embedding as loops with finite
-centres (:func:`graphs.convert.link_joint.sc_from_link_joint_graph`); written, loops and centres are lost.
+centres; written, loops and centres are lost.
 
-Edge lists are lines ``link link [joint]``, those that networkx writes, and tables of edges (CSV, pandas).
-networkx's ``write_edgelist`` ends each line with a dictionary of attributes of the edge; pandas writes a line
-of column names, and often a column of row numbers before them. Neither names joints: they are numbered.
-
-GraphML and edge lists hold names as text: an integer is written as its digits, and no two names of a graph are the
-same text. Read, names are integers if all of them are written as integers are.
+Edge lists are lines ``link link [joint]``, those that networkx writes, and tables of edges (CSV, pandas). GraphML
+and edge lists hold names as text. Read, names are integers if all of them are written as integers are.
 """
 
 from __future__ import annotations
@@ -98,10 +94,7 @@ def _order(text: str) -> int | None:
 
 
 def graph6_text(sc: SCGraph, *, sparse: bool) -> str:
-    """Return the graph6 (or sparse6) line of the link-joint graph; links become 0, 1, 2, ...
-
-    Raise UnsolvableError if two links share several joints and the form is graph6, which cannot express them.
-    """
+    """Return the graph6 line of the link-joint graph, which has no parallel joints, or its sparse6 line."""
     if sc.parallel_joints() and not sparse:
         raise UnsolvableError("graph6 cannot hold links that share several joints; write sparse6 (.s6)")
     numbered = nx.convert_node_labels_to_integers(nx.MultiGraph(sc))
@@ -111,10 +104,7 @@ def graph6_text(sc: SCGraph, *, sparse: bool) -> str:
 
 
 def read_graphml(path: Path) -> nx.MultiGraph:
-    """Read the link-joint graph of a GraphML file; directions are dropped, of attributes ``type`` is kept.
-
-    Names of links that are all integers become integers, and so do those of joints.
-    """
+    """Read the link-joint graph of a GraphML file; directions are dropped, of attributes ``type`` is kept."""
     text = read_text(path)
     try:
         graph = nx.read_graphml(BytesIO(text.encode("utf-8")), force_multigraph=True)
@@ -139,10 +129,7 @@ def _named_anew(graph: nx.MultiGraph) -> nx.MultiGraph:
 
 
 def graphml_text(sc: SCGraph, kinds: Mapping[JointId, JointKind] = MappingProxyType({})) -> str:
-    """Return the GraphML text of the link-joint graph, with the types of the joints in `kinds`.
-
-    Raise UnsolvableError if a name has a character that XML does not allow.
-    """
+    """Return the GraphML text of the link-joint graph, with the types of the joints in `kinds`."""
     for name in (*sc.nodes, *sc.joints):
         if re.search("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]", str(name)):
             raise UnsolvableError(f"XML cannot hold the name {shown(name)}")
@@ -154,10 +141,7 @@ def graphml_text(sc: SCGraph, kinds: Mapping[JointId, JointKind] = MappingProxyT
 
 
 def as_linkage(graph: nx.MultiGraph, path: Path) -> SCGraph | JointedLinkage:
-    """Return the SC graph of a graph read from a file; if it has types of joints, a linkage without loops.
-
-    The errors are those of `as_sc`.
-    """
+    """Return the SC graph of a graph read from a file; if it has types of joints, a linkage without loops."""
     words = {key: str(kind) for *_, key, kind in graph.edges(keys=True, data="type") if kind is not None}
     if not words:
         return as_sc(graph, path)
@@ -196,8 +180,7 @@ def read_edge_list(path: Path) -> nx.MultiGraph:
 
     A dictionary at the end of a line (networkx) is left alone. If the first line names columns for the ends of
     edges (source and target, from and to), the file is a table, of which these columns are read, and one called
-    joint if there is one. Names of links that are all integers become integers, and so do those of joints. A
-    FileError names the line.
+    joint.
     """
     lines = [
         (number, line)
@@ -276,10 +259,7 @@ def _graph_of(rows: list[Words], path: Path) -> nx.MultiGraph:
 
 
 def edge_list_text(sc: SCGraph) -> str:
-    """Return one line ``link link joint`` for each joint.
-
-    Raise UnsolvableError if a name has blanks, commas or ``#``, or a link has no joint.
-    """
+    """Return one line ``link link joint`` for each joint, if no name has blanks, commas or ``#``."""
     for name in (*sc.nodes, *sc.joints):
         if not re.fullmatch(r"[^\s,;#]+", str(name)):
             raise UnsolvableError(f"an edge list cannot hold the name {shown(name)}")

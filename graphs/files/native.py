@@ -26,31 +26,17 @@ from graphs.types import JointId, LinkId
 __all__ = [
     "FORMATS",
     "KIND",
-    "NativeObject",
     "Rows",
-    "count_or_names",
     "document",
     "dumps",
     "from_document",
     "head",
     "holds_orientations",
     "is_count",
-    "joints_document",
-    "joints_from_document",
-    "linkage_document",
-    "linkage_from_document",
     "names",
     "orientation_rows",
     "orientations_document",
-    "polyhedron_document",
-    "read_polyhedron",
-    "read_sc",
-    "read_scd",
     "rows_from_document",
-    "sc_document",
-    "solids_document",
-    "solids_from_document",
-    "tuple_of",
     "written",
 ]
 
@@ -203,20 +189,23 @@ def sc_document(sc: SCGraph) -> dict[str, Any]:
         "joints": _joint_list(sc),
         "loops": list(map(_loop_document, sc.loops)),
     }
-    if sc.closing:
-        result["closing"] = list(map(_loop_document, sc.closing))
-    if sc.ground is not None:
-        result["ground"] = written(sc.ground)
-    if sc.special is not None:
-        result["special"] = {"freedoms": sc.special.freedoms, "conditions": list(sc.special.conditions)}
+    special = sc.special and {"freedoms": sc.special.freedoms, "conditions": list(sc.special.conditions)}
+    result |= _known(closing=list(map(_loop_document, sc.closing)), ground=_or_none(sc.ground), special=special)
     if isinstance(sc, SCDGraph):
-        result["rotation"] = {
-            str(written(link)): [None if s is None else written(s) for s in sides]
-            for link, sides in sc.rotation.items()
-        }
+        rows = sc.rotation.items()
+        result["rotation"] = {str(written(link)): list(map(_or_none, sides)) for link, sides in rows}
         if sc.outer is not None:
             result["outer"] = {"joint": written(sc.outer[0]), "side": sc.outer[1]}
     return result
+
+
+def _or_none(name: Hashable | None) -> str | int | None:
+    return None if name is None else written(name)
+
+
+def _known(**items: Any) -> dict[str, Any]:
+    """Return the items that are neither None nor an empty list."""
+    return {key: value for key, value in items.items() if value is not None and value != []}
 
 
 def _joint_list(sc: SCGraph) -> list[Any]:
@@ -226,12 +215,8 @@ def _joint_list(sc: SCGraph) -> list[Any]:
 
 
 def _loop_document(loop: Loop) -> dict[str, Any]:
-    result: dict[str, Any] = {"joints": [written(j) for j in loop.joints], "centre": loop.centre.value}
-    if loop.name is not None:
-        result["name"] = loop.name
-    if loop.at is not None:
-        result["at"] = loop.at
-    return result
+    centred = {"joints": list(map(written, loop.joints)), "centre": loop.centre.value}
+    return centred | _known(name=loop.name, at=loop.at)
 
 
 def read_polyhedron(value: Mapping[str, Any], check: Checker) -> PolyhedronModel:
@@ -251,11 +236,7 @@ def read_polyhedron(value: Mapping[str, Any], check: Checker) -> PolyhedronModel
         tuple_of(item, place, check, 4, "four vertices")
         for place, item in check.items(value.get("scissors", []), "scissors")
     ]
-    ground = None
-    if "ground" in value:
-        ground = [
-            check.name(v, place) for place, v in check.items(value["ground"], "ground", "a list of vertices")
-        ]
+    ground = tuple_of(value["ground"], "ground", check) if "ground" in value else None
     links: dict[Hashable, tuple[Hashable, ...]] = {}
     for place, item in check.items(value.get("links", []), "links"):
         check.mapping(item, place, ("id", "vertices"))
@@ -321,32 +302,26 @@ def polyhedron_document(model: PolyhedronModel) -> dict[str, Any]:
     else:
         result["vertices"] = count_or_names(model.nodes)
     result["rods"] = [list(map(written, rod)) for rod in model.edges]
-    if model.centres:
-        result["centres"] = [_centre_document(centre) for centre in model.centres]
-    for key, of, constraints in (("on_line", "line", model.on_line), ("on_plane", "plane", model.on_plane)):
-        if constraints:
-            result[key] = [
-                {"vertex": written(x.vertex), of: x.of if isinstance(x.of, str) else list(map(written, x.of))}
-                for x in constraints
-            ]
-    if model.scissors:
-        result["scissors"] = [list(map(written, four)) for four in model.scissors]
+    links = model.links.items()
+    result |= _known(
+        centres=[
+            {"k": centre.k} | _known(rods=[list(map(written, rod)) for rod in centre.rods], name=centre.name)
+            for centre in model.centres
+        ],
+        on_line=_constraint_list(model.on_line, "line"),
+        on_plane=_constraint_list(model.on_plane, "plane"),
+        scissors=[list(map(written, four)) for four in model.scissors],
+    )
     if model.ground is not None:
         result["ground"] = sorted(map(written, model.ground), key=str)
-    if model.links:
-        result["links"] = [
-            {"id": written(link), "vertices": list(map(written, around))} for link, around in model.links.items()
-        ]
-    return result
+    return result | _known(links=[{"id": written(link), "vertices": list(map(written, vs))} for link, vs in links])
 
 
-def _centre_document(centre: RemoteCentre) -> dict[str, Any]:
-    result: dict[str, Any] = {"k": centre.k}
-    if centre.rods:
-        result["rods"] = [list(map(written, rod)) for rod in centre.rods]
-    if centre.name is not None:
-        result["name"] = centre.name
-    return result
+def _constraint_list(constraints: Iterable[PointConstraint], of: str) -> list[dict[str, Any]]:
+    return [
+        {"vertex": written(x.vertex), of: x.of if isinstance(x.of, str) else list(map(written, x.of))}
+        for x in constraints
+    ]
 
 
 _SIZES = {"cone": "angles", "cylinder": "lengths"}
@@ -544,11 +519,7 @@ Rows = tuple[tuple[float, ...], ...]
 
 
 def orientation_rows(path: str | Path) -> tuple[str, Rows]:
-    """Return the key and the rows of a file of orientations.
-
-    The key is ``"quaternions"`` (scalar first) or ``"matrices"`` (nine numbers, row by row). Raise FileError if
-    the file cannot be read or has another form; that the rows are those of rotations is not checked here.
-    """
+    """Return the key, ``"quaternions"`` (scalar first) or ``"matrices"``, and the rows of such a file."""
     path = Path(path)
     return rows_from_document(load_json(path), path)
 

@@ -22,11 +22,7 @@ __all__ = ["Checker", "in_degrees", "json_text", "load_json", "read_text"]
 
 
 def read_text(path: Path) -> str:
-    """Return the text of a file (UTF-8, with or without byte order mark).
-
-    Raise FileError if it is missing, a directory, a pipe, socket or device, not readable, too large, empty or not
-    text.
-    """
+    """Return the text of a regular file (UTF-8, with or without byte order mark), not empty and not too large."""
     try:
         raw = _bytes_of(path)
     except FileError:
@@ -73,10 +69,7 @@ def _check_regular(path: Path, entry: os.stat_result) -> None:
 
 
 def load_json(path: Path) -> Any:
-    """Return the JSON value in a file; refuse what strict JSON refuses: NaN, infinity, repeated keys.
-
-    A FileError names line and column of a syntax error.
-    """
+    """Return the JSON value in a file; refuse what strict JSON refuses: NaN, infinity, repeated keys."""
     text = read_text(path)
 
     def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

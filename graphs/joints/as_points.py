@@ -1,9 +1,8 @@
 """Joints of all kinds as vertices and rods, with points on lines and planes: the model of Wampler's count.
 
-A link is a body of three vertices or more, and its rods. A revolute is two vertices that both links have, a
-spherical joint is one; a cylindrical joint holds two points of one link on a line of the other, a prismatic one a
-third in a plane, a planar one three in a plane; a universal joint is a vertex of both, and a rod that keeps an
-angle. Source: Wampler, Larson, Erdman 2007, Eqs. 5 to 7. Theory: docs/theory/joints.md.
+A link is a body of three vertices or more, and its rods; a joint is vertices that both its links have, or points
+of one on a line or in a plane of the other. Source: Wampler, Larson, Erdman 2007, Eqs. 5 to 7. Theory:
+docs/theory/joints.md.
 """
 
 from __future__ import annotations

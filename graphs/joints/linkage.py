@@ -1,7 +1,4 @@
-"""A linkage with joints of all kinds: a link-joint graph, the kind of each joint, and perhaps their places.
-
-Theory: docs/theory/joints.md.
-"""
+"""A linkage with joints of all kinds: a link-joint graph, the kind of each joint, and perhaps their places."""
 
 from __future__ import annotations
 
@@ -90,12 +87,7 @@ def kind_named(text: str) -> JointKind:
     Parameters
     ----------
     text : str
-        Such as ``U``, ``universal`` or ``cardan``.
-
-    Raises
-    ------
-    InvariantError
-        If it is no kind of joint.
+        Such as ``U``, ``universal`` or ``cardan``; else InvariantError.
 
     Examples
     --------
@@ -213,20 +205,14 @@ class JointedLinkage:
 
 @dataclass(frozen=True, slots=True)
 class Leg:
-    """Joints in a row, with binary links between them.
-
-    There is one more link than joints, in the order in which they are passed; of a ring the first is the last.
-    """
+    """Joints in a row, binary links between them and a link at either end; of a ring the first is the last."""
 
     joints: tuple[JointId, ...]
     links: tuple[LinkId, ...]
 
 
 def legs(chain: SCGraph) -> list[Leg]:
-    """Return the rows of joints that binary links make: each joint is in one.
-
-    The ground ends rows, however many joints it has. A ring of binary links is one row, from its first link on.
-    """
+    """Return the rows of joints that binary links make: each joint is in one; the ground ends rows."""
     at: dict[LinkId, list[JointId]] = {link: [] for link in chain.nodes}
     for joint, ends in chain.joints.items():
         for link in ends:

@@ -1,8 +1,7 @@
 """Places for the joints of a linkage that has none, and slides that three parallel revolutes stand for.
 
-A *knee* is three parallel revolutes, the middle axis at equal arms from the two beside it. A prismatic joint
-between two binary links, with axes beyond them that are parallel to each other and across the slide, moves one end
-against the other in all ways of a plane; so do three parallel revolutes. Theory: docs/theory/joints.md.
+A *knee* is three parallel revolutes, the middle axis at equal arms from the two beside it. It moves one end
+against the other in all ways of a plane, as a slide between two parallel axes does. Theory: docs/theory/joints.md.
 """
 
 from __future__ import annotations
@@ -19,17 +18,16 @@ from graphs.mechanism.precision import precision_of_axes
 from graphs.tolerances import Tolerances
 from graphs.types import Floats, JointId
 
-__all__ = ["Knee", "KneeEnd", "knees_of_type", "placed", "placed_knees"]
+__all__ = ["placed", "placed_knees"]
 
 _ENDS = (JointKind.REVOLUTE, JointKind.UNIVERSAL, JointKind.SPHERICAL)
 
 
 @dataclass(frozen=True, slots=True)
 class KneeEnd:
-    """A joint beside a slide.
+    """A joint beside a slide, which is beside its first link (`place` 0) or its second (1).
 
-    `place` is 0 if its first link is beside the slide, 1 if its second is; `axis` is the number of the axis that
-    is to be across the slide, None for a spherical joint, which can turn about any.
+    `axis` is the number of the axis that is to be across the slide, None for a spherical joint, which has any.
     """
 
     joint: JointId

@@ -1,13 +1,10 @@
 """Assur groups: the smallest sets of links that can be positioned together, one set after the other.
 
-With one link fixed and as many inputs as there are freedoms, each moving link of a spherical or planar
-mechanism has three freedoms and each joint takes two (an input all three): as many as there are. Every such
-freedom is assigned to one of the two links it ties, so that each link pays for three; a link then depends on the
-others its freedoms are tied to, and the strong components of these dependencies are the Assur groups, whatever the
-assignment (Dulmage and Mendelsohn 1958). A group without an input can be taken off, if no other depends on it:
-mobility stays.
-
-Theory: docs/theory/reduction.md.
+With one link fixed and as many inputs as freedoms, each moving link of a spherical or planar mechanism has three
+freedoms and each joint takes two (an input all three): as many as there are. Every such freedom is assigned to one
+of the two links it ties, so that each link pays for three; a link then depends on the others its freedoms are tied
+to, and the strong components of these dependencies are the Assur groups, whatever the assignment (Dulmage and
+Mendelsohn 1958). Theory: docs/theory/reduction.md.
 """
 
 from __future__ import annotations
@@ -44,12 +41,8 @@ class AssurGroup:
 
     Examples
     --------
-    A four-bar driven at its crank: the crank is placed by itself, coupler and follower together.
-
-    >>> from graphs.loops.loop import Loop
-    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
-    >>> [sorted(group.links) for group in assur_groups(ring, 0, [0])]
-    [[1], [2, 3]]
+    >>> AssurGroup(links=(2, 3), joints=(1, 2, 3), inputs=()).links
+    (2, 3)
     """
 
     links: tuple[LinkId, ...]
@@ -215,17 +208,12 @@ def _shared_out(sc: SCGraph, ground: LinkId, driven: frozenset[JointId]) -> dict
 
 
 def reduce_assur(sc: SCGraph, ground: LinkId, inputs: Iterable[JointId]) -> AssurReduction:
-    """Take off Assur groups without inputs that no other depends on, until none is left.
+    """Take off Assur groups without inputs that no other depends on, until none is left; the mobility stays.
 
     Parameters
     ----------
     sc, ground, inputs
-        As for `assur_groups`.
-
-    Raises
-    ------
-    InvariantError, UnsolvableError
-        As `assur_groups`.
+        As for `assur_groups`, with its errors.
 
     Examples
     --------

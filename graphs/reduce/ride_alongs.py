@@ -1,12 +1,8 @@
 """Reducing adjunct addenda: ride-alongs taken off one by one, to a fixed point.
 
 A *ride-along addendum* is two binary links u, v appended to two adjacent links a, b so that the four meet in one
-centre; its relative mobility is 0. An *adjunct addendum* is a chain of them. Source: Wiener 2016, sections
-4.2.4 and 4.2.5. Theory: docs/theory/reduction.md.
-
-A block that is nothing but ride-alongs on ride-alongs comes down to a single four-bar, and several of its
-four-bars may be the last. Their centres differ, so the choice shows: it is made by what the centres are and not by
-the order in which links and joints are listed.
+centre; its relative mobility is 0. An *adjunct addendum* is a chain of them. Source: Wiener 2016, sections 4.2.4
+and 4.2.5. Theory: docs/theory/reduction.md.
 """
 
 from __future__ import annotations
@@ -30,7 +26,7 @@ from graphs.printing import Block, Printed, plain
 from graphs.reduce.working import RULES, ReductionTerms, Removal, TakenAddendum, WorkingGraph, take_all
 from graphs.types import JointId, LinkId
 
-__all__ = ["Reduction", "ReductionStep", "links_of_loops_that_stay", "reduce"]
+__all__ = ["Reduction", "ReductionStep", "reduce"]
 
 
 class _FourBar(NamedTuple):
@@ -42,10 +38,7 @@ class _FourBar(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class _Choice:
-    """A block that came down to one four-bar: its last loop, here as a four-bar.
-
-    `there` are the four-bars that could stay, the last one among them.
-    """
+    """A block that came down to one four-bar: its last loop, here as a four-bar, and all that could stay."""
 
     last: int
     here: _FourBar
@@ -59,12 +52,11 @@ class _Choice:
 def links_of_loops_that_stay(
     work: WorkingGraph, taken: Sequence[TakenAddendum], protected: Collection[LinkId]
 ) -> frozenset[LinkId]:
-    """Return the links of four-bars that should have stayed, if others did.
+    """Return the links of four-bars that should have stayed, if others did; the reduction is then done again.
 
-    Ride-alongs were taken off until none was left, each block keeping a loop. The reduction has to be done again
-    with these links protected; none if it was right. A finite centre stays before one at infinity, a centre of its
-    own before one that other blocks have too. If several shared centres are still equal, canonical labels of the
-    remaining graph decide: then the choice has no meaning, but it is always the same.
+    A finite centre stays before one at infinity, a centre of its own before one that other blocks have too. If
+    several shared centres are still equal, canonical labels of the remaining graph decide: that choice has no
+    meaning, but does not depend on the order in which links and joints are listed.
     """
     choices = [_most_general(work, choice) for choice in _choices(work, taken, protected)]
     labels = _labels(work, choices, protected) if any(len(choice.classes) > 1 for choice in choices) else {}
@@ -117,10 +109,7 @@ def _is_shared(work: WorkingGraph, which: int) -> bool:
 
 
 def _labels(work: WorkingGraph, choices: Sequence[_Choice], protected: Collection[LinkId]) -> Mapping[int, int]:
-    """Return canonical labels of the classes in the graph of the remaining links, joints and classes.
-
-    A four-bar whose class is open stands for itself, beside the classes that it may have.
-    """
+    """Return canonical labels of the classes in the graph of the remaining links, joints and classes."""
     colours: list[tuple[object, ...]] = []
     edges: list[tuple[int, int]] = []
 
@@ -210,14 +199,6 @@ class Reduction(Printed):
         In the order in which they were taken.
     removals : tuple of Removal
         The same, with the data to undo them.
-
-    Examples
-    --------
-    >>> from graphs.convert.panels import scd_from_panels
-    >>> squares = [(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7), (6, 7, 10, 9), (7, 8, 11, 10)]
-    >>> reduction = reduce(scd_from_panels(squares))
-    >>> len(reduction.original), len(reduction.graph)
-    (6, 4)
     """
 
     original: SCGraph
@@ -230,18 +211,7 @@ class Reduction(Printed):
     def undo(self, steps: int | None = None) -> SCGraph:
         """Put back the links of the last steps, by default of all; then it is the original, ids included.
 
-        Parameters
-        ----------
-        steps : int, optional
-
-        Returns
-        -------
-        SCGraph
-
-        Raises
-        ------
-        ValueError
-            If there are fewer steps.
+        Raise ValueError if there are fewer steps.
         """
         number = len(self.removals) if steps is None else steps
         if not 0 <= number <= len(self.removals):
@@ -313,7 +283,10 @@ class Reduction(Printed):
 def reduce(
     mechanism: MechanismLike, *, rule: str = "ride-along", fully: bool = False, keep: Iterable[LinkId] = ()
 ) -> Reduction:
-    """Take off ride-alongs (or dyads) until none is left.
+    """Take off ride-alongs (or dyads) until none is left. The mobility stays.
+
+    Ride-along reduction takes linear time and, up to isomorphism, gives the same graph in whichever order the
+    parts of the mechanism are listed (docs/theory/reduction.md). Dyad reduction promises neither.
 
     Parameters
     ----------
@@ -327,24 +300,10 @@ def reduce(
     keep : iterable of link ids, optional
         Links that stay: inputs, outputs. The ground link always stays.
 
-    Returns
-    -------
-    Reduction
-
     Raises
     ------
     InvariantError
-        If a link to keep is not there.
-    ValueError
-        For an unknown rule.
-
-    Notes
-    -----
-    The mobility count stays. Ride-along reduction takes linear time and, up to isomorphism, gives the same graph,
-    with the same centres, in whichever order the parts of the mechanism are listed. Where a block comes down to
-    a single four-bar and several of its four-bars could be it, one of the most general kind stays: a finite centre
-    before one at infinity, a centre of its own before one that another block has too (docs/theory/reduction.md).
-    Dyad reduction promises neither.
+        If a link to keep is not there, or the rule is not known.
 
     Examples
     --------

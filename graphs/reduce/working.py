@@ -27,7 +27,7 @@ class Removal:
 
     Joints are a-u, u-v and v-b. `dropped` is the index of the loop that went; `changed` are loops that were
     rerouted, each with the joints that it gained or lost; `reopened` is a closing loop that took the place of a
-    dropped independent one, if any.
+    dropped one.
     """
 
     links: tuple[LinkId, LinkId]
@@ -51,10 +51,7 @@ class Path(NamedTuple):
 
 
 class WorkingGraph:
-    """A mechanism with links, joints and loops that come and go.
-
-    Its classes are computed once and kept throughout.
-    """
+    """A mechanism with links, joints and loops that come and go; its classes are computed once and kept."""
 
     def __init__(self, sc: SCGraph) -> None:
         self.original = sc
@@ -141,10 +138,7 @@ class WorkingGraph:
         return False, None
 
     def member_through(self, cycle: frozenset[JointId], middle: JointId) -> int | None:
-        """Return a loop through a joint that takes part in a sum of loops of one class giving a cycle.
-
-        None if the cycle is no such sum.
-        """
+        """Return a loop through a joint that takes part in a sum of loops of one class giving a cycle, or None."""
         known, member = self.member_at_once(cycle, middle)
         if known:
             return member
@@ -273,10 +267,7 @@ RULES = ("ride-along", "dyad")
 
 @dataclass(frozen=True, slots=True)
 class ReductionTerms:
-    """Which addenda may be taken off: ride-alongs or dyads, without protected links.
-
-    `fully`: a block may lose its last loop.
-    """
+    """Which addenda may be taken off, without protected links; `fully`: a block may lose its last loop."""
 
     rule: str
     fully: bool
@@ -284,10 +275,7 @@ class ReductionTerms:
 
 
 class TakenAddendum(NamedTuple):
-    """An addendum that was taken off the links a and b (`onto`).
-
-    `joint` is the joint a-b that takes the place of the addendum; None for a dyad.
-    """
+    """An addendum taken off the links a and b (`onto`); the joint a-b takes its place, None for a dyad."""
 
     removal: Removal
     joint: JointId | None
@@ -299,11 +287,7 @@ _Cycle = tuple[JointId, frozenset[JointId]]
 
 
 def take_all(work: WorkingGraph, terms: ReductionTerms) -> list[TakenAddendum]:
-    """Take addenda off a working graph until none is left; return them in their order.
-
-    Joints that only an elimination can decide wait until nothing else is left to do, since a loop less may
-    settle them at once.
-    """
+    """Take addenda off a working graph until none is left; return them in their order."""
     ride_alongs = terms.rule == "ride-along"
     taken: list[TakenAddendum] = []
     waiting = dict.fromkeys(reversed(list(work.joints)))

@@ -30,8 +30,7 @@ _TRIANGLES = "all panels are triangles: the number of border vertices minus thre
 def _of_storey(values: Values) -> int:
     """Return the freedoms of a storey.
 
-    Round a panel the triangles' angles determine each other; rotated by half a side they do so both ways alike,
-    and an even number of them alternates between two.
+    Round a panel the triangles' angles determine each other; rotated by half a side they do so both ways alike.
     """
     sides = int(values["sides"])
     if not values["ends"]:
@@ -251,6 +250,7 @@ _RINGS = (
 
 
 _OPENING = angle("opening", 90, 10, 170, "angle between the halves of the card")
+_MORE = length("more", 0.5, 0.1, 5, "extra distance of the crease on the right half")
 
 _GOODS = (
     Generator(
@@ -280,7 +280,7 @@ _GOODS = (
         "box-pop-up", "Box cut out of a card", goods.box_pop_up,
         (
             length("depth", 1.0, 0.2, 5, "distance from the fold to the crease on the left half"),
-            length("more", 0.5, 0.1, 5, "extra distance of the crease on the right half"),
+            _MORE,
             length("width", 1.0, 0.1, 5, "width of the box"),
         ),
         lambda _: 1, "on either of two branches: the box pops up, or stays flat", "Glassner 2002", True,
@@ -289,7 +289,7 @@ _GOODS = (
         "beaked-box", "Box cut out of a card, whose ridge ends in a beak", goods.beaked_box,
         (
             length("depth", 1.0, 0.6, 5, "distance from the fold to the crease on the left half"),
-            length("more", 0.5, 0.1, 5, "extra distance of the crease on the right half"),
+            _MORE,
             length("width", 1.0, 0.7, 5, "width of the box"),
             angle("angle", 40, 5, 55, "angle between the ridge and the creases of the beak"),
             length("reach", 0.6, 0.05, 0.95, "length of the beak along the ridge"),
@@ -336,54 +336,37 @@ _GAP = angle("gap", 30, 5, 50, "angle between the two feet, and the two heads, o
 _OUT = length("out", 0.4, 0.1, 10, "distance of the knees from the line from foot to head")
 
 
-def _platform(
-    name: str, title: str, legs: tuple[str, int], more: tuple[Parameter, ...], facts: tuple[int, str, str]
-) -> Generator:
-    """Return the generator of a platform; facts are its freedoms, conditions and source."""
-    letters, number = legs
-    freedoms, conditions, source = facts
+_NONE_REMOVED = "no leg removes a degree of freedom: {} - {}"
+
+
+def _platform(legs: str, freedoms: int, conditions: str, source: str) -> Generator:
+    """Return the generator of a platform by its number of legs and their joints, such as ``6-UPS``."""
+    number, letters = int(legs[0]), legs[2:]
+    more = (*([_GAP] if number == 6 else []), *([] if "P" in letters else [_OUT]))
 
     def make(**values: float) -> JointedLinkage:
         return platforms.platform(letters, number, **values)
 
-    parameters, relations = (*_RADII, _HEIGHT, *more), "base and top differ" if number == 3 else ""
-    return Generator(name, title, make, parameters, lambda _: freedoms, conditions, source, relations=relations)
+    return Generator(
+        "stewart" if legs == "6-UPS" else legs.lower(),
+        f"Platform on {'six' if number == 6 else 'three'} {letters} legs", make, (*_RADII, _HEIGHT, *more),
+        lambda _: freedoms, conditions, source, relations="base and top differ" if number == 3 else "",
+    )  # fmt: skip
 
 
 _PLATFORMS = (
+    _platform("6-UPS", 6, _NONE_REMOVED.format(36, 30), "Stewart 1965; Hunt 1983"),
     _platform(
-        "stewart", "Platform on six UPS legs", ("UPS", 6), (_GAP,),
-        (6, "no leg removes a degree of freedom: 36 - 30", "Stewart 1965; Hunt 1983"),
+        "6-SPS", 12, "six of them are rotations of the legs about themselves: 42 - 30", "Stewart 1965; Hunt 1983"
     ),
+    _platform("6-RUS", 6, _NONE_REMOVED.format(36, 30), "Hunt 1983"),
+    _platform("6-UUU", 6, _NONE_REMOVED.format(36, 30), "count of freedoms (Kutzbach)"),
+    _platform("3-RPS", 3, "each leg removes one degree of freedom: 15 - 12", "Hunt 1983"),
     _platform(
-        "6-sps", "Platform on six SPS legs", ("SPS", 6), (_GAP,),
-        (12, "six of them are rotations of the legs about themselves: 42 - 30", "Stewart 1965; Hunt 1983"),
+        "3-UPU", 3, "the axes of each leg at base and top are parallel, and so are its two transverse axes: "
+        "the top only translates", "Tsai 1996",
     ),
-    _platform(
-        "6-rus", "Platform on six RUS legs", ("RUS", 6), (_GAP, _OUT),
-        (6, "no leg removes a degree of freedom: 36 - 30", "Hunt 1983"),
-    ),
-    _platform(
-        "6-uuu", "Platform on six UUU legs", ("UUU", 6), (_GAP, _OUT),
-        (6, "no leg removes a degree of freedom: 36 - 30", "count of freedoms (Kutzbach)"),
-    ),
-    _platform(
-        "3-rps", "Platform on three RPS legs", ("RPS", 3), (),
-        (3, "each leg removes one degree of freedom: 15 - 12", "Hunt 1983"),
-    ),
-    _platform(
-        "3-upu", "Platform on three UPU legs", ("UPU", 3), (),
-        (
-            3,
-            "the axes of each leg at base and top are parallel, and so are its two transverse axes: "
-            "the top only translates",
-            "Tsai 1996",
-        ),
-    ),
-    _platform(
-        "3-uuu", "Platform on three UUU legs", ("UUU", 3), (_OUT,),
-        (6, "no leg removes a degree of freedom: 18 - 12", "count of freedoms (Kutzbach)"),
-    ),
+    _platform("3-UUU", 6, _NONE_REMOVED.format(18, 12), "count of freedoms (Kutzbach)"),
     Generator(
         "3-crr", "Platform on three CRR legs that only translates", platforms.translating_platform,
         (

@@ -29,7 +29,6 @@ __all__ = [
     "polygon_twist",
     "preliminary_base",
     "resch",
-    "sectors_of_ride_alongs",
     "square_twist",
     "waterbomb",
     "waterbomb_base",
@@ -38,10 +37,7 @@ __all__ = [
 
 
 def fan(directions: Sequence[float], letters: str = "", title: str = "") -> Sheet:
-    """Return a flat vertex with creases of length 1 in rising directions, radians.
-
-    There is one letter per crease; without letters all are unassigned.
-    """
+    """Return a flat vertex with creases of length 1 in rising directions, radians, unassigned without letters."""
     n = len(directions)
     places = ((0.0, 0.0), *((cos(t), sin(t)) for t in directions))
     faces = tuple((0, i + 1, (i + 1) % n + 1) for i in range(n))
@@ -61,8 +57,8 @@ def preliminary_base() -> Sheet:
 def bird_base() -> Sheet:
     """Return the crease pattern of the bird base of a square of side 2: 16 triangles, flat.
 
-    The sides are folded to the diagonals, so creases from a corner bisect the half of its right angle. They come
-    to the lines between the middles of the sides at 1 - tan(pi / 8) = 2 - sqrt(2) from the centre: the tips.
+    Creases from a corner bisect half of its right angle. They meet the lines between the middles of the sides at 1
+    - tan(pi / 8) = 2 - sqrt(2) from the centre: the tips.
     """
     tip_at = 2 - sqrt(2)
     corners: list[Place] = [(1, 1), (-1, 1), (-1, -1), (1, -1)]
@@ -82,20 +78,13 @@ def bird_base() -> Sheet:
 
 
 def miura(rows: int, columns: int, sector: float, straight: float = 1.0, zigzag: float = 1.0) -> Sheet:
-    """Return a flat Miura sheet: ``rows`` panels along each straight line, ``columns`` along each zigzag.
+    """Return a flat Miura sheet: ``rows`` panels along each straight line, ``columns`` along each zigzag."""
+    # K. Miura, "Method of packaging and deployment of large membranes in space" (1985).
 
-    `sector` is the acute angle of the panels, `straight` and `zigzag` are their sides along the two kinds of
-    lines. Folded, tan(b / 2) = cos(sector) tan(a / 2), a on the zigzag creases, b on the straight ones. Source: K.
-    Miura, "Method of packaging and deployment of large membranes in space" (1985).
-    """
-    return _mesh(
-        rows,
-        columns,
-        lambda i, j: (j * zigzag * sin(sector), i * straight + j % 2 * zigzag * cos(sector)),
-        lambda i, j: "MV"[i % 2],
-        lambda i, j: "VM"[(i + j) % 2],
-        f"Miura sheet {rows} x {columns}",
-    )
+    def place(i: int, j: int) -> Place:
+        return (j * zigzag * sin(sector), i * straight + j % 2 * zigzag * cos(sector))
+
+    return _mesh(rows, columns, place, "MV", "VM", f"Miura sheet {rows} x {columns}")
 
 
 def folded_miura(
@@ -107,53 +96,37 @@ def folded_miura(
     zigzag: float = 1.0,
     title: str = "",
 ) -> Sheet:
-    """Return a Miura sheet folded until its panels are at an angle, the tilt (radians), to the base plane.
-
-    Rows count panels along the zigzags' normal, columns along the zigzags; sector and sides are those of `miura`.
-    Lengths of the unit cell as in M. Schenk and S. D. Guest, "Geometry of Miura-folded metamaterials" (2013).
-    """
+    """Return a Miura sheet folded until its panels are at an angle, the tilt (radians), to the base plane."""
+    # Lengths of the unit cell: M. Schenk and S. D. Guest, "Geometry of Miura-folded metamaterials" (2013).
     height = straight * sin(tilt) * sin(sector)
     wide = cos(tilt) ** 2 * tan(sector) ** 2
     across = zigzag * cos(tilt) * tan(sector) / sqrt(1 + wide)
     along = straight * sqrt(1 - sin(tilt) ** 2 * sin(sector) ** 2)
     shift = zigzag / sqrt(1 + wide)
-    return _mesh(
-        rows,
-        columns,
-        lambda i, j: (j * across, i * along + j % 2 * shift, i % 2 * height),
-        lambda i, j: "MV"[i % 2],
-        lambda i, j: "MV"[(i + j) % 2],
-        title or f"Miura mesh {rows} x {columns}, folded",
-    )
+
+    def place(i: int, j: int) -> Place:
+        return (j * across, i * along + j % 2 * shift, i % 2 * height)
+
+    return _mesh(rows, columns, place, "MV", "MV", title or f"Miura mesh {rows} x {columns}, folded")
 
 
 def chickenwire(rows: int, columns: int, sector: float, straight: float = 2.0) -> Sheet:
-    """Return flat chicken wire: hexagons in columns, each halved along a straight line into two trapezoids.
+    """Return flat chicken wire: hexagons in columns, each halved along a straight line into two trapezoids."""
+    # T. A. Evans and others, "Rigidly foldable origami gadgets and tessellations" (2015).
 
-    There are `rows` panels along the straight lines, `columns` across them. `sector` is the acute angle of the
-    trapezoids, whose legs are 1 long; `straight`, above cos(sector), is their middle line. All vertices are those
-    of a Miura sheet, each rotated by a half turn relative to the next along a straight line. Source: T. A. Evans,
-    R. J. Lang, S. P. Magleby, L. L. Howell, "Rigidly foldable origami gadgets and tessellations" (2015).
-    """
-    return _mesh(
-        rows,
-        columns,
-        lambda i, j: (j * sin(sector), i * straight + (-1) ** (i + j) * cos(sector) / 2),
-        lambda i, j: "M",
-        lambda i, j: "MV"[(i + j) % 2],
-        f"Chicken wire {rows} x {columns}",
-    )
+    def place(i: int, j: int) -> Place:
+        return (j * sin(sector), i * straight + (-1) ** (i + j) * cos(sector) / 2)
+
+    return _mesh(rows, columns, place, "M", "MV", f"Chicken wire {rows} x {columns}")
 
 
 def huffman_grid(rows: int, columns: int, first: float, second: float, side: float = 1.0) -> Sheet:
     """Return Huffman's grid: copies of one quadrilateral, each rotated by a half turn about the side it shares.
 
-    `first` and `second` are adjacent angles of the quadrilateral, neither equal nor supplementary; `side` is the
-    other side at the first, the side between both is 1. Raise InvariantError where it is not convex. Every vertex
-    has the four angles of the quadrilateral round it, and all fold alike: one freedom is left. Sources: D. A.
-    Huffman, "Curvature and creases" (1976); A. Kokotsakis (1933) and H. Stachel (2010) for any convex
-    quadrilateral.
+    Raise InvariantError where the quadrilateral is not convex, or its angles `first` and `second` are equal or
+    supplementary.
     """
+    # D. A. Huffman, "Curvature and creases" (1976); any convex one: A. Kokotsakis (1933), H. Stachel (2010).
     if isclose(first, second, abs_tol=1e-3) or isclose(first + second, pi, abs_tol=1e-3):
         angles = f"{degrees(first):g} and {degrees(second):g} degrees"
         raise InvariantError("huffman-grid", f"angles of {angles}", "neither equal nor together 180 degrees")
@@ -173,47 +146,25 @@ def huffman_grid(rows: int, columns: int, first: float, second: float, side: flo
         return (x + j // 2 * right[0] + i // 2 * up[0], y + j // 2 * right[1] + i // 2 * up[1])
 
     # The smallest angle, the second, is between a mountain and a valley; three creases of a vertex are alike.
-    return _mesh(
-        rows,
-        columns,
-        place,
-        lambda i, j: "M",
-        lambda i, j: "MV"[(i + j) % 2],
-        f"Huffman's grid {rows} x {columns}",
-    )
+    return _mesh(rows, columns, place, "M", "MV", f"Huffman's grid {rows} x {columns}")
 
 
 def map_sheet(rows: int, columns: int, width: float = 1.3, height: float = 1.0) -> Sheet:
     """Return a map: a flat grid of rectangles, which folds across its columns, as assigned, or across its rows."""
-    return _mesh(
-        rows,
-        columns,
-        lambda i, j: (width * j, height * i),
-        lambda i, j: "U",
-        lambda i, j: "V",
-        f"Map {rows} x {columns}",
-    )
+    return _mesh(rows, columns, lambda i, j: (width * j, height * i), "U", "V", f"Map {rows} x {columns}")
 
 
 def _mesh(
-    rows: int,
-    columns: int,
-    place: Callable[[int, int], Place],
-    across: Callable[[int, int], str],
-    along: Callable[[int, int], str],
-    title: str,
+    rows: int, columns: int, place: Callable[[int, int], Place], across: str, along: str, title: str
 ) -> Sheet:
-    """Return a mesh by the places of its vertices.
-
-    `across` and `along` give the letters of the edges from a vertex to the next in its row, and in its column.
-    """
+    """Return a mesh by its vertices; edges in rows have letters in turn by row, others by diagonal."""
     number = {(i, j): i * (columns + 1) + j for i in range(rows + 1) for j in range(columns + 1)}
     letters = {}
     for (i, j), vertex in number.items():
         if j < columns:
-            letters[frozenset((vertex, number[i, j + 1]))] = across(i, j)
+            letters[frozenset((vertex, number[i, j + 1]))] = across[i % len(across)]
         if i < rows:
-            letters[frozenset((vertex, number[i + 1, j]))] = along(i, j)
+            letters[frozenset((vertex, number[i + 1, j]))] = along[(i + j) % len(along)]
     faces = [
         (number[i, j], number[i, j + 1], number[i + 1, j + 1], number[i + 1, j])
         for i in range(rows)
@@ -232,10 +183,8 @@ def _meeting(start: Place, way: float, other_start: Place, other_way: float) -> 
 
 
 def freedoms_of_triangles(sheet: Sheet) -> int:
-    """Return the freedoms of a disc of triangles: its border's vertices less three.
-
-    Each triangle more adds a border vertex and a freedom, or closes a vertex with three equations.
-    """
+    """Return the freedoms of a disc of triangles: its border's vertices less three."""
+    # Each triangle more adds a border vertex and a freedom, or closes a vertex with three equations.
     border = {
         v for edge, letter in zip(sheet.edges, sheet.assignments, strict=True) if letter == "B" for v in edge
     }
@@ -243,11 +192,8 @@ def freedoms_of_triangles(sheet: Sheet) -> int:
 
 
 def yoshimura(rows: int, columns: int, width: float = 1.0, height: float = 0.6) -> Sheet:
-    """Return Yoshimura's pattern: diamonds, each halved by a valley along its row.
-
-    There are `rows` rows of triangles, with twice as many triangles in each as there are columns. Source: Y.
-    Yoshimura, "On the mechanism of buckling of a circular cylindrical shell under axial compression" (1955).
-    """
+    """Return Yoshimura's pattern: diamonds, each halved by a valley along its row."""
+    # Y. Yoshimura, "On the mechanism of buckling of a circular cylindrical shell under axial compression" (1955).
 
     def at(i: int, j: int) -> Place:
         return (width * (j + i % 2 / 2), height * i)
@@ -262,11 +208,8 @@ def yoshimura(rows: int, columns: int, width: float = 1.0, height: float = 0.6) 
 
 
 def waterbomb(rows: int, columns: int) -> Sheet:
-    """Return the waterbomb tessellation: waterbomb bases of side 2, columns shifted by half a square.
-
-    Inside six creases meet at every vertex; mountains are parallel to the sides. Source: Y. Chen, H. Feng, J. Ma,
-    R. Peng, Z. You, "Symmetric waterbomb origami" (2016).
-    """
+    """Return the waterbomb tessellation: waterbomb bases of side 2, columns shifted by half a square."""
+    # Y. Chen, H. Feng, J. Ma, R. Peng, Z. You, "Symmetric waterbomb origami" (2016).
     panels: list[list[Place]] = []
     for column in range(columns):
         for row in range(rows):
@@ -280,11 +223,9 @@ def waterbomb(rows: int, columns: int) -> Sheet:
 def resch(rows: int, columns: int) -> Sheet:
     """Return Resch's triangles: tiles of side 1, and triangles of side 2 that fold to stars of three arms.
 
-    A large triangle is divided from its middle by lines to its corners and to the middles of its sides into six
-    with angles of 30, 60 and 90 degrees; folded flat, the middles of its sides meet, its middle below them. Rows
-    and columns count large triangles, each with the six tiles round it. Sources: R. D. Resch, "Self-supporting
-    structural unit having a series of repetitious geometrical modules", patent (1968); T. Tachi, "Designing
-    freeform origami tessellations by generalizing Resch's patterns" (2013).
+    A large triangle is divided from its middle into six with angles of 30, 60 and 90 degrees. Sources: R. D.
+    Resch, "Self-supporting structural unit having a series of repetitious geometrical modules", patent (1968); T.
+    Tachi, "Designing freeform origami tessellations by generalizing Resch's patterns" (2013).
     """
     panels: list[list[Place]] = []
     tiles: dict[Place, list[Place]] = {}
@@ -334,9 +275,8 @@ def _tile_at(corners: list[Place]) -> Place:
 def polygon_twist(sides: int, twist: float, radius: float = 0.35, letters: str = "", title: str = "") -> Sheet:
     """Return a twist: a regular polygon in the middle of another, and a straight pleat from each of its sides.
 
-    `twist` is the angle of the middle polygon to the sheet, radians; `radius` is that of its corners (the sheet's
-    sides are at distance 1 from the middle). `letters` has one for each side of the middle polygon, then two for
-    the creases of each pleat; by default sides and second creases are mountains, first creases valleys.
+    `letters` has one for each side of the middle polygon, then two for the creases of each pleat; by default sides
+    and second creases are mountains, first creases valleys.
     """
     step = 2 * pi / sides
     inner = [
@@ -367,20 +307,12 @@ def polygon_twist(sides: int, twist: float, radius: float = 0.35, letters: str =
 
 
 def square_twist(twist: float, radius: float = 0.35) -> Sheet:
-    """Return a square twist, assigned so that it is rigid-foldable: two neighbouring vertices in either mode.
-
-    Twist and radius are those of `polygon_twist`.
-    """
+    """Return a square twist, assigned so that it is rigid-foldable: two neighbouring vertices in either mode."""
     return polygon_twist(4, twist, radius, "MMVV" + "VVMM" + "MMVV", "Square twist")
 
 
 def hexagon_twist(other: int, radius: float = 0.35) -> Sheet:
-    """Return a rigid-foldable hexagon twist with 1 or 2 vertices in the `other` mode.
-
-    The radius is that of `polygon_twist`. Round the hexagon tangents of half the fold angles are multiplied at
-    each vertex, by a number for each mode; the product of the six is 1 at one twist only. Raise InvariantError for
-    other numbers of vertices.
-    """
+    """Return a rigid-foldable hexagon twist with 1 or 2 vertices in the `other` mode."""
     if other not in (1, 2):
         raise InvariantError("hexagon-twist", f"{other} vertices in the other mode", "1 or 2")
     firsts = "M" * other + "V" * (6 - other)
@@ -392,8 +324,8 @@ def hexagon_twist(other: int, radius: float = 0.35) -> Sheet:
 def _rigid_twist(other: int) -> float:
     """Return the twist at which the product of the multipliers of a hexagon's vertices is 1.
 
-    With g = tan(60 degrees) and x = tan((90 degrees - twist) / 2) they are (g x + 1) / (g x - 1) and (g - x) / (g
-    + x).
+    With g = tan(60 degrees), x = tan((90 degrees - twist) / 2) they are (g x + 1) / (g x - 1) and (g - x) / (g +
+    x).
     """
     from scipy.optimize import brentq  # takes half a second to load
 
@@ -420,12 +352,8 @@ def _turned(point: Place, steps: int, sides: int) -> Place:
 
 
 def miura_tube(columns: int, sector: float, tilt: float, straight: float = 1.0, zigzag: float = 1.0) -> Sheet:
-    """Return two folded Miura strips, mirror images in the plane of their long edges, joined along these.
-
-    There are `columns` panels along the tube and four round it; `tilt` is the angle between a panel and the plane
-    of symmetry, the rest as of `miura`. Source: T. Tachi and K. Miura, "Rigid-foldable cylinders and cells"
-    (2012).
-    """
+    """Return two folded Miura strips, mirror images in the plane of their long edges, joined along these."""
+    # T. Tachi and K. Miura, "Rigid-foldable cylinders and cells" (2012).
     strip = folded_miura(2, columns, tilt, sector, straight, zigzag)
     assert strip.coordinates is not None
     upper: list[list[Place]] = [[strip.coordinates[v] for v in face] for face in strip.faces]
@@ -434,14 +362,8 @@ def miura_tube(columns: int, sector: float, tilt: float, straight: float = 1.0, 
 
 
 def kresling(sides: int, ends: int, turn: float = 0.5, height: float = 0.8) -> Sheet:
-    """Return one storey of Kresling's pattern: two regular polygons, one rotated, and triangles between them.
-
-    `ends` (0, 1 or 2) of the polygons are panels; `turn` is the rotation of the upper polygon, `height` is in
-    radii. A strip of 2 n triangles closes with six equations: 2 n - 6 freedoms. A polygon that is a panel makes it
-    rigid, but for an even number of sides rotated by half a side with one panel; it snaps to another height as
-    panels bend. Source: B. Kresling, "Plant 'design': mechanical simulations of growth patterns and bionics"
-    (1996).
-    """
+    """Return one storey of Kresling's pattern: two regular polygons, `ends` of them panels, triangles between."""
+    # B. Kresling, "Plant 'design': mechanical simulations of growth patterns and bionics" (1996).
     below = [(cos(2 * pi * k / sides), sin(2 * pi * k / sides), 0.0) for k in range(sides)]
     above = [(cos(2 * pi * k / sides + turn), sin(2 * pi * k / sides + turn), height) for k in range(sides)]
     panels: list[Corners] = []
@@ -459,9 +381,8 @@ _MIDDLE = 0.45
 def sectors_of_ride_alongs(pleats: int, slack: float) -> tuple[float, float]:
     """Return the sector of each ride-along link at an outer and at an inner crease, radians.
 
-    Both are perpendicular to their crease, so that they are straight where the angle between the walls is twice
-    the sector. Round the cylinder the angles at inner creases, seen from outside, are together 360 degrees more
-    than those at outer ones: both kinds are straight at once, with walls at inner creases ``2 slack`` from flat.
+    A ride-along is straight where the angle between the walls is twice the sector. The angles at inner creases,
+    seen from outside, are together 360 degrees more than those at outer ones, so both kinds are straight at once.
     """
     return pi / 2 - pi / pleats - slack, pi / 2 - slack
 
@@ -469,10 +390,8 @@ def sectors_of_ride_alongs(pleats: int, slack: float) -> tuple[float, float]:
 def deployable_cylinder(pleats: int, short: float, slack: float, height: float = 1.0) -> Sheet:
     """Return a ring of pleats with a ride-along on each crease, which stops it where the ride-along is straight.
 
-    There are two walls per pleat, 1 wide and `height` high. `short` is by how much the angle between the walls at
-    each crease is less than where ride-alongs are straight; `slack` is half of the angle of walls at inner creases
-    from flat then, both radians. Raise InvariantError if walls would coincide or pass each other. Source of the
-    principle: Wiener 2016, section 6.3; the proportions are chosen here.
+    Walls are 1 wide. Raise InvariantError if they would coincide or pass each other. Source of the principle:
+    Wiener 2016, section 6.3; the proportions are chosen here.
     """
     outer, inner = sectors_of_ride_alongs(pleats, slack)
     opening = 2.0 * outer - short

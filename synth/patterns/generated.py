@@ -21,10 +21,7 @@ __all__ = ["Generated", "folded", "generate"]
 
 
 def folded(sheet: Sheet, angle: float) -> Sheet:
-    """Return a flat sheet folded on the branch of its assignment up to a largest fold angle, radians.
-
-    Raise UnsolvableError if it does not fold, or not so far.
-    """
+    """Return a flat sheet folded on the branch of its assignment up to a largest fold angle, radians."""
     last_frame = fold_to(sheet, angle).frames()[-1]
     assert isinstance(last_frame, Sheet)
     return last_frame
@@ -110,10 +107,6 @@ def generate(name: str, *, fold: float | None = None, **parameters: float) -> Ge
         Fold angle of the crease that moves most, radians, for a flat pattern; by default it stays flat.
     **parameters
         Those of the generator; lengths in any unit, angles in radians.
-
-    Returns
-    -------
-    Generated
 
     Raises
     ------

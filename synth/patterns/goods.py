@@ -24,13 +24,7 @@ __all__ = ["angle_pop_up", "beaked_box", "box_pop_up", "crash_lock", "parallel_p
 
 
 def parallel_pop_up(opening: float, left: float, right: float, first: float, second: float) -> HingedSolids:
-    """Return a card with two panels across its fold, their creases parallel to it.
-
-    Links are the left half, the panel on it, the panel on the right half, and that half. `opening` is the angle
-    between the halves, `left` and `right` are the distances of the panels from the fold on the halves, `first` and
-    `second` the widths of the panels. If left + first = right + second the card closes. Raise InvariantError if
-    the panels do not meet at this opening.
-    """
+    """Return a card with two panels across its fold, their creases parallel to it; links from the left half on."""
     on_left = (-left * sin(opening / 2), left * cos(opening / 2))
     on_right = (right * sin(opening / 2), right * cos(opening / 2))
     x, y = on_right[0] - on_left[0], on_right[1] - on_left[1]
@@ -47,12 +41,7 @@ def parallel_pop_up(opening: float, left: float, right: float, first: float, sec
 
 
 def angle_pop_up(opening: float, base: float, rise: float) -> HingedSolids:
-    """Return a card with two panels across its fold whose creases meet on it: a V-fold, alike on both sides.
-
-    `opening` is the angle between the halves of the card, `base` that between the fold and the creases on the
-    card, `rise`, above the base angle, that of each panel between its crease on the card and the ridge. Raise
-    InvariantError if the panels do not meet at this opening.
-    """
+    """Return a card with two panels across its fold whose creases meet on it: a V-fold, alike on both sides."""
     # The halves lean to both sides of the y axis about the fold, x; the ridge is in the plane between them.
     on_left = (cos(base), sin(base) * cos(opening / 2), sin(base) * sin(opening / 2))
     flat = sqrt(on_left[0] ** 2 + on_left[1] ** 2)
@@ -65,12 +54,7 @@ def angle_pop_up(opening: float, base: float, rise: float) -> HingedSolids:
 
 
 def slit_card(strips: int, depth: float = 1.0, more: float = 0.5, width: float = 1.0) -> Sheet:
-    """Return a flat card with strips between slits across its fold, creased beside the fold: boxes that pop up.
-
-    The card and each strip are four links about four parallel axes. Slits are cuts: edges marked C. One strip is a
-    box, several are a row of steps. `depth` is the distance from the fold to a strip's crease on the left half,
-    `more` the extra distance of the crease on the right half, `width` that of strips and of what is between them.
-    """
+    """Return a flat card with strips between cuts (C) across its fold, creased beside it: boxes that pop up."""
     far, high, knee = 3.0 * (depth + more), depth + more, more
     places: list[Place] = [(-far, 0.0), (far, 0.0), (0.0, 0.0)]
     left_side, right_side = [2], [2]  # of the halves, up the fold and round the strips' ends
@@ -101,10 +85,8 @@ def beaked_box(
 ) -> Sheet:
     """Return a flat card with one box whose ridge ends in a beak: a planar and a spherical loop, six links.
 
-    Two creases go from a point of the ridge to the slit, on both sides of it. The card and the box are four links
-    about parallel axes; the box and the two panels of the beak are four about that point. The loops share the
-    ridge. Lengths are those of `slit_card`; `angle` is between the ridge and the creases of the beak, `reach` from
-    the slit to the point where they meet. Raise InvariantError if the beak is longer than the ridge, or wider than
+    Two creases go from a point of the ridge to the slit, on both sides of it: the box and the two panels of the
+    beak are four links about that point. Raise InvariantError if the beak is longer than the ridge, or wider than
     a panel of the box.
     """
     side = reach * tan(angle)
@@ -157,11 +139,7 @@ def _four_links(lines: list[Line], centre: Centre) -> HingedSolids:
 
 
 def webbed_tray(length: float = 3.0, width: float = 2.0, height: float = 0.8) -> Sheet:
-    """Return the flat blank of a tray: a bottom, four walls, at each corner a square web creased to it.
-
-    Each corner is a spherical loop of five links, which the angles of its two walls determine. So there are four
-    freedoms, one per wall.
-    """
+    """Return the flat blank of a tray: a bottom, four walls, at each corner a square web creased to it."""
     x, y = (-height, 0.0, length, length + height), (-height, 0.0, width, width + height)
     places = [(x[j], y[i]) for i in range(4) for j in range(4)]
     faces: list[tuple[int, ...]] = []
@@ -186,11 +164,9 @@ def crash_lock(opening: float, length: float = 2.0, width: float = 1.4, height: 
     """Return a tube of four walls with a crash-lock bottom, opened so far.
 
     At two opposite corners a panel of the bottom has a crease at 45 degrees, beyond which it is glued to the panel
-    beside it; so the bottom unfolds when the tube is opened, and locks where the crease is flat. `opening` is the
-    angle between the walls at the glued corners; InvariantError if it is not between 0 and a right angle, where it
-    locks. Walls are four links about parallel axes, each glued corner is four links about a point: ten joints,
-    three loops, one freedom. Source: J. S. Dai and F. Cannella, "Stiffness characteristics of carton folds for
-    packaging" (2008).
+    beside it; so the bottom unfolds when the tube is opened, and locks where the crease is flat: InvariantError if
+    `opening` is not between 0 and a right angle. Source: J. S. Dai and F. Cannella, "Stiffness characteristics of
+    carton folds for packaging" (2008).
     """
     if not 0.0 < opening < pi / 2:
         raise InvariantError(

@@ -1,9 +1,7 @@
 """Closed rings of solids hinged at edges, by their parameters: overconstrained ones, and spherical ones.
 
-Axes and frames of rings; Sarrus, Bennett's linkage and those of Goldberg and Myard made of it; Bricard's hexagons;
-spherical rings by the arcs of their links; kaleidocycles, an odd one of which is closed numerically. Sources: R.
-Bricard, "Lecons de cinematique" (1927); P. Schatz (1929); D. Schattschneider and W. Walker, "M. C. Escher
-Kaleidocycles" (1977). Theory: docs/theory/generators.md.
+Sources: R. Bricard, "Lecons de cinematique" (1927); P. Schatz (1929); D. Schattschneider and W. Walker, "M. C.
+Escher Kaleidocycles" (1977). Theory: docs/theory/generators.md.
 """
 
 from __future__ import annotations
@@ -26,7 +24,6 @@ from synth.patterns.panels import sheet_of_faces
 __all__ = [
     "Line",
     "bennett",
-    "chain_frames",
     "closed_chain",
     "goldberg",
     "kaleidocycle",
@@ -34,7 +31,6 @@ __all__ = [
     "myard",
     "plane_symmetric",
     "ring",
-    "ring_of_sides",
     "sarrus",
     "spherical_ring",
     "trihedral",
@@ -61,9 +57,8 @@ def ring(lines: Sequence[Line], digits: int = DIGITS) -> HingedSolids:
 def chain_frames(lengths: Sequence[float], twists: Sequence[float], angles: Sequence[float]) -> Floats:
     """Return frames, float[n + 1, 4, 4], of a chain of joints and its end: each about z, then along and about x.
 
-    Each solid has the length of the common normal of its axes, the twist between them and the angle of the joint
-    before it, radians. If the ring closes the last frame is the identity. Source: J. Denavit and R. S. Hartenberg
-    (1955).
+    Each solid has the length of the common normal of its axes, their twist, and the angle of the joint before it,
+    radians. If the ring closes the last frame is the identity. Source: J. Denavit and R. S. Hartenberg (1955).
     """
     frames = [np.eye(4)]
     for length, twist, angle in zip(lengths, twists, angles, strict=True):
@@ -79,10 +74,9 @@ def lines_of(frames: Floats) -> list[Line]:
 
 
 def ring_of_sides(across: Floats, lengths: Floats) -> HingedSolids:
-    """Return a ring without offsets: axis i along a direction, solid i perpendicular to its two axes, of a length.
+    """Return a ring without offsets: axes along unit vectors, float[n, 3], each perpendicular to the next.
 
-    `across` has unit vectors, float[n, 3], each perpendicular to the next; lengths, float[n], are signed along the
-    product of a direction and the next.
+    Solid i is along the product of direction i and the next, of a signed length: float[n].
     """
     sides = lengths[:, None] * np.cross(across, np.roll(across, -1, axis=0))
     feet = np.concatenate([np.zeros((1, 3)), np.cumsum(sides, axis=0)[:-1]])
@@ -109,12 +103,8 @@ _APART = 1e-3
 
 
 def bennett(first: float, twist: float, other: float) -> HingedSolids:
-    """Return Bennett's linkage: opposite solids alike, lengths in proportion to the sines of the twists.
-
-    `first` is the angle of the first joint; a quarter turn and less leaves it open. `twist` and `other` are the
-    angles between the axes of solids 0 and 2, and 1 and 3. Raise InvariantError if they are alike, or together a
-    half turn: it is then planar or folded. Source: G. T. Bennett, "A new mechanism" (1903).
-    """
+    """Return Bennett's linkage: opposite solids alike, lengths in proportion to the sines of the twists."""
+    # G. T. Bennett, "A new mechanism" (1903).
     return ring(lines_of(_bennett_frames(first, twist, other)))
 
 
@@ -122,11 +112,9 @@ def goldberg(first: float, twist: float, shared: float, other: float, offset: fl
     """Return Goldberg's linkage of five: two of Bennett's with a solid in common, which is left out.
 
     Beside the common solid two solids meet on an axis; they are made one, with the angle `offset` between them: 0
-    lays them over each other. `first` is the angle of the first linkage's joint on that axis; `twist`, `shared`
-    and `other` are the twists of the first linkage's own solids, of the common solid and of the second linkage's
-    own. Raise InvariantError if a linkage has twists that are alike or together a half turn, or both linkages are
-    the same. Source: M. Goldberg, "New five-bar and six-bar linkages in three dimensions" (1943).
+    lays them over each other.
     """
+    # M. Goldberg, "New five-bar and six-bar linkages in three dimensions" (1943).
     if isclose(twist, other, abs_tol=_APART) and isclose(offset, 0.0, abs_tol=_APART):
         what = f"both linkages have the twist {degrees(twist):g} degrees and coincide"
         raise InvariantError("goldberg", what, "different twists, or an offset")
@@ -137,21 +125,14 @@ def goldberg(first: float, twist: float, shared: float, other: float, offset: fl
 
 
 def myard(first: float, twist: float) -> HingedSolids:
-    """Return Myard's linkage of five: Goldberg's of two mirror images whose common twist is a right angle.
-
-    `first` is the angle of a joint, `twist` that of the solids of one linkage, not a right angle; the images have
-    pi - twist. The solid between both has no length and the twist pi - 2 twist. Source: F. E. Myard, "Contribution
-    a la geometrie des systemes articules" (1931).
-    """
+    """Return Myard's linkage of five: Goldberg's of two mirror images whose common twist is a right angle."""
+    # F. E. Myard, "Contribution a la geometrie des systemes articules" (1931).
     return goldberg(first, twist, pi / 2, pi - twist)
 
 
 def sarrus(side: float = 1.0, height: float = 1.6, out: float = 0.6) -> Sheet:
-    """Return the linkage of Sarrus of six panels: two square plates, and two pairs of panels between them.
-
-    `side` is that of the plates, `height` is between them, the knees between two panels stand `out` of the plates.
-    Source: P. F. Sarrus, "Note sur la transformation des mouvements rectilignes alternatifs" (1853).
-    """
+    """Return the linkage of Sarrus of six panels: two square plates, and two pairs of panels between them."""
+    # P. F. Sarrus, "Note sur la transformation des mouvements rectilignes alternatifs" (1853).
     square = ((0.0, 0.0), (side, 0.0), (side, side), (0.0, side))
     corners = [(x, y, z) for z in (0.0, height) for x, y in square]
     half = height / 2
@@ -183,20 +164,13 @@ _CORNERS = ((4.0, 1.0, 0.0), (-1.0, 3.0, 1.0), (0.0, -1.0, 3.0))
 
 
 def line_symmetric(lean: float = 0.0, half: Sequence[Line] | None = None) -> HingedSolids:
-    """Return Bricard's line-symmetric linkage: a half turn about the z axis takes axes 0, 1, 2 to 3, 4, 5.
-
-    The three axes, points and directions of any three lines, are rotated about the x axis by the angle `lean`:
-    another linkage for each.
-    """
+    """Return Bricard's line-symmetric linkage: a half turn about the z axis takes axes 0, 1, 2 to 3, 4, 5."""
     lines = [_leaning(line, lean) for line in half or _HALF]
     return ring([*lines, *(((-x, -y, z), (-u, -v, w)) for (x, y, z), (u, v, w) in lines)])
 
 
 def plane_symmetric(height: float = 0.0) -> HingedSolids:
-    """Return Bricard's plane-symmetric linkage: axes 0 and 3 in the plane y = 0, 5 and 4 the images of 1 and 2.
-
-    `height` raises axis 1 and its image along z, in units of about a quarter of the linkage.
-    """
+    """Return Bricard's plane-symmetric linkage: axes 0 and 3 in the plane y = 0, 5 and 4 the images of 1 and 2."""
     first, last = ((1.2, 0, 0), (0.4, 0, 1)), ((-1, 0, 0.3), (-0.5, 0, 1))
     half: list[Line] = [((0.7, 0.9, 0.1 + height), (1, 0.3, 0.8)), ((-0.5, 1.1, -0.2), (0.2, 1, 1.1))]
     images = [((x, -y, z), (u, -v, w)) for (x, y, z), (u, v, w) in half]
@@ -207,8 +181,7 @@ def trihedral(first: float = 1.0, second: float = 0.8, third: float = 1.3) -> Hi
     """Return Bricard's trihedral linkage: right twists, no offsets, the squares of alternate lengths alike in sum.
 
     Axes 0, 2, 4 have the directions of the corners of a spherical triangle, 1, 3, 5 those of its polar triangle.
-    Each side is perpendicular to its two axes; the lengths of three determine the others, and then the sums are
-    equal.
+    The lengths of three sides determine the others, and then the sums are equal.
     """
     across = around(*(np.array(one) / hypot(*one) for one in _CORNERS))
     sides = np.cross(across, np.roll(across, -1, axis=0))
@@ -238,7 +211,6 @@ _Range = tuple[float, float]
 def spherical_ring(arcs: Sequence[float]) -> HingedSolids:
     """Return a spherical loop of links with some arcs, at a convex configuration about the middle of its range.
 
-    Arcs are the angles between the two axes of each link, radians, below a half turn. There are n - 3 freedoms.
     The diagonals from the first joint are chosen one after the other, each in the middle of what the links before
     and after it leave; so it is no dead point unless the links allow only one configuration. Raise InvariantError
     if the arcs do not close.
@@ -269,11 +241,9 @@ def _diagonals(arcs: Sequence[float]) -> list[float]:
 
 
 def _do_not_close(arcs: Sequence[float]) -> InvariantError:
-    """Return why: the longest is too long, or an odd number of the longest together.
+    """Return why: the longest is too long, or an odd number k of the longest, by more than k - 1 half turns.
 
-    A loop of arcs closes on the sphere if no odd number k of them is longer than the others together by more than
-    k - 1 half turns: with the opposite point for a joint two arcs become their supplements, and each of these
-    conditions becomes that of the longest.
+    With the opposite point for a joint two arcs become their supplements, and each condition that of the longest.
     """
     lengths = ", ".join(f"{degrees(arc):g}" for arc in arcs)
     if 2.0 * max(arcs) > sum(arcs):
@@ -314,10 +284,8 @@ _NUDGE = 1e-6
 def closed_chain(solids: int) -> Floats:
     """Return the frames, as in `chain_frames`, of a closed ring of 7 or more solids, right twists and lengths 1.
 
-    An odd number of solids has no symmetry that gives its angles. The closed rings are a curve (seven solids) or
-    more; of them the one is taken whose angles have the largest sum of cosines, and of the ways to number it, from
-    either end and seen from either side, the first in order. It does not depend on where the search begins. Raise
-    UnsolvableError if none was found.
+    The closed rings are a curve (seven solids) or more; the one returned has the largest sum of cosines of its
+    angles, and of the ways to number it is the first in order. Raise UnsolvableError if none was found.
     """
     rings: list[Floats] = []
     for start in range(_TRIES):
@@ -389,10 +357,8 @@ def _equal_frames(angles: Floats) -> Floats:
 
 
 def _off_closing(angles: Floats) -> Floats:
-    """Return by how much the end of a chain of solids with right twists and lengths 1 misses its beginning.
-
-    The whole rotation counts: its antisymmetric part alone is 0 at a half turn too.
-    """
+    """Return by how much the end of a chain of solids with right twists and lengths 1 misses its beginning."""
+    # The whole rotation counts: its antisymmetric part alone is 0 at a half turn too.
     off: Floats = (_equal_frames(angles)[-1] - np.eye(4))[:3].ravel()
     return off
 
@@ -405,9 +371,8 @@ machine."""
 def kaleidocycle(solids: int, tilt: float = 0.9) -> HingedSolids:
     """Return a ring of six or more solids with right twists and lengths 1.
 
-    An even number is symmetric, with the angle `tilt` between every second axis and the axis of the ring; an odd
-    number is closed numerically, as flat as it can be (`closed_chain`). Raise InvariantError for less than six
-    solids, UnsolvableError if an odd number was not closed.
+    An even number is symmetric; an odd number is closed numerically, as flat as it can be (`closed_chain`). Raise
+    InvariantError for less than six solids, UnsolvableError if an odd number was not closed.
     """
     if solids < 6:
         raise InvariantError("kaleidocycle", numbered(solids, "solid"), "6 or more: fewer are rigid")

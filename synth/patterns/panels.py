@@ -21,11 +21,7 @@ _NONE: Mapping[frozenset[int], str] = MappingProxyType({})
 def sheet_of_panels(
     panels: Sequence[Corners], title: str = "", letters: Mapping[frozenset[int], str] = {}
 ) -> Sheet:
-    """Return the sheet of panels by the places of their corners; corners at the same place are one vertex.
-
-    Vertices are numbered as they come; `letters` has the assignment of pairs of them, other creases are
-    unassigned.
-    """
+    """Return the sheet of panels by the places of their corners; corners at the same place are one vertex."""
     number: dict[Place, int] = {}
     places: list[Place] = []
     faces = []
@@ -47,10 +43,7 @@ def sheet_of_faces(
     title: str = "",
     letters: Mapping[frozenset[int], str] = _NONE,
 ) -> Sheet:
-    """Return a sheet with every side of its faces (vertex cycles) listed; sides of two faces are creases.
-
-    `letters` has the assignment of pairs of vertices; other creases are unassigned.
-    """
+    """Return a sheet with every side of its faces listed, by the letters of pairs of vertices, else U or B."""
     sides: dict[frozenset[int], int] = {}
     for face in faces:
         for side in sides_of_face(face):

@@ -32,11 +32,9 @@ def platform(
 ) -> JointedLinkage:
     """Return a base and a top above it, joined by three or six legs that are alike.
 
-    `legs` are the joints of a leg from the base on: UPS, RUS, UUU, SPS, RPS or UPU; P slides along the leg, U next
-    to it has one axis perpendicular to it. Six legs stand in three pairs at the base, and in three others at the
-    top, with an angle `gap` (radians) between the two of a pair. `base` and `top` are the radii of the circles of
-    feet and heads; the knees of legs without P are `out` outside. Raise InvariantError if three legs are upright,
-    so that their level axes have no direction.
+    `legs` are the joints of a leg from the base on; P slides along the leg, U next to it has one axis
+    perpendicular to it. Six legs stand in pairs. Raise InvariantError if three legs are upright, so that their
+    level axes have no direction.
     """
     if number == _UPRIGHT and isclose(base, top, rel_tol=DOUBLE.same_point):
         what = f"feet and heads both at {base:g}, so that legs stand upright"
@@ -59,11 +57,7 @@ def platform(
 
 
 def translating_platform(size: float, bent: float) -> JointedLinkage:
-    """Return a platform on three C-R-R legs, each with its axes along an edge of a corner of a cube.
-
-    Links between the axes are `size` long, with an angle `bent` (radians) between the two of a leg. The top
-    translates, and never rotates.
-    """
+    """Return a platform on three C-R-R legs, each with its axes along an edge of a corner of a cube."""
     links: list[LinkId] = ["base", "top"]
     joints: dict[JointId, tuple[LinkId, LinkId]] = {}
     places: dict[JointId, JointPlace] = {}

@@ -49,7 +49,7 @@ def scissor_polyhedron(corners: Corners, opening: float) -> JointedLinkage:
     """Return a polyhedron with a pair of kinked scissors for each edge, joined by balls on the rays to corners.
 
     Arms are 1 long. `opening` is the angle (radians) between an arm and the perpendicular from the pin to its ray:
-    0 where far and near ends meet; 90 degrees less half the angle between two rays where near ends all meet.
+    0 where far and near ends meet, 90 degrees less half the angle of two rays where near ends all meet.
     """
     rays = unit(np.array(corners, dtype=float))
     nearest = max(float(ray @ other) for ray, other in combinations(rays, 2))

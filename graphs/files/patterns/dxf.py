@@ -1,12 +1,8 @@
 """Crease patterns as DXF: lines by the names of their layers, or else by their colours.
 
-Names of layers that say what a line is are known in the forms that drawing programs and paper cutters use. Other
-names say nothing, and the colour counts, and the legend (:mod:`graphs.files.patterns.legend`).
-
 A file is pairs of lines, a group code and a value: *DXF Reference*, Autodesk. A pair with the code 0 begins a
-record; records are in sections. Only text is read: binary DXF is refused. Written is DXF R12 (AC1009), the form
-that every program takes. Line types are CONTINUOUS: machines cut along dashes dash by dash. R12 states no unit;
-the remark does.
+record; records are in sections. Only text is read. Written is DXF R12 (AC1009), the form that every program takes,
+with CONTINUOUS lines: machines cut along dashes dash by dash. R12 states no unit; the remark does.
 """
 
 from __future__ import annotations
@@ -19,6 +15,7 @@ from functools import lru_cache
 from itertools import pairwise
 from math import atan, ceil, cos, hypot, pi, radians, sin
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -32,7 +29,6 @@ from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.printing import plain
 
 __all__ = [
-    "DrawnShape",
     "DxfLayer",
     "DxfLine",
     "DxfWord",
@@ -51,11 +47,7 @@ _BREAK = re.compile(r"\r\n|\n|\r")
 
 @dataclass(frozen=True)
 class Record:
-    """A record of a DXF file.
-
-    A section is ``ENTITIES``, ``TABLES``, ..., a name ``LINE``, ``LAYER``, ..., a group (code, value). Path and
-    line, that of its start, are for messages.
-    """
+    """A record of a DXF file with its groups (code, value); path and line, that of its start, are for messages."""
 
     section: str
     name: str
@@ -142,10 +134,7 @@ _Corner = tuple[Point, float]
 
 
 def drawn_shapes(records: Sequence[Record]) -> Iterator[DrawnShape]:
-    """Yield the shapes among the records of the section ``ENTITIES``.
-
-    A FileError names the record if a number is missing or invalid, or points are at several heights.
-    """
+    """Yield the shapes among the records of the section ``ENTITIES``."""
     at = 0
     while at < len(records):
         record = records[at]
@@ -260,16 +249,14 @@ _VALUES = (1.0, 0.65, 0.5, 0.3, 0.15)
 
 @lru_cache(maxsize=300)
 def rgb_of_number(number: int) -> Rgb | None:
-    """Return a numbered colour; None if there is none.
-
-    From 10 on each ten is a hue, 15 degrees from the last; odd numbers are pale.
-    """
+    """Return a numbered colour; None if there is none."""
     if number in _FIRST:
         return _FIRST[number]
     if number in _GREYS:
         return (_GREYS[number],) * 3
     if not 10 <= number < 250:
         return None
+    # From 10 on each ten is a hue, 15 degrees from the last; odd numbers are pale.
     hue, shade = divmod(number - 10, 10)
     red, green, blue = hsv_to_rgb(hue / 24, 0.5 if shade % 2 else 1.0, _VALUES[shade // 2])
     return round(255 * red), round(255 * green), round(255 * blue)
@@ -309,13 +296,10 @@ class DxfWord:
 def dxf_of(
     layers: Sequence[DxfLayer], lines: Sequence[DxfLine], words: Iterable[DxfWord] = (), *, remark: str = ""
 ) -> str:
-    """Return the DXF text of lines and words on layers; the remark is the first line of the file.
-
-    Coordinates are written so that they are read back to the last digit.
-    """
+    """Return the DXF text of lines and words on layers; the remark is the first line of the file."""
     pairs: list[tuple[int, object]] = [(999, plain(remark, _LONGEST_WORDS))] if remark else []
     pairs += [(0, "SECTION"), (2, "HEADER"), (9, "$ACADVER"), (1, "AC1009"), *_extent(lines), (0, "ENDSEC")]
-    pairs += [(0, "SECTION"), (2, "TABLES"), *_line_types(), *_layers(layers), *_styles(), (0, "ENDSEC")]
+    pairs += [(0, "SECTION"), (2, "TABLES"), *_LINE_TYPES, *_layers(layers), *_STYLES, (0, "ENDSEC")]
     pairs += [(0, "SECTION"), (2, "BLOCKS"), (0, "ENDSEC"), (0, "SECTION"), (2, "ENTITIES")]
     for line in lines:
         pairs += [(0, "LINE"), (8, line.layer), *_point_pairs(10, line.start), *_point_pairs(11, line.end)]
@@ -325,6 +309,16 @@ def dxf_of(
         pairs += [(1, plain(word.words, _LONGEST_WORDS)), (72, align), *_point_pairs(11, word.at), (73, 2)]
     pairs += [(0, "ENDSEC"), (0, "EOF")]
     return "".join(f"{code}\n{value}\n" for code, value in pairs)
+
+
+_LINE_TYPES: list[tuple[int, object]] = [
+    *((0, "TABLE"), (2, "LTYPE"), (70, 1), (0, "LTYPE"), (2, "CONTINUOUS"), (70, 0), (3, "Solid line")),
+    *((72, 65), (73, 0), (40, 0.0), (0, "ENDTAB")),
+]
+_STYLES: list[tuple[int, object]] = [
+    *((0, "TABLE"), (2, "STYLE"), (70, 1), (0, "STYLE"), (2, "STANDARD"), (70, 0), (40, 0.0), (41, 1.0)),
+    *((50, 0.0), (71, 0), (42, 2.5), (3, "txt"), (4, ""), (0, "ENDTAB")),
+]
 
 
 def _point_pairs(code: int, at: tuple[float, float]) -> list[tuple[int, object]]:
@@ -337,29 +331,11 @@ def _extent(lines: Sequence[DxfLine]) -> list[tuple[int, object]]:
     return [(9, "$EXTMIN"), *_point_pairs(10, low), (9, "$EXTMAX"), *_point_pairs(10, high)]
 
 
-def _line_types() -> list[tuple[int, object]]:
-    solid: list[tuple[int, object]] = [
-        (0, "LTYPE"),
-        (2, "CONTINUOUS"),
-        (70, 0),
-        (3, "Solid line"),
-        (72, 65),
-        (73, 0),
-    ]
-    return [(0, "TABLE"), (2, "LTYPE"), (70, 1), *solid, (40, 0.0), (0, "ENDTAB")]
-
-
 def _layers(layers: Sequence[DxfLayer]) -> list[tuple[int, object]]:
     rows: list[tuple[int, object]] = [(0, "TABLE"), (2, "LAYER"), (70, len(layers) + 1)]
     for layer in (DxfLayer("0", 7), *layers):
         rows += [(0, "LAYER"), (2, layer.name), (70, 0), (62, layer.colour), (6, "CONTINUOUS")]
     return [*rows, (0, "ENDTAB")]
-
-
-def _styles() -> list[tuple[int, object]]:
-    style: list[tuple[int, object]] = [(0, "STYLE"), (2, "STANDARD"), (70, 0), (40, 0.0), (41, 1.0), (50, 0.0)]
-    style += [(71, 0), (42, 2.5), (3, "txt"), (4, "")]
-    return [(0, "TABLE"), (2, "STYLE"), (70, 1), *style, (0, "ENDTAB")]
 
 
 _NAMES = {
@@ -386,24 +362,21 @@ _WRITTEN = {
 _BY_BLOCK, _BY_LAYER = 0, 256
 _PAPER_SPACE = 67
 _LONGEST_NAME = 40
+_BORDER = "border lines (a layer CUT or BORDER, or black)"
 
 
-@dataclass(frozen=True, slots=True)
-class _Layer:
+class _Layer(NamedTuple):
     """The look that shapes of a layer take from it."""
 
-    colour: int
-    line_type: str
+    colour: int = 7
+    line_type: str = "CONTINUOUS"
 
 
-_PLAIN = _Layer(7, "CONTINUOUS")
+_PLAIN = _Layer()
 
 
 def sheet_from_dxf(path: Path, legend: Legend = UNSTATED) -> Sheet:
-    """Read the lines of a DXF file and trace its faces; the legend has the stated assignments of strokes.
-
-    A FileError names the record, or why the lines make no pattern (:mod:`graphs.files.patterns.lines`).
-    """
+    """Read the lines of a DXF file and trace its faces; the legend has the stated assignments of strokes."""
     check = Checker(path)
     all_records = list(records(read_text(path), path))
     layers = {
@@ -423,8 +396,7 @@ def sheet_from_dxf(path: Path, legend: Legend = UNSTATED) -> Sheet:
     array = np.array(ends, dtype=float).reshape(-1, 2, 2)
     if not np.all(np.abs(array) < MOST):
         raise FileError(path, "", "an arc that is too large", "coordinates")
-    border = "border lines (a layer CUT or BORDER, or black)"
-    return traced_sheet(Lines(array, letters), check, border=border, understood=understood)
+    return traced_sheet(Lines(array, letters), check, border=_BORDER, understood=understood)
 
 
 def _stroke(record: Record, layer: _Layer, pieces: Sequence[object] | None) -> Stroke:
@@ -465,10 +437,7 @@ def _kind(record: Record, layer: _Layer, *, shape: bool) -> str:
 
 
 def dxf_text(sheet: Sheet) -> str:
-    """Return the DXF text (R12) of a flat sheet, a layer for each assignment.
-
-    Raise UnsolvableError if the sheet has no coordinates, does not lie in a plane, or has no line.
-    """
+    """Return the DXF text (R12) of a flat sheet, a layer for each assignment."""
     places = flat_places(sheet, "a DXF crease pattern")
     if not (sheet.edges or sheet.faces):
         raise UnsolvableError("a DXF crease pattern needs lines, and the sheet has none")

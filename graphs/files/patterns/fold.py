@@ -1,11 +1,8 @@
 """FOLD files, 1.0 to 1.2: the frame that holds the pattern; missing faces are traced.
 
-Read as a :class:`graphs.mechanism.sheet.Sheet`, whose mechanism follows by duality; written from a sheet. The
-format is described at https://github.com/edemaine/fold; keys this reader does not know are left alone, as FOLD
-demands, and named when the sheet is written (:mod:`graphs.files.losses`).
-
-FOLD 1.1, "file_frames": a frame with ``frame_inherit`` takes every key it lacks from its ``frame_parent``, the key
-frame (0) or an earlier or later one.
+The format is described at https://github.com/edemaine/fold; keys this reader does not know are left alone, as FOLD
+demands, and named when the sheet is written. A frame with ``frame_inherit`` takes every key it lacks from its
+``frame_parent``, the key frame (0) or an earlier or later one.
 """
 
 from __future__ import annotations
@@ -27,7 +24,7 @@ from graphs.limits import most
 from graphs.mechanism.precision import flattened, written_by
 from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, WrittenPrecision
 
-__all__ = ["FoldFrames", "fold_text", "fold_text_of_poses", "read_fold", "resolved_frame", "sheet_from_fold"]
+__all__ = ["fold_text", "fold_text_of_poses", "read_fold", "sheet_from_fold"]
 
 _OLD_NAMES = {
     "edges_foldAngles": "edges_foldAngle",
@@ -43,7 +40,6 @@ def resolved_frame(
     """Return the frame that holds the pattern, and notes on how it was found.
 
     It is the key frame (number 0) if that has edges or faces, else the first frame that does; or the chosen frame.
-    Raise FileError if there is no such frame, or frames are not as FOLD has them, or inherit in a circle.
     """
     frames = [document]
     if document.get("file_frames") is not None:
@@ -70,10 +66,7 @@ _PATTERN = ("faces_vertices", "edges_vertices")
 
 
 def _first_with_pattern(frames: list[Mapping[str, Any]], check: Checker, notes: list[str]) -> int:
-    """Return the number of the first frame that has faces or edges, its own or inherited; else 0.
-
-    What a frame has is found from what its parent has: a chain of frames is gone through once, not from each.
-    """
+    """Return the number of the first frame that has faces or edges, its own or inherited; else 0."""
     has: dict[int, dict[str, bool]] = {}
     for index in range(len(frames)):
         for number in reversed(_ancestors(frames, index, check, has)):
@@ -157,8 +150,8 @@ _NOTHING_NEW = {
 class FoldFrames:
     """The frames of a FOLD file.
 
-    `sheet` is that of the file if no frame is chosen, `unit` its ``frame_unit``, `left_out` the keys of its frame
-    that the sheet does not hold. `document` is the parsed file, None if it has the key frame only.
+    `sheet` is that of the file if no frame is chosen, `left_out` the keys of its frame that the sheet does not
+    hold. `document` is the parsed file, None if it has the key frame only.
     """
 
     path: Path
@@ -206,10 +199,7 @@ def read_fold(path: Path) -> Sheet:
 
 
 def sheet_from_fold(value: Any, path: Path, frame: int | None = None) -> Sheet:
-    """Build a sheet from a parsed FOLD document: from one frame, or by default the first that has a pattern.
-
-    A FileError names the place if the document is no FOLD file.
-    """
+    """Build a sheet from a parsed FOLD document: from one frame, or by default the first that has a pattern."""
     check = Checker(path)
     return _sheet(*_frame(value, check, frame), check)
 
@@ -344,10 +334,7 @@ def _indices(value: Any, key: str, check: Checker) -> tuple[tuple[int, ...], ...
 
 
 def _all_between(rows: list[Any], least: float, greatest: float, kinds: set[type]) -> bool:
-    """Return whether rows are lists of numbers of some kinds in a range: fast, for large files.
-
-    If not, each is looked at closely to say which is wrong.
-    """
+    """Return whether rows are lists of numbers of some kinds in a range: fast, for large files."""
     if not set(map(type, rows)) <= {list}:
         return False
     numbers = [*chain.from_iterable(rows)]
@@ -410,10 +397,7 @@ def _in_degrees(angles: Iterable[float | None]) -> list[float | None]:
 
 
 def fold_text_of_poses(sheet: Sheet, poses: Sequence[Sheet]) -> str:
-    """Return the text of a FOLD file whose key frame is a sheet, and whose other frames are poses of it.
-
-    A pose is the same sheet with other coordinates and fold angles.
-    """
+    """Return the text of a FOLD file whose key frame is a sheet, and whose other frames are poses of it."""
     document = json.loads(fold_text(sheet))
     document["file_classes"] = ["animation"]
     document["file_frames"] = [

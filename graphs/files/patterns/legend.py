@@ -145,9 +145,9 @@ _DASH_DOT, _DOTTED = (
 class Stroke:
     """How a line of a drawing looks.
 
-    `rgb` is None if the colour cannot be read, as that of a gradient; `index` is the number of a colour in DXF.
-    `names` are those of its groups or its layer, the innermost first; `letter` is the assignment that the file
-    itself states. `kind` describes its look, for messages; `lines` is the number of lines, straight or curved.
+    `rgb` is None if the colour cannot be read; `index` is the number of a colour in DXF. `names` are those of its
+    groups or its layer, the innermost first; `letter` is the assignment that the file itself states. `kind`
+    describes its look, for messages; `lines` is the number of lines, straight or curved.
     """
 
     rgb: Rgb | None
@@ -261,10 +261,7 @@ class _Look(NamedTuple):
 
 
 class Interpretation(NamedTuple):
-    """The assignment of each stroke, None of those that were not understood.
-
-    `notes` has what was concluded from dashes; `left_out` names the strokes that were not understood.
-    """
+    """The assignment of each stroke or None, notes on what dashes say, and the strokes left out in words."""
 
     letters: tuple[str | None, ...]
     notes: tuple[str, ...]
@@ -273,10 +270,7 @@ class Interpretation(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Legend:
-    """The stated assignments of strokes of a drawing.
-
-    `looks` and `layers` are pairs of a letter and a look, or the name of a layer or a group.
-    """
+    """The stated assignments of strokes: pairs of a letter and a look, or the name of a layer or a group."""
 
     looks: tuple[tuple[str, _Look], ...] = ()
     layers: tuple[tuple[str, str], ...] = ()
@@ -285,18 +279,13 @@ class Legend:
     def of(cls, colours: Looks | None = None, layers: Looks | None = None) -> Legend:
         """Return a legend from letters and the looks or the names of layers that have them, one or several.
 
-        A look is a colour of CSS, or the number of a colour in DXF, with or without the kind of dash before it, or
-        the kind alone. Raise InvariantError if a letter or a look is none.
+        A look is a colour of CSS, or the number of a colour in DXF, with or without the kind of dash before it.
         """
         looks = [(letter, _look(text)) for letter, text in _pairs(colours or {}, "colour")]
         return cls(tuple(looks), tuple(_pairs(layers or {}, "layer")))
 
     def understood(self, strokes: Sequence[Stroke]) -> Interpretation:
-        """Return the assignments of the strokes of one drawing.
-
-        Raise InvariantError if more than half of the lines are in strokes that are not understood: the rest is
-        not the pattern. It names the ways to state the assignments.
-        """
+        """Return the assignments of the strokes of one drawing; InvariantError if most lines have none."""
         named = [_named(stroke.names) for stroke in strokes]
         if len(set(named)) == 1:  # a name that all lines have says nothing about any
             named = [None] * len(strokes)

@@ -1,12 +1,9 @@
 """Crease patterns that come as lines, traced: ``.cp``, ORIPA's ``.opx``, and the lines of drawings.
 
-A drawing without a border, or with its creases in the colour of borders, would be one panel or several that no
-joint joins: it would have a mobility, but not that of the intended mechanism. So it is refused.
-
-A line of ``.cp`` is ``type x1 y1 x2 y2``: 1 border, 2 mountain, 3 valley, 4 auxiliary. ``.opx`` is what Java's
-``XMLEncoder`` writes of a list of ``oripa.OriLineProxy``: properties ``x0``, ``y0``, ``x1``, ``y1``, ``type``,
-sorted by name, those that are zero left out. What stands round the lines differs from version to version and is
-left alone. Types: 0 auxiliary (flat), 1 border, 2 mountain, 3 valley, 4 unassigned.
+A drawing without a border, or with its creases in the colour of borders, would have a mobility, but not that of
+the intended mechanism. So it is refused. A line of ``.cp`` is ``type x1 y1 x2 y2``. ``.opx`` is what Java's
+``XMLEncoder`` writes of a list of ``oripa.OriLineProxy``, properties that are zero left out; the rest is left
+alone.
 """
 
 from __future__ import annotations
@@ -39,12 +36,11 @@ def traced_sheet(
     understood: Interpretation | None = None,
     precision: WrittenPrecision | None = None,
 ) -> Sheet:
-    """Trace the lines of a file.
+    """Trace the lines of a file, of a precision or that of their digits before welding.
 
-    The precision is that of their written ends; by default that of the digits, before welding. `border` describes
-    a border in this format; without it a drawing needs none, and its lines may have no assignment. `understood`
-    has the assignments of the strokes of a drawing. Raise FileError if there is no border, no face, no crease
-    between two faces although creases were drawn, or several faces and no crease. One empty face is a panel.
+    `border` describes a border in this format; without it a drawing needs none, and its lines may have no
+    assignment. `understood` has the assignments of the strokes of a drawing. Raise FileError if there is no
+    border, no face, no crease between two faces although creases were drawn, or several faces and no crease.
     """
     left_out = "" if understood is None else understood.left_out
     unread = f"; {left_out}" if left_out else ""
@@ -99,10 +95,7 @@ def sheet_from_cp(path: Path) -> Sheet:
 
 
 def cp_text(sheet: Sheet) -> str:
-    """Return the ``.cp`` text of a flat sheet; unassigned creases are written as valleys, cuts as borders.
-
-    Raise UnsolvableError if the sheet has no coordinates, does not lie in a plane, or has no line.
-    """
+    """Return the ``.cp`` text of a flat sheet; unassigned creases are written as valleys, cuts as borders."""
     if not (sheet.edges or sheet.faces):
         raise UnsolvableError("a .cp file needs lines, and the sheet has none")
     sheet = with_all_edges(sheet)
@@ -119,11 +112,7 @@ _OPX_LETTERS = {"0": "F", "1": "B", "2": "M", "3": "V", "4": "U"}
 
 
 def sheet_from_opx(path: Path) -> Sheet:
-    """Read the lines of an ORIPA file and trace its faces.
-
-    Coordinates are kept as they are written, like those of ``.cp``. A FileError names the line, or why the lines
-    make no pattern.
-    """
+    """Read the lines of an ORIPA file and trace its faces; a FileError names the line."""
     try:
         text = read_text(path)
         if "<!DOCTYPE" in text:  # its entities could make a small file a huge one

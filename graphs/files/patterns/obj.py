@@ -24,10 +24,7 @@ __all__ = ["obj_text", "sheet_from_obj"]
 
 
 def sheet_from_obj(path: Path) -> Sheet:
-    """Read the ``v`` and ``f`` lines and the crease comments of an OBJ file, and ignore others.
-
-    A FileError names the line.
-    """
+    """Read the ``v`` and ``f`` lines and the crease comments of an OBJ file, and ignore others."""
     edges: dict[tuple[int, int], tuple[str, float | None]] = {}
     places: list[tuple[float, ...]] = []
     faces: list[tuple[int, ...]] = []

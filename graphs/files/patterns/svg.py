@@ -39,7 +39,7 @@ from graphs.mechanism.precision import digits_of, flat_places
 from graphs.mechanism.sheet import Sheet, WrittenPrecision, sides_of_face, with_all_edges
 from graphs.printing import plain
 
-__all__ = ["check_work_of_svg", "precision_of_shapes", "sheet_from_svg", "svg_text"]
+__all__ = ["sheet_from_svg", "svg_text"]
 
 _LINKS = ("href", "{http://www.w3.org/1999/xlink}href")
 
@@ -47,12 +47,7 @@ _LONG_NUMBER = re.compile(r"[0-9]{101}")
 
 
 def check_work_of_svg(text: str, path: Path) -> None:
-    """Refuse shapes that use shapes too often, or themselves, or nest too deeply, before any is drawn.
-
-    Raise FileError if shapes are drawn by use more often than the limit ``shapes``, elements (used ones included)
-    are nested more deeply than the limit ``levels``, a shape uses itself, or a number, transform or style sheet is
-    too long; ElementTree.ParseError if the text is not XML.
-    """
+    """Refuse shapes that use shapes too often, or themselves, or nest too deeply, before any is drawn."""
     root = ElementTree.fromstring(text)
     named = {element.get("id"): element for element in root.iter() if element.get("id") is not None}
     drawn: dict[ElementTree.Element, int] = {}
@@ -138,18 +133,10 @@ class _Shape(NamedTuple):
     reach: float
 
 
-class _Digit(NamedTuple):
-    """Half of what the last decimal of the file's matrices, and of its shifts, is worth."""
-
-    of_matrices: float
-    of_shifts: float
-
-
 def precision_of_shapes(shapes: Iterable[Any]) -> WrittenPrecision | None:
-    """Return the precision of written shapes of svgelements, None if nothing says it.
+    """Return the precision of written shapes of svgelements, in the unit of the drawing; None if nothing says it.
 
-    The length is in the unit of the drawing, after units and transforms. Errors of the numbers of relative
-    commands are independent, so they add up as the root of their number.
+    Errors of the numbers of relative commands are independent, so they add up as the root of their number.
     """
     written = [_as_written(shape) for shape in shapes]
     of_unit: defaultdict[float, list[float]] = defaultdict(list)
@@ -158,13 +145,13 @@ def precision_of_shapes(shapes: Iterable[Any]) -> WrittenPrecision | None:
             of_unit[unit] += numbers
     digits = {unit: digits_of(numbers, float(np.ptp(numbers)) / 2.0) for unit, numbers in of_unit.items()}
     transforms = {shape.transform for shape in written}
-    digit = _Digit(_last_decimal(transforms, "matrix", slice(4), _ROUNDED), _last_shift(transforms))
+    of_matrices, of_shifts = _last_decimal(transforms, "matrix", slice(4), _ROUNDED), _last_shift(transforms)
     worst, source = 0.0, ""
     for shape in written:
         errors = [(row.error * unit, row.source) for unit in shape.numbers if (row := digits[unit]) is not None]
         length, why = max(errors, default=(0.0, ""))
         error = length * sqrt(shape.steps) * _stretch(shape.transform)
-        error += _error_of_transform(shape.transform, shape.reach, digit)
+        error += _error_of_transform(shape.transform, of_matrices * shape.reach, of_shifts)
         if error > worst:
             worst, source = error, why or "digits of a transform"
     return WrittenPrecision(worst, source) if worst > 0.0 else None
@@ -182,18 +169,11 @@ def _as_written(shape: Any) -> _Shape:
             reach = max(reach, abs(float(number)) * factor)
     around = str(values.get("viewport_transform") or "")
     transform = str(values.get("transform") or "").removeprefix(around)
+    if "scale" in around or "matrix" in around:
+        # A view box moves all shapes alike; the digits of its size are not written, but those of a division.
+        transform = f"scale({_stretch(around):.3g}) {transform}"
     steps = _steps(words[0]) if values.get("tag") == "path" and words else 1
-    return _Shape(dict(numbers), steps, transform if _same(around) else f"{_scaled(around)} {transform}", reach)
-
-
-def _same(around: str) -> bool:
-    """Return whether the view box changes no size: its place does not matter, since all shapes move alike."""
-    return "scale" not in around and "matrix" not in around
-
-
-def _scaled(around: str) -> str:
-    """Return the size that a view box is drawn in; its digits are not written, but those of a division."""
-    return f"scale({_stretch(around):.3g})"
+    return _Shape(dict(numbers), steps, transform, reach)
 
 
 def _steps(path: str) -> int:
@@ -214,14 +194,14 @@ def _functions(transform: str) -> Iterator[tuple[str, list[str], str]]:
         yield match[1].lower(), [number for number, _ in _LENGTH.findall(match[2])], transform[: match.start()]
 
 
-def _error_of_transform(transform: str, reach: float, digit: _Digit) -> float:
-    """Return how far off a shape is drawn for the digits of its transform."""
+def _error_of_transform(transform: str, of_matrices: float, of_shifts: float) -> float:
+    """Return how far off a shape is drawn for the last digits of the matrices and shifts of its transform."""
     error = 0.0
     for name, numbers, before in _functions(transform):
         if name == "matrix" and len(numbers) == 6:
-            error += _stretch(before) * (digit.of_matrices * reach + digit.of_shifts)
+            error += _stretch(before) * (of_matrices + of_shifts)
         elif name == "translate":
-            error += _stretch(before) * digit.of_shifts
+            error += _stretch(before) * of_shifts
     return error
 
 
@@ -256,6 +236,7 @@ def _stretch(transform: str) -> float:
     return (hypot(a + d, b - c) + hypot(a - d, b + c)) / 2.0
 
 
+_BORDER = "border lines (black strokes)"
 _LONGEST_TITLE = 1_000
 _DECIMALS = 12
 """Decimals of fold angles in degrees: finer ones come of dividing by 180."""
@@ -268,11 +249,7 @@ _PIECES = 8
 
 
 def sheet_from_svg(path: Path, legend: Legend = UNSTATED) -> Sheet:
-    """Read the lines of an SVG file and trace its faces; the legend has the stated assignments of strokes.
-
-    Raise FileError also if the lines make no pattern (:mod:`graphs.files.patterns.lines`), or most are not
-    understood.
-    """
+    """Read the lines of an SVG file and trace its faces; the legend has the stated assignments of strokes."""
     check = Checker(path)
     shapes = list(_stroked_shapes(path))
     strokes = [_stroke(shape, names) for shape, names in shapes]
@@ -296,10 +273,8 @@ def sheet_from_svg(path: Path, legend: Legend = UNSTATED) -> Sheet:
     array = np.array(ends, dtype=float).reshape(-1, 2, 2) * (1, -1)  # y points down in SVG
     if not np.all(np.abs(array) < MOST):
         raise FileError(path, "", "a coordinate that is not finite, or too large", "coordinates")
-    lines = Lines(array, "".join(letters), tuple(angles))
-    border = "border lines (black strokes)"
-    precision = precision_of_shapes(drawn)
-    sheet = traced_sheet(lines, check, border=border, understood=understood, precision=precision)
+    lines, precision = Lines(array, "".join(letters), tuple(angles)), precision_of_shapes(drawn)
+    sheet = traced_sheet(lines, check, border=_BORDER, understood=understood, precision=precision)
     return replace(sheet, assignments=_borders_of_cuts(sheet, lines.letters))
 
 
@@ -357,11 +332,8 @@ def _with_names(drawing: Any) -> Iterator[tuple[Any, tuple[str, ...]]]:
 def _stroke(shape: Any, names: tuple[str, ...]) -> Stroke:
     """Return the look of a shape; svgelements takes unknown colours for black, so colours are read here."""
     written = str(shape.values.get("stroke") or "")
-    rgb = (
-        rgb_of_css(written)
-        if written
-        else (int(shape.stroke.red), int(shape.stroke.green), int(shape.stroke.blue))
-    )
+    stroke = shape.stroke
+    rgb = rgb_of_css(written) if written else (int(stroke.red), int(stroke.green), int(stroke.blue))
     lengths = _NUMBER.findall(str(shape.values.get("stroke-dasharray") or ""))
     dash = dash_of_lengths([float(length) for length in lengths])
     look = "stroke " + plain(written, _LONGEST_LOOK) if rgb is None else name_of_rgb(rgb)
@@ -399,10 +371,7 @@ def _fold_angle(letter: str, opacity: float) -> float | None:
 
 
 def svg_text(sheet: Sheet) -> str:
-    """Return the SVG text of a flat sheet, a line for each edge; opacity is the fold angle, full for 180 degrees.
-
-    Raise UnsolvableError if the sheet has no coordinates, is not flat, or has no line.
-    """
+    """Return the SVG text of a flat sheet, a line for each edge; full opacity is half a turn."""
     places = flat_places(sheet, "an SVG crease pattern")
     if not (sheet.edges or sheet.faces):
         raise UnsolvableError("an SVG crease pattern needs lines, and the sheet has none")

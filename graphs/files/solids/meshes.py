@@ -6,7 +6,6 @@ meshes give equal files.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from io import BytesIO
@@ -20,7 +19,7 @@ from graphs.geometry import unit
 from graphs.printing import plain
 from graphs.types import Floats
 
-__all__ = ["Mesh", "is_watertight", "obj_of_meshes", "stl_bytes", "three_mf_bytes"]
+__all__ = ["Mesh", "obj_of_meshes", "stl_bytes", "three_mf_bytes"]
 
 
 @dataclass(frozen=True)
@@ -38,13 +37,6 @@ class Mesh:
         """Return the volume, cubic millimetres; below zero if it is inside out."""
         a, b, c = (self.corners[self.triangles[:, k]] for k in range(3))
         return float((a * np.cross(b, c)).sum() / 6)
-
-
-def is_watertight(mesh: Mesh) -> bool:
-    """Say whether each side of a triangle is a side of one other, the other way round."""
-    triangles = mesh.triangles.tolist()
-    sides = Counter(side for a, b, c in triangles for side in ((a, b), (b, c), (c, a)))
-    return all(number == 1 and sides[b, a] == 1 for (a, b), number in sides.items())
 
 
 _LONGEST = 100

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import click
 
-from graphs.errors import numbered
+from graphs import creasing, edit as editing, mechanism as mechanisms
+from graphs.errors import UnsolvableError, numbered
 from synth.cli.options import BRANCH, FORCE, LOSSY
 from synth.cli.output import (
     about,
@@ -33,46 +36,187 @@ if TYPE_CHECKING:
 __all__ = ["edit", "reduce_command"]
 
 
-_OF_PATTERNS = ("lock", "add_crease", "remove_crease")
-"""The edits whose result is a crease pattern again."""
+@dataclass(frozen=True, slots=True)
+class EditOption:
+    """An edit of `synth edit`: its option, what that takes, its help, and what makes the edit.
+
+    `of_graph` edits an SC or SCD graph by a value, `of_sheet` a crease pattern by all values, one after the other;
+    None where the edit does not apply. Both say what was done, with the predicted change of mobility.
+    """
+
+    name: str
+    takes: str
+    help: str
+    of_graph: Callable[[SCGraph, str], Edit] | None = None
+    of_sheet: Callable[[Sheet, Sequence[str]], Iterator[SheetEdit]] | None = None
+
+    @property
+    def key(self) -> str:
+        """The parameter of the command."""
+        return self.name.removeprefix("--").replace("-", "_")
 
 
-def _repeated(name: str, metavar: str, text: str) -> Callable[..., Callable[..., object]]:
-    return click.option(name, multiple=True, metavar=metavar, help=text)
+def _crease_graph(sc: SCGraph, text: str) -> Edit:
+    name, _, rest = text.partition(":")
+    link, words = editing.link_named(sc, name), [word.strip() for word in rest.split(",") if word.strip()]
+    if not isinstance(sc, mechanisms.SCDGraph):
+        return editing.add_crease(sc, link, [editing.joint_named(sc, word) for word in words])
+    if len(words) not in (1, 2):
+        wrong = f"{plain(text)!r} is not LINK:VERTEX or LINK:VERTEX,VERTEX"
+        raise click.BadParameter(wrong, param_hint="--add-crease")
+    return editing.crease_link(sc, link, *(_whole(word, "--add-crease") for word in words))
+
+
+def _add_loop(sc: SCGraph, text: str, *, option: str, centre: str) -> Edit:
+    chain, _, rest = text.partition(":")
+    a, b, k = _parts(chain, 3, option)
+    through = [editing.joint_named(sc, word.strip()) for word in rest.split(",") if word.strip()]
+    bare = sc.sc_graph() if isinstance(sc, mechanisms.SCDGraph) else sc
+    ends = editing.link_named(sc, a), editing.link_named(sc, b)
+    return editing.add_loop(bare, *ends, _whole(k, option), centre=centre, through=through or None)
+
+
+def _add_ride_along(sc: SCGraph, text: str) -> Edit:
+    a, b = (editing.link_named(sc, word) for word in _parts(text, 2, "--add-ride-along"))
+    if isinstance(sc, mechanisms.SCDGraph) and sc.has_edge(a, b):
+        return editing.ride_along(sc, next(iter(sc[a][b])))
+    return editing.add_ride_along(sc, a, b)
+
+
+def _change_centre(sc: SCGraph, text: str, *, option: str) -> Edit:
+    if not isinstance(sc, mechanisms.SCDGraph):
+        raise UnsolvableError(f"{option} requires an SCD graph, which has the sides of the links")
+    change = editing.make_implicit if option == "--implicit" else editing.make_explicit
+    return change(sc, _whole(text, option))
+
+
+def _lock_graph(sc: SCGraph, text: str) -> Edit:
+    joint = editing.joint_named(sc, text)
+    return editing.lock_hinge(sc, joint) if isinstance(sc, mechanisms.SCDGraph) else editing.lock_joint(sc, joint)
+
+
+def _lock_sheet(sheet: Sheet, names: Sequence[str]) -> Iterator[SheetEdit]:
+    for name in names:
+        edit = creasing.lock_crease(sheet, creasing.joint_of_sheet_named(sheet, name))
+        sheet = edit.sheet
+        yield edit
+
+
+def _crease_sheet(sheet: Sheet, texts: Sequence[str]) -> Iterator[SheetEdit]:
+    for text in texts:
+        ends = text.split(":")
+        if len(ends) != 2:
+            wrong = f"{plain(text)!r} is not A:B, two vertices or points X,Y of the pattern"
+            raise click.BadParameter(wrong, param_hint="--add-crease")
+        edit = creasing.crease_sheet(sheet, _end(ends[0].strip()), _end(ends[1].strip()))
+        sheet = edit.sheet
+        yield edit
+
+
+def _remove_creases(sheet: Sheet, names: Sequence[str]) -> Iterator[SheetEdit]:
+    """Yield the edits that remove creases. Edges move up after each, so all are found first, and known by ends."""
+    from graphs.mechanism.sheet import with_all_edges
+
+    edges = with_all_edges(sheet).edges
+    creases = [set(edges[creasing.joint_of_sheet_named(sheet, name)]) for name in names]
+    for ends in creases:
+        number = next((i for i, edge in enumerate(with_all_edges(sheet).edges) if set(edge) == ends), -1)
+        edit = creasing.remove_crease(sheet, creasing.joint_of_sheet_named(sheet, str(number)))
+        sheet = edit.sheet
+        yield edit
+
+
+def _end(word: str) -> int | tuple[float, ...]:
+    """Read a vertex, or a point ``X,Y``."""
+    if word.isascii() and word.isdigit() and len(word) < 10:
+        return int(word)
+    try:
+        point = tuple(float(part) for part in word.split(","))
+    except ValueError:
+        point = ()
+    if len(point) not in (2, 3) or not all(abs(x) < 1e12 for x in point):
+        raise click.BadParameter(f"{plain(word)!r} is neither a vertex nor a point X,Y", param_hint="--add-crease")
+    return point
+
+
+def _parts(text: str, number: int, option: str) -> list[str]:
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) != number:
+        wrong = f"{plain(text)!r} has {numbered(len(parts), 'part')}; expected {number}"
+        raise click.BadParameter(wrong, param_hint=option)
+    return parts
+
+
+def _whole(word: str, option: str) -> int:
+    if not word.isascii() or not word.isdigit() or len(word) > 6:
+        raise click.BadParameter(f"{plain(word)!r} is not a number", param_hint=option)
+    return int(word)
+
+
+EDITS = (
+    EditOption(
+        "--add-crease",
+        "LINK[:X,Y]",
+        "Crease a link. For an SC graph, X,Y are the joints beyond the crease; for an SCD "
+        "graph, its vertices. For a pattern, A:B, each a vertex or a point X,Y.",
+        of_graph=_crease_graph,
+        of_sheet=_crease_sheet,
+    ),
+    EditOption(
+        "--remove-crease",
+        "JOINT",
+        "For a pattern: remove a crease; its two panels become one.",
+        of_sheet=_remove_creases,
+    ),
+    EditOption(
+        "--add-loop",
+        "A,B,K[:J,...]",
+        "Add K links between links A and B: a loop with a centre, through the joints J,... from A to B.",
+        of_graph=partial(_add_loop, option="--add-loop", centre="finite"),
+    ),
+    EditOption(
+        "--add-spatial-loop",
+        "A,B,K[:J,...]",
+        "Add K links between links A and B: a loop without a centre, through the joints J,... from A to B.",
+        of_graph=partial(_add_loop, option="--add-spatial-loop", centre="none"),
+    ),
+    EditOption(
+        "--add-ride-along", "A,B", "Add a ride-along to the adjacent links A and B.", of_graph=_add_ride_along
+    ),
+    EditOption(
+        "--implicit",
+        "LOOP",
+        "For an SCD graph: make the centre of a loop implicit, so that no link reaches it. LOOP is an index.",
+        of_graph=partial(_change_centre, option="--implicit"),
+    ),
+    EditOption(
+        "--explicit",
+        "LOOP",
+        "For an SCD graph: make the centre of a loop explicit, so that its links reach it. LOOP is an index.",
+        of_graph=partial(_change_centre, option="--explicit"),
+    ),
+    EditOption(
+        "--lock",
+        "JOINT",
+        "Lock a joint; its two links become one. For a pattern, the crease becomes flat.",
+        of_graph=_lock_graph,
+        of_sheet=_lock_sheet,
+    ),
+)
+"""The edits of `synth edit`, in the order of the options, in which graphs are edited."""
+
+
+def _with_edit_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Give the command an option for each edit, which may be repeated."""
+    for option in reversed(EDITS):
+        command = click.option(option.name, multiple=True, metavar=option.takes, help=option.help)(command)
+    return command
 
 
 @click.command(short_help="Add creases, ride-alongs and loops; change centres; lock joints.")
 @click.argument("file", metavar="FILE")
 @DRAWN
-@_repeated(
-    "--add-crease",
-    "LINK[:X,Y]",
-    "Crease a link. For an SC graph, X,Y are the joints beyond the crease; for an SCD "
-    "graph, its vertices. For a pattern, A:B, each a vertex or a point X,Y.",
-)
-@_repeated("--remove-crease", "JOINT", "For a pattern: remove a crease; its two panels become one.")
-@_repeated(
-    "--add-loop",
-    "A,B,K[:J,...]",
-    "Add K links between links A and B: a loop with a centre, through the joints J,... from A to B.",
-)
-@_repeated(
-    "--add-spatial-loop",
-    "A,B,K[:J,...]",
-    "Add K links between links A and B: a loop without a centre, through the joints J,... from A to B.",
-)
-@_repeated("--add-ride-along", "A,B", "Add a ride-along to the adjacent links A and B.")
-@_repeated(
-    "--implicit",
-    "LOOP",
-    "For an SCD graph: make the centre of a loop implicit, so that no link reaches it. LOOP is an index.",
-)
-@_repeated(
-    "--explicit",
-    "LOOP",
-    "For an SCD graph: make the centre of a loop explicit, so that its links reach it. LOOP is an index.",
-)
-@_repeated("--lock", "JOINT", "Lock a joint; its two links become one. For a pattern, the crease becomes flat.")
+@_with_edit_options
 @click.option(
     "--assign-branch", type=BRANCH, metavar="K",
     help="For a pattern: assign the mountains and valleys of a folding branch, by its number "
@@ -94,10 +238,11 @@ def edit(
 ) -> None:
     """Edit a mechanism. Each edit predicts its change of mobility (Wiener, Eqs. 5 to 7); the count confirms it.
 
-    Options may be repeated; the edits are made in the order of the list below. An SCD graph keeps the sides of its
-    links, unless a loop is added: then it becomes an SC graph. A crease pattern stays a crease pattern if creases
-    are locked, added and removed; if links are added, it becomes the SC graph of its mechanism. --assign-branch
-    comes before all others: it gives a pattern that folds with its mountain-valley assignment.
+    Options may be repeated; the edits are made in the order of the list below, but creases of a pattern are locked
+    before others are added. An SCD graph keeps the sides of its links, unless a loop is added: then it becomes an
+    SC graph. A crease pattern stays a crease pattern if creases are locked, added and removed; if links are added,
+    it becomes the SC graph of its mechanism. --assign-branch comes before all others: it gives a pattern that
+    folds with its mountain-valley assignment.
 
     JOINT is an id, a number in the list of joints (for a pattern, of edges), or two links A,B with one joint. For
     a loop between links that are not adjacent, name the joints of a path between them, as in the last example.
@@ -110,8 +255,6 @@ def edit(
       synth edit data/wiener/six-bar.json --add-spatial-loop 0,2,4:1,2 -o ten-bar.json
     """
     from graphs.convert.table import graph_of
-    from graphs.edit.edits import Edit as EditOfGraph
-    from graphs.errors import UnsolvableError
     from graphs.files.formats import write
     from graphs.mechanism.sheet import Sheet
 
@@ -119,17 +262,17 @@ def edit(
     mechanism = read(file)
     with about(file):
         edits: list[Edit] | list[SheetEdit]
-        if isinstance(mechanism, Sheet) and not any(words[name] for name in words if name not in _OF_PATTERNS):
-            edits = list(_pattern_edits(mechanism, words, assign_branch))
+        if isinstance(mechanism, Sheet) and not any(words[each.key] for each in EDITS if each.of_sheet is None):
+            edits = list(_edits_of_sheet(mechanism, words, assign_branch))
         elif words["remove_crease"] or assign_branch is not None:
             option = "--remove-crease" if words["remove_crease"] else "--assign-branch"
             raise UnsolvableError(f"{option} requires a crease pattern, and no edits that add links")
         else:
-            edits = _edited(graph_of(mechanism), words)
+            edits = list(_edits_of_graph(graph_of(mechanism), words))
         if not edits:
             raise click.UsageError("no edit; try --add-ride-along A,B or another")
         last = edits[-1]
-        result = last.graph if isinstance(last, EditOfGraph) else last.sheet
+        result = last.graph if isinstance(last, editing.Edit) else last.sheet
         lost = () if output is None else write(result, output, force=force, lossy=lossy)
     if as_json:
         print_json(
@@ -146,150 +289,30 @@ def edit(
         tell_lost(lost)
 
 
-def _edited(sc: SCGraph, words: dict[str, tuple[str, ...]]) -> list[Edit]:
-    """Make the edits of an SC graph in the order of the options, each to the result of the last."""
-    kinds: dict[str, Callable[[SCGraph, str], Edit]] = {
-        "add_crease": _crease,
-        "add_loop": lambda sc, text: _loop(sc, text, "finite", "--add-loop"),
-        "add_spatial_loop": lambda sc, text: _loop(sc, text, "none", "--add-spatial-loop"),
-        "add_ride_along": _ride_along,
-        "implicit": lambda sc, text: _centre(sc, text, "--implicit"),
-        "explicit": lambda sc, text: _centre(sc, text, "--explicit"),
-        "lock": _lock,
-    }
-    edits: list[Edit] = []
-    for name, make in kinds.items():
-        for text in words[name]:
-            edits.append(make(edits[-1].graph if edits else sc, text))
-    return edits
+def _edits_of_graph(sc: SCGraph, words: dict[str, tuple[str, ...]]) -> Iterator[Edit]:
+    """Yield the edits of a graph in the order of the options, each made to the last result."""
+    for option in EDITS:
+        for text in words[option.key]:
+            assert option.of_graph is not None  # the command has refused it
+            edit = option.of_graph(sc, text)
+            sc = edit.graph
+            yield edit
 
 
-def _words(text: str, number: int, option: str) -> list[str]:
-    words = [word.strip() for word in text.split(",")]
-    if len(words) != number:
-        parts = numbered(len(words), "part")
-        raise click.BadParameter(f"{plain(text)!r} has {parts}; expected {number}", param_hint=option)
-    return words
-
-
-def _whole(word: str, option: str) -> int:
-    if not word.isascii() or not word.isdigit() or len(word) > 6:
-        raise click.BadParameter(f"{plain(word)!r} is not a number", param_hint=option)
-    return int(word)
-
-
-def _crease(sc: SCGraph, text: str) -> Edit:
-    from graphs.edit.edits import add_crease, crease_link
-    from graphs.edit.named import joint_named, link_named
-    from graphs.mechanism.scd import SCDGraph
-
-    name, _, rest = text.partition(":")
-    link, words = link_named(sc, name), [word.strip() for word in rest.split(",") if word.strip()]
-    if not isinstance(sc, SCDGraph):
-        return add_crease(sc, link, [joint_named(sc, word) for word in words])
-    if len(words) not in (1, 2):
-        raise click.BadParameter(
-            f"{plain(text)!r} is not LINK:VERTEX or LINK:VERTEX,VERTEX", param_hint="--add-crease"
-        )
-    return crease_link(sc, link, *(_whole(word, "--add-crease") for word in words))
-
-
-def _loop(sc: SCGraph, text: str, centre: str, option: str) -> Edit:
-    from graphs.edit.edits import add_loop
-    from graphs.edit.named import joint_named, link_named
-    from graphs.mechanism.scd import SCDGraph
-
-    chain, _, rest = text.partition(":")
-    a, b, k = _words(chain, 3, option)
-    through = [joint_named(sc, word.strip()) for word in rest.split(",") if word.strip()]
-    bare = sc.sc_graph() if isinstance(sc, SCDGraph) else sc
-    ends = link_named(sc, a), link_named(sc, b)
-    return add_loop(bare, *ends, _whole(k, option), centre=centre, through=through or None)
-
-
-def _ride_along(sc: SCGraph, text: str) -> Edit:
-    from graphs.edit.edits import add_ride_along, ride_along
-    from graphs.edit.named import link_named
-    from graphs.mechanism.scd import SCDGraph
-
-    a, b = (link_named(sc, word) for word in _words(text, 2, "--add-ride-along"))
-    if isinstance(sc, SCDGraph) and sc.has_edge(a, b):
-        return ride_along(sc, next(iter(sc[a][b])))
-    return add_ride_along(sc, a, b)
-
-
-def _centre(sc: SCGraph, text: str, option: str) -> Edit:
-    from graphs.edit.edits import make_explicit, make_implicit
-    from graphs.errors import UnsolvableError
-    from graphs.mechanism.scd import SCDGraph
-
-    if not isinstance(sc, SCDGraph):
-        raise UnsolvableError(f"{option} requires an SCD graph, which has the sides of the links")
-    return (make_implicit if option == "--implicit" else make_explicit)(sc, _whole(text, option))
-
-
-def _lock(sc: SCGraph, text: str) -> Edit:
-    from graphs.edit.edits import lock_hinge, lock_joint
-    from graphs.edit.named import joint_named
-    from graphs.mechanism.scd import SCDGraph
-
-    joint = joint_named(sc, text)
-    return lock_hinge(sc, joint) if isinstance(sc, SCDGraph) else lock_joint(sc, joint)
-
-
-def _pattern_edits(
-    sheet: Sheet, words: dict[str, tuple[str, ...]], branch: int | str | None = None
+def _edits_of_sheet(
+    sheet: Sheet, words: dict[str, tuple[str, ...]], branch: int | str | None
 ) -> Iterator[SheetEdit]:
-    """Yield the edits of a pattern: assigned as a branch, creases locked, added, removed, each to the last result.
-
-    Edges keep their numbers until creases are removed; those are named before.
-    """
-    from graphs.creasing.edits import crease_sheet, joint_of_sheet_named, lock_crease, remove_crease
-    from graphs.mechanism.sheet import with_all_edges
-
+    """Yield the edits of a pattern: assigned as a branch, locked, creased, uncreased, each to the last result."""
     if branch is not None:
         from synth.folding.motion import assign_branch
 
         edit = assign_branch(sheet, branch)
         sheet = edit.sheet
         yield edit
-    for text in words["lock"]:
-        edit = lock_crease(sheet, joint_of_sheet_named(sheet, text))
-        sheet = edit.sheet
-        yield edit
-    for text in words["add_crease"]:
-        edit = crease_sheet(sheet, *_ends(text))
-        sheet = edit.sheet
-        yield edit
-    whole = with_all_edges(sheet)
-    leaving = [whole.edges[joint_of_sheet_named(sheet, text)] for text in words["remove_crease"]]
-    for ends in leaving:
-        number = next((i for i, edge in enumerate(with_all_edges(sheet).edges) if set(edge) == set(ends)), -1)
-        edit = remove_crease(sheet, joint_of_sheet_named(sheet, str(number)))
-        sheet = edit.sheet
-        yield edit
-
-
-def _ends(text: str) -> tuple[int | tuple[float, ...], int | tuple[float, ...]]:
-    """Read ``A:B``, each a vertex, or a point ``X,Y``."""
-    ends = text.split(":")
-    if len(ends) != 2:
-        raise click.BadParameter(
-            f"{plain(text)!r} is not A:B, two vertices or points X,Y of the pattern", param_hint="--add-crease"
-        )
-    return _end(ends[0].strip()), _end(ends[1].strip())
-
-
-def _end(word: str) -> int | tuple[float, ...]:
-    if word.isascii() and word.isdigit() and len(word) < 10:
-        return int(word)
-    try:
-        point = tuple(float(part) for part in word.split(","))
-    except ValueError:
-        point = ()
-    if len(point) not in (2, 3) or not all(abs(x) < 1e12 for x in point):
-        raise click.BadParameter(f"{plain(word)!r} is neither a vertex nor a point X,Y", param_hint="--add-crease")
-    return point
+    for option in sorted(EDITS, key=lambda option: option.name != "--lock"):
+        for edit in option.of_sheet(sheet, words[option.key]) if option.of_sheet is not None else ():
+            sheet = edit.sheet
+            yield edit
 
 
 @click.command("reduce", short_help="Remove ride-alongs and adjunct addenda.")
@@ -340,7 +363,6 @@ def reduce_command(
       synth reduce data/wiener/stephenson.json --rule assur --ground 0 --input 0
     """
     from graphs.convert.table import to_sc
-    from graphs.edit.named import link_named
     from graphs.files.formats import write
     from graphs.reduce.ride_alongs import reduce
 
@@ -352,7 +374,7 @@ def reduce_command(
         if rule == "assur":
             reduction: Reduction | AssurReduction = _assur(sc, ground, inputs)
         else:
-            reduction = reduce(sc, rule=rule, fully=fully, keep=[link_named(sc, name) for name in keep])
+            reduction = reduce(sc, rule=rule, fully=fully, keep=[editing.link_named(sc, name) for name in keep])
         lost = () if output is None else write(reduction.graph, output, force=force, lossy=lossy)
     if as_json:
         print_json({"file": file, "output": output, "lost": list(lost), **reduction.to_json()})
@@ -364,10 +386,9 @@ def reduce_command(
 
 
 def _assur(sc: SCGraph, ground: str | None, inputs: tuple[str, ...]) -> AssurReduction:
-    from graphs.edit.named import joint_named, link_named
     from graphs.reduce.assur import reduce_assur
 
-    fixed = sc.ground if ground is None else link_named(sc, ground)
+    fixed = sc.ground if ground is None else editing.link_named(sc, ground)
     if fixed is None or not inputs:
         raise click.UsageError("--rule assur requires --ground LINK, and an --input JOINT per degree of freedom")
-    return reduce_assur(sc, fixed, [joint_named(sc, name) for name in inputs])
+    return reduce_assur(sc, fixed, [editing.joint_named(sc, name) for name in inputs])

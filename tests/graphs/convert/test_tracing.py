@@ -10,7 +10,7 @@ from hypothesis import given, settings, strategies as st
 
 from graphs.convert import tracing
 from graphs.convert.duality import mechanism_of_sheet
-from graphs.convert.tracing import TOLERANCES, Lines, network_of, networks_of, trace_sheet
+from graphs.convert.tracing import TOLERANCES, Lines, networks_of, trace_sheet
 from graphs.errors import InvariantError
 from graphs.files.formats import read, write
 from graphs.files.patterns.lines import cp_text, sheet_from_cp
@@ -232,7 +232,7 @@ def test_tolerances_that_weld_alike_give_what_each_gives_by_itself(number, rng, 
         lines = noisy_lines(rng)
         tried = [t * lines.size for t in TOLERANCES]
         for one, tolerance in zip(networks_of(lines, tried), tried, strict=True):
-            same(one, network_of(lines, tolerance))
+            same(one, networks_of(lines, [tolerance])[0])
     assert number * 8 < len(weldings) < number * 13  # 7 one by one; together from 1 to 6, and both occur
 
 
