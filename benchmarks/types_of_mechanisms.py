@@ -21,7 +21,8 @@ from time import perf_counter
 from enumerate.sc.jobs import UNIT_ROWS, SCJob, count_sc_graphs, drawn_of
 from enumerate.sc.listing import describe
 from enumerate.sc.query import SCQuery
-from enumerate.scd.jobs import AllMechanisms, SCDJob, all_mechanisms, placements_on
+from enumerate.scd.jobs import SCDJob, all_mechanisms, placements_on
+from enumerate.scd.query import SCDQuery
 
 RESULTS = Path(__file__).parent / "results" / "types_of_mechanisms.json"
 RUNS = 3
@@ -56,7 +57,7 @@ def sc_rows(links: int, dof: int) -> int:
     return sum(len(job.work(unit.payload)) for unit in job.units())
 
 
-def scd_compiled(mechanisms: AllMechanisms) -> int:
+def scd_compiled(mechanisms: SCDQuery) -> int:
     """List all placements with their attributes as arrays."""
     total = 0
     for source in mechanisms.sources(UNIT_ROWS):
@@ -66,7 +67,7 @@ def scd_compiled(mechanisms: AllMechanisms) -> int:
     return total
 
 
-def scd_rows(mechanisms: AllMechanisms) -> int:
+def scd_rows(mechanisms: SCDQuery) -> int:
     """Make all rows."""
     job = SCDJob(mechanisms)
     return sum(len(job.work(unit.payload)) for unit in job.units())

@@ -1,6 +1,7 @@
 from enumerate.chains.counting import count_by_burnside as count_by_burnside, count_by_orbits as count_by_orbits
 from enumerate.chains.fractionated import count_connected as count_connected
 from enumerate.chains.jobs import (
+    ChainGraph as ChainGraph,
     ChainJob as ChainJob,
     CountJob as CountJob,
     chain_rows as chain_rows,

@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from itertools import islice
-from typing import Any
+from typing import Any, Literal, Unpack
 
 import networkx as nx
 import numpy as np
@@ -27,17 +27,36 @@ from enumerate.chains.counting import (
     count_of_graph,
 )
 from enumerate.chains.fractionated import Block, block_choices, count_connected, glued, shapes
-from enumerate.chains.query import ChainQuery
+from enumerate.chains.query import ChainOptions, ChainQuery
 from enumerate.chains.rows import GraphChains, columns_of, rows_of_graph, rows_of_joints
 from enumerate.contracted.binary_links import EVERY
 from enumerate.contracted.graphs import contracted_graphs, cubic_graphs, descendants
-from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, Column, Counting, Row, RowCount, Unit, batches
-from enumerate.runner.running import rows_of, total_of
+from enumerate.runner.job import (
+    ANY_NUMBER,
+    ONE_OR_MORE,
+    Column,
+    QueryCount,
+    QueryJob,
+    Row,
+    RowCount,
+    Unit,
+    batches,
+)
+from enumerate.runner.running import graphs_of, rows_of, total_of
 from graphs.errors import UnsolvableError
 from graphs.identity.chains import chain_from_id
 from graphs.types import Bytes, Ints
 
-__all__ = ["ChainJob", "CountJob", "beginnings", "chain_rows", "chains", "count_chains", "count_job"]
+__all__ = [
+    "ChainGraph",
+    "ChainJob",
+    "CountJob",
+    "beginnings",
+    "chain_rows",
+    "chains",
+    "count_chains",
+    "count_job",
+]
 
 _ROWS = 20_000
 """Rows of a unit, about; a contracted graph with more is split."""
@@ -99,7 +118,7 @@ def _admitted(query: ChainQuery, levels: Iterable[tuple[int, Bytes]]) -> Iterato
 
 
 @dataclass(frozen=True)
-class ChainJob:
+class ChainJob(QueryJob[ChainQuery]):
     """All chains of a query, as rows.
 
     Attributes
@@ -109,18 +128,13 @@ class ChainJob:
         Ids alone, without attributes.
     """
 
-    query: ChainQuery
     bare: bool = False
+    listed = "chains"
 
     @cached_property
     def columns(self) -> dict[str, Column]:
         """Names and types of the values of a row."""
         return columns_of(self.query, self.bare)
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
-        return {"enumerate": "chains", **self.query.key}
 
     def units(self) -> list[Unit]:
         """Units of some thousands of rows each: chains that nothing cuts, then fractionated ones."""
@@ -222,7 +236,7 @@ def _blocks(links: int, dof: int) -> Iterator[Block]:
 
 
 @dataclass(frozen=True)
-class CountJob(Counting):
+class CountJob(QueryCount[ChainQuery]):
     """The number of chains of a query; each row is a number to be added.
 
     Attributes
@@ -233,9 +247,8 @@ class CountJob(Counting):
         Units make their contracted graphs themselves, from cubic ones; else all are made first.
     """
 
-    query: ChainQuery
-    method: str = "orbits"
     streamed: bool = False
+    counted = "chains"
 
     @property
     def columns(self) -> dict[str, type]:
@@ -243,10 +256,9 @@ class CountJob(Counting):
         return {"count": int, "contracted_links": int}
 
     @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values, and how large its units are."""
-        size = {"cubic_graphs_of_a_unit": _ANCESTORS} if self.streamed else {"graphs_of_a_unit": _GRAPHS}
-        return {"count": "chains", "method": self.method, **size, **self.query.key}
+    def details(self) -> dict[str, Any]:
+        """How large the units are."""
+        return {"cubic_graphs_of_a_unit": _ANCESTORS} if self.streamed else {"graphs_of_a_unit": _GRAPHS}
 
     def units(self) -> Sequence[Unit]:
         """Units of some hundreds of contracted graphs each, or of those that come from some cubic graphs."""
@@ -284,15 +296,10 @@ class CountJob(Counting):
 
 
 @dataclass(frozen=True)
-class _ConnectedCountJob(Counting):
+class _ConnectedCountJob(QueryCount[ChainQuery]):
     """The number of chains, fractionated ones too, from cycle indices: one unit."""
 
-    query: ChainQuery
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
-        return {"count": "chains", "method": "burnside", **self.query.key}
+    counted = "chains"
 
     def units(self) -> Sequence[Unit]:
         """One unit."""
@@ -343,13 +350,17 @@ def count_job(
             )
         if query.loops == 1 and not query.fractionated:
             return by_rows
-        return _ConnectedCountJob(query) if query.fractionated else CountJob(query, method, streamed)
+        return _ConnectedCountJob(query, method) if query.fractionated else CountJob(query, method, streamed)
     if plain and not query.fractionated and query.loops > 1:
         return CountJob(query, method, streamed)
     return by_rows
 
 
-def chains(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterator[nx.Graph]:
+class ChainGraph(nx.Graph):
+    """The link-joint graph of a kinematic chain; its graph attributes are the row of `chain_rows`."""
+
+
+def chains(links: int, dof: int, *, workers: int = 1, **options: Unpack[ChainOptions]) -> Iterator[ChainGraph]:
     """Yield all kinematic chains of N links and M degrees of freedom, in a fixed order.
 
     Parameters
@@ -364,7 +375,7 @@ def chains(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterato
 
     Yields
     ------
-    networkx.Graph
+    ChainGraph
         Links are 0 to N - 1, numbered canonically. Graph attributes hold the row of `chain_rows`.
 
     Raises
@@ -379,13 +390,13 @@ def chains(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterato
     >>> next(chains(6, 1)).graph["code"]
     'k1:E`hW'
     """
-    for row in chain_rows(links, dof, workers=workers, **options):
-        graph = chain_from_id(row["code"])
-        graph.graph.update(row)
-        yield graph
+    rows = chain_rows(links, dof, workers=workers, **options)
+    yield from graphs_of(rows, lambda code: ChainGraph(chain_from_id(code)))
 
 
-def chain_rows(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterator[dict[str, Any]]:
+def chain_rows(
+    links: int, dof: int, *, workers: int = 1, **options: Unpack[ChainOptions]
+) -> Iterator[dict[str, Any]]:
     """Yield a dictionary for each kinematic chain, or inversion, or choice of inputs.
 
     Keys are ``code`` (the id), ``links``, ``joints``, ``dof``, ``loops``, ``assortment`` (numbers of binary,
@@ -406,7 +417,14 @@ def chain_rows(links: int, dof: int, *, workers: int = 1, **options: Any) -> Ite
     yield from rows_of(ChainJob(ChainQuery(links, dof, **options)), workers=workers)
 
 
-def count_chains(links: int, dof: int, method: str = "orbits", *, workers: int = 1, **options: Any) -> int:
+def count_chains(
+    links: int,
+    dof: int,
+    method: Literal["orbits", "burnside"] = "orbits",
+    *,
+    workers: int = 1,
+    **options: Unpack[ChainOptions],
+) -> int:
     """Return the number of kinematic chains of N links and M degrees of freedom.
 
     Parameters

@@ -4,19 +4,32 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass
+from typing import TypedDict
 
 import networkx as nx
 import numpy as np
 
 from enumerate.contracted.graphs import MOST_LOOPS, decode
-from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, Limits, Query
+from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, LimitField, LimitsLike, Query
 from graphs.errors import InvariantError, numbered
 from graphs.types import Bytes
 
-__all__ = ["ChainQuery", "is_planar"]
+__all__ = ["ChainOptions", "ChainQuery", "is_planar"]
 
 
-@dataclass(frozen=True, slots=True)
+class ChainOptions(TypedDict, total=False):
+    """What a `ChainQuery` says besides its numbers of links and freedoms."""
+
+    fractionated: bool
+    inversions: bool
+    inputs: bool
+    assortment: tuple[int, ...] | None
+    planar: bool | None
+    longest_string: LimitsLike
+    symmetry: LimitsLike
+
+
+@dataclass(frozen=True)
 class ChainQuery(Query):
     """The kinematic chains with N links and M degrees of freedom, no sub-chain rigid.
 
@@ -57,8 +70,8 @@ class ChainQuery(Query):
     inputs: bool = False
     assortment: tuple[int, ...] | None = None
     planar: bool | None = None
-    longest_string: Limits = ANY_NUMBER
-    symmetry: Limits = ONE_OR_MORE
+    longest_string: LimitField = LimitField(ANY_NUMBER)  # noqa: RUF009 - a descriptor
+    symmetry: LimitField = LimitField(ONE_OR_MORE)  # noqa: RUF009 - a descriptor
 
     def __post_init__(self) -> None:
         if self.links < 4:
@@ -68,7 +81,6 @@ class ChainQuery(Query):
         if self.loops > MOST_LOOPS:
             wrong = f"{self.links} links with M = {self.dof} have {numbered(self.loops, 'loop')}"
             raise InvariantError("loops", wrong, f"{MOST_LOOPS} at most")
-        self._keep_limits("longest_string", "symmetry")
         if self.assortment is not None and any(count < 0 for count in self.assortment):
             raise InvariantError("assortment", f"the assortment {self.assortment}", "numbers of links")
 

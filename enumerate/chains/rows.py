@@ -36,6 +36,7 @@ from graphs.identity.chains import automorphisms_of, canonical_numbers
 from graphs.types import Bytes, Ints
 
 __all__ = [
+    "SIZE_COLUMNS",
     "GraphChains",
     "are_inputs",
     "assortment_of",
@@ -46,12 +47,10 @@ __all__ = [
     "rows_of_joints",
 ]
 
+SIZE_COLUMNS: dict[str, Column] = dict.fromkeys(("links", "joints", "dof", "loops"), int)
 COLUMNS: dict[str, Column] = {
     "code": str,
-    "links": int,
-    "joints": int,
-    "dof": int,
-    "loops": int,
+    **SIZE_COLUMNS,
     "assortment": ListColumn(","),
     "longest_string": int,
     "symmetry": int,

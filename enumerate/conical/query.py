@@ -11,13 +11,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, Literal
 
 import networkx as nx
 import numpy as np
 
 from enumerate.conical.rounds import Rounds, count_rounds_by_burnside, count_rounds_by_orbits, placements, prefixes
-from enumerate.runner.job import Column, Counting, Row, Unit
+from enumerate.runner.job import Column, QueryCount, QueryJob, Row, Unit
 from enumerate.runner.running import total_of, tuples_of
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.identity.chains import subdivided, symmetries_of
@@ -162,7 +162,9 @@ def conical_orders(query: ConicalQuery, *, workers: int = 1) -> Iterator[tuple[L
     yield from tuples_of(_OrderJob(query), workers=workers)
 
 
-def count_conical_orders(query: ConicalQuery, method: str = "burnside", *, workers: int = 1) -> int:
+def count_conical_orders(
+    query: ConicalQuery, method: Literal["burnside", "orbits"] = "burnside", *, workers: int = 1
+) -> int:
     """Return the number of candidates.
 
     Parameters
@@ -186,16 +188,11 @@ _ORDER_COLUMNS: dict[str, Column] = {"ground": object, "slots": tuple}
 
 
 @dataclass(frozen=True)
-class _OrderJob:
+class _OrderJob(QueryJob[ConicalQuery]):
     """The candidates as rows for this process: a ground link may be of any kind, so no file takes them."""
 
-    query: ConicalQuery
     columns = _ORDER_COLUMNS
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
-        return {"enumerate": "conical orders", **self.query.key}
+    listed = "conical orders"
 
     def units(self) -> Sequence[Unit]:
         """A unit for each portion."""
@@ -207,7 +204,7 @@ class _OrderJob:
 
 
 @dataclass(frozen=True)
-class ConicalCountJob(Counting):
+class ConicalCountJob(QueryCount[ConicalQuery]):
     """The number of candidates; rows are numbers to be added.
 
     Attributes
@@ -216,13 +213,7 @@ class ConicalCountJob(Counting):
     method : {"burnside", "orbits"}
     """
 
-    query: ConicalQuery
-    method: str = "burnside"
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
-        return {"count": "conical", "method": self.method, **self.query.key}
+    counted = "conical"
 
     def units(self) -> Sequence[Unit]:
         """A unit for each ground link, or for each portion."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 import json
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
-from typing import Any, Protocol, TypeVar
+from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
 from graphs.errors import InvariantError
 from graphs.printing import plain
@@ -23,10 +23,14 @@ __all__ = [
     "Column",
     "Counting",
     "Job",
+    "LimitField",
     "Limits",
+    "LimitsLike",
     "ListColumn",
     "Progress",
     "Query",
+    "QueryCount",
+    "QueryJob",
     "RangeColumn",
     "Row",
     "RowCount",
@@ -41,6 +45,17 @@ __all__ = [
 
 Row = tuple[Any, ...]
 Rows = TypeVar("Rows", Bytes, list[Any])
+
+
+class HasKey(Protocol):
+    """What says what is enumerated."""
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What it says, in JSON values."""
+
+
+Q_co = TypeVar("Q_co", bound=HasKey, covariant=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,6 +131,38 @@ class Counting:
     def columns(self) -> dict[str, type]:
         """The number; a job may have more columns, which say what it is a part of."""
         return {"count": int}
+
+
+@dataclass(frozen=True)
+class QueryJob(Generic[Q_co]):
+    """What jobs that list the mechanisms of a query have in common; `listed` says what these are."""
+
+    query: Q_co
+    listed: ClassVar[str]
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {"enumerate": self.listed, **self.query.key}
+
+
+@dataclass(frozen=True)
+class QueryCount(Counting, Generic[Q_co]):
+    """What jobs that count the mechanisms of a query have in common; `counted` says what these are."""
+
+    query: Q_co
+    method: str
+    counted: ClassVar[str]
+
+    @property
+    def details(self) -> dict[str, Any]:
+        """What the job is besides query and method, in JSON values."""
+        return {}
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What the job is, in JSON values."""
+        return {"count": self.counted, "method": self.method, **self.details, **self.query.key}
 
 
 class Listing(Job, Protocol):
@@ -339,8 +386,33 @@ class Limits:
 
 ANY_NUMBER, ONE_OR_MORE = Limits(0), Limits(1)
 
+LimitsLike = Limits | tuple[int, int | None] | int
+"""Limits, the least and the greatest value, or the one value."""
 
-@dataclass(frozen=True, slots=True)
+
+class LimitField:
+    """A field of a query that holds limits, whatever stands for them; the smaller number must come first."""
+
+    def __init__(self, default: Limits) -> None:
+        self._default = default
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __get__(self, query: object | None, owner: type | None = None) -> Limits:
+        limits: Limits = self._default if query is None else query.__dict__[self._name]
+        return limits
+
+    def __set__(self, query: object, value: LimitsLike) -> None:
+        pair = (value, value) if isinstance(value, int) else value
+        limits = Limits(*pair) if isinstance(pair, Sequence) else pair
+        if limits.most is not None and limits.most < limits.least:
+            wrong = f"the range {limits.least} to {limits.most}"
+            raise InvariantError(self._name.replace("_", " "), wrong, "the smaller number first")
+        query.__dict__[self._name] = limits
+
+
+@dataclass(frozen=True)
 class Query:
     """What queries have in common: they are as JSON values what their fields say."""
 
@@ -348,19 +420,6 @@ class Query:
     def key(self) -> dict[str, Any]:
         """The query in JSON values; limits are least and greatest value."""
         return {field.name: _key_of(getattr(self, field.name)) for field in fields(self)}
-
-    def _keep_limits(self, *names: str) -> None:
-        """Make limits of fields that may also be a pair or one number; the smaller number must come first."""
-        for name in names:
-            limits = getattr(self, name)
-            if isinstance(limits, int):
-                limits = limits, limits
-            if isinstance(limits, Sequence):
-                limits = Limits(*limits)
-            if limits.most is not None and limits.most < limits.least:
-                wrong = f"the range {limits.least} to {limits.most}"
-                raise InvariantError(name.replace("_", " "), wrong, "the smaller number first")
-            object.__setattr__(self, name, limits)
 
 
 def _key_of(value: object) -> object:

@@ -10,17 +10,21 @@ from __future__ import annotations
 import gc
 import time
 from collections import deque
-from collections.abc import Callable, Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import closing, contextmanager
-from typing import Any
+from typing import Any, TypeVar
+
+import networkx as nx
 
 from enumerate.runner.job import Job, Progress, Row, Sink, Unit, row_as_dict
 from enumerate.runner.stopping import interruptible
 from enumerate.runner.workers import Cluster, LocalWorkers, Workers, timed
 from graphs.errors import StoreError
 
-__all__ = ["rows_of", "run", "total_of", "tuples_of"]
+__all__ = ["graphs_of", "rows_of", "run", "total_of", "tuples_of"]
+
+G = TypeVar("G", bound=nx.Graph)
 
 _AHEAD = 4
 """Units in the air for each worker."""
@@ -181,6 +185,14 @@ def rows_of(job: Job, *, workers: int = 1) -> Iterator[dict[str, Any]]:
     columns = job.columns
     for row in tuples_of(job, workers=workers):
         yield row_as_dict(columns, row)
+
+
+def graphs_of(rows: Iterable[Mapping[str, Any]], graph_of: Callable[[str], G]) -> Iterator[G]:
+    """Yield the graph of the code of each row, the row in its graph attributes."""
+    for row in rows:
+        graph = graph_of(row["code"])
+        graph.graph.update(row)
+        yield graph
 
 
 def total_of(job: Job, *, workers: int = 1) -> int:

@@ -16,19 +16,30 @@ from dataclasses import dataclass, field
 from functools import partial
 from itertools import repeat
 from string import ascii_letters
-from typing import Any
+from typing import Any, Literal, Unpack
 
 import numpy as np
 
 from enumerate.chains.jobs import beginnings
 from enumerate.chains.names import name_of
-from enumerate.chains.rows import assortment_of, chain_ids
+from enumerate.chains.rows import SIZE_COLUMNS, assortment_of, chain_ids
 from enumerate.contracted.binary_links import EVERY, PlacementRange
 from enumerate.contracted.graphs import graph_key
 from enumerate.contracted.maps import contracted_maps, joint_matrix, outer_faces
 from enumerate.kernel.maps import END, JOINT, OPEN, decode_map
-from enumerate.runner.job import ANY_NUMBER, Column, Counting, ListColumn, Row, RowCount, Unit, batches, packed
-from enumerate.runner.running import rows_of, total_of
+from enumerate.runner.job import (
+    ANY_NUMBER,
+    Column,
+    ListColumn,
+    QueryCount,
+    QueryJob,
+    Row,
+    RowCount,
+    Unit,
+    batches,
+    packed,
+)
+from enumerate.runner.running import graphs_of, rows_of, total_of
 from enumerate.sc.listing import (
     Centres,
     centres_of_all,
@@ -38,13 +49,14 @@ from enumerate.sc.listing import (
     describe,
     list_drawn,
 )
-from enumerate.sc.query import SCQuery
+from enumerate.sc.query import SCOptions, SCQuery
 from graphs.errors import UnsolvableError
 from graphs.identity.drawings import map_text, mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 from graphs.types import Bytes, Ints
 
 __all__ = [
+    "CENTRE_COLUMNS",
     "LABEL_LETTERS",
     "UNIT_ROWS",
     "FormJob",
@@ -61,16 +73,12 @@ __all__ = [
     "sc_rows",
 ]
 
+CENTRE_COLUMNS: dict[str, Column] = dict.fromkeys(("spatial", "centres", "infinite"), int)
 SC_COLUMNS: dict[str, Column] = {
     "code": str,
     "chain": str,
-    "links": int,
-    "joints": int,
-    "dof": int,
-    "loops": int,
-    "spatial": int,
-    "centres": int,
-    "infinite": int,
+    **SIZE_COLUMNS,
+    **CENTRE_COLUMNS,
     "assortment": ListColumn(","),
     "loop_sizes": ListColumn(","),
     "outer_size": int,
@@ -209,7 +217,7 @@ def _number_in(query: SCQuery, part: MapPart, only: int, prefix: Ints) -> int:
 
 
 @dataclass(frozen=True)
-class SCJob:
+class SCJob(QueryJob[SCQuery]):
     """All SC graphs of a query, as rows.
 
     Attributes
@@ -219,14 +227,9 @@ class SCJob:
         SC graphs of a unit, about; a map with more is split.
     """
 
-    query: SCQuery
     unit_rows: int = UNIT_ROWS
     columns = SC_COLUMNS
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
-        return {"enumerate": "sc", **self.query.key}
+    listed = "sc"
 
     def units(self) -> list[Unit]:
         """Units of some thousands of rows each."""
@@ -242,7 +245,7 @@ class SCJob:
 
 
 @dataclass(frozen=True)
-class SCCountJob(Counting):
+class SCCountJob(QueryCount[SCQuery]):
     """The number of SC graphs, chosen only by what their chains show; rows are numbers to be added.
 
     Attributes
@@ -253,14 +256,13 @@ class SCCountJob(Counting):
         Whether an outer face is chosen; else embeddings in the sphere are counted.
     """
 
-    query: SCQuery
-    method: str = "orbits"
     outside: bool = True
+    counted = "sc"
 
     @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
-        return {"count": "sc", "method": self.method, "outside": self.outside, **self.query.key}
+    def details(self) -> dict[str, Any]:
+        """Whether an outer face is chosen."""
+        return {"outside": self.outside}
 
     def units(self) -> Sequence[Unit]:
         """Units of some hundreds of maps each."""
@@ -319,10 +321,7 @@ _COLUMNS: dict[str, Column] = {
     "code": str,
     "chain": str,
     "name": str,
-    "links": int,
-    "joints": int,
-    "dof": int,
-    "loops": int,
+    **SIZE_COLUMNS,
     "assortment": ListColumn(","),
     "sc_graphs": int,
     "centres": int,
@@ -332,19 +331,14 @@ _CODE, _CHAIN, _CENTRES = (list(SC_COLUMNS).index(name) for name in ("code", "ch
 
 
 @dataclass(frozen=True)
-class FormJob:
+class FormJob(QueryJob[SCQuery]):
     """One row for each planar chain: how many SC graphs it has, and one with the most centres.
 
     ``centres`` of the query limits what counts as a form: chains without such SC graphs have no row.
     """
 
-    query: SCQuery
     columns = _COLUMNS
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
-        return {"enumerate": "sc forms", **self.query.key}
+    listed = "sc forms"
 
     def units(self) -> Sequence[Unit]:
         """Units of whole contracted graphs: all drawings of a chain are in one."""
@@ -383,7 +377,7 @@ class FormJob:
         return rows
 
 
-def sc_graphs(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterator[SCGraph]:
+def sc_graphs(links: int, dof: int, *, workers: int = 1, **options: Unpack[SCOptions]) -> Iterator[SCGraph]:
     """Yield all SC graphs of N links and M degrees of freedom, in a fixed order.
 
     Parameters
@@ -411,13 +405,10 @@ def sc_graphs(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iter
     >>> [len(sc.centre_classes()) for sc in sc_graphs(6, 1)]
     [2, 1, 1, 1]
     """
-    for row in sc_rows(links, dof, workers=workers, **options):
-        mechanism = mechanism_from_map_id(row["code"])
-        mechanism.graph.update(row)
-        yield mechanism
+    yield from graphs_of(sc_rows(links, dof, workers=workers, **options), mechanism_from_map_id)
 
 
-def sc_rows(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterator[dict[str, Any]]:
+def sc_rows(links: int, dof: int, *, workers: int = 1, **options: Unpack[SCOptions]) -> Iterator[dict[str, Any]]:
     """Yield a dictionary for each SC graph.
 
     Keys: ``code`` (its id), ``chain`` (id of the link-joint graph), ``links``, ``joints``, ``dof``, ``loops``,
@@ -439,7 +430,9 @@ def sc_rows(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterat
     yield from rows_of(SCJob(SCQuery(links, dof, **options)), workers=workers)
 
 
-def chain_forms(links: int, dof: int, *, workers: int = 1, **options: Any) -> Iterator[dict[str, Any]]:
+def chain_forms(
+    links: int, dof: int, *, workers: int = 1, **options: Unpack[SCOptions]
+) -> Iterator[dict[str, Any]]:
     """Yield a dictionary for each planar chain: its number of SC graphs, and one with the most centres.
 
     Parameters
@@ -456,7 +449,13 @@ def chain_forms(links: int, dof: int, *, workers: int = 1, **options: Any) -> It
 
 
 def count_sc_graphs(
-    links: int, dof: int, method: str = "orbits", *, outside: bool = True, workers: int = 1, **options: Any
+    links: int,
+    dof: int,
+    method: Literal["orbits", "burnside"] = "orbits",
+    *,
+    outside: bool = True,
+    workers: int = 1,
+    **options: Unpack[SCOptions],
 ) -> int:
     """Return the number of SC graphs of N links and M degrees of freedom.
 

@@ -3,17 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypedDict
 
 from enumerate.chains.query import ChainQuery
 from enumerate.contracted.maps import MOST_MAP_LOOPS
 from enumerate.kernel.centres import MOST_JOINTS
-from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, Limits, Query
+from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, LimitField, LimitsLike, Query
 from graphs.errors import InvariantError, numbered
 
-__all__ = ["SCQuery"]
+__all__ = ["SCOptions", "SCQuery"]
 
 
-@dataclass(frozen=True, slots=True)
+class SCOptions(TypedDict, total=False):
+    """What an `SCQuery` says besides its numbers of links and freedoms."""
+
+    spatial: int
+    infinite: bool
+    centres: LimitsLike
+    symmetry: LimitsLike
+    assortment: tuple[int, ...] | None
+    longest_string: LimitsLike
+
+
+@dataclass(frozen=True)
 class SCQuery(Query):
     """The SC graphs of N links and M degrees of freedom: drawn chains with an outer face and centres.
 
@@ -49,17 +61,16 @@ class SCQuery(Query):
     dof: int
     spatial: int = 0
     infinite: bool = False
-    centres: Limits = ANY_NUMBER
-    symmetry: Limits = ONE_OR_MORE
+    centres: LimitField = LimitField(ANY_NUMBER)  # noqa: RUF009 - a descriptor
+    symmetry: LimitField = LimitField(ONE_OR_MORE)  # noqa: RUF009 - a descriptor
     assortment: tuple[int, ...] | None = None
-    longest_string: Limits = ANY_NUMBER
+    longest_string: LimitField = LimitField(ANY_NUMBER)  # noqa: RUF009 - a descriptor
 
     def __post_init__(self) -> None:
         if self.spatial < 0:
             raise InvariantError("spatial loops", numbered(self.spatial, "spatial loop"), "0 or more")
         if self.dof < 1:
             raise InvariantError("dof", numbered(self.dof, "degree of freedom", "degrees of freedom"), "1 or more")
-        self._keep_limits("centres", "symmetry", "longest_string")
         if self.chains.loops > MOST_MAP_LOOPS:
             raise InvariantError(
                 "loops",

@@ -9,20 +9,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, Unpack
 
 import numpy as np
 
-from enumerate.chains.rows import chain_ids
-from enumerate.contracted.maps import plane_trees
+from enumerate.chains.rows import SIZE_COLUMNS, chain_ids
 from enumerate.kernel.centres import FINITE, MOST_JOINTS, OUTER, SPATIAL
-from enumerate.runner.job import ANY_NUMBER, Column, Counting, ListColumn, Row, Unit, batches
-from enumerate.runner.running import rows_of, total_of
-from enumerate.sc.jobs import LABEL_LETTERS, UNIT_ROWS, Maps, drawn_of, map_ids, map_units
-from enumerate.sc.listing import codes_of_all
+from enumerate.runner.job import ANY_NUMBER, Column, ListColumn, QueryCount, QueryJob, Row, Unit
+from enumerate.runner.running import graphs_of, rows_of, total_of
+from enumerate.sc.jobs import CENTRE_COLUMNS, LABEL_LETTERS, UNIT_ROWS, map_ids
 from enumerate.scd.listing import count_placements, list_placements_of, sides_of_all
 from enumerate.scd.patterns import numbers_of_placements, outline
-from enumerate.scd.query import PlacementQuery, SCDQuery
+from enumerate.scd.query import (
+    CodedMechanisms,
+    Mechanisms,
+    OneMechanism,
+    PlacementOptions,
+    PlacementQuery,
+    SCDOptions,
+    SCDQuery,
+    Source,
+)
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.identity.drawings import map_code, map_id, mechanism_from_map_id
@@ -31,8 +38,6 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.types import Bytes, Ints
 
 __all__ = [
-    "AllMechanisms",
-    "Mechanisms",
     "SCDCountJob",
     "SCDJob",
     "all_mechanisms",
@@ -49,13 +54,8 @@ SCD_COLUMNS: dict[str, Column] = {
     "code": str,
     "sc": str,
     "chain": str,
-    "links": int,
-    "joints": int,
-    "dof": int,
-    "loops": int,
-    "spatial": int,
-    "centres": int,
-    "infinite": int,
+    **SIZE_COLUMNS,
+    **CENTRE_COLUMNS,
     "sides": ListColumn(","),
     "open_edges": int,
     "vertices": int,
@@ -113,103 +113,6 @@ _MECHANISMS = 5_000
 
 
 @dataclass(frozen=True, slots=True)
-class CodedMechanisms:
-    """Mechanisms as codes without labels and open edges, uint8[r, D + N].
-
-    Labels of the faces, uint8[r, F], are in the order in which the codes meet them, the outer one first.
-    """
-
-    codes: Bytes
-    labels: Bytes
-
-    def __len__(self) -> int:
-        """Return the number of mechanisms."""
-        return len(self.codes)
-
-    def slice(self, start: int, end: int) -> CodedMechanisms:
-        """Return some of them; what is pickled then holds no others."""
-        return CodedMechanisms(self.codes[start:end], self.labels[start:end])
-
-    def each(self) -> Iterator[tuple[Bytes, Ints]]:
-        """Yield code and labels of each, as compiled functions take them."""
-        yield from zip(self.codes, self.labels.astype(np.int64), strict=True)
-
-
-Source = Maps | CodedMechanisms
-"""Where some mechanisms come from: contracted maps, or they are there themselves."""
-
-
-@dataclass(frozen=True)
-class AllMechanisms:
-    """The SC graphs, or plane trees, of a query."""
-
-    query: SCDQuery
-
-    @property
-    def dof(self) -> int:
-        """Degrees of freedom."""
-        return self.query.dof
-
-    @property
-    def placements(self) -> PlacementQuery:
-        """Which placements are enumerated."""
-        return self.query.placements
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """The query in JSON values."""
-        return {"enumerate": "scd", **self.query.key}
-
-    def sources(self, size: int) -> Iterator[Unit]:
-        """Yield units of about so many mechanisms: contracted maps, without listing mechanisms, or trees."""
-        if not self.query.tree:
-            yield from map_units(self.query.sc, size)
-            return
-        for codes in batches(plane_trees(self.query.links, self.query.placements.max_degree), size):
-            yield Unit(CodedMechanisms(codes, np.zeros((len(codes), 1), np.uint8)), len(codes))
-
-    def drawn(self, source: Source) -> Iterator[CodedMechanisms]:
-        """Yield the SC graphs of each map, or the trees."""
-        if isinstance(source, CodedMechanisms):
-            yield source
-            return
-        for part in source:
-            listed = drawn_of(self.query.sc, part)
-            arguments = part.code, part.n, self.query.links, part.outer, listed.x, listed.labels
-            codes, labels = codes_of_all(*arguments)
-            yield CodedMechanisms(codes, labels.astype(np.uint8))
-
-
-@dataclass(frozen=True)
-class OneMechanism:
-    """A mechanism of a file, by its id, and the placements on it."""
-
-    name: str
-    dof: int
-    source: CodedMechanisms
-    placements: PlacementQuery
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What it is, in JSON values."""
-        return {"enumerate": "scd", "of": self.name, **self.placements.key}
-
-    def sources(self, size: int) -> Iterator[Unit]:
-        """Yield the mechanism."""
-        del size
-        yield Unit(self.source)
-
-    def drawn(self, source: Source) -> Iterator[CodedMechanisms]:
-        """Yield the mechanism."""
-        del source
-        yield self.source
-
-
-Mechanisms = AllMechanisms | OneMechanism
-"""The mechanisms on which open edges are placed."""
-
-
-@dataclass(frozen=True, slots=True)
 class _Placements:
     """Placements on some mechanisms: on one, those with some numbers, the last excluded; on several, all of them.
 
@@ -227,37 +130,32 @@ class _Placements:
 
 
 @dataclass(frozen=True)
-class SCDJob:
+class SCDJob(QueryJob[Mechanisms]):
     """All placements of open edges on some mechanisms, as rows.
 
     Attributes
     ----------
-    mechanisms : Mechanisms
+    query : SCDQuery or OneMechanism
     unit_rows : int
         Placements of a unit, about, symmetric ones counted apart; a mechanism with more is split.
     """
 
-    mechanisms: Mechanisms
     unit_rows: int = _PLACEMENTS
     columns = SCD_COLUMNS
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
-        return self.mechanisms.key
+    listed = "scd"
 
     def units(self) -> list[Unit]:
         """Units of some thousands of placements each."""
-        return list(_units(self.mechanisms, self.unit_rows))
+        return list(_units(self.query, self.unit_rows))
 
     def work(self, payload: tuple[_Placements, ...]) -> list[Row]:
         """Return the rows of a unit."""
-        query, dof = self.mechanisms.placements, self.mechanisms.dof
+        query, dof = self.query.placements, self.query.dof
         return [row for part in payload for which in part.each() for row in _rows_on(query, dof, *which)]
 
     def number(self, payload: tuple[_Placements, ...]) -> int:
         """Return the number of rows of a unit."""
-        query, dof = self.mechanisms.placements, self.mechanisms.dof
+        query, dof = self.query.placements, self.query.dof
         return sum(
             len(placements_on(query, code, labels, dof, first, last)[0])
             for part in payload
@@ -315,39 +213,38 @@ def _ranges_on(drawn: CodedMechanisms, counts: list[int], unit_rows: int) -> Ite
 
 
 @dataclass(frozen=True)
-class SCDCountJob(Counting):
+class SCDCountJob(QueryCount[Mechanisms]):
     """The number of placements of open edges on some mechanisms; rows are numbers to be added.
 
     Attributes
     ----------
-    mechanisms : Mechanisms
+    query : SCDQuery or OneMechanism
     method : {"burnside", "orbits"}
         ``orbits`` makes the placements, ``burnside`` none.
     """
 
-    mechanisms: Mechanisms
-    method: str = "burnside"
+    counted = "scd"
 
     @property
-    def key(self) -> dict[str, Any]:
-        """What the job is, in JSON values."""
-        return {"count": "scd", "method": self.method, **self.mechanisms.key}
+    def details(self) -> dict[str, Any]:
+        """What would be listed."""
+        return {"enumerate": "scd"}
 
     def units(self) -> Sequence[Unit]:
         """Units of some thousands of mechanisms, or of placements."""
         if self.method == "orbits":
-            return list(_units(self.mechanisms, _PLACEMENTS))
-        return list(self.mechanisms.sources(_MECHANISMS))
+            return list(_units(self.query, _PLACEMENTS))
+        return list(self.query.sources(_MECHANISMS))
 
     def work(self, payload: Any) -> list[Row]:
         """Return the number of placements of a unit."""
-        listing = SCDJob(self.mechanisms)
+        listing = SCDJob(self.query)
         return [(listing.number(payload) if self.method == "orbits" else self._counted(payload),)]
 
     def _counted(self, source: Source) -> int:
-        query, dof = self.mechanisms.placements, self.mechanisms.dof
+        query, dof = self.query.placements, self.query.dof
         total = 0
-        for drawn in self.mechanisms.drawn(source):
+        for drawn in self.query.drawn(source):
             for code, labels in drawn.each():
                 count = int(count_placements(code, labels, query.max_degree, dof, query.sheets))
                 if count < 0:
@@ -361,7 +258,7 @@ def scd_count_job(mechanisms: Mechanisms, method: str | None = None) -> SCDCount
 
     Parameters
     ----------
-    mechanisms : AllMechanisms or OneMechanism
+    mechanisms : SCDQuery or OneMechanism
     method : {"burnside", "orbits"}, optional
         ``orbits`` makes the placements, ``burnside`` none.
 
@@ -373,7 +270,7 @@ def scd_count_job(mechanisms: Mechanisms, method: str | None = None) -> SCDCount
     Examples
     --------
     >>> from enumerate.runner.running import total_of
-    >>> four = AllMechanisms(SCDQuery(4, 1, PlacementQuery(4)))
+    >>> four = SCDQuery(4, 1, PlacementQuery(4))
     >>> [total_of(scd_count_job(four, method)) for method in ("orbits", "burnside")]
     [7, 7]
     """
@@ -386,7 +283,9 @@ def scd_count_job(mechanisms: Mechanisms, method: str | None = None) -> SCDCount
 _OPEN = 0
 
 
-def scd_graphs(links: int, dof: int, max_degree: int, *, workers: int = 1, **options: Any) -> Iterator[SCDGraph]:
+def scd_graphs(
+    links: int, dof: int, max_degree: int, *, workers: int = 1, **options: Unpack[SCDOptions]
+) -> Iterator[SCDGraph]:
     """Yield all SCD graphs of N links and M degrees of freedom, in a fixed order.
 
     Parameters
@@ -419,7 +318,9 @@ def scd_graphs(links: int, dof: int, max_degree: int, *, workers: int = 1, **opt
     yield from _graphs(all_mechanisms(links, dof, max_degree, **options), workers)
 
 
-def scd_graphs_of(mechanism: SCGraph, max_degree: int, *, workers: int = 1, **options: Any) -> Iterator[SCDGraph]:
+def scd_graphs_of(
+    mechanism: SCGraph, max_degree: int, *, workers: int = 1, **options: Unpack[PlacementOptions]
+) -> Iterator[SCDGraph]:
     """Yield all SCD graphs of an SC graph; see `mechanism_of`.
 
     Parameters
@@ -450,15 +351,13 @@ def scd_graphs_of(mechanism: SCGraph, max_degree: int, *, workers: int = 1, **op
 
 
 def _graphs(mechanisms: Mechanisms, workers: int) -> Iterator[SCDGraph]:
-    for row in rows_of(SCDJob(mechanisms), workers=workers):
-        scd = mechanism_from_map_id(row["code"])
+    for scd in graphs_of(rows_of(SCDJob(mechanisms), workers=workers), mechanism_from_map_id):
         assert isinstance(scd, SCDGraph)
-        scd.graph.update(row)
         yield scd
 
 
 def scd_rows(
-    links: int, dof: int, max_degree: int, *, workers: int = 1, **options: Any
+    links: int, dof: int, max_degree: int, *, workers: int = 1, **options: Unpack[SCDOptions]
 ) -> Iterator[dict[str, Any]]:
     """Yield a dictionary for each SCD graph.
 
@@ -482,7 +381,13 @@ def scd_rows(
 
 
 def count_scd_graphs(
-    links: int, dof: int, max_degree: int, method: str | None = None, *, workers: int = 1, **options: Any
+    links: int,
+    dof: int,
+    max_degree: int,
+    method: Literal["burnside", "orbits"] | None = None,
+    *,
+    workers: int = 1,
+    **options: Unpack[SCDOptions],
 ) -> int:
     """Return the number of SCD graphs of N links and M degrees of freedom.
 
@@ -511,8 +416,14 @@ def count_scd_graphs(
 
 
 def all_mechanisms(
-    links: int, dof: int, max_degree: int, *, spatial: int = 0, infinite: bool = False, **options: Any
-) -> AllMechanisms:
+    links: int,
+    dof: int,
+    max_degree: int,
+    *,
+    spatial: int = 0,
+    infinite: bool = False,
+    **options: Unpack[PlacementOptions],
+) -> SCDQuery:
     """Return the mechanisms of a size as a source of `SCDJob`.
 
     Parameters
@@ -532,11 +443,10 @@ def all_mechanisms(
     >>> [len(list(rows_of(SCDJob(all_mechanisms(4, 1, 4, sheets=only))))) for only in (False, True)]
     [7, 6]
     """
-    query = SCDQuery(links, dof, PlacementQuery(max_degree, **options), spatial, infinite)
-    return AllMechanisms(query)
+    return SCDQuery(links, dof, PlacementQuery(max_degree, **options), spatial, infinite)
 
 
-def mechanism_of(mechanism: SCGraph, max_degree: int, **options: Any) -> OneMechanism:
+def mechanism_of(mechanism: SCGraph, max_degree: int, **options: Unpack[PlacementOptions]) -> OneMechanism:
     """Return a mechanism as a source of `SCDJob`; options are fields of `PlacementQuery`.
 
     Its loops are the bounded faces of a drawing. Of an SCD graph, the open edges are placed anew. Names and the

@@ -2,19 +2,50 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypedDict
 
-from enumerate.runner.job import ANY_NUMBER, Limits, Query
+import numpy as np
+
+from enumerate.contracted.maps import plane_trees
+from enumerate.runner.job import ANY_NUMBER, LimitField, LimitsLike, Query, Unit, batches
+from enumerate.sc.jobs import Maps, drawn_of, map_units
+from enumerate.sc.listing import codes_of_all
 from enumerate.sc.query import SCQuery
 from graphs.errors import InvariantError, numbered
+from graphs.types import Bytes, Ints
 
-__all__ = ["PlacementQuery", "SCDQuery"]
+__all__ = [
+    "CodedMechanisms",
+    "Mechanisms",
+    "OneMechanism",
+    "PlacementOptions",
+    "PlacementQuery",
+    "SCDOptions",
+    "SCDQuery",
+    "Source",
+]
 
 _MOST_DEGREE = 60
 
 
-@dataclass(frozen=True, slots=True)
+class PlacementOptions(TypedDict, total=False):
+    """What a `PlacementQuery` says besides the largest number of sides."""
+
+    sheets: bool
+    symmetric: bool
+    vertices: LimitsLike
+
+
+class SCDOptions(PlacementOptions, total=False):
+    """What an `SCDQuery` says besides numbers of links, freedoms and sides."""
+
+    spatial: int
+    infinite: bool
+
+
+@dataclass(frozen=True)
 class PlacementQuery(Query):
     """Which placements of open edges are to be enumerated, on any mechanism.
 
@@ -44,17 +75,43 @@ class PlacementQuery(Query):
     max_degree: int
     sheets: bool = False
     symmetric: bool = False
-    vertices: Limits = ANY_NUMBER
+    vertices: LimitField = LimitField(ANY_NUMBER)  # noqa: RUF009 - a descriptor
 
     def __post_init__(self) -> None:
         if not 3 <= self.max_degree <= _MOST_DEGREE:
             raise InvariantError("max degree", numbered(self.max_degree, "side"), f"3 to {_MOST_DEGREE}")
-        self._keep_limits("vertices")
 
     @property
     def counted(self) -> bool:
         """Whether Burnside's lemma can count them."""
         return not self.symmetric and self.vertices == ANY_NUMBER
+
+
+@dataclass(frozen=True, slots=True)
+class CodedMechanisms:
+    """Mechanisms as codes without labels and open edges, uint8[r, D + N].
+
+    Labels of the faces, uint8[r, F], are in the order in which the codes meet them, the outer one first.
+    """
+
+    codes: Bytes
+    labels: Bytes
+
+    def __len__(self) -> int:
+        """Return the number of mechanisms."""
+        return len(self.codes)
+
+    def slice(self, start: int, end: int) -> CodedMechanisms:
+        """Return some of them; what is pickled then holds no others."""
+        return CodedMechanisms(self.codes[start:end], self.labels[start:end])
+
+    def each(self) -> Iterator[tuple[Bytes, Ints]]:
+        """Yield code and labels of each, as compiled functions take them."""
+        yield from zip(self.codes, self.labels.astype(np.int64), strict=True)
+
+
+Source = Maps | CodedMechanisms
+"""Where some mechanisms come from: contracted maps, or they are there themselves."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,3 +170,50 @@ class SCDQuery:
             "infinite": self.infinite,
             **self.placements.key,
         }
+
+    def sources(self, size: int) -> Iterator[Unit]:
+        """Yield units of about so many mechanisms: contracted maps, without listing mechanisms, or trees."""
+        if not self.tree:
+            yield from map_units(self.sc, size)
+            return
+        for codes in batches(plane_trees(self.links, self.placements.max_degree), size):
+            yield Unit(CodedMechanisms(codes, np.zeros((len(codes), 1), np.uint8)), len(codes))
+
+    def drawn(self, source: Source) -> Iterator[CodedMechanisms]:
+        """Yield the SC graphs of each map, or the trees."""
+        if isinstance(source, CodedMechanisms):
+            yield source
+            return
+        for part in source:
+            listed = drawn_of(self.sc, part)
+            codes, labels = codes_of_all(part.code, part.n, self.links, part.outer, listed.x, listed.labels)
+            yield CodedMechanisms(codes, labels.astype(np.uint8))
+
+
+@dataclass(frozen=True)
+class OneMechanism:
+    """A mechanism of a file, by its id, and the placements on it."""
+
+    name: str
+    dof: int
+    source: CodedMechanisms
+    placements: PlacementQuery
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What it is, in JSON values."""
+        return {"of": self.name, **self.placements.key}
+
+    def sources(self, size: int) -> Iterator[Unit]:
+        """Yield the mechanism."""
+        del size
+        yield Unit(self.source)
+
+    def drawn(self, source: Source) -> Iterator[CodedMechanisms]:
+        """Yield the mechanism."""
+        del source
+        yield self.source
+
+
+Mechanisms = SCDQuery | OneMechanism
+"""The mechanisms on which open edges are placed."""

@@ -7,24 +7,29 @@ splitting heuristic.
 
 With centres a mechanism becomes a coloured graph of its links, its joints, and its classes of loops with one
 centre. Which loops were chosen within a class does not show. Theory: docs/theory/centre-classes.md.
+
+Where bliss is not installed, `graphs.identity.leaves` finds the same numbers, more slowly.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Hashable, Iterable, Sequence
 from io import BytesIO
-from typing import Any, NamedTuple
+from typing import Any
 
-import bliss_bind
 import networkx as nx
 
 from graphs.errors import InvariantError, shown
+from graphs.identity.leaves import ColouredGraph, Symmetries, greatest_leaf
 from graphs.mechanism.sc import SCGraph
 from graphs.types import JointId, LinkId
 
+try:
+    import bliss_bind
+except ImportError:
+    bliss_bind = None
+
 __all__ = [
-    "ColouredGraph",
-    "Symmetries",
     "automorphisms_of",
     "canonical_numbers",
     "chain_from_id",
@@ -36,27 +41,7 @@ __all__ = [
     "symmetries_of_links",
 ]
 
-_HEURISTIC = bliss_bind.Graph.SplittingHeuristic.shs_fm
 _LINK, _JOINT, _MARKED = 0, 1, 2
-
-
-class ColouredGraph(NamedTuple):
-    """A simple graph whose nodes 0, 1, ... may have colours; edges are pairs of nodes, no pair twice.
-
-    Labels and automorphisms keep the colours, one for each node; if there are none, all nodes are alike.
-    """
-
-    nodes: int
-    edges: Iterable[Sequence[int]]
-    colours: Sequence[int] = ()
-
-
-class Symmetries(NamedTuple):
-    """Canonical numbers of nodes, permutations of nodes that generate the automorphisms, how many these are."""
-
-    labels: list[int]
-    generators: list[list[int]]
-    size: float
 
 
 def subdivided(links: int, joints: Iterable[Sequence[int]], marked: int | None = None) -> ColouredGraph:
@@ -73,6 +58,8 @@ def subdivided(links: int, joints: Iterable[Sequence[int]], marked: int | None =
 
 def labels_of(graph: ColouredGraph) -> list[int]:
     """Return the canonical number of each node."""
+    if bliss_bind is None:
+        return greatest_leaf(graph).labels
     labels: list[int] = _built(graph).canonical_form()[0]
     return labels
 
@@ -83,6 +70,8 @@ def symmetries_of(graph: ColouredGraph) -> Symmetries:
     >>> symmetries_of(subdivided(4, [(0, 1), (1, 2), (2, 3), (3, 0)], marked=0)).size
     2.0
     """
+    if bliss_bind is None:
+        return greatest_leaf(graph)
     generators: list[list[int]] = []
     labels, statistics = _built(graph).canonical_form(lambda moved: generators.append(list(moved)))
     return Symmetries(labels, generators, float(statistics.get_group_size_approx()))
@@ -93,7 +82,7 @@ def _built(graph: ColouredGraph) -> bliss_bind.Graph:
     built = bliss_bind.Graph(0 if graph.colours else graph.nodes)
     for colour in graph.colours:
         built.add_vertex(colour)
-    built.set_splitting_heuristic(_HEURISTIC)
+    built.set_splitting_heuristic(bliss_bind.Graph.SplittingHeuristic.shs_fm)
     add = built.add_edge
     for a, b in graph.edges:
         add(a, b)

@@ -29,7 +29,7 @@ from enumerate.runner.store import SqliteSink
 from enumerate.runner.store_units import naming, quoted
 from enumerate.sc.jobs import SCJob
 from enumerate.sc.query import SCQuery
-from enumerate.scd.jobs import AllMechanisms, SCDJob
+from enumerate.scd.jobs import SCDJob
 from enumerate.scd.query import PlacementQuery, SCDQuery
 from enumerate.strings.panel_strings import strings
 from graphs.errors import InvariantError
@@ -140,7 +140,7 @@ class AtlasPlan:
         for links, dof, spatial in self._drawn_sizes():
             placements = PlacementQuery(self.max_degree)
             scd = SCDQuery(links, dof, placements, spatial=spatial, infinite=self.infinite)
-            yield "scd", SCDJob(AllMechanisms(scd), size)
+            yield "scd", SCDJob(scd, size)
         for name in self.orders_of:
             chain = mechanism_of_id(name if name.startswith("k1:") else chain_named(name))
             if len(chain) <= self.max_links:

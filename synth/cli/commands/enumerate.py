@@ -16,7 +16,7 @@ from synth.cli.runner import RunOptions, check_method, run_count, run_rows, runn
 
 if TYPE_CHECKING:
     from enumerate.runner.job import Limits
-    from enumerate.scd.jobs import Mechanisms
+    from enumerate.scd.query import Mechanisms
 
 __all__ = ["enumerate_group"]
 
@@ -393,7 +393,7 @@ def scd(
         from enumerate.scd.jobs import all_mechanisms
 
         mechanisms = all_mechanisms(links, dof, max_degree, spatial=spatial, infinite=infinite, **filters)
-        if not mechanisms.query.tree:
+        if not mechanisms.tree:
             _say_if_odd(links, dof, spatial)
     if only_count:
         run_count(scd_count_job(mechanisms, method), options)
