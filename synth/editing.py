@@ -50,6 +50,11 @@ class EditedMechanism(Printed):
         The last result.
     edits : tuple of Edit or SheetEdit
         Each with the mechanism before and after it, and the change of mobility predicted and counted.
+
+    Examples
+    --------
+    >>> edit("k1:Cr", add_ride_along=[(0, 1)], lock=[0]).mechanism
+    <SCGraph: 5 links, 6 joints, 2 centres>
     """
 
     mechanism: SCGraph | Sheet

@@ -62,6 +62,7 @@ __all__ = [
     "read_all",
     "read_linkage",
     "write",
+    "write_converted",
 ]
 
 _IDS = ("k1:", "m1:")
@@ -225,7 +226,6 @@ def write(
     *,
     lossy: bool = False,
     force: bool = False,
-    made_of: Mechanism | None = None,
 ) -> tuple[str, ...]:
     """Write a mechanism in the format that the extension names.
 
@@ -241,8 +241,6 @@ def write(
         A file that could not be read again is never written.
     force : bool, optional
         Replace an existing file, but never a symbolic link or special file.
-    made_of : Mechanism, optional
-        What ``mechanism`` was made of, whose type must be kept; by default itself.
 
     Returns
     -------
@@ -268,6 +266,13 @@ def write(
     """
     mechanism = read(mechanism) if isinstance(mechanism, str | Path) else mechanism
     check_argument("write", mechanism, Mechanism)
+    return write_converted(mechanism, path, None, lossy=lossy, force=force)
+
+
+def write_converted(
+    mechanism: Mechanism, path: str | Path, made_of: Mechanism | None, *, lossy: bool = False, force: bool = False
+) -> tuple[str, ...]:
+    """Write a mechanism that was made of another, if any, whose type must then be kept too; else as `write`."""
     path = Path(path)
     suffix = path.suffix.lower()
     writer = WRITERS.get(suffix)

@@ -116,6 +116,13 @@ class ViewPage:
     -------
     save(path, force=False)
         Write the page.
+
+    Examples
+    --------
+    >>> ViewPage("<!DOCTYPE html>", ()).save("page.pdf")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.FileError: page.pdf: the extension is not known; expected .html
     """
 
     html: str

@@ -101,7 +101,7 @@ def convert(
       synth convert creases.json platform.json --to joints
     """
     from graphs.answer.conversion import convert as converted
-    from graphs.files.formats import write
+    from graphs.files.formats import write_converted
 
     check_output(target, force=force)
     if (Path(target).suffix.lower() == ".csv") != (table is not None):
@@ -116,7 +116,7 @@ def convert(
             lost = _write_solids(mechanism, target, solid, force=force)
         else:
             made_of = original if kind == "sheet" and form is None else None  # a sheet holds less than others
-            lost = write(mechanism, target, lossy=lossy, force=force, made_of=made_of)
+            lost = write_converted(mechanism, target, made_of, lossy=lossy, force=force)
     if as_json:
         print_json({"input": source, "output": target, "kind": type(mechanism).__name__, "lost": list(lost)})
         return
