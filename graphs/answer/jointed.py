@@ -33,16 +33,6 @@ from graphs.rank.singular_values import spectrum
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Floats, JointId
 
-__all__ = [
-    "Passive",
-    "chain_with_planar_loops",
-    "freedoms_by_screws",
-    "mobility_of_jointed",
-    "passive_freedoms",
-    "report_of_joints",
-    "with_planar_loops",
-]
-
 
 def report_of_joints(linkage: JointedLinkage) -> MobilityReport:
     """Report the mobility of a linkage by count of its joints, each with its freedoms."""

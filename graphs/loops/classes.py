@@ -18,8 +18,6 @@ from graphs.errors import InvariantError, shown
 from graphs.loops.loop import Centre, Loop
 from graphs.types import JointId
 
-__all__ = ["FEW", "CentreClass", "Merger", "centre_classes", "merge_spherical"]
-
 FEW = 16
 """A joint with more loops is *crowded*: its loops are found by a table, not in pairs."""
 

@@ -16,18 +16,6 @@ from enum import Enum
 from graphs.errors import InvariantError, numbered, shown
 from graphs.types import JointId, Joints, LinkId
 
-__all__ = [
-    "Centre",
-    "Loop",
-    "added_independent",
-    "cut_into_cycles",
-    "cyclic_order",
-    "dependent_loop",
-    "in_span_of",
-    "signed_cycle",
-    "split_dependent",
-]
-
 
 class Centre(Enum):
     """Where the joint axes of a loop meet.

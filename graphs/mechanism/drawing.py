@@ -17,20 +17,6 @@ from graphs.errors import InvariantError, numbered, shown
 from graphs.loops.loop import Loop
 from graphs.types import JointId, Joints, LinkId
 
-__all__ = [
-    "Corner",
-    "Drawing",
-    "Face",
-    "FaceKind",
-    "Rotation",
-    "Side",
-    "check_rotation",
-    "check_sides",
-    "face_cycles",
-    "link_vertices",
-    "trace_faces",
-]
-
 Side = JointId | None
 """A side of a link: the id of the joint on it, or None for an open edge."""
 

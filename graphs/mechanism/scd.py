@@ -43,8 +43,6 @@ from graphs.mechanism.drawing import Drawing, Face, FaceKind, Side
 from graphs.mechanism.sc import SCGraph, SpecialGeometry
 from graphs.types import JointId, LinkId
 
-__all__ = ["FeatureCounts", "SCDGraph", "check_rules", "points_of_joints", "points_of_links"]
-
 K = TypeVar("K", bound=Hashable)
 
 

@@ -17,23 +17,6 @@ from graphs.errors import InvariantError, numbered, shown
 from graphs.limits import check_area, check_extent
 from graphs.mechanism.polyhedron import PolyhedronModel
 
-__all__ = [
-    "COLLINEAR",
-    "FLAT",
-    "HINGES",
-    "Edge",
-    "Frames",
-    "Place",
-    "Reading",
-    "Repair",
-    "RepairKind",
-    "Sheet",
-    "WrittenPrecision",
-    "sheet_from_model",
-    "sides_of_face",
-    "with_all_edges",
-]
-
 Place: TypeAlias = tuple[tuple[float, ...], ...]
 """A point, both ends of a line, or the corners of a face, in the coordinates of the sheet."""
 

@@ -21,20 +21,6 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.types import Floats, JointId
 
-__all__ = [
-    "Cone",
-    "Cylinder",
-    "Pair",
-    "Surface",
-    "SurfaceLinkage",
-    "as_planar",
-    "checked_cone_angle",
-    "joint_axes",
-    "places_of_steps",
-    "ring",
-    "surface_json",
-]
-
 
 def checked_cone_angle(cone_angle: npt.ArrayLike) -> Floats:
     """Return cone angles; raises `InvariantError` unless 0 <= lambda < pi / 2."""

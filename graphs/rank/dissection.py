@@ -19,8 +19,6 @@ import scipy.sparse.linalg
 from graphs.rank.singular_values import ZERO_SPECTRUM, Spectrum, judged, rounding, verdict
 from graphs.types import Flags, Floats, Ints
 
-__all__ = ["number_below", "sparse_spectrum"]
-
 _LEAF = 96
 """Rows of a part that is not halved."""
 _PIVOT = 0.03

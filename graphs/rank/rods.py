@@ -21,8 +21,6 @@ from graphs.mechanism.polyhedron import GROUND, PolyhedronModel, VertexId
 from graphs.rank.exact import ExactMobility, agreed_rank, sparse_modulo
 from graphs.rank.realisation import PRIMES, Field, PrimeField, null_vectors
 
-__all__ = ["exact_mobility_of_model", "numbered_columns", "place_model", "velocity_constraints"]
-
 Place = tuple[Any, Any, Any]
 Row = dict[tuple[Hashable, int], Any]
 

@@ -21,22 +21,6 @@ from graphs.errors import InvariantError
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 
-__all__ = [
-    "FourBarKind",
-    "can_close",
-    "checked_link_angles",
-    "checked_link_lengths",
-    "grashof_class",
-    "in_a_hemisphere",
-    "kind_of_planar",
-    "kind_of_spherical",
-    "minimal_supplementary",
-    "planar_differences",
-    "rounding_of",
-    "spherical_differences",
-    "supplementary",
-]
-
 ILL_CONDITIONED = "ill-conditioned"
 """What a caution begins with where figures within rounding of zero decide."""
 

@@ -24,8 +24,6 @@ from graphs.tolerances import DOUBLE, EPSILON, canonical_order
 from graphs.types import Floats
 from synth.guidance.orientations import Orientations, Pair, unit_vector
 
-__all__ = ["Hoop", "HoopCrossing", "OrderAnalysis", "analyse_order", "crank_angles", "hoop"]
-
 Direction: TypeAlias = Literal["ccw", "cw"]
 """Counter-clockwise or clockwise, seen from the tip of the fixed axis."""
 

@@ -22,8 +22,6 @@ from graphs.errors import UnsolvableError
 from graphs.types import Flags, Floats
 from synth.fourbar.closing import rounding_of
 
-__all__ = ["LoopRoots", "circumradii", "cone_angles", "loop_roots", "loop_sum"]
-
 Base = Literal[0, 1]
 
 MOST_LINKS = 16

@@ -21,8 +21,6 @@ from synth.fourbar.closing import ILL_CONDITIONED, FourBarKind
 from synth.surfaces.circuit import circuits
 from synth.surfaces.loop_sums import Base, LoopRoots, half_steps, loop_roots, loop_sum, put_together, sum_rounding
 
-__all__ = ["FamilyOfCircles", "MappedLoop"]
-
 _VAGUE = 1e-6
 """A circle whose size is relatively less certain than this has a caution."""
 _NONE = np.zeros(0, dtype=np.intp)
