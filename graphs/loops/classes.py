@@ -23,10 +23,9 @@ FEW = 16
 
 
 class Merger:
-    """A union of loops into classes, each known by one of its loops, the root.
+    """A union of loops that have a centre into classes, each known by one of its loops, the root.
 
-    Loops without a centre are in no class. ``members`` maps a root to the loops of its class, ``joints`` to their
-    joints.
+    ``members`` maps a root to the loops of its class, ``joints`` to their joints.
     """
 
     def __init__(self, loops: Sequence[Loop]) -> None:

@@ -201,8 +201,7 @@ def dependent_loop(cycles: Sequence[Sequence[JointId]]) -> int | None:
 def split_dependent(cycles: Sequence[Sequence[JointId]]) -> tuple[list[int], list[int]]:
     """Split cycles into independent ones and ones that depend on these; return the indices of both, ascending.
 
-    Round the vertices of a closed surface the last cycle is the sum of the others. The cycles kept are as many as
-    the rank of all.
+    Round the vertices of a closed surface the last cycle is the sum of the others.
     """
     kept, dependent = list(range(len(cycles))), []
     while (index := dependent_loop([cycles[i] for i in kept])) is not None:

@@ -86,9 +86,8 @@ class Reading:
 class WrittenPrecision:
     """The error that a coordinate may have, as it is written.
 
-    ``length`` is in the unit of the coordinates, ``source`` says how it is known: ``2 decimals``, ``stated``. If
-    it is ``stated`` by the user, it is not judged by the geometry. Raises `InvariantError` if the length is
-    negative, or not finite.
+    ``length`` (`InvariantError` if negative, or not finite) is in the unit of the coordinates, ``source`` says how
+    it is known: ``2 decimals``, ``stated``. If it is ``stated`` by the user, it is not judged by the geometry.
     """
 
     length: float

@@ -316,11 +316,10 @@ def as_planar(chain: SCGraph) -> SCGraph:
 
 
 def places_of_steps(steps: Mapping[Pair, float], tolerance: float = 1e-7) -> dict[JointId, float]:
-    """Return the azimuths of joints from signed steps between pairs of them.
+    """Return the azimuths of joints from signed steps, projected angles in radians, from one joint to another.
 
-    A step is the projected angle from the first joint to the second, radians; the first joint named is at 0.
-    Raises `InvariantError` if steps that lead to one joint two ways disagree by more than the tolerance, or leave
-    joints unconnected.
+    The first joint named is at 0. Raises `InvariantError` if steps that lead to one joint two ways disagree by
+    more than the tolerance, or leave joints unconnected.
     """
     placed: dict[JointId, float] = {}
     left = dict(steps)

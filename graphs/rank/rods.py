@@ -129,8 +129,7 @@ def _planes_of_scissors(model: PolyhedronModel) -> list[list[VertexId]]:
 def _lines_through_centres(model: PolyhedronModel) -> Iterator[list[Hashable]]:
     """Yield the points on the line of each rod that passes through a centre: its ends, and the centres.
 
-    Two points that two lines share are one (`graphs.loops.classes`): remote centres, or a remote centre and a
-    vertex.
+    Two points that two lines share are one (`graphs.loops.classes`): centres, or a centre and a vertex.
     """
     lines = [[frozenset(rod) for rod in centre.rods] for centre in model.centres if centre.rods]
     if len(lines) < len(model.centres):

@@ -28,8 +28,8 @@ ILL_CONDITIONED = "ill-conditioned"
 def rounding_of(terms: npt.ArrayLike) -> Floats:
     """Return how far rounding may take sums of terms, float[..., n], whatever their signs: float[...].
 
-    (n + 4) eps of the sum of absolute values: a last digit for each term, three for what was computed of it, and
-    one for each addition.
+    (n + 4) eps of the sum of absolute values: a last digit for each term and each addition, three for what went
+    before.
     """
     sizes = np.abs(np.asarray(terms, dtype=float))
     return np.asarray((sizes.shape[-1] + 4) * np.finfo(float).eps * sizes.sum(axis=-1))

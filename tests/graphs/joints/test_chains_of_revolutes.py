@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from random_joints import random_jointed
+from second_methods import freedoms_by_screws
 
-from graphs.answer.jointed import freedoms_by_screws
 from graphs.convert.table import convert
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
