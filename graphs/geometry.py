@@ -65,8 +65,7 @@ def crossing(vectors: npt.ArrayLike) -> Floats:
 def frame_about(directions: npt.ArrayLike) -> Floats:
     """Return right-handed frames about directions of any length, float[..., 3]: float[..., 3, 3].
 
-    Rows are orthonormal: one across the coordinate axis that is flattest to the direction, another, then the
-    direction.
+    Rows are orthonormal: one across the coordinate axis flattest to the direction, another, the direction.
     """
     axes = unit(directions)
     sizes = np.abs(axes)
@@ -76,11 +75,7 @@ def frame_about(directions: npt.ArrayLike) -> Floats:
 
 
 def angles_between(one: npt.ArrayLike, other: npt.ArrayLike) -> Floats:
-    """Return the angles between vectors of any length, 0 to pi; small ones have all their digits.
-
-    >>> float(angles_between([1.0, 0.0, 0.0], [1.0, 1e-9, 0.0]))
-    1e-09
-    """
+    """Return the angles between vectors of any length, 0 to pi; small ones have all their digits."""
     a, b = unit(one), unit(other)
     return np.asarray(np.arctan2(np.linalg.norm(np.cross(a, b), axis=-1), (a * b).sum(axis=-1)))
 
@@ -153,8 +148,8 @@ def _least_turn(left: Floats, sizes: Floats, right: Floats, handed: float) -> Fl
 def rigid_motion(before: npt.ArrayLike, after: npt.ArrayLike, *, mirrored: bool = False) -> tuple[Floats, Floats]:
     """Return the motion that takes points, float[..., n, d], nearest to others, by the sum of squared distances.
 
-    A point p goes to rotation @ p + shift: float[..., d, d] and float[..., d]. ``mirrored`` finds a motion that
-    mirrors instead.
+    A point p goes to rotation @ p + shift, float[..., d, d] and float[..., d]; ``mirrored``: by a mirroring
+    motion.
     """
     start, end = np.asarray(before, dtype=float), np.asarray(after, dtype=float)
     here, there = start.mean(axis=-2, keepdims=True), end.mean(axis=-2, keepdims=True)
@@ -166,9 +161,8 @@ def rigid_motion(before: npt.ArrayLike, after: npt.ArrayLike, *, mirrored: bool 
 class Fit:
     """A plane or a line fitted to points.
 
-    ``middle``, float[..., d], is the mean of the points; ``direction``, float[..., d], the unit normal of a plane
-    or the direction of a line, its largest component positive; ``off``, float[...], the greatest distance of a
-    point from it.
+    ``middle``, float[..., d], is the mean of the points; ``direction``, float[..., d], the unit normal or the
+    direction, its largest component positive; ``off``, float[...], the greatest distance of a point from it.
     """
 
     middle: Floats
@@ -196,8 +190,8 @@ def principal_axes(points: npt.ArrayLike) -> tuple[Floats, Floats]:
 def best_plane(points: npt.ArrayLike) -> Fit:
     """Return the plane (in two dimensions: the line) nearest to points, by the sum of squared distances.
 
-    If the points, float[..., n, d], lie in one line or one place, many planes are as near, and the normal is the
-    last vector of the canonical basis of all normals.
+    If the points, float[..., n, d], lie in one line or place, the normal is the last vector of the canonical basis
+    of all.
     """
     middle, around, axes, tied = _fitted(points)
     normal = axes[..., -1, :].copy()
@@ -262,11 +256,7 @@ def _tied(sizes: Floats) -> Flags:
 
 
 def facing(directions: Floats) -> Floats:
-    """Return directions or their negatives: those whose largest component is positive, the first of equal ones.
-
-    >>> facing(np.array([0.0, -0.8, 0.6])).tolist()
-    [0.0, 0.8, -0.6]
-    """
+    """Return directions or their negatives: those whose largest component is positive, the first of equal ones."""
     sizes = np.abs(directions)
     place = (sizes >= (1.0 - MARGIN) * sizes.max(axis=-1, keepdims=True)).argmax(axis=-1)
     ahead = np.take_along_axis(directions, place[..., None], axis=-1) >= 0.0

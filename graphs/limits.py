@@ -45,12 +45,9 @@ def in_reach(numbers: Iterable[float]) -> bool:
 
 
 def check_extent(points: Sequence[Sequence[float]]) -> float:
-    """Refuse coordinates that reach too far or lie too close together, and return their extent.
+    """Return the extent of points; refuse coordinates that reach too far or are too close together.
 
-    Points have two or three coordinates; a single place has no extent. Raises `InvariantError` with the range.
-
-    >>> check_extent([(0.0, 0.0), (3.0, 1.0)])
-    3.0
+    Points have two or three coordinates; a single place has no extent. The `InvariantError` has the range.
     """
     if not in_reach(chain.from_iterable(points)):
         farthest = next(x for x in chain.from_iterable(points) if not in_reach((x,)))
@@ -115,11 +112,7 @@ def most(name: str) -> int:
 
 
 def how_to_raise(name: str, needed: int | None = None) -> str:
-    """Return a limit and how to raise it, for an error message: to what is needed, and at least twice the limit.
-
-    >>> how_to_raise("shapes", 200_000)
-    'at most 30000 (SYNTHEDRA_MOST=shapes=200000 allows more)'
-    """
+    """Return a limit and how to raise it, for an error message: to what is needed, at least to twice the limit."""
     limit = most(name)
     return f"at most {limit} ({VARIABLE}={name}={max(needed or 0, 2 * limit)} allows more)"
 

@@ -103,10 +103,9 @@ class Tolerances:
 
     @classmethod
     def of(cls, precision: float, joints: int = 1) -> Tolerances:
-        """Return the tolerances of a mechanism; rounding errors add up as the root of its number of joints.
+        """Return the tolerances of a mechanism by the error of a coordinate, in units of the extent.
 
-        The precision is the error of a coordinate, in units of the extent
-        (`graphs.mechanism.precision.Precision.size`).
+        Rounding errors add up as the root of its number of joints.
         """
         rounding = max(precision, EPSILON)
         wrong = _MOVED * precision
@@ -168,9 +167,6 @@ def signed(vector: Floats) -> Floats:
     """Return a vector or its negative: the one whose first entry that is not zero is positive.
 
     Entries below a millionth of the largest are zero.
-
-    >>> signed(np.array([1e-17, -0.5, 1.0])).tolist()
-    [-1e-17, 0.5, -1.0]
     """
     sizes = np.abs(vector)
     there = sizes > MARGIN * sizes.max(initial=0.0)
@@ -180,27 +176,21 @@ def signed(vector: Floats) -> Floats:
 def canonical_basis(columns: Floats) -> Floats:
     """Return a basis of the space of orthonormal columns, float[n, s]: it depends on the space alone.
 
-    Its vectors are the projections of some unit vectors onto the space, made orthogonal one after the other: of
-    the unit vectors (`pivots`) those are taken of which most lies in the space. The entry of each vector at its
-    pivot is positive.
+    Its vectors are the projections, made orthogonal one after the other, of those unit vectors (`pivots`) of which
+    most lies in the space; the entry of each vector at its pivot is positive.
     """
     return _reduced(columns)[0]
 
 
 def pivots(columns: Floats) -> list[int]:
-    """Return rows of orthonormal columns that determine all others, in the order of `canonical_basis`.
-
-    >>> pivots(np.array([[0.6, 0.0], [0.8, 0.0], [0.0, 1.0]]))
-    [2, 1]
-    """
+    """Return rows of orthonormal columns that determine all others, in the order of `canonical_basis`."""
     return _reduced(columns)[1]
 
 
 def _reduced(columns: Floats) -> tuple[Floats, list[int]]:
     """Return the canonical basis and its pivots: a QR decomposition of the rows whose pivots have a margin.
 
-    Each row is made orthogonal to the directions before it a second time, so that the basis is orthonormal to
-    rounding.
+    Each row is made orthogonal to those before it a second time: the basis is orthonormal to rounding.
     """
     left = np.array(columns, dtype=float)
     directions = np.zeros((columns.shape[1], columns.shape[1]))

@@ -20,8 +20,6 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed
 
-__all__ = ["Identity", "identify"]
-
 
 @dataclass(frozen=True, slots=True)
 class Identity(Printed):

@@ -23,7 +23,7 @@ from graphs.joints.as_points import points_of, rods_between_balls
 from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, Leg, legs
 from graphs.joints.placing import placed
 from graphs.joints.revolutes import revolutes_of
-from graphs.loops.loop import Centre, Loop, signed_cycle
+from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.precision import extent_of, precision_of_axes
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
@@ -32,16 +32,6 @@ from graphs.rank.pose import pose_mobility_of_axes
 from graphs.rank.singular_values import spectrum
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Floats, JointId
-
-__all__ = [
-    "Passive",
-    "chain_with_planar_loops",
-    "freedoms_by_screws",
-    "mobility_of_jointed",
-    "passive_freedoms",
-    "report_of_joints",
-    "with_planar_loops",
-]
 
 
 def report_of_joints(linkage: JointedLinkage) -> MobilityReport:
@@ -166,10 +156,9 @@ def passive_freedoms(linkage: JointedLinkage) -> tuple[Passive, ...]:
     """Return the freedoms that move links of one leg only: those that a leg has with both its ends held.
 
     The linkage has places. In a leg with an open end, one that comes back to its first link, and a lone ring, each
-    row between successive spherical joints is examined; the ground is held, or the longest row of a ring without
-    one.
+    row between successive spherical joints is examined, with the ground or the longest row of a ring held.
     """
-    screws = _screws(linkage)
+    screws = screws_of_joints(linkage)
     found = []
     for row in (row for leg in legs(linkage.chain) for row in _rows_between_ends(linkage, leg)):
         columns = np.hstack([screws[joint] for joint in row])
@@ -198,26 +187,6 @@ def _rows_between_ends(linkage: JointedLinkage, leg: Leg) -> list[tuple[JointId,
     return [row for row in rows if not lone or len(row) < len(leg.joints) or len(row) == _ROD]
 
 
-def freedoms_by_screws(linkage: JointedLinkage) -> int | None:
-    """Return the degrees of freedom by the screws of the joints, without revolutes; None if not known.
-
-    The linkage has places, and all loops close with six equations.
-    """
-    screws = _screws(linkage)
-    chain = linkage.chain
-    columns = {joint: place for place, joint in enumerate(chain.joints)}
-    widths = [screws[joint].shape[1] for joint in chain.joints]
-    starts = np.concatenate([[0], np.cumsum(widths)])
-    cycles = independent_cycles(SCGraph(chain.nodes, chain.joints))
-    matrix = np.zeros((6 * len(cycles), int(starts[-1])))
-    for row, loop in enumerate(cycles):
-        for joint, sign in signed_cycle(loop.joints, chain.joints):
-            place = columns[joint]
-            matrix[6 * row : 6 * row + 6, starts[place] : starts[place + 1]] = sign * screws[joint]
-    rank = spectrum(matrix, DOUBLE.closed).rank
-    return None if rank is None else int(starts[-1]) - rank
-
-
 def _passive_notes(passive: tuple[Passive, ...]) -> Iterator[str]:
     """Yield the notes on passive degrees of freedom."""
     spinning = [one for one in passive if one.spins]
@@ -236,7 +205,7 @@ def _spins(linkage: JointedLinkage, row: tuple[JointId, ...]) -> bool:
     return sum(linkage.kinds[joint] is JointKind.SPHERICAL for joint in row) == 2
 
 
-def _screws(linkage: JointedLinkage) -> dict[JointId, Floats]:
+def screws_of_joints(linkage: JointedLinkage) -> dict[JointId, Floats]:
     """Return the screws of all joints, lengths in units of the extent: joint to float[6, freedoms]."""
     points = np.array([place.point for place in linkage.places.values()], dtype=float).reshape(-1, 3)
     points = (points - points.mean(axis=0)) / (extent_of(points) or 1.0) if len(points) else points

@@ -30,16 +30,6 @@ from graphs.rank.pose import PoseMobility, pose_mobility, pose_mobility_of_axes,
 from graphs.rank.rods import exact_mobility_of_model
 from graphs.tolerances import DOUBLE
 
-__all__ = [
-    "MOST_JOINTS",
-    "mobility",
-    "model_with_pose",
-    "precision_of_steps",
-    "sheet_in_frame",
-    "with_exact",
-    "with_pose",
-]
-
 MOST_JOINTS = 1200
 """Larger mechanisms are ranked on request only: time grows with the cube of the joints."""
 

@@ -17,8 +17,6 @@ from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.scd import FeatureCounts
 from graphs.printing import Block, Printed, TableBlock, plain
 
-__all__ = ["Reconstruction", "reconstruct"]
-
 _TOLD = ("vertices", "implicit_centres", "external_edges", "internal_edges")
 
 

@@ -15,8 +15,6 @@ from graphs.rank.exact import ExactMobility
 from graphs.rank.pose import PoseMobility
 from graphs.tolerances import DOUBLE
 
-__all__ = ["MobilityAnswer", "notes_of_pose", "power_of_ten"]
-
 _TITLES = {
     "traditional_cgk": "C-G-K (Wiener Eq. 1)",
     "modified_cgk": "modified C-G-K (Wiener Eq. 2)",

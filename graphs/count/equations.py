@@ -11,25 +11,6 @@ from collections.abc import Iterable
 
 from graphs.mechanism.polyhedron import PolyhedronModel
 
-__all__ = [
-    "closed_surface",
-    "loop_form",
-    "mobility_of_model",
-    "modified_cgk",
-    "overconstraint",
-    "polyhedron_equation",
-    "relative_cgk",
-    "relative_polyhedron",
-    "relative_spherical_system",
-    "spherical_system",
-    "traditional_cgk",
-    "wampler_ground_free",
-    "wampler_points",
-    "wampler_remote",
-    "wampler_rods",
-    "wampler_scissors",
-]
-
 
 def traditional_cgk(links: int, freedoms: Iterable[int], constraint_space: int) -> int:
     """Chebychev-Gruebler-Kutzbach: M = lambda (N - 1) - sum (lambda - f) (Wiener 2016 and Wampler 2007, Eq. 1).

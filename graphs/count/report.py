@@ -32,8 +32,6 @@ from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import Arrangement, SCGraph, arrangement_of
 from graphs.mechanism.scd import SCDGraph
 
-__all__ = ["EquationResult", "MobilityReport", "mechanism_class", "mobility_report"]
-
 _MANY = 3
 
 

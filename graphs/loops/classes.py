@@ -18,17 +18,14 @@ from graphs.errors import InvariantError, shown
 from graphs.loops.loop import Centre, Loop
 from graphs.types import JointId
 
-__all__ = ["FEW", "CentreClass", "Merger", "centre_classes", "merge_spherical"]
-
 FEW = 16
 """A joint with more loops is *crowded*: its loops are found by a table, not in pairs."""
 
 
 class Merger:
-    """A union of loops into classes, each known by one of its loops, the root.
+    """A union of loops that have a centre into classes, each known by one of its loops, the root.
 
-    Loops without a centre are in no class. ``members`` maps a root to the loops of its class, ``joints`` to their
-    joints.
+    ``members`` maps a root to the loops of its class, ``joints`` to their joints.
     """
 
     def __init__(self, loops: Sequence[Loop]) -> None:

@@ -16,18 +16,6 @@ from enum import Enum
 from graphs.errors import InvariantError, numbered, shown
 from graphs.types import JointId, Joints, LinkId
 
-__all__ = [
-    "Centre",
-    "Loop",
-    "added_independent",
-    "cut_into_cycles",
-    "cyclic_order",
-    "dependent_loop",
-    "in_span_of",
-    "signed_cycle",
-    "split_dependent",
-]
-
 
 class Centre(Enum):
     """Where the joint axes of a loop meet.
@@ -213,8 +201,7 @@ def dependent_loop(cycles: Sequence[Sequence[JointId]]) -> int | None:
 def split_dependent(cycles: Sequence[Sequence[JointId]]) -> tuple[list[int], list[int]]:
     """Split cycles into independent ones and ones that depend on these; return the indices of both, ascending.
 
-    Round the vertices of a closed surface the last cycle is the sum of the others. The cycles kept are as many as
-    the rank of all.
+    Round the vertices of a closed surface the last cycle is the sum of the others.
     """
     kept, dependent = list(range(len(cycles))), []
     while (index := dependent_loop([cycles[i] for i in kept])) is not None:

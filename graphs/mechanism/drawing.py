@@ -17,20 +17,6 @@ from graphs.errors import InvariantError, numbered, shown
 from graphs.loops.loop import Loop
 from graphs.types import JointId, Joints, LinkId
 
-__all__ = [
-    "Corner",
-    "Drawing",
-    "Face",
-    "FaceKind",
-    "Rotation",
-    "Side",
-    "check_rotation",
-    "check_sides",
-    "face_cycles",
-    "link_vertices",
-    "trace_faces",
-]
-
 Side = JointId | None
 """A side of a link: the id of the joint on it, or None for an open edge."""
 
@@ -159,8 +145,8 @@ def trace_faces(joints: Joints, rotation: Rotation) -> tuple[tuple[Face, ...], d
 def link_vertices(faces: Sequence[Face], rotation: Rotation) -> tuple[int, dict[LinkId, tuple[int, ...]]]:
     """Number the vertices: round each face, every run between successive open edges is one vertex.
 
-    Their number is that of open edges and of faces without open edges. Item ``i`` of a link lies between its side
-    ``i`` and side ``i + 1``.
+    They are as many as open edges and faces without any. Item ``i`` of a link lies between its sides ``i``, ``i +
+    1``.
     """
     at = {link: [-1] * len(sides) for link, sides in rotation.items()}
     count = 0

@@ -22,8 +22,6 @@ from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE, EPSILON
 from graphs.types import Floats
 
-__all__ = ["OF_45", "Estimate", "Relations", "estimate_of", "nearly_exact", "nearly_fine", "nearly_soft"]
-
 Numbers = npt.NDArray[np.int64]
 
 OF_45 = "multiples of 45 degrees"

@@ -17,8 +17,6 @@ import networkx as nx
 from graphs.errors import InvariantError, numbered, shown
 from graphs.limits import check_extent
 
-__all__ = ["GROUND", "PointConstraint", "PolyhedronModel", "RemoteCentre"]
-
 VertexId = Hashable
 Rod = tuple[VertexId, VertexId]
 

@@ -22,30 +22,6 @@ from graphs.mechanism.sheet import Frames, Sheet, WrittenPrecision
 from graphs.tolerances import DOUBLE, EPSILON, Tolerances
 from graphs.types import Floats
 
-__all__ = [
-    "BY_DIGITS",
-    "ESTIMATED",
-    "Digits",
-    "Flattened",
-    "Precision",
-    "digits_of",
-    "extent_of",
-    "flat_places",
-    "flattened",
-    "in_space",
-    "keeping",
-    "lies_flat",
-    "off_panel_planes",
-    "off_plane",
-    "precision_as_written",
-    "precision_of",
-    "precision_of_axes",
-    "precision_of_sheet",
-    "spacing_of",
-    "stated",
-    "written_by",
-]
-
 _MOST_DECIMALS = 12
 _COARSEST = 3e-3
 """A last decimal that is worth more of the extent than this is no rounding: few sizes were chosen on purpose."""

@@ -23,8 +23,6 @@ from graphs.loops.classes import CentreClass, centre_classes
 from graphs.loops.loop import Centre, Loop, cyclic_order, dependent_loop
 from graphs.types import JointId, LinkId
 
-__all__ = ["ARRANGEMENTS", "Arrangement", "SCGraph", "SpecialGeometry", "arrangement_of", "centre_graph"]
-
 
 @dataclass(frozen=True, slots=True)
 class SpecialGeometry:

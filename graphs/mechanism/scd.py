@@ -43,16 +43,13 @@ from graphs.mechanism.drawing import Drawing, Face, FaceKind, Side
 from graphs.mechanism.sc import SCGraph, SpecialGeometry
 from graphs.types import JointId, LinkId
 
-__all__ = ["FeatureCounts", "SCDGraph", "check_rules", "points_of_joints", "points_of_links"]
-
 K = TypeVar("K", bound=Hashable)
 
 
 def check_rules(drawing: Drawing, classes: Sequence[CentreClass]) -> None:
     """Refuse a drawing that breaks a rule of the table above; link degree is checked when it is made.
 
-    The drawing has its loops placed, the classes are those of these loops; ``rule`` of the `InvariantError` is the
-    first column of the table.
+    The classes are those of the loops of the drawing. ``rule`` of the `InvariantError` is the first column.
     """
     for face in drawing.faces:
         _check_face(drawing, face)
@@ -64,11 +61,10 @@ def check_rules(drawing: Drawing, classes: Sequence[CentreClass]) -> None:
 
 
 def points_of_joints(drawing: Drawing, classes: Sequence[CentreClass]) -> dict[JointId, frozenset[int]]:
-    """Return the points on the axis of each joint: its two ends and the centres it passes through.
+    """Return the points on the axis of each joint: its two ends and the centres of the classes it passes through.
 
-    Points below ``drawing.vertex_count`` are vertices, from there on the centres that are no vertices. The drawing
-    has its loops placed, the classes are those of these loops. Raises `InvariantError` if a class has two explicit
-    centres.
+    Points below ``drawing.vertex_count`` are vertices, from there on the centres that are no vertices. Raises
+    `InvariantError` if a class has two explicit centres.
     """
     ends = {joint: drawing.ends_of_joint(joint) for joint in drawing.joints}
     return _with_centres(ends, classes, _centre_points(drawing, classes))

@@ -17,23 +17,6 @@ from graphs.errors import InvariantError, numbered, shown
 from graphs.limits import check_area, check_extent
 from graphs.mechanism.polyhedron import PolyhedronModel
 
-__all__ = [
-    "COLLINEAR",
-    "FLAT",
-    "HINGES",
-    "Edge",
-    "Frames",
-    "Place",
-    "Reading",
-    "Repair",
-    "RepairKind",
-    "Sheet",
-    "WrittenPrecision",
-    "sheet_from_model",
-    "sides_of_face",
-    "with_all_edges",
-]
-
 Place: TypeAlias = tuple[tuple[float, ...], ...]
 """A point, both ends of a line, or the corners of a face, in the coordinates of the sheet."""
 
@@ -103,9 +86,8 @@ class Reading:
 class WrittenPrecision:
     """The error that a coordinate may have, as it is written.
 
-    ``length`` is in the unit of the coordinates, ``source`` says how it is known: ``2 decimals``, ``stated``. If
-    it is ``stated`` by the user, it is not judged by the geometry. Raises `InvariantError` if the length is
-    negative, or not finite.
+    ``length`` (`InvariantError` if negative, or not finite) is in the unit of the coordinates, ``source`` says how
+    it is known: ``2 decimals``, ``stated``. If it is ``stated`` by the user, it is not judged by the geometry.
     """
 
     length: float

@@ -15,8 +15,6 @@ from graphs.limits import LEAST, MOST, check_extent, in_reach
 from graphs.mechanism.sc import SCGraph
 from graphs.types import JointId
 
-__all__ = ["Axis", "HingedSolids"]
-
 Vector = tuple[float, float, float]
 Axis = tuple[Vector, Vector]
 """A point of a joint axis and its direction."""

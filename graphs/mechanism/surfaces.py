@@ -21,20 +21,6 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.types import Floats, JointId
 
-__all__ = [
-    "Cone",
-    "Cylinder",
-    "Pair",
-    "Surface",
-    "SurfaceLinkage",
-    "as_planar",
-    "checked_cone_angle",
-    "joint_axes",
-    "places_of_steps",
-    "ring",
-    "surface_json",
-]
-
 
 def checked_cone_angle(cone_angle: npt.ArrayLike) -> Floats:
     """Return cone angles; raises `InvariantError` unless 0 <= lambda < pi / 2."""
@@ -355,11 +341,10 @@ def as_planar(chain: SCGraph) -> SCGraph:
 
 
 def places_of_steps(steps: Mapping[Pair, float], tolerance: float = 1e-7) -> dict[JointId, float]:
-    """Return the azimuths of joints from signed steps between pairs of them.
+    """Return the azimuths of joints from signed steps, projected angles in radians, from one joint to another.
 
-    A step is the projected angle from the first joint to the second, radians; the first joint named is at 0.
-    Raises `InvariantError` if steps that lead to one joint two ways disagree by more than the tolerance, or leave
-    joints unconnected.
+    The first joint named is at 0. Raises `InvariantError` if steps that lead to one joint two ways disagree by
+    more than the tolerance, or leave joints unconnected.
     """
     placed: dict[JointId, float] = {}
     left = dict(steps)

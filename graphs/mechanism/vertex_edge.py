@@ -18,8 +18,6 @@ from graphs.loops.loop import Centre, Loop, split_dependent
 from graphs.mechanism.sc import SCGraph
 from graphs.types import JointId, LinkId
 
-__all__ = ["VertexEdgeGraph", "sc_from_vertex_edge", "vertex_edge_from_sc"]
-
 Sector = tuple[Hashable, int]
 
 

@@ -19,8 +19,6 @@ import scipy.sparse.linalg
 from graphs.rank.singular_values import ZERO_SPECTRUM, Spectrum, judged, rounding, verdict
 from graphs.types import Flags, Floats, Ints
 
-__all__ = ["number_below", "sparse_spectrum"]
-
 _LEAF = 96
 """Rows of a part that is not halved."""
 _PIVOT = 0.03
@@ -30,11 +28,10 @@ _CHECKED = (1e-5, 1e-2)
 
 
 def sparse_spectrum(matrix: scipy.sparse.csr_matrix, places: Floats, error: Floats, nearly: Floats) -> Spectrum:
-    """Return the numerical rank of a large sparse matrix.
+    """Return the numerical rank of a large sparse matrix; indeterminate where two counts of small values differ.
 
-    It is indeterminate too where the two counts of small values differ. Places, float[m, d], say where each row
-    is; rows that share columns are close. Error and nearly, float[n], are as for
-    :func:`~graphs.rank.singular_values.spectrum`.
+    Places, float[m, d], say where each row is; rows that share columns are close. Error and nearly, float[n], are
+    as for :func:`~graphs.rank.singular_values.spectrum`.
     """
     if not matrix.nnz:
         return ZERO_SPECTRUM

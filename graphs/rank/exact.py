@@ -24,21 +24,6 @@ from graphs.mechanism.sc import SCGraph
 from graphs.rank.realisation import PRIMES, Field, Line, Point, PrimeField, Realisation, realise
 from graphs.types import JointId, LinkId
 
-__all__ = [
-    "Closure",
-    "Diagnosis",
-    "ExactMobility",
-    "agreed_rank",
-    "closure_modulo",
-    "closure_of",
-    "diagnose",
-    "exact_mobility",
-    "independent_cycles",
-    "matrix_modulo",
-    "mobility_without",
-    "sparse_modulo",
-]
-
 _FINITE = [(0, 0), (0, 1), (0, 2)]
 _SPATIAL = [*_FINITE, (1, 0), (1, 1), (1, 2)]
 

@@ -39,8 +39,6 @@ from graphs.rank.singular_values import NEARLY, Spectrum, singular_values, spect
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Floats, JointId
 
-__all__ = ["PoseMobility", "closure_at_pose", "pose_mobility", "pose_mobility_of_axes", "pose_mobility_of_model"]
-
 _DENSE = 500
 """Up to this many joints all singular values are computed."""
 _SHORT = 5e-3

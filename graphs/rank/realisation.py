@@ -22,19 +22,6 @@ from graphs.mechanism.scd import SCDGraph, points_of_joints
 from graphs.tolerances import DOUBLE
 from graphs.types import JointId
 
-__all__ = [
-    "PRIMES",
-    "Field",
-    "Incidence",
-    "PrimeField",
-    "Realisation",
-    "Reals",
-    "incidence_of",
-    "null_vectors",
-    "realise",
-    "realise_points",
-]
-
 PRIMES = (2**61 - 1, 2**61 - 31)
 """The two largest primes below 2^61."""
 

@@ -21,8 +21,6 @@ from graphs.mechanism.polyhedron import GROUND, PolyhedronModel, VertexId
 from graphs.rank.exact import ExactMobility, agreed_rank, sparse_modulo
 from graphs.rank.realisation import PRIMES, Field, PrimeField, null_vectors
 
-__all__ = ["exact_mobility_of_model", "numbered_columns", "place_model", "velocity_constraints"]
-
 Place = tuple[Any, Any, Any]
 Row = dict[tuple[Hashable, int], Any]
 
@@ -131,8 +129,7 @@ def _planes_of_scissors(model: PolyhedronModel) -> list[list[VertexId]]:
 def _lines_through_centres(model: PolyhedronModel) -> Iterator[list[Hashable]]:
     """Yield the points on the line of each rod that passes through a centre: its ends, and the centres.
 
-    Two points that two lines share are one (`graphs.loops.classes`): remote centres, or a remote centre and a
-    vertex.
+    Two points that two lines share are one (`graphs.loops.classes`): centres, or a centre and a vertex.
     """
     lines = [[frozenset(rod) for rod in centre.rods] for centre in model.centres if centre.rods]
     if len(lines) < len(model.centres):

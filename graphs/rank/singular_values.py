@@ -18,29 +18,6 @@ import numpy.typing as npt
 from graphs.tolerances import DOUBLE, canonical_basis
 from graphs.types import Floats, Ints
 
-__all__ = [
-    "NEARLY",
-    "ZERO_SPECTRUM",
-    "Certainty",
-    "Inertia",
-    "NoiseVerdict",
-    "Spectra",
-    "Spectrum",
-    "Split",
-    "inertia",
-    "judged",
-    "judged_at",
-    "null_space",
-    "rank_of",
-    "rounding",
-    "row_space",
-    "singular_values",
-    "spectra",
-    "spectrum",
-    "split",
-    "verdict",
-]
-
 NEARLY = 2e-3
 """The error of coordinates that would make a nearly mobile mechanism mobile: a thousandth of the size, in units of
 the extent, which is half of it."""

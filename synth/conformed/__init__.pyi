@@ -1,3 +1,4 @@
+from graphs.mechanism.surfaces import joint_axes as joint_axes
 from synth.conformed.all_angles import (
     Allowed as Allowed,
     LinksInLayers as LinksInLayers,
@@ -35,7 +36,6 @@ from synth.conformed.pose import (
     PoseCheck as PoseCheck,
     check_pose as check_pose,
     dihedral_angles as dihedral_angles,
-    joint_axes as joint_axes,
     measured_dihedral_angles as measured_dihedral_angles,
     poses_from_conformed as poses_from_conformed,
 )

@@ -27,8 +27,6 @@ from synth.conformed.outward import OutwardRate, SignRelations, joint_rates, out
 from synth.conformed.rates import ConformedChain
 from synth.surfaces.circuit import HALF_TURN
 
-__all__ = ["Allowed", "LinksInLayers", "OverAngles", "links_in_layers", "never_singular", "over_angles"]
-
 _SAMPLES = 64
 _ROWS = 500
 """Orders for which angles are sampled together."""

@@ -24,19 +24,6 @@ from graphs.types import Floats
 from synth.conformed.rates import ConformedChain, FirstOrder, first_order
 from synth.surfaces.circuit import HALF_TURN
 
-__all__ = [
-    "Behaviour",
-    "TableRow",
-    "Way",
-    "behaviour",
-    "behaviour_of_motion",
-    "icrl",
-    "instant_centres",
-    "link_arcs",
-    "table4",
-    "table_row",
-]
-
 
 class Way(IntEnum):
     """Which way a link moves, for one sense of the linkage's motion.

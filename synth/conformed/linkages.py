@@ -37,16 +37,6 @@ from synth.surfaces.linkages import map_linkage
 from synth.surfaces.loop_maps import map_to_cones, map_to_cylinders
 from synth.surfaces.mapping import in_degrees, joints_text
 
-__all__ = [
-    "ArcChoice",
-    "LinkageBehaviour",
-    "OnSurface",
-    "linkage_on_surfaces",
-    "loop_of_steps",
-    "loop_on_cones",
-    "loop_on_cylinders",
-]
-
 _FAR = 1e12
 
 

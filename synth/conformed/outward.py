@@ -22,8 +22,6 @@ from graphs.rank.singular_values import rank_of
 from graphs.types import Floats, Ints, Signs
 from synth.conformed.rates import ConformedChain, signed_cycles
 
-__all__ = ["OutwardRate", "joint_rates", "outward_rates"]
-
 _BASES = 12
 _PATHS = 12
 _TERMS = 400

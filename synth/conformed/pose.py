@@ -19,16 +19,6 @@ from graphs.types import Floats
 from synth.fourbar.position import output_spherical
 from synth.surfaces.circuit import azimuths, link_angles
 
-__all__ = [
-    "FourBarPoses",
-    "PoseCheck",
-    "check_pose",
-    "dihedral_angles",
-    "joint_axes",
-    "measured_dihedral_angles",
-    "poses_from_conformed",
-]
-
 
 @dataclass(frozen=True, slots=True)
 class PoseCheck:

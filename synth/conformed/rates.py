@@ -23,8 +23,6 @@ from graphs.rank.singular_values import spectra
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId, LinkId
 
-__all__ = ["ConformedChain", "FirstOrder", "first_order"]
-
 NEARLY_DEGREES = 0.05
 """The error of azimuths, in degrees, that cutting a model brings: within it a linkage is nearly mobile."""
 

@@ -21,22 +21,6 @@ from graphs.errors import InvariantError
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 
-__all__ = [
-    "FourBarKind",
-    "can_close",
-    "checked_link_angles",
-    "checked_link_lengths",
-    "grashof_class",
-    "in_a_hemisphere",
-    "kind_of_planar",
-    "kind_of_spherical",
-    "minimal_supplementary",
-    "planar_differences",
-    "rounding_of",
-    "spherical_differences",
-    "supplementary",
-]
-
 ILL_CONDITIONED = "ill-conditioned"
 """What a caution begins with where figures within rounding of zero decide."""
 
@@ -44,8 +28,8 @@ ILL_CONDITIONED = "ill-conditioned"
 def rounding_of(terms: npt.ArrayLike) -> Floats:
     """Return how far rounding may take sums of terms, float[..., n], whatever their signs: float[...].
 
-    (n + 4) eps of the sum of absolute values: a last digit for each term, three for what was computed of it, and
-    one for each addition.
+    (n + 4) eps of the sum of absolute values: a last digit for each term and each addition, three for what went
+    before.
     """
     sizes = np.abs(np.asarray(terms, dtype=float))
     return np.asarray((sizes.shape[-1] + 4) * np.finfo(float).eps * sizes.sum(axis=-1))

@@ -16,15 +16,6 @@ import numpy.typing as npt
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 
-__all__ = [
-    "input_limits_planar",
-    "input_limits_spherical",
-    "output_planar",
-    "output_spherical",
-    "transmission_planar",
-    "transmission_spherical",
-]
-
 Branch = Literal[1, -1]
 
 

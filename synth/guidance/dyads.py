@@ -30,8 +30,6 @@ from synth.guidance.order import (
 )
 from synth.guidance.orientations import Orientations, unit_vector
 
-__all__ = ["AxisCurve", "Dyad", "centre_axes", "dyad_of", "dyads_of_four", "dyads_of_three"]
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Dyad:

@@ -29,8 +29,6 @@ from synth.guidance.orientations import Orientations
 from synth.surfaces.loop_maps import map_to_cones
 from synth.surfaces.mapping import FamilyOfCircles, MappedLoop
 
-__all__ = ["BodyMotion", "ConicalForm", "GuidedFourBar", "conical_forms", "four_bar_of", "four_bars", "motion_of"]
-
 _TURN = 2.0 * np.pi
 
 

@@ -24,8 +24,6 @@ from graphs.tolerances import DOUBLE, EPSILON, canonical_order
 from graphs.types import Floats
 from synth.guidance.orientations import Orientations, Pair, unit_vector
 
-__all__ = ["Hoop", "HoopCrossing", "OrderAnalysis", "analyse_order", "crank_angles", "hoop"]
-
 Direction: TypeAlias = Literal["ccw", "cw"]
 """Counter-clockwise or clockwise, seen from the tip of the fixed axis."""
 
@@ -304,10 +302,9 @@ def analyse_order(orientations: Orientations, axis: npt.ArrayLike, direction: Di
 def order_by_inequalities(orientations: Orientations, axis: npt.ArrayLike) -> Direction | None:
     """Return the direction in which the order is kept, by the inequalities that are necessary and sufficient.
 
-    Eq. 2 as signs: the angles S_12 G S_1j and S_12 G S_2n grow from 0 to 180 degrees if and only if, of each two
-    successive axes a, b of S_13, ..., S_1n, S_2n, the triple products fulfil
-    [G, S_12, a] [G, a, b] [G, S_12, b] > 0; < 0 for a crank that turns clockwise. Each axis occurs twice, so its
-    sign does not matter.
+    Eq. 2 as signs: of each two successive axes a, b of S_13, ..., S_1n, S_2n, the triple products fulfil [G, S_12,
+    a] [G, a, b] [G, S_12, b] > 0; < 0 for a crank that turns clockwise. Each axis occurs twice: its sign does not
+    matter.
     """
     verdict = int(order_verdicts(orientations, unit_vector(axis, "fixed axis")[None])[0])
     return {1: DIRECTIONS[0], -1: DIRECTIONS[1]}.get(verdict)

@@ -26,8 +26,6 @@ from graphs.types import Floats
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
 
-__all__ = ["Orientations", "read_orientations", "unit_vector", "write_orientations"]
-
 
 Pair: TypeAlias = tuple[int, int]
 """Two orientations i < j, numbered from 1."""

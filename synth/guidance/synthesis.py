@@ -26,8 +26,6 @@ from synth.guidance.dyads import Dyad, dyad_of, dyads_of_four, dyads_of_three
 from synth.guidance.order import direction_words, nearest_moving_axis
 from synth.guidance.orientations import Orientations
 
-__all__ = ["DyadsOfFive", "GuidingDyads", "dyads_by_least_squares", "dyads_of_five", "guiding_dyads"]
-
 Complexes = npt.NDArray[np.complex128]
 Numbers = npt.NDArray[Any]
 """Real or complex."""

@@ -20,19 +20,6 @@ from graphs.mechanism.surfaces import Pair, checked_cone_angle
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId
 
-__all__ = [
-    "Circuits",
-    "LoopSteps",
-    "azimuths",
-    "circuits",
-    "closing_step",
-    "link_angles",
-    "link_pairs",
-    "loop_steps",
-    "table1",
-    "wrapped",
-]
-
 HALF_TURN = np.pi - DOUBLE.parallel
 """Steps between azimuths that are this wide (radians) are half a turn, and have no sign."""
 

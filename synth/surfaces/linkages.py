@@ -49,17 +49,6 @@ from synth.surfaces.mapping import (
     size_of,
 )
 
-__all__ = [
-    "CommonFamily",
-    "CommonSurface",
-    "LinkageMap",
-    "SupplementaryLinkages",
-    "by_sizes",
-    "common_surfaces",
-    "map_linkage",
-    "supplementary_linkages",
-]
-
 
 @dataclass(frozen=True, slots=True)
 class LinkageMap(Printed):

@@ -43,8 +43,6 @@ from synth.surfaces.mapping import (
     mapped_loop,
 )
 
-__all__ = ["ConeMap", "CylinderMap", "central_angles", "map_to_cones", "map_to_cylinders", "projected_angles"]
-
 
 @dataclass(frozen=True, slots=True)
 class ConeMap(Printed):

@@ -22,8 +22,6 @@ from graphs.errors import UnsolvableError
 from graphs.types import Flags, Floats
 from synth.fourbar.closing import rounding_of
 
-__all__ = ["LoopRoots", "circumradii", "cone_angles", "loop_roots", "loop_sum"]
-
 Base = Literal[0, 1]
 
 MOST_LINKS = 16
@@ -41,8 +39,7 @@ class LoopRoots:
     A root has the number of its ``loop``, the ``signs`` of its steps, int8[M, n], the first +, ``turns`` k, its
     ``size`` z, and the ``residual``, the loop sum less 2 pi k, radians. It is ``double`` where the sum, within its
     rounding, touches 2 pi k without crossing it, or is there at an end of the interval. Families are sums that
-    vanish for every z (k = 0), exactly if links pair off with equal ones of the other sign, else within their
-    rounding.
+    vanish for every z, exactly if links pair off with equal ones of the other sign, else within rounding.
     """
 
     loop: npt.NDArray[np.intp]
@@ -90,8 +87,7 @@ def sum_rounding(size: npt.ArrayLike, reach: npt.ArrayLike, weights: npt.ArrayLi
     A last digit of a link changes its step by as much, relatively, while it is small, but the more the nearer it
     is to half a turn: by tan(half a step), up to the root of a last digit. The longest link is half a turn where
     the interval ends, whatever its last digit. Reach and weights are float[..., n]; weights are the signs, those
-    of equal reaches added up or not. A small linkage has a small rounding, and the end of the interval a large one
-    for its second longest link.
+    of equal reaches added up or not.
     """
     z = np.asarray(size, dtype=float)[..., np.newaxis]
     c = np.asarray(reach, dtype=float)

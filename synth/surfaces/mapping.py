@@ -21,8 +21,6 @@ from synth.fourbar.closing import ILL_CONDITIONED, FourBarKind
 from synth.surfaces.circuit import circuits
 from synth.surfaces.loop_sums import Base, LoopRoots, half_steps, loop_roots, loop_sum, put_together, sum_rounding
 
-__all__ = ["FamilyOfCircles", "MappedLoop"]
-
 _VAGUE = 1e-6
 """A circle whose size is relatively less certain than this has a caution."""
 _NONE = np.zeros(0, dtype=np.intp)
@@ -185,8 +183,8 @@ def circles_table(
 ) -> list[Block]:
     """Return a table of the circles of a loop, one row for each, then its families; nothing without circles.
 
-    `flat` are the loops that lie in a plane: no cone. `angular`: sizes are angles of cones, in radians and printed
-    as degrees; otherwise they are lengths, of cylinders.
+    `flat` are the loops that lie in a plane: no cone. `angular`: sizes are angles of cones, else lengths of
+    cylinders.
     """
     size = "lambda (deg)" if angular else "radius"
 
@@ -222,10 +220,9 @@ def mapped_loop(
 ) -> tuple[tuple[MappedLoop, ...], tuple[FamilyOfCircles, ...]]:
     """Return all circles of one loop, and the families, on a cylinder (base 0) or a cone (base 1).
 
-    `reach` is float[n], as in `synth.surfaces.loop_sums`. For cones, `flat_steps` are the unsigned steps of the
-    links where the circle has size 0: the link angles themselves, of which the reach is rounded. A step of half a
-    turn has no sign: sign patterns that differ in such steps only are one linkage, listed with +; where it ends a
-    family it is not listed.
+    `reach` is float[n]. For cones, `flat_steps` are the unsigned steps where the circle has size 0: the link
+    angles themselves, of which the reach is rounded. A step of half a turn has no sign: sign patterns that differ
+    in such steps only are one linkage, listed with +; where it ends a family it is not listed.
     """
     roots = loop_roots(reach, base)
     families = _families(roots, reach, base)

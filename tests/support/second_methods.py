@@ -1,4 +1,4 @@
-"""Second methods: the shadow of side links, pole axes on cones, the hoop without angles."""
+"""Second methods: the shadow of side links, pole axes on cones, the hoop without angles, screws of joints."""
 
 from __future__ import annotations
 
@@ -7,11 +7,18 @@ from functools import cmp_to_key
 import numpy as np
 import numpy.typing as npt
 
+from graphs.answer.jointed import screws_of_joints
+from graphs.joints.linkage import JointedLinkage
+from graphs.loops.loop import signed_cycle
+from graphs.mechanism.sc import SCGraph
+from graphs.rank.exact import independent_cycles
+from graphs.rank.singular_values import spectrum
+from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.guidance.order import Direction
 from synth.guidance.orientations import Orientations, Pair, unit_vector
 
-__all__ = ["hoop_sequence", "pole_axes", "shadow_allows"]
+__all__ = ["freedoms_by_screws", "hoop_sequence", "pole_axes", "shadow_allows"]
 
 
 def shadow_allows(places: npt.ArrayLike) -> npt.NDArray[np.bool_]:
@@ -67,3 +74,23 @@ def hoop_sequence(
         return int(-np.sign(ahead(met[a], met[b])))
 
     return tuple(sorted(met, key=cmp_to_key(later)))
+
+
+def freedoms_by_screws(linkage: JointedLinkage) -> int | None:
+    """Return the degrees of freedom by the screws of the joints, without revolutes; None if not known.
+
+    The linkage has places, and all loops close with six equations.
+    """
+    screws = screws_of_joints(linkage)
+    chain = linkage.chain
+    columns = {joint: place for place, joint in enumerate(chain.joints)}
+    widths = [screws[joint].shape[1] for joint in chain.joints]
+    starts = np.concatenate([[0], np.cumsum(widths)])
+    cycles = independent_cycles(SCGraph(chain.nodes, chain.joints))
+    matrix = np.zeros((6 * len(cycles), int(starts[-1])))
+    for row, loop in enumerate(cycles):
+        for joint, sign in signed_cycle(loop.joints, chain.joints):
+            place = columns[joint]
+            matrix[6 * row : 6 * row + 6, starts[place] : starts[place + 1]] = sign * screws[joint]
+    rank = spectrum(matrix, DOUBLE.closed).rank
+    return None if rank is None else int(starts[-1]) - rank

@@ -2,8 +2,9 @@
 
 import pytest
 from random_joints import random_jointed
+from second_methods import freedoms_by_screws
 
-from graphs.answer.jointed import freedoms_by_screws, passive_freedoms
+from graphs.answer.jointed import passive_freedoms
 from graphs.answer.mechanisms import mobility
 from graphs.joints import JointedLinkage, JointKind, placed
 from graphs.joints.linkage import legs

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 from random_joints import random_jointed
+from second_methods import freedoms_by_screws
 
-from graphs.answer.jointed import freedoms_by_screws, report_of_joints, with_planar_loops
+from graphs.answer.jointed import report_of_joints, with_planar_loops
 from graphs.answer.mechanisms import mobility
 from graphs.errors import InvariantError
 from graphs.files.formats import read

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from random_joints import random_jointed
+from second_methods import freedoms_by_screws
 
 from graphs.answer.conversion import convert
-from graphs.answer.jointed import freedoms_by_screws
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.joints import JointedLinkage, JointKind, JointPlace, kind_named, placed, recognised, revolutes_of
