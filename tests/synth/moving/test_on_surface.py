@@ -297,7 +297,9 @@ def sampled(request, data):
     turns = np.radians(entry["inputs"]["dtheta"])
     pairs = [(a, b) for a in range(1, 5) for b in range(a + 1, 5)]
     points = [LinkPoint(1, np.radians(steps[0])), LinkPoint(3, np.radians(sum(steps[:2])))]
-    motion = move_on_surface(loop_of_steps(np.radians(steps), cone), ground=4, driver="1", at=turns, points=points, axes=pairs)
+    motion = move_on_surface(
+        loop_of_steps(np.radians(steps), cone), ground=4, driver="1", at=turns, points=points, axes=pairs
+    )
     return motion, entry["computed"]["rows"], steps
 
 
