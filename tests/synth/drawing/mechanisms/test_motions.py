@@ -45,7 +45,7 @@ def test_what_is_not_known_is_neither_still_nor_moving(monkeypatch):
     monkeypatch.setattr(
         "synth.drawing.mechanisms.creases.verdict_of_motion",
         lambda pattern: replace(
-            verdict_of_motion(pattern), ways=(), certainty="not known", stiff_joints=(0, 1, 2, 3)
+            verdict_of_motion(pattern), branches=(), certainty="not known", stiff_joints=(0, 1, 2, 3)
         ),
     )
     assert set(motions_by_verdict(VERTEX).of.values()) == {"unknown"}
