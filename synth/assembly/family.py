@@ -291,7 +291,7 @@ def _carried(
 ) -> Complexes:
     """Return solutions carried from one member to another along a random curve."""
     bend = _random(random, len(ends[0]), 1.0, 1.0)
-    first, last, bent = (np.tile(one, (len(values), 1)) for one in (*ends, bend))
+    first, last, bent = (np.tile(parameters, (len(values), 1)) for parameters in (*ends, bend))
     paths = family.followed((first, last, bent), values)
     return paths.values[paths.arrived]
 

@@ -127,36 +127,32 @@ class CandidateChain:
 
     def columns(self, placed: bool, opposites: bool, surface: Surface | None, slots: bool) -> dict[str, Column]:
         """Return names and types of columns."""
-        common: dict[str, Column] = {"chain": str, "ground": str, "order": _WORDS}
-        where: dict[str, Column] = {"slots": _NUMBERS} if slots or not placed else {}
-        circuits: dict[str, Column] = {
-            "symmetry": int,
-            "loops": _JOINTS,
-            "circuits": _WORDS,
-            "open_loops": int,
-            "density": _NUMBERS,
+        columns: dict[str, Column] = {"chain": str, "ground": str, "order": _WORDS}
+        if slots or not placed:
+            columns["slots"] = _NUMBERS
+        columns |= {
+            "symmetry": int, "loops": _JOINTS, "circuits": _WORDS, "open_loops": int, "density": _NUMBERS,
             "turns": _NUMBERS if placed else RangeColumn(" ", ".."),
-        }
-        ways: dict[str, Column] = {}
-        if self.grounded and (placed or self.single):
-            ways = {"ways": ListColumn(" ", ":", kind=str), "linkage": str}
-        if not placed:
-            rank: dict[str, Column] = {"full_rank": bool} if self.single else {}
-            if opposites:
-                return {**common, **where, **circuits, "layers": int, **rank, **ways}
-            counts = ("one_way", "both_ways", "by_angles", "not_known") if ways else ()
-            many: dict[str, Column] = dict.fromkeys(counts, int)
-            return {**common, **where, **circuits, "layers": int, "most_layers": int, **rank, **ways, **many}
-        evaluated: dict[str, Column] = {
-            "azimuths_deg": ListColumn(" ", kind=float), "half_turns": _JOINTS, "half_turn_steps": int,
-            "layers": int, "rank": int, "freedoms": int, "singular": bool, "least_singular_value": float,
-            "grashof": _WORDS, "grashof_loops": int,
         }  # fmt: skip
-        sizes: dict[str, Column] = {}
-        if surface is not None:
-            names = ("lambda_deg", "link_angles_deg") if isinstance(surface, Cone) else ("radius", "link_lengths")
-            sizes = {names[0]: float, names[1]: ListColumn(" ", "-", ":", None)}
-        return {**common, **where, **circuits, **evaluated, **sizes, **ways}
+        if placed:
+            columns |= {
+                "azimuths_deg": ListColumn(" ", kind=float), "half_turns": _JOINTS, "half_turn_steps": int,
+                "layers": int, "rank": int, "freedoms": int, "singular": bool, "least_singular_value": float,
+                "grashof": _WORDS, "grashof_loops": int,
+            }  # fmt: skip
+        else:
+            columns |= {"layers": int} if opposites else {"layers": int, "most_layers": int}
+            columns |= {"full_rank": bool} if self.single else {}
+        if placed and surface is not None:
+            size, sizes = (
+                ("lambda_deg", "link_angles_deg") if isinstance(surface, Cone) else ("radius", "link_lengths")
+            )
+            columns |= {size: float, sizes: ListColumn(" ", "-", ":", None)}
+        if self.grounded and (placed or self.single):
+            columns |= {"ways": ListColumn(" ", ":", kind=str), "linkage": str}
+            if not (placed or opposites):
+                columns |= dict.fromkeys(("one_way", "both_ways", "by_angles", "not_known"), int)
+        return columns
 
     def common(self, slots: Ints, opposites: bool) -> Iterator[tuple[Any, ...]]:
         """Yield chain, ground and order, slots of rows."""
@@ -215,26 +211,24 @@ def order_rows(candidate: CandidateChain, slots: Ints, symmetry: Ints, opposites
 
 
 def _ways(candidate: CandidateChain, over: OverAngles, mine: slice, opposites: bool) -> list[Any]:
+    """Return the ways of the links and the linkage, over all angles of one order; counts of sets of opposites."""
     links = [_together(over.links[mine, n]) for n in range(over.links.shape[1])]
     linkage = _together(over.linkage[mine])
     words = [_OF_LINK[allowed] for allowed in links]
+    counts: list[int] = []
     if opposites:
         certain = [over.signs[mine][0, list(joints)] for joints in candidate.chain.joints_of]
         signs = [int(row[np.abs(row).argmax()]) for row in certain]
-        sense = next(
-            (s for s, allowed in zip(signs[1:], links[1:], strict=True) if s and allowed == Allowed.ONE), 1
-        )
+        one_way = [bool(sign) and allowed == Allowed.ONE for sign, allowed in zip(signs, links, strict=True)]
+        sense = next((sign for sign, is_one in zip(signs[1:], one_way[1:], strict=True) if is_one), 1)
         words = [
-            {1: "outward", -1: "inward"}[s * sense] if s and allowed == Allowed.ONE else word
-            for s, allowed, word in zip(signs, links, words, strict=True)
+            {1: "outward", -1: "inward"}[sign * sense] if is_one else word
+            for sign, is_one, word in zip(signs, one_way, words, strict=True)
         ]
-        return [candidate.ways_of_links(words), _OF_LINKAGE[linkage]]
-    counts = np.bincount(over.linkage[mine], minlength=4)
-    return [
-        candidate.ways_of_links(words),
-        _OF_LINKAGE[linkage],
-        *(int(counts[allowed]) for allowed in (Allowed.ONE, Allowed.BOTH, Allowed.ANGLES, Allowed.UNKNOWN)),
-    ]
+    else:
+        numbers = np.bincount(over.linkage[mine], minlength=4)
+        counts = [int(numbers[k]) for k in (Allowed.ONE, Allowed.BOTH, Allowed.ANGLES, Allowed.UNKNOWN)]
+    return [candidate.ways_of_links(words), _OF_LINKAGE[linkage], *counts]
 
 
 def _together(allowed: npt.NDArray[np.int8]) -> Allowed:

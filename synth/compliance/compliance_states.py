@@ -70,7 +70,7 @@ class RestPassed(NamedTuple):
     driven: float
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Elastic:
     """The pose at which springs and moments are in balance, a load path from there, and modes about it.
 
@@ -137,6 +137,9 @@ class Elastic:
         summary = f"springs in balance, {how}, energy {self.pose.energy:.6g}"
         evidence = f"residual moments {self.pose.unbalanced:.0e}, loop-closure residual {self.pose.error:.0e}"
         return [f"{summary}   ({evidence})", f"joints: {ends}", *self._load_path(), *self._small_motions()]
+
+    def __repr__(self) -> str:
+        return f"<Elastic: {numbered(len(self.path), 'pose')}, {numbered(len(self.modes or ()), 'mode')}>"
 
     def _load_path(self) -> list[Block]:
         if self.driver is None:
@@ -237,7 +240,8 @@ class States(Printed):
         ]
         chosen = _distinctive(self.sets)
         rows = [
-            (str(one.active), number_or_unknown(one.freedoms), one.kind, one.certainty) for one in chosen[:_LISTED]
+            (str(state.active), number_or_unknown(state.freedoms), state.kind, state.certainty)
+            for state in chosen[:_LISTED]
         ]
         lines.append(TableBlock(("active", "freedoms", "state", "how known"), rows, ("freedoms",)))
         if len(self.sets) > len(rows):

@@ -278,9 +278,8 @@ def _corner(
         out = ((points - lines_meet(points, axes).point) * axes).sum(axis=1)
         rays = axes * np.where(np.abs(out) > tolerances.same_point, np.sign(out), 1.0)[:, None]
 
-    def apart(one: int, other: int) -> float:
-        between = np.linalg.norm(rays[one] - rays[other]) if parallel else angles_between(rays[one], rays[other])
-        return float(between)
+    def apart(a: int, b: int) -> float:
+        return float(np.linalg.norm(rays[a] - rays[b]) if parallel else angles_between(rays[a], rays[b]))
 
     corner = RideAlongCorner((apart(0, 1), apart(0, 3)), (apart(1, 2), apart(2, 3)), parallel)
     first, last = (ray - (ray @ along) * along for ray in (rays[1], rays[3]))

@@ -417,7 +417,7 @@ def sheet_masses(sheet: Sheet, density: float) -> tuple[Mass, ...]:
     Examples
     --------
     >>> square = Sheet(4, (), "", ((0, 1, 2, 3),), ((0, 0), (2, 0), (2, 2), (0, 2)))
-    >>> round(sum(one.mass for one in sheet_masses(square, 0.5)), 12)
+    >>> round(sum(mass.mass for mass in sheet_masses(square, 0.5)), 12)
     2.0
     """
     if sheet.frames is not None:
@@ -438,8 +438,8 @@ def _lamina(link: int, corners: Floats, density: float) -> list[Mass]:
     doubled = np.cross(corners[1:-1] - corners[0], corners[2:] - corners[0])
     areas = doubled @ unit(doubled.sum(axis=0)) / 2.0
     masses = []
-    for area, one, other in zip(areas.tolist(), corners[1:-1], corners[2:], strict=True):
-        for a, b in ((corners[0], one), (one, other), (other, corners[0])):
+    for area, second, third in zip(areas.tolist(), corners[1:-1], corners[2:], strict=True):
+        for a, b in ((corners[0], second), (second, third), (third, corners[0])):
             x, y, z = ((a + b) / 2.0).tolist()
             masses.append(Mass(link, density * area / 3.0, (x, y, z)))
     return masses

@@ -96,21 +96,10 @@ _TYPES, _WEIGHT = 4, 1000
 """Types per unit, and the weight of a type: it takes as long as so many rows of a list."""
 
 COLUMNS: dict[str, Column] = {
-    "number": int,
-    "name": str,
-    "outcome": str,
-    "reason": str,
-    "code": str,
-    "mobility": int,
-    "freedoms": int,
-    "folds": bool,
-    "least_angle_deg": float,
-    "edge_ratio": float,
-    "planarity": float,
-    "least_distance": float,
-    "try": int,
-    "mechanism": str,
-}
+    "number": int, "name": str, "outcome": str, "reason": str, "code": str, "mobility": int, "freedoms": int,
+    "folds": bool, "least_angle_deg": float, "edge_ratio": float, "planarity": float, "least_distance": float,
+    "try": int, "mechanism": str,
+}  # fmt: skip
 """Values of a row: the number of a type, from 1, its name, the outcome and its reason; then, if it was realised,
 its id, figures and file (FOLD)."""
 

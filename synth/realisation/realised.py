@@ -332,12 +332,6 @@ class _Task:
     lift: Lift
     allowance: Allowance
 
-    @property
-    def ended(self) -> tuple[str, ...]:
-        """A note on a search that ended too early."""
-        used_up = "the search ended early: its allowance of work was used up"
-        return (used_up,) if self.allowance.left <= 0 else ()
-
 
 def _best(task: _Task, sources: Sequence[tuple[DrawingConditions, Iterable[PanelDrawing]]]) -> Realisation:
     """Return the best realisation of the first source of drawings that gives one which folds, or else any."""
@@ -349,10 +343,12 @@ def _best(task: _Task, sources: Sequence[tuple[DrawingConditions, Iterable[Panel
             best = of_source
         if best is not None and best.folds is not False:
             break
+    used_up = "the search ended early: its allowance of work was used up"
+    ended = (used_up,) if task.allowance.left <= 0 else ()
     if best is not None:
-        return replace(best, notes=(*best.notes, *task.ended))
+        return replace(best, notes=(*best.notes, *ended))
     reasons = reasons or {"no drawing without crossings in which creases point to their centres": None}
-    why = "; ".join((*reasons, *task.ended))
+    why = "; ".join((*reasons, *ended))
     tries = numbered(task.tries * len(sources), "try", "tries")
     raise NotFoundError(f"no realisation was found in {tries}: {why}")
 
@@ -393,13 +389,23 @@ def _shaped(task: _Task, drawn: PanelDrawing) -> Realisation:
 
 
 def _realised(task: _Task, drawn: PanelDrawing, height: float) -> Realisation:
-    """Return the realisation of a drawing; refuse one that is of another type when it is read back."""
-    sheet = _placed(task, drawn, height)
+    """Return the realisation of a drawing, its heights in space times a number.
+
+    Raises `UnsolvableError` if it is of another type when it is read back.
+    """
+    pattern = task.pattern
+    places = drawn.places - drawn.places.min(axis=0)
+    places = places * (1.0 / places.max())
+    turns = None
+    if task.kind == "space":
+        places, turns = task.lift(pattern, places, np.random.default_rng((task.seed, drawn.number)))
+        places[:, 2] *= height
+    sheet = sheet_of_places(pattern, task.size * places)
+    sheet = sheet if turns is None else _lettered(sheet, turns)
     if map_id(to_scd(sheet)) != task.code:
         raise UnsolvableError(OTHER_TYPE)
     at = configuration_of_sheet(sheet)
     at, folds = _folded(at) if task.kind == "sheet" else (at, None)
-    pattern = task.pattern
     return Realisation(
         kind=task.kind,
         scd=task.scd,
@@ -421,19 +427,6 @@ def _check(kind: str, size: float) -> None:
         raise InvariantError("kind", f"the kind is {shown(kind)}", " or ".join(get_args(Kind)))
     if not _SMALLEST <= size <= _LARGEST:
         raise InvariantError("size", f"the size is {size:g}", f"a number from {_SMALLEST:g} to {_LARGEST:g}")
-
-
-def _placed(task: _Task, drawn: PanelDrawing, height: float) -> Sheet:
-    """Return the panels with coordinates of the requested size; in space, heights times a number."""
-    pattern = task.pattern
-    places = drawn.places - drawn.places.min(axis=0)
-    places = places * (1.0 / places.max())
-    turns = None
-    if task.kind == "space":
-        places, turns = task.lift(pattern, places, np.random.default_rng((task.seed, drawn.number)))
-        places[:, 2] *= height
-    sheet = sheet_of_places(pattern, task.size * places)
-    return sheet if turns is None else _lettered(sheet, turns)
 
 
 def _folded(at: SheetConfiguration) -> tuple[SheetConfiguration, bool]:

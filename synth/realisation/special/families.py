@@ -114,29 +114,23 @@ def sheet_families(pattern: Pattern) -> list[SheetFamily]:
             if bendable:
                 families.append(SheetFamily(f"{name}, lines bent", DrawingConditions(flat, group), bent=True))
         if flat:
-            families += _with_ratios(pattern)
+            families.append(SheetFamily("flat-foldable", DrawingConditions(True)))
+        if flat and panels_between_vertices(pattern):
+            name = "flat-foldable, ratios that agree round panels"
+            families.append(SheetFamily(f"{name}, lines bent", DrawingConditions(True), bent=True, ratios=True))
+            families.append(SheetFamily(name, DrawingConditions(True), ratios=True))
     return families
-
-
-def _with_ratios(pattern: Pattern) -> list[SheetFamily]:
-    """Return the families of flat-foldable sheets without other conditions, or with ratios that agree."""
-    plain = SheetFamily("flat-foldable", DrawingConditions(True))
-    if not panels_between_vertices(pattern):
-        return [plain]
-    name = "flat-foldable, ratios that agree round panels"
-    bent = SheetFamily(f"{name}, lines bent", DrawingConditions(True), bent=True, ratios=True)
-    return [plain, bent, SheetFamily(name, DrawingConditions(True), ratios=True)]
 
 
 def _of_lines(pattern: Pattern) -> list[tuple[str, tuple[Condition, ...]]]:
     """Return conditions on lines and parallel creases, with their names."""
-    straight = [
+    straight: list[tuple[str, tuple[Condition, ...]]] = [
         (f"lines {number} straight", (straight_lines(pattern, bundle),))
         for number, bundle in enumerate(bundles(pattern), 1)
     ]
     parallel = parallel_creases(pattern)
     if parallel is None:
-        return [*straight]
+        return straight
     name = "opposite creases of panels parallel"
     both = [(f"{lines}, {name}", (*conditions, parallel)) for lines, conditions in straight]
     return [*both, (name, (parallel,)), *straight]

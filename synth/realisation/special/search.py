@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import degrees
 from typing import Any
 
@@ -75,7 +75,7 @@ class SpecialMember:
 
     family: str
     start: int
-    configuration: Configuration
+    configuration: Configuration = field(repr=False)
     number: int
     h: int
     reasons: tuple[str, ...]
