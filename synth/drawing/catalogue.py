@@ -18,14 +18,15 @@ from enumerate.chains.names import name_of
 from enumerate.runner.job import Limits, row_as_dict
 from enumerate.runner.store import read_meta, read_rows
 from enumerate.strings.panel_strings import ChainString
-from graphs.errors import FileError, InvariantError, SynthedraError, UnsolvableError, numbered, shown
+from graphs.errors import FileError, InvariantError, SynthedraError, numbered, shown
 from graphs.files.formats import is_id, mechanism_of_id, read_all
+from graphs.files.outputs import check_installed, check_writable, write_as
 from graphs.mechanism.sc import SCGraph
 from synth.conformed.rates import loops_of_chain
 from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.drawing.mechanisms.pictures import draw
-from synth.drawing.scene.shapes import LARGE, Label, Layer, Scene, moved, text_width
-from synth.drawing.scene.writing import check_picture, save_scene, whole_file, write_pdf
+from synth.drawing.scene.shapes import LARGE, Label, Layer, moved, text_width
+from synth.drawing.scene.writing import PICTURES, Pages, Scene
 
 __all__ = [
     "CatalogueEntry",
@@ -87,11 +88,10 @@ def _rows_of_lines(place: Path) -> Iterator[Row]:
 
 
 def _rows_of_parquet(place: Path) -> Iterator[Row]:
-    try:
-        from pyarrow import ArrowException
-        from pyarrow.parquet import ParquetFile
-    except ImportError:
-        raise UnsolvableError("Parquet requires pyarrow; try pip install 'synthedra[parquet]'") from None
+    check_installed("pyarrow", "Parquet")
+    from pyarrow import ArrowException
+    from pyarrow.parquet import ParquetFile
+
     try:
         with place.open("rb") as stream, ParquetFile(stream) as file:
             for batch in file.iter_batches(_AT_ONCE):
@@ -348,21 +348,17 @@ def write_catalogue(
     the extension is another, or a file exists or cannot be written; UnsolvableError if the library that writes PNG
     (matplotlib) or PDF (reportlab) is not installed.
     """
-    check_picture(path, force=force)
+    check_writable(path, PICTURES, force=force)
     place, rest = Path(path), iter(pages)
     first = next(rest, None)
     if first is None:
         return []
-    if place.suffix.lower() == ".pdf":
-        with whole_file(place, force=force) as beside:
-            write_pdf(chain([first], rest), beside.stream, paper=paper)
-        return [place]
-    second = next(rest, None)
+    second = None if place.suffix.lower() == ".pdf" else next(rest, None)
     if second is None:
-        save_scene(first, place, paper=paper, force=force)
+        write_as(Pages(chain([first], rest), paper), place, PICTURES, force=force)
         return [place]
     places = []
     for number, page in enumerate(chain((first, second), rest), start=1):
         places.append(place.with_name(f"{place.stem}-{number}{place.suffix}"))
-        save_scene(page, places[-1], paper=paper, force=force)
+        page.save(places[-1], paper=paper, force=force)
     return places

@@ -24,7 +24,7 @@ from synth.conformed.all_angles import links_in_layers
 from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain
 from synth.drawing.conformed import surface_layer
-from synth.drawing.scene.shapes import Scene
+from synth.drawing.scene.writing import Scene
 from synth.templates.pieces import Kind, Piece, Point, Stroke, Text
 from synth.templates.template import GREATEST, Template
 

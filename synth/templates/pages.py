@@ -10,11 +10,12 @@ from textwrap import wrap
 
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.printing import plain
-from synth.drawing.scene.shapes import Scene
+from synth.drawing.scene.shapes import Label, Layer, Line, moved, scaled
+from synth.drawing.scene.writing import Scene
 from synth.templates.pieces import LOOKS, Kind, Piece, Point, Stroke, Text
 from synth.templates.template import Template
 
-__all__ = ["Page", "Paper", "Picture", "gauge", "laid_out", "pages_of", "paper_named"]
+__all__ = ["Page", "Paper", "Picture", "gauge", "laid_out", "layers_of", "pages_of", "paper_named"]
 
 
 MARGIN = 10.0
@@ -25,6 +26,8 @@ OVERLAP = 10.0
 """Millimetres by which tiles on pages that meet overlap."""
 _SIZES = {"a4": (210.0, 297.0), "a3": (297.0, 420.0), "letter": (215.9, 279.4)}
 _SHORTEST_SIDE, _LONGEST_SIDE = 130.0, 5000.0
+_WIDEST = 1000
+"""Letters of a line of text, at most."""
 _NUMBER = r"(\d{1,4}(?:\.\d{1,3})?)"
 
 
@@ -119,9 +122,45 @@ class Page:
     is_note: bool = False
 
     @property
-    def ink(self) -> str:
-        """The colour of texts, ``#rrggbb``: on pages to be cut that of marks, which no machine cuts."""
-        return LOOKS["CUT" if self.is_note else "MARKS"].colour
+    def scene(self) -> Scene:
+        """The page as a picture in millimetres: a layer for each kind of stroke, for texts, for the picture."""
+        # the colour of texts on pages to be cut is that of marks, which no machine cuts
+        ink = LOOKS["CUT" if self.is_note else "MARKS"].colour
+        layers = layers_of(self.strokes, self.texts, self.paper.height, ink)
+        if self.picture is not None:
+            drawn, (left, low), scale = self.picture.scene, self.picture.corner, self.picture.scale
+            below = scaled(Layer("PICTURE", tuple(drawn.shapes())), scale)
+            layers.append(moved(below, left, self.paper.height - low - scale * drawn.height))
+        return Scene(self.paper.width, self.paper.height, tuple(layers), unit="mm")
+
+
+def layers_of(strokes: Sequence[Stroke], texts: Sequence[Text], height: float, ink: str) -> list[Layer]:
+    """Return strokes by their kinds, and texts in an ink, on a page of a height; all in millimetres."""
+
+    def down(at: Point) -> Point:
+        return at[0], height - at[1]
+
+    layers = []
+    for kind, look in LOOKS.items():
+        lines = [
+            Line((down(stroke.start), down(stroke.end)), look.colour, look.width, look.dash)
+            for stroke in strokes
+            if stroke.kind == kind
+        ]
+        layers.append(Layer(kind, tuple(lines)))
+    labels = [
+        Label(
+            down(text.at),
+            text.words,
+            text.size,
+            ink,
+            "middle" if text.middle else "start",
+            halo=False,
+            widest=_WIDEST,
+        )
+        for text in texts
+    ]
+    return [layer for layer in (*layers, Layer("TEXT", tuple(labels))) if layer.shapes]
 
 
 GAUGE = 100.0

@@ -27,7 +27,7 @@ from graphs.types import Floats
 from synth.conformed.linkages import OnSurface, linkage_on_surfaces, surface_of_number
 from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.drawing.mechanisms.space import folded_scene
-from synth.drawing.scene.shapes import Scene
+from synth.drawing.scene.writing import Scene
 from synth.drawing.space.panels import same_side_up
 from synth.folding.motion import fold
 from synth.motion.configuration import Configuration

@@ -126,12 +126,11 @@ def draw(
     if where:
         raise click.UsageError("--where requires a catalogue: a store, rows, a graph6 file or a folder")
     from synth.drawing.mechanisms import pictures
-    from synth.drawing.scene.writing import save_scene
 
     drawable = _read(file)
     with about(file):
         scene = pictures.draw(drawable, kind, **look)
-    save_scene(scene, output, paper=paper, force=force)
+    scene.save(output, paper=paper, force=force)
     tell_written(output)
 
 
@@ -364,16 +363,17 @@ def template(
       synth template types.sqlite --row 7 --size 150 -o seventh.svg
     """
     from graphs.errors import InvariantError
+    from graphs.files.outputs import check_writable
     from graphs.mechanism.surfaces import SurfaceLinkage
     from synth.drawing.mechanisms.chains import OrderOnCircle
     from synth.templates.pages import paper_named
-    from synth.templates.writing import check_template, write_template
+    from synth.templates.writing import TEMPLATES, write_template
 
     try:
         paper = paper_named(page)
     except InvariantError as error:
         raise click.BadParameter(str(error), param_hint="--page") from None
-    check_template(output, force=force)
+    check_writable(output, TEMPLATES, force=force)
     source = read_named(file, row, mode)
     source = replace(source, mechanism=precise_sheet(source.mechanism))
     on_surface = isinstance(source.mechanism, SurfaceLinkage | OrderOnCircle)

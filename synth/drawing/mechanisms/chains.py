@@ -22,7 +22,8 @@ from graphs.types import JointId, LinkId
 from synth.drawing.layout.mechanisms import Layout, layout_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, joint_dot, placed
 from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of
-from synth.drawing.scene.shapes import NORMAL, SMALL, Disc, Label, Layer, Line, Point, Polygon, Scene, Shape
+from synth.drawing.scene.shapes import NORMAL, SMALL, Disc, Label, Layer, Line, Point, Polygon, Shape
+from synth.drawing.scene.writing import Scene
 
 __all__ = ["ChainLook", "OrderOnCircle", "chain_scene", "order_of_linkage", "order_scene", "strip_scene"]
 

@@ -38,11 +38,11 @@ from synth.drawing.scene.shapes import (
     Line,
     Point,
     Polygon,
-    Scene,
     Shape,
     colour_of_class,
     text_width,
 )
+from synth.drawing.scene.writing import Scene
 from synth.drawing.space.panels import sheet_and_mechanism
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.branches import Branch

@@ -32,7 +32,7 @@ from synth.drawing.mechanisms.creases import COLOURINGS, crease_scene, overlay_o
 from synth.drawing.mechanisms.sc_graphs import sc_scene
 from synth.drawing.mechanisms.space import folded_scene, model_scene, solids_scene
 from synth.drawing.scene.frame import BOX, Box
-from synth.drawing.scene.shapes import Scene
+from synth.drawing.scene.writing import Scene
 from synth.folding.configuration import SheetConfiguration
 from synth.guidance.orientations import Orientations
 from synth.motion.configuration import Configuration

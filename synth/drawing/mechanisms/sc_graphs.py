@@ -35,11 +35,11 @@ from synth.drawing.scene.shapes import (
     Layer,
     Line,
     Point,
-    Scene,
     Shape,
     colour_of_class,
     text_width,
 )
+from synth.drawing.scene.writing import Scene
 
 __all__ = ["class_numbers", "sc_scene"]
 

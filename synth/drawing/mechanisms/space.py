@@ -20,7 +20,8 @@ from graphs.types import Floats, LinkId
 from synth.drawing.layout.mechanisms import layout_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
 from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of
-from synth.drawing.scene.shapes import NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Point, Scene, Shape
+from synth.drawing.scene.shapes import NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Point, Shape
+from synth.drawing.scene.writing import Scene
 from synth.drawing.space.panels import SpatialPanels, View, bodies_of, panel_shapes, panels_of, view_from_above
 from synth.folding.configuration import SheetConfiguration
 from synth.moving.made import configuration_of

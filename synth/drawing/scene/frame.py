@@ -18,11 +18,11 @@ from synth.drawing.scene.shapes import (
     Layer,
     Line,
     Point,
-    Scene,
     Shape,
     moved,
     text_width,
 )
+from synth.drawing.scene.writing import Scene
 
 __all__ = ["BOX", "COLUMN", "Box", "Frame", "Plot", "captions_of", "framed", "page_of", "round_steps", "signed"]
 

@@ -75,7 +75,7 @@ def test_a_folder_of_pictures_is_refused_before_anything_is_read(tmp_path):
 
 def test_a_kind_of_picture_is_refused_before_anything_is_computed(tmp_path):
     words = ["cone", "map", tmp_path / "nowhere.json", "-o", tmp_path / "a.bmp"]
-    assert "the extension is not known; expected .png, .svg, .pdf" in run(*words, code=2).stderr
+    assert "are not known; expected one of .png .svg .pdf" in run(*words, code=2).stderr
 
 
 def test_every_option_that_names_an_output_comes_with_force():
