@@ -18,7 +18,7 @@ Reading and writing: `read`, `write`. Questions: `mobility`, `identify`, `recons
 pattern with rigid panels, frame by frame; `move`, any linkage; `positions`, all at given inputs. `explain`: why it
 moves; `advise`: what to lock, which panels to crease; `states`: which members bend, and what springs do. Known
 patterns and linkages: `generate`, by parameters. All types up to a size in a file: `open_atlas`.
-Pictures: `draw`, of any mechanism; `synth.drawing.save_scene` writes them. In a notebook mechanisms show
+Pictures: `draw`, of any mechanism; `save` of a picture writes it. In a notebook mechanisms show
 themselves.
 
 Angles are radians. Every answer prints as the command line does, has ``to_json()``, and says how it is known. An

@@ -27,6 +27,7 @@ from synth.templates.pieces import (
     Text,
     common_spans,
     cut_once,
+    point_of,
     spans_on,
     uncovered,
     united,
@@ -77,8 +78,7 @@ class _Strip:
 
     def at(self, along: float, across: float) -> Point:
         """Return a place by millimetres along the fold, and by half widths across it."""
-        place = self.start + along * self.along + across * self.width / 2 * self.off
-        return float(place[0]), float(place[1])
+        return point_of(self.start + along * self.along + across * self.width / 2 * self.off)
 
     def line(self, kind: Kind, across: float, first: float, last: float) -> Stroke:
         """Return a line along the fold."""

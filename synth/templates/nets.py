@@ -26,6 +26,7 @@ from synth.templates.pieces import (
     cut_once,
     lies_over,
     lies_within,
+    point_of,
     put_together,
 )
 from synth.templates.unfolding import Net, Panels, laid_across, nets_of, panels_of
@@ -170,11 +171,6 @@ class _Glue:
     numbers: int = 0
     missing: int = 0
 
-    def next_number(self) -> str:
-        """Return the number of the next edge that is glued."""
-        self.numbers += 1
-        return str(self.numbers)
-
 
 @dataclass(frozen=True)
 class _Side:
@@ -189,7 +185,7 @@ class _Side:
         """Return a place on the panel, so deep from the middle of the side."""
         along = unit(self.end - self.start)
         place = (self.start + self.end) / 2 + depth * np.array([-along[1], along[0]])
-        return _point(place)
+        return point_of(place)
 
 
 class CutNets(NamedTuple):
@@ -215,7 +211,7 @@ def pieces_of_panels(sheet: Sheet, places: Floats, joins: Joins) -> CutNets:
         first, second = (_side(panels, of_face[face], face, edge) for face in panels.joins[edge])
         if _are_one(first, second):
             if kind := _kind(panels, edge, first):
-                first.work.strokes.append(Stroke(kind, _point(first.start), _point(first.end)))
+                first.work.strokes.append(Stroke(kind, point_of(first.start), point_of(first.end)))
             continue
         _glue(panels, edge, (first, second), glue)
     _cut_borders(panels, of_face)
@@ -268,7 +264,8 @@ def _differ(panels: Panels, edge: int) -> bool:
 
 def _glue(panels: Panels, edge: int, sides: tuple[_Side, _Side], glue: _Glue) -> None:
     """Put a tab at one of two sides that meet, and a number at both."""
-    number = glue.next_number()
+    glue.numbers += 1
+    number = str(glue.numbers)
     for here, there in (sides, sides[::-1]):
         net = here.work.net
         laid, _ = laid_across(panels, edge, here.face, net.corners[here.face], turned=net.turned[here.face])
@@ -304,24 +301,24 @@ def _add_tab(side: _Side, shape: Floats, kind: Kind | None, number: str) -> None
     """Add a tab to the piece of a side: fold its base, cut its other sides."""
     work = side.work
     work.tabs.append(shapely.Polygon(shape))
-    start, end, after, before = map(_point, shape)
+    start, end, after, before = map(point_of, shape)
     if kind is not None:
         work.strokes.append(Stroke(kind, start, end))
     work.strokes += [Stroke("CUT", *ends) for ends in ((start, before), (before, after), (after, end))]
-    work.texts.append(Text(_point(shape.mean(axis=0)), number))
+    work.texts.append(Text(point_of(shape.mean(axis=0)), number))
 
 
 def _add_slot(side: _Side, slot: Floats, laid: Floats, own: Floats, glue: _Glue) -> None:
     """Cut a slot, given where its panel lies across the edge and in its own plane, and keep other tabs off it."""
     start, end = _carried(slot, laid, side.work.net.corners[side.face])
-    side.work.strokes.append(Stroke("CUT", _point(start), _point(end)))
+    side.work.strokes.append(Stroke("CUT", point_of(start), point_of(end)))
     round_it = shapely.LineString(slot).buffer(_OFF_SLOT, cap_style="square")
     glue.on_panel[side.face].append(_carried(np.array(round_it.exterior.coords[:-1]), laid, own))
 
 
 def _cut(side: _Side, number: str, *, beyond: float = 0.0) -> None:
     """Cut along a side that is joined to another, and put its number inside, beyond a tab's depth."""
-    side.work.met.append(Stroke("CUT", _point(side.start), _point(side.end)))
+    side.work.met.append(Stroke("CUT", point_of(side.start), point_of(side.end)))
     side.work.strokes.append(side.work.met[-1])
     side.work.texts.append(Text(side.inside(_IN + beyond), number))
 
@@ -333,14 +330,10 @@ def _cut_borders(panels: Panels, of_face: dict[int, _Work]) -> None:
         for corner, side in enumerate(sides_of_face(panels.sheet.faces[face])):
             if frozenset(side) not in joined:
                 corners = work.net.corners[face]
-                ends = _point(corners[corner]), _point(corners[(corner + 1) % len(corners)])
+                ends = point_of(corners[corner]), point_of(corners[(corner + 1) % len(corners)])
                 work.strokes.append(Stroke("CUT", *ends))
 
 
 def _piece(work: _Work) -> Piece:
     covered = put_together([*work.net.polygons(), *work.tabs])
     return Piece(tuple(cut_once(work.strokes)), tuple(work.texts), covered)
-
-
-def _point(place: Floats) -> Point:
-    return float(place[0]), float(place[1])

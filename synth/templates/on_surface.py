@@ -278,15 +278,6 @@ class _Unrolled:
         return [Stroke(kind, a, b) for a, b in pairwise(self.points(corners))]
 
 
-def flat_pieces(linkage: LayeredLinkage) -> list[Piece]:
-    """Return the pieces of a linkage: the surface with the ruling lines of its joints, then a piece for each link.
-
-    All are seen from outside; the arcs of their edges are chords that miss them by 0.004 mm at most.
-    """
-    links = [_piece_of_link(linkage, number) for number in range(len(linkage.links))]
-    return [_piece_of_surface(linkage), *links]
-
-
 def _piece_of_surface(linkage: LayeredLinkage) -> Piece:
     """Return the surface under all links, cut open half way between the two joints that are farthest apart."""
     places = sorted(linkage.places.values())
@@ -397,15 +388,17 @@ def surface_of(linkage: OnSurface, radius: float | None = None) -> Surface:
 def template_on_surface(
     linkage: OnSurface, surface: Surface, dimensions: Dimensions | None = None, title: str = ""
 ) -> Template:
-    """Return the template of a linkage on a cone or a cylinder: the surface, and each link as a piece.
+    """Return the template of a linkage on a cone or a cylinder: a piece for the surface, and one for each link.
 
+    All pieces are seen from outside; the arcs of their edges are chords that miss them by 0.004 mm at most.
     Raise UnsolvableError if two joints are on one ruling line, or a link has one joint only.
     """
     made = layered(linkage, surface, dimensions or Dimensions())
     picture = _picture(linkage, surface)
     below = "It then lies as below; the picture puts layers beside each other, so that none hides another."
     steps = [*_steps(made), below]
-    return Template(tuple(flat_pieces(made)), None, linkage, title, (), tuple(steps), picture)
+    pieces = (_piece_of_surface(made), *(_piece_of_link(made, number) for number in range(len(made.links))))
+    return Template(pieces, None, linkage, title, (), tuple(steps), picture)
 
 
 def _picture(linkage: OnSurface, surface: Surface) -> Scene:

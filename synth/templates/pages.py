@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import ceil, prod
 from textwrap import wrap
 
@@ -15,7 +15,17 @@ from synth.drawing.scene.writing import Scene
 from synth.templates.pieces import LOOKS, Kind, Piece, Point, Stroke, Text
 from synth.templates.template import Template
 
-__all__ = ["Page", "Paper", "Picture", "gauge", "laid_out", "layers_of", "pages_of", "paper_named"]
+__all__ = [
+    "Page",
+    "Paper",
+    "Picture",
+    "gauge",
+    "laid_out",
+    "layers_of",
+    "pages_of",
+    "paper_named",
+    "strokes_and_texts",
+]
 
 
 MARGIN = 10.0
@@ -275,8 +285,8 @@ def tiles_of(piece: Piece, window: tuple[float, float], name: str = "") -> Itera
                     texts.append(text)
             right, up = MARGIN - corner[0], MARGIN + FOOTER - corner[1]
             yield Tile(
-                (*(one.moved(right, up) for one in strokes), *frame(window)),
-                tuple(replace(one, at=(one.at[0] + right, one.at[1] + up)) for one in texts),
+                (*(stroke.moved(right, up) for stroke in strokes), *frame(window)),
+                tuple(text.moved(right, up) for text in texts),
                 f"{f'piece {name}, ' if name else ''}column {column + 1} of {counts[0]} from the left, "
                 f"row {counts[1] - row} of {counts[1]} from the top",
             )
@@ -408,7 +418,8 @@ def pages_of(template: Template, paper: Paper) -> list[Page]:
     assembly if the template has one. Raise UnsolvableError if there would be more than 500 pages.
     """
     ways = (paper, paper.turned())
-    most = [_pages_at_most(template, way) for way in ways]
+    # with one piece per page, which is known before any is made
+    most = [sum(prod(tiles_across(piece.size, way.window)) for piece in template.pieces) for way in ways]
     if min(most) > _MOST_PAGES:
         raise UnsolvableError(
             f"{min(most)} pages; expected at most {_MOST_PAGES}; try a smaller --size or a larger --page"
@@ -443,11 +454,6 @@ def laid_out(pieces: Sequence[Piece], width: float, height: float) -> Iterator[_
         right, row = right + wide + _APART, max(row, high)
     if laid:
         yield laid
-
-
-def _pages_at_most(template: Template, paper: Paper) -> int:
-    """Return the number of pages with one piece each, which is known before any is made."""
-    return sum(prod(tiles_across(piece.size, paper.window)) for piece in template.pieces)
 
 
 def _contents(template: Template, paper: Paper) -> tuple[Paper, list[_Laid | Tile]]:
@@ -487,7 +493,13 @@ def _in_the_middle(laid: _Laid, paper: Paper) -> tuple[list[Stroke], list[Text]]
         most - max(shift[axis] + piece.size[axis] for piece, *shift in laid)
         for axis, most in enumerate(paper.window)
     ]
-    moved = [
-        piece.moved(MARGIN + free[0] / 2 + right, MARGIN + FOOTER + free[1] / 2 + up) for piece, right, up in laid
+    left, low = MARGIN + free[0] / 2, MARGIN + FOOTER + free[1] / 2
+    return strokes_and_texts((piece, left + right, low + up) for piece, right, up in laid)
+
+
+def strokes_and_texts(laid: Iterable[tuple[Piece, float, float]]) -> tuple[list[Stroke], list[Text]]:
+    """Return the strokes and texts of pieces, each moved to the right and up."""
+    pieces = [piece.moved(right, up) for piece, right, up in laid]
+    return [stroke for piece in pieces for stroke in piece.strokes], [
+        text for piece in pieces for text in piece.texts
     ]
-    return [one for piece in moved for one in piece.strokes], [one for piece in moved for one in piece.texts]

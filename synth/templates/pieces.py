@@ -32,6 +32,7 @@ __all__ = [
     "lies_over",
     "lies_within",
     "piece_of_flat_sheet",
+    "point_of",
     "put_together",
     "spans_on",
     "uncovered",
@@ -98,6 +99,10 @@ class Text:
     size: float = 3.0
     middle: bool = True
 
+    def moved(self, right: float, up: float) -> Text:
+        """Return the word elsewhere."""
+        return replace(self, at=(self.at[0] + right, self.at[1] + up))
+
 
 @dataclass(frozen=True)
 class Piece:
@@ -130,7 +135,7 @@ class Piece:
 
         return Piece(
             tuple(stroke.moved(right, up) for stroke in self.strokes),
-            tuple(replace(text, at=(text.at[0] + right, text.at[1] + up)) for text in self.texts),
+            tuple(text.moved(right, up) for text in self.texts),
             translate(self.covered, right, up),
         )
 
@@ -182,7 +187,7 @@ def uncovered(stroke: Stroke, ends: Floats) -> list[Stroke]:
     free = _between(length, spans_on(start, along, ends))
     if free == [(0.0, length)]:
         return [stroke]
-    return [Stroke(stroke.kind, _at(start + a * along), _at(start + b * along)) for a, b in free]
+    return [Stroke(stroke.kind, point_of(start + a * along), point_of(start + b * along)) for a, b in free]
 
 
 def spans_on(start: Floats, along: Floats, ends: Floats) -> list[tuple[float, float]]:
@@ -220,7 +225,8 @@ def _between(length: float, covered: list[tuple[float, float]]) -> list[tuple[fl
     return free
 
 
-def _at(place: Floats) -> Point:
+def point_of(place: Floats) -> Point:
+    """Return a place, float[2], as a point."""
     return float(place[0]), float(place[1])
 
 
@@ -297,7 +303,7 @@ def piece_of_flat_sheet(sheet: Sheet, places: Floats) -> tuple[Piece, tuple[str,
         seen.add(pair)
         kind = _kind(letter, faces[pair])
         if kind is not None:
-            start, end = (_point(places[vertex]) for vertex in edge)
+            start, end = (point_of(places[vertex]) for vertex in edge)
             strokes.append(Stroke(kind, start, end))
         elif faces[pair]:
             flat += 1
@@ -334,7 +340,3 @@ def put_together(polygons: Iterable[Any]) -> Any:
     area = united([shapely.Polygon(same[a:b]) for a, b in pairwise(ends)])
     parts = [part for part in getattr(area, "geoms", [area]) if part.area > _SLIT]
     return parts[0] if len(parts) == 1 else shapely.MultiPolygon(parts)
-
-
-def _point(place: Floats) -> Point:
-    return float(place[0]), float(place[1])

@@ -25,16 +25,7 @@ from synth.templates.pieces import GRID, united
 from synth.templates.template import GREATEST, millimetres, scale_of
 from synth.templates.unfolding import Panels, Plane, panels_of
 
-__all__ = [
-    "SOLIDS",
-    "THICKNESS",
-    "Plates",
-    "plates_in_space",
-    "plates_of",
-    "poses_of",
-    "write_linkage_on_surface",
-    "write_solids",
-]
+__all__ = ["SOLIDS", "THICKNESS", "write_linkage_on_surface", "write_solids"]
 
 
 _RIGID = 1e-4

@@ -27,6 +27,7 @@ from graphs.types import Floats
 from synth.conformed.linkages import OnSurface, linkage_on_surfaces, surface_of_number
 from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.drawing.mechanisms.space import folded_scene
+from synth.drawing.scene.frame import PictureOptions
 from synth.drawing.scene.writing import Scene
 from synth.drawing.space.panels import same_side_up
 from synth.folding.motion import fold
@@ -45,7 +46,7 @@ __all__ = [
     "folded_pose",
     "linkage_on_a_surface",
     "millimetres",
-    "panels_of_thing",
+    "panels_of_mechanism",
     "pictured",
     "scale_of",
     "template_of",
@@ -180,7 +181,7 @@ def folded_picture(sheet: Sheet) -> tuple[Scene | None, str]:
     if pose is None:
         return None, seen
     sides = "; the printed side is grey, its back blue" if list(pose.faces) == same_side_up(pose.faces) else ""
-    return folded_scene(pose, numbers=False, box=_BOX, caption=None), seen + sides
+    return folded_scene(pose, PictureOptions(numbers=False, box=_BOX, caption=None)), seen + sides
 
 
 def folded_pose(sheet: Sheet) -> tuple[Sheet | None, str]:
@@ -324,17 +325,14 @@ def template_of(
         nets = CutNets((piece,), ((),), 0, 0)
     else:
         nets = pieces_of_panels(whole, in_space(whole.coordinates or ()) * factor, joins)
-        not_shown = _without_tab(nets.without_tab) if joins.depth else ()
+        without = nets.without_tab if joins.depth else 0
+        not_shown = (f"tabs at {numbered(without, 'edge')} with no room for one",) if without else ()
     pieces = nets.pieces
     if hinges is not None:
         pieces = tuple(with_hinges(*one, hinges) for one in zip(pieces, nets.met, strict=True))
     meeting = steps_of_joins(nets.numbers, nets.without_tab, slotted=slots)
     steps = (*steps_of_folds(pieces), *steps_of_hinges(hinges), *meeting)
     return Template(pieces, factor, placed, title, not_shown, steps)
-
-
-def _without_tab(edges: int) -> tuple[str, ...]:
-    return (f"tabs at {numbered(edges, 'edge')} with no room for one",) if edges else ()
 
 
 def pictured(template: Template, sheet: Sheet) -> tuple[Template, str]:
@@ -358,14 +356,14 @@ def pictured(template: Template, sheet: Sheet) -> tuple[Template, str]:
     return replace(template, picture=picture, steps=(*template.steps, f"It then looks as below, {seen}.")), ""
 
 
-def panels_of_thing(
-    thing: Mechanism | ChainString, *, kind: RealisedKind | None = None, mode: str | None = None
+def panels_of_mechanism(
+    mechanism: Mechanism | ChainString, *, kind: RealisedKind | None = None, mode: str | None = None
 ) -> tuple[Sheet, str]:
     """Return the panels of a mechanism, realised if it is a type, and a note on that.
 
     Parameters
     ----------
-    thing : Mechanism or ChainString
+    mechanism : Mechanism or ChainString
         A sheet, a model of panels, or a type, which is realised.
     kind : {"sheet", "space"}, optional
         Kind of realisation of a type; a flat sheet by default.
@@ -385,22 +383,22 @@ def panels_of_thing(
 
     Examples
     --------
-    >>> panels_of_thing(ChainString((2, 1)))
+    >>> panels_of_mechanism(ChainString((2, 1)))
     (<Sheet: 4 faces, 3 creases, 9 vertices, flat>, 'no coordinates: realised as a flat sheet')
     """
-    sheet = sheet_of(thing) if not isinstance(thing, ChainString) else None
+    sheet = sheet_of(mechanism) if not isinstance(mechanism, ChainString) else None
     if sheet is not None:
         if kind is not None or mode is not None:
             raise UnsolvableError(
                 "a kind or a mode of realisation requires a type, and the mechanism has coordinates"
             )
         return sheet, ""
-    if not isinstance(thing, SCGraph | SCDGraph | ChainString):
-        raise UnsolvableError(f"a template requires panels, and {thing!r} has none")
+    if not isinstance(mechanism, SCGraph | SCDGraph | ChainString):
+        raise UnsolvableError(f"a template requires panels, and {mechanism!r} has none")
     from synth.realisation.realised import realise  # it loads numba, which only types need
 
     form = "a flat sheet" if kind != "space" else "a pose in space"
-    return realise(thing, kind=kind or "sheet", mode=mode).sheet, f"no coordinates: realised as {form}"
+    return realise(mechanism, kind=kind or "sheet", mode=mode).sheet, f"no coordinates: realised as {form}"
 
 
 def linkage_on_a_surface(

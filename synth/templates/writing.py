@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from math import sqrt
+from itertools import chain
+from math import inf, sqrt
 from pathlib import Path
 
 from graphs.files.atomic import check_place
@@ -13,7 +14,7 @@ from graphs.files.patterns.dxf import DxfLayer, DxfLine, DxfWord, dxf_of
 from graphs.printing import plain
 from synth.drawing.scene.shapes import Label, Line
 from synth.drawing.scene.writing import PICTURES, Pages, Scene
-from synth.templates.pages import Page, Paper, gauge, laid_out, layers_of, pages_of
+from synth.templates.pages import Page, Paper, gauge, laid_out, layers_of, pages_of, strokes_and_texts
 from synth.templates.pieces import LOOKS
 from synth.templates.template import Template
 
@@ -48,11 +49,10 @@ def _side_by_side(template: Template) -> Scene:
     pieces = [piece.at_origin() for piece in template.pieces]
     widest = max(piece.size[0] for piece in pieces)
     width = max(widest, _ROW * sqrt(sum(piece.size[0] * piece.size[1] for piece in pieces)))
-    moved = [piece.moved(right, up) for laid in laid_out(pieces, width, float("inf")) for piece, right, up in laid]
+    strokes, texts = strokes_and_texts(chain.from_iterable(laid_out(pieces, width, inf)))
     ruler, words = gauge((0.0, _BELOW))
-    strokes = [stroke for piece in moved for stroke in piece.strokes] + ruler
-    texts = [text for piece in moved for text in piece.texts] + words
-    return Scene(0.0, 0.0, tuple(layers_of(strokes, texts, 0.0, LOOKS["MARKS"].colour)), unit="mm")
+    layers = layers_of([*strokes, *ruler], [*texts, *words], 0.0, LOOKS["MARKS"].colour)
+    return Scene(0.0, 0.0, tuple(layers), unit="mm")
 
 
 TEMPLATES = formats_by_suffix(

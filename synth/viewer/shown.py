@@ -245,7 +245,7 @@ class Shown:
 
 
 def shown_of(
-    thing: Mechanism,
+    mechanism: Mechanism,
     name: str = "",
     *,
     motion: bool | None = None,
@@ -255,7 +255,7 @@ def shown_of(
 
     Parameters
     ----------
-    thing : Sheet, SCGraph, SCDGraph, PolyhedronModel, HingedSolids, SurfaceLinkage, ...
+    mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, HingedSolids, SurfaceLinkage, ...
         For a sheet with several frames, the first that has coordinates is moved.
     name : str, optional
         Name on the page, such as that of a file.
@@ -278,7 +278,11 @@ def shown_of(
     >>> shown.verdict, len(shown.moving.ways.all)
     ('Rigid-foldable from the flat state: 1 degree of freedom. 2 folding branches.', 2)
     """
-    placed = thing.frames.first_placed() if isinstance(thing, Sheet) and thing.frames is not None else thing
+    placed = (
+        mechanism.frames.first_placed()
+        if isinstance(mechanism, Sheet) and mechanism.frames is not None
+        else mechanism
+    )
     notes: list[str] = []
     on_request = isinstance(placed, Sheet) and len(placed.faces) > MOST_PANELS and not motion
     report("finding motion branches", 1, _STEPS)
@@ -310,11 +314,11 @@ def shown_of(
 
 
 def _moving(
-    thing: Mechanism, notes: list[str], *, still: bool
+    mechanism: Mechanism, notes: list[str], *, still: bool
 ) -> tuple[Configuration | None, MovingLinkage | None]:
     """Return a mechanism at its configuration, and its motions unless it is `still`; note why there are none."""
     try:
-        at = configuration_of(thing, mend=not still)
+        at = configuration_of(mechanism, mend=not still)
     except SynthedraError as error:
         notes.append(f"not moved: {error}")
         return None, None
@@ -332,10 +336,10 @@ def _moving(
     return at, MovingLinkage(at.linkage, bodies, ways, centres, largest_panel(at.mechanism.panels), limited=True)
 
 
-def _pictures(thing: Mechanism | Configuration, notes: list[str]) -> dict[str, str]:
+def _pictures(mechanism: Mechanism | Configuration, notes: list[str]) -> dict[str, str]:
     """Return the picture on light and on dark paper; note why there is none."""
     try:
-        scene = draw(thing, box=_BOX, caption=None)
+        scene = draw(mechanism, box=_BOX, caption=None)
     except SynthedraError as error:
         notes.append(f"not drawn: {error}")
         return {}

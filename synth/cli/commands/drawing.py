@@ -409,13 +409,13 @@ def _of_panels(
 ) -> tuple[Template, list[str]]:
     """Return the template of panels, and notes to print."""
     from synth.templates.hinges import Hinges
-    from synth.templates.template import panels_of_thing, pictured, template_of, unit_of
+    from synth.templates.template import panels_of_mechanism, pictured, template_of, unit_of
 
     if (look["hinge_kind"] == "fold") != (look["hinge_width"] is None):
         raise click.UsageError("--hinges offset, living or gap and --hinge-width require each other")
     hinges = None if look["hinge_width"] is None else Hinges(look["hinge_kind"], look["hinge_width"])
     mechanism: Any = source.mechanism
-    sheet, realised = panels_of_thing(mechanism, kind=kind, mode=source.mode)
+    sheet, realised = panels_of_mechanism(mechanism, kind=kind, mode=source.mode)
     options = {name: look[name] for name in ("scale", "size", "tabs", "slots")}
     notes = [f"{realised}, as by `synth realise`"] if realised else []
     if look["scale"] is None and look["size"] is None and realised:

@@ -25,7 +25,7 @@ from graphs.reduce.ride_alongs import Reduction, reduce
 from graphs.types import JointId, LinkId
 from synth.drawing.layout.mechanisms import Layout, layout_of
 from synth.drawing.mechanisms.labelling import SIGN, Obstacles, beside, centre_sign, placed
-from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of
+from synth.drawing.scene.frame import PLAIN, Frame, PictureOptions, captions_of, framed, page_of
 from synth.drawing.scene.shapes import (
     NORMAL,
     SMALL,
@@ -56,21 +56,17 @@ _Sign: TypeAlias = tuple[Point, int, list[Shape]]
 """Place, number and shapes of the sign of a centre class."""
 
 
-def sc_scene(sc: SCGraph, *, box: Box = BOX, caption: str | None = "") -> Scene:
-    """Return a picture of an SC or SCD graph, at most as large as the box (width, height), in points.
-
-    An SCD graph is drawn by its rotations, with its open edges; the outer face is outside. The caption comes
-    before the lines that describe the picture; with None there are none.
-    """
+def sc_scene(sc: SCGraph, options: PictureOptions = PLAIN) -> Scene:
+    """Return a picture of an SC or SCD graph, the latter by its rotations, with its open edges."""
     rotation, outer = _kept_drawing(sc)
     layout = layout_of(sc.nodes, sc.joints, as_bodies=False, rotation=rotation, outer=outer)
     places = [*layout.links.values(), *layout.joints.values()]
-    frame = framed(places, _UNIT, box, margin=_STUB + 2 * _LINK)
+    frame = framed(places, _UNIT, options.box, margin=_STUB + 2 * _LINK)
     numbers = class_numbers(sc)
     ways = {joint: frame.row(row) for joint, row in layout.ways.items()}
     drawn = {joint: _bent(row) for joint, row in ways.items()}
     links = {link: frame.at(place) for link, place in layout.links.items()}
-    radius = min(_LINK, 0.042 * min(box), 0.24 * frame.scale, 0.42 * _least_distance(list(links.values())))
+    radius = min(_LINK, 0.042 * min(options.box), 0.24 * frame.scale, 0.42 * _least_distance(list(links.values())))
     signs, loose = _signs(sc, layout, frame, numbers)
     stubs = _stubs(sc, ways, links, radius) if isinstance(sc, SCDGraph) else []
     labels = _labels(ways, links, radius, signs, numbers)
@@ -87,7 +83,7 @@ def sc_scene(sc: SCGraph, *, box: Box = BOX, caption: str | None = "") -> Scene:
     if reduction.steps:
         count = numbered(len(reduction.steps), "ride-along")
         said.append(f"{count} (yellow band); without, {len(reduction.graph)} links stay")
-    return page_of(frame, layers, captions_of(caption, *said))
+    return page_of(frame, layers, captions_of(options.caption, *said))
 
 
 def class_numbers(sc: SCGraph) -> dict[int, int]:

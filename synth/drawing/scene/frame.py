@@ -24,7 +24,20 @@ from synth.drawing.scene.shapes import (
 )
 from synth.drawing.scene.writing import Scene
 
-__all__ = ["BOX", "COLUMN", "Box", "Frame", "Plot", "captions_of", "framed", "page_of", "round_steps", "signed"]
+__all__ = [
+    "BOX",
+    "COLUMN",
+    "PLAIN",
+    "Box",
+    "Frame",
+    "PictureOptions",
+    "Plot",
+    "captions_of",
+    "framed",
+    "page_of",
+    "round_steps",
+    "signed",
+]
 
 COLUMN = 340.0
 """The width of a picture at most, points: it fits a page with margins, and a half of it is a column."""
@@ -37,6 +50,27 @@ _LETTERS, _LONGEST = 84, 336
 """Letters of a line below a picture, which is as wide as a picture at most; letters of a text of several lines."""
 _TICK = 3.0
 _STEPS = (1.0, 2.0, 5.0, 10.0)
+
+
+@dataclass(frozen=True, slots=True)
+class PictureOptions:
+    """Options of a picture, which is at most as large as `box`, (width, height) in points.
+
+    `colour` is a colouring of a crease pattern; `branch` goes with ``colour="branch"``: its number or its signs,
+    or None for the one nearest to the assignment. `numbers` are those of links and joints; `graph` puts the SC
+    graph over a crease pattern. `caption` comes before the lines that describe the picture; with None there are
+    none.
+    """
+
+    colour: str = "letters"
+    branch: int | str | None = None
+    numbers: bool = True
+    graph: bool = False
+    box: Box = BOX
+    caption: str | None = ""
+
+
+PLAIN = PictureOptions()
 
 
 @dataclass(frozen=True, slots=True)

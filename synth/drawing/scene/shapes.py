@@ -7,10 +7,9 @@ Whatever a colour shows is shown by a dash, a sign or a number too.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import cos, pi, sin
-from types import MappingProxyType
 from typing import TypeAlias
 
 from graphs.errors import InvariantError, shown
@@ -73,13 +72,7 @@ _COLOURS = {
     "class7": ("#6a3d9a", "#b08ee0"),
 }
 """Name of a colour to its value on light and on dark paper."""
-_PAPERS: Mapping[str, Mapping[str, str]] = MappingProxyType(
-    {
-        paper: {name: values[place] for name, values in _COLOURS.items()}
-        for place, paper in enumerate(("light", "dark"))
-    }
-)
-"""Name of a paper to its colours."""
+_PAPERS = ("light", "dark")
 
 
 def colour_of(name: str, paper: str) -> str:
@@ -89,12 +82,11 @@ def colour_of(name: str, paper: str) -> str:
     """
     if paper not in _PAPERS:
         raise InvariantError("paper", f"unknown paper {shown(paper)}", " or ".join(_PAPERS))
-    colours = _PAPERS[paper]
     if name.startswith("#"):
         return name
-    if name not in colours:
-        raise InvariantError("colour", f"unknown colour {shown(name)}", ", ".join(colours))
-    return colours[name]
+    if name not in _COLOURS:
+        raise InvariantError("colour", f"unknown colour {shown(name)}", ", ".join(_COLOURS))
+    return _COLOURS[name][_PAPERS.index(paper)]
 
 
 def colour_of_class(number: int) -> str:

@@ -49,7 +49,7 @@ _COLOURS = 128
 
 
 def pose_scenes(
-    thing: Sheet | SpatialPanels, places: Floats, side: float = _MOVING, air: float = 8.0
+    panels: Sheet | SpatialPanels, places: Floats, side: float = _MOVING, air: float = 8.0
 ) -> Iterator[Scene]:
     """Yield a square picture of each pose, all from one place and at one scale.
 
@@ -57,7 +57,8 @@ def pose_scenes(
     square, `air` is left free on each side, in points.
     """
     view = view_of_motion(places[0])
-    panels = thing if isinstance(thing, SpatialPanels) else front_up(panels_of(thing), places[0], view)
+    if isinstance(panels, Sheet):
+        panels = front_up(panels_of(panels), places[0], view)
     frame = _square(view.places(places).reshape(-1, 2), side, air)
     for points in places:
         shapes, _ = panel_shapes(panels, points, view, frame.row(view.places(points).tolist()))
@@ -72,12 +73,12 @@ def _square(seen: Floats, side: float, air: float) -> Frame:
     return framed(corners, (side - 2 * air) / (2 * half), (2 * side, 2 * side), air)
 
 
-def strip_of_poses(thing: Sheet | SpatialPanels, places: Floats) -> Scene:
+def strip_of_poses(panels: Sheet | SpatialPanels, places: Floats) -> Scene:
     """Return a strip of poses: at most twelve, equally far from each other, numbered.
 
     Parameters
     ----------
-    thing : Sheet or SpatialPanels
+    panels : Sheet or SpatialPanels
     places : float[F, vertices, 3]
 
     Examples
@@ -91,13 +92,13 @@ def strip_of_poses(thing: Sheet | SpatialPanels, places: Floats) -> Scene:
     columns = min(len(chosen), _IN_ROW)
     layers: list[Layer] = []
     numbers: list[Label] = []
-    scenes = pose_scenes(thing, places[chosen], _SIZE)
+    scenes = pose_scenes(panels, places[chosen], _SIZE)
     for place, (number, scene) in enumerate(zip(chosen.tolist(), scenes, strict=True)):
         right, down = place % columns * _SIZE, place // columns * _SIZE
         layers += [moved(layer, right, down) for layer in scene.layers if layer.shapes]
         numbers.append(Label((right + SMALL, down + SMALL), str(number), SMALL, "grey"))
     frame = Frame(1.0, 0.0, 0.0, 0.0, 0.0, columns * _SIZE, ceil(len(chosen) / columns) * _SIZE)
-    solid = isinstance(thing, SpatialPanels) and thing.solid
+    solid = isinstance(panels, SpatialPanels) and panels.solid
     said = "frames by number, seen from one place; " + ("hinges orange" if solid else "front grey, back blue")
     return page_of(frame, [*layers, Layer("numbers", tuple(numbers))], [said])
 
@@ -132,16 +133,11 @@ def _fold_bytes(poses: Poses) -> bytes:
     return fold_text_of_poses(poses.panels, poses.sheets).encode("utf-8")
 
 
-def _obj_bytes(poses: Poses) -> bytes:
-    (sheet,) = poses.sheets
-    return obj_text(sheet).encode("utf-8")
-
-
 def _strip_as(picture: Format[Pages]) -> Format[Poses]:
     def strip_bytes(poses: Poses) -> bytes:
         return picture.to_bytes(Pages([strip_of_poses(poses.panels, poses.places)]))
 
-    return Format(picture.suffix, f"a strip, {picture.name}", strip_bytes, needs=picture.needs)
+    return Format(picture.suffix, picture.name, strip_bytes, needs=picture.needs)
 
 
 _PICTURES_OF_POSES = formats_by_suffix(
@@ -151,20 +147,20 @@ _PICTURES_OF_POSES = formats_by_suffix(
 )
 MOTIONS = {
     ".fold": Format(".fold", "FOLD", _fold_bytes),
-    ".obj": Format(".obj", "OBJ, a file for each pose", _obj_bytes),
+    ".obj": Format(".obj", "OBJ, a file for each pose", lambda poses: obj_text(poses.sheets[0]).encode("utf-8")),
     **_PICTURES_OF_POSES,
 }
 """Suffix to the format in which motions are written; solids are only drawn."""
 
 
 def save_moving_poses(
-    thing: Sheet | SpatialPanels, places: Floats, path: str | Path, *, force: bool = False
+    panels: Sheet | SpatialPanels, places: Floats, path: str | Path, *, force: bool = False
 ) -> None:
     """Draw poses: as a GIF that moves there and back, or as a strip.
 
     Parameters
     ----------
-    thing : Sheet or SpatialPanels
+    panels : Sheet or SpatialPanels
     places : float[F, vertices, 3]
         Vertices in each pose.
     path : str or Path
@@ -189,7 +185,7 @@ def save_moving_poses(
     ...     print(path.read_bytes()[:6])
     b'GIF89a'
     """
-    write_as(Poses(thing, places), path, _PICTURES_OF_POSES, force=force)
+    write_as(Poses(panels, places), path, _PICTURES_OF_POSES, force=force)
 
 
 def check_motion_file(path: str | Path, *, force: bool = False) -> None:

@@ -61,7 +61,7 @@ def are_edits(words: Sequence[str]) -> bool:
     return len(words) <= _MOST_EDITS and all(_EDIT.fullmatch(word) for word in words)
 
 
-def edited(thing: Mechanism, edits: Sequence[str]) -> Mechanism:
+def edited(mechanism: Mechanism, edits: Sequence[str]) -> Mechanism:
     """Return a mechanism after edits, one after the other, each with the ids that the last one left.
 
     The edits pass `are_edits`. Of a sheet with several frames the first that has coordinates is edited. Raise
@@ -69,36 +69,36 @@ def edited(thing: Mechanism, edits: Sequence[str]) -> Mechanism:
     mechanisms of this kind.
     """
     for edit in edits:
-        if isinstance(thing, Sheet) and thing.frames is not None:
-            thing = thing.frames.first_placed()
+        if isinstance(mechanism, Sheet) and mechanism.frames is not None:
+            mechanism = mechanism.frames.first_placed()
         if edit == "ride-alongs":
-            thing = _without_ride_alongs(thing)
+            mechanism = _without_ride_alongs(mechanism)
             continue
-        if not isinstance(thing, Sheet):
+        if not isinstance(mechanism, Sheet):
             raise UnsolvableError("only crease patterns can be edited here; try `synth edit`")
         kind, _, place = edit.partition(":")
         if kind == "crease":
             start, end = map(_end, place.split("~"))
-            thing = crease_sheet(thing, start, end).sheet
+            mechanism = crease_sheet(mechanism, start, end).sheet
         else:
-            thing = (lock_crease if kind == "lock" else remove_crease)(thing, int(place)).sheet
-    return thing
+            mechanism = (lock_crease if kind == "lock" else remove_crease)(mechanism, int(place)).sheet
+    return mechanism
 
 
 def _end(text: str) -> int | tuple[float, ...]:
     return tuple(map(float, text.split(","))) if "," in text else int(text)
 
 
-def _without_ride_alongs(thing: Mechanism) -> Mechanism:
+def _without_ride_alongs(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism without ride-alongs: a sheet without their panels, solids, or else a graph."""
-    reduction = reduce(thing)
+    reduction = reduce(mechanism)
     if not reduction.steps:
         raise UnsolvableError("the mechanism has no ride-alongs that can be removed")
-    if isinstance(thing, Sheet):
+    if isinstance(mechanism, Sheet):
         panels = {int(str(link)) for step in reduction.steps for link in step.removed}
-        return take_off_panels(thing, panels).sheet
-    if isinstance(thing, HingedSolids):
-        axes = {joint: thing.axes[joint] for joint in reduction.graph.joints}
+        return take_off_panels(mechanism, panels).sheet
+    if isinstance(mechanism, HingedSolids):
+        axes = {joint: mechanism.axes[joint] for joint in reduction.graph.joints}
         return HingedSolids(reduction.graph, axes)
     return reduction.graph
 

@@ -295,4 +295,4 @@ def test_pictures_of_foldings(tmp_path, monkeypatch, name):
     assert "exists already" in run("fold", vertex, "--frames", 2, "-o", tmp_path / name, code=2).stderr
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     told = run("fold", vertex, "--frames", 2, "-o", tmp_path / f"other-{name}", code=2).stderr
-    assert told.strip() == "PNG requires matplotlib; try pip install 'synthedra[draw]'"
+    assert told.strip() == f"{name[2:].upper()} requires matplotlib; try pip install 'synthedra[draw]'"
