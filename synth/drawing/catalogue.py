@@ -109,12 +109,6 @@ def _order_of_row(row: Row, chain: SCGraph) -> OrderOnCircle:
     from the loops. The row has ``order``, ``loops``, and ``azimuths_deg`` or ``slots``: azimuths are in the order
     of the joints of the chain (that of the row's id), and ``order`` names joints as they follow each other; a
     point opposite to one has a prime. Raise KeyError, TypeError or ValueError for another row.
-
-    >>> from graphs.files.formats import mechanism_of_id
-    >>> row = {"order": ["0", "1'", "3", "2"], "slots": [0, 5, 3, 2], "loops": [["0", "1", "3", "2"]]}
-    >>> order = _order_of_row(row, mechanism_of_id("k1:Cr"))
-    >>> order.names, [round(azimuth / pi, 3) for azimuth in order.azimuths], order.pairs
-    (['0', '1', '2', '3'], [0.0, 1.25, 0.75, 0.5], [(0, 1), (0, 2), (1, 3), (2, 3)])
     """
     # slots go round half a turn where orders name opposite points too; rows of other orders count the layers
     primed = "azimuths_deg" not in row and "most_layers" not in row
@@ -184,11 +178,7 @@ class CatalogueEntry:
 
 
 def is_catalogue(path: str | Path) -> bool:
-    """Check whether a path names many mechanisms: a store, a list or a folder.
-
-    >>> is_catalogue("chains.sqlite"), is_catalogue("watt.json")
-    (True, False)
-    """
+    """Check whether a path names many mechanisms: a store, a list or a folder."""
     return not is_id(path) and (Path(path).suffix.lower() in _CATALOGUES or Path(path).is_dir())
 
 

@@ -102,13 +102,6 @@ def with_hinges(piece: Piece, met: Sequence[Stroke], hinges: Hinges) -> Piece:
 
     `met` are the edges that meet others when it is put together; a gap is left there too. Raise UnsolvableError if
     a panel is narrower than the hinges, or a fold too short for one.
-
-    >>> outline = [(0, 0), (50, 0), (100, 0), (100, 40), (50, 40), (0, 40)]
-    >>> cuts = [Stroke("CUT", *ends) for ends in pairwise([*outline, outline[0]])]
-    >>> card = Piece((*cuts, Stroke("VALLEY", (50, 0), (50, 40))), (), shapely.Polygon(outline))
-    >>> hinged = with_hinges(card, (), Hinges("offset", 3))
-    >>> [stroke.start[0] for stroke in hinged.strokes if stroke.kind == "VALLEY"]
-    [51.5, 48.5]
     """
     folds = [stroke for stroke in piece.strokes if stroke.kind not in ("CUT", "MARKS")]
     apart = [*folds, *met] if hinges.kind == "gap" else folds

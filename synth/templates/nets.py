@@ -68,9 +68,6 @@ def tab_shapes(start: Floats, end: Floats, depth: float) -> Iterator[Floats]:
     """Yield tabs, float[4, 2], to try at an edge, the best first: to its right, the ends their first two corners.
 
     The ends are float[2] and `depth` is the desired one, millimetres.
-
-    >>> next(tab_shapes(np.array([0, 0.0]), np.array([0, 40.0]), 8)).tolist()
-    [[0.0, 0.0], [0.0, 40.0], [8.0, 35.2], [8.0, 4.8]]
     """
     length = float(np.linalg.norm(end - start))
     along = (end - start) / length
@@ -87,11 +84,7 @@ def tab_shapes(start: Floats, end: Floats, depth: float) -> Iterator[Floats]:
 
 
 def slot_of(shape: Floats) -> Floats:
-    """Return the slot that a tab goes through half its depth from its fold, as the ends of a cut, float[2, 2].
-
-    >>> slot_of(np.array([[0.0, 0.0], [0.0, 40.0], [8.0, 36.0], [8.0, 4.0]])).tolist()
-    [[4.0, 38.5], [4.0, 1.5]]
-    """
+    """Return the slot that a tab goes through half its depth from its fold, as the ends of a cut, float[2, 2]."""
     start, end, after, before = shape
     first, last = (end + after) / 2, (start + before) / 2
     along = unit(first - last)
@@ -118,17 +111,13 @@ def tab_at(
         polygon = shapely.Polygon(shape)
         if not lies_within(polygon, panel) or lies_over(polygon, taken):
             continue
-        if slotted and not _has_rim(slot_of(shape), panel, taken):
-            continue
+        if slotted:
+            rim = shapely.LineString(slot_of(shape)).buffer(_RIM)
+            if not lies_within(rim, panel) or lies_over(rim, taken):
+                continue
         if not lies_over(polygon, material) and not lies_over(_surroundings(shape), material):
             return shape
     return None
-
-
-def _has_rim(slot: Floats, panel: Any, taken: Sequence[Any]) -> bool:
-    """Tell whether there is material round a slot: within its panel, and off what is there already."""
-    around = shapely.LineString(slot).buffer(_RIM)
-    return lies_within(around, panel) and not lies_over(around, taken)
 
 
 def _surroundings(shape: Floats) -> Any:
@@ -209,7 +198,8 @@ def pieces_of_panels(sheet: Sheet, places: Floats, joins: Joins) -> CutNets:
     glue = _Glue(joins)
     for edge in panels.joins:
         first, second = (_side(panels, of_face[face], face, edge) for face in panels.joins[edge])
-        if _are_one(first, second):
+        apart = float(np.abs([first.start - second.end, first.end - second.start]).max())
+        if first.work is second.work and apart <= _SAME:  # the panels lie side by side
             if kind := _kind(panels, edge, first):
                 first.work.strokes.append(Stroke(kind, point_of(first.start), point_of(first.end)))
             continue
@@ -226,14 +216,6 @@ def _side(panels: Panels, work: _Work, face: int, edge: int) -> _Side:
         a, b = b, a
     corners = work.net.corners[face]
     return _Side(work, face, corners[a], corners[b])
-
-
-def _are_one(first: _Side, second: _Side) -> bool:
-    """Tell whether the panels lie side by side at an edge."""
-    if first.work is not second.work:
-        return False
-    apart = np.abs([first.start - second.end, first.end - second.start])
-    return float(apart.max()) <= _SAME
 
 
 def _kind(panels: Panels, edge: int, side: _Side) -> Kind | None:

@@ -153,12 +153,6 @@ def layered(linkage: OnSurface, surface: Surface, dimensions: Dimensions) -> Lay
     """Return the links of a linkage in the fewest layers; only its chain and its azimuths matter.
 
     Raise UnsolvableError if two joints are on one ruling line, or a link has one joint only.
-
-    >>> from synth.conformed.linkages import loop_of_steps
-    >>> from graphs.mechanism.surfaces import Cone
-    >>> made = layered(loop_of_steps(np.radians([40, 50, 50])), Cone(0.5), Dimensions())
-    >>> [(link.layer, round(np.degrees(link.width))) for link in made.links]
-    [(0, 40), (0, 50), (0, 50), (1, 140)]
     """
     chain = ConformedChain.of(linkage.chain)
     places = np.remainder(np.asarray(linkage.places, dtype=float), 2 * pi)

@@ -183,11 +183,7 @@ _GAUGE_TEXT = 2.5
 
 
 def gauge(at: Point) -> tuple[list[Stroke], list[Text]]:
-    """Return a ruler of 100 mm with a tick each 10 mm, from its left end on; the first stroke is the gauge itself.
-
-    >>> gauge((10, 20))[0][0]
-    Stroke(kind='MARKS', start=(10, 20), end=(110.0, 20))
-    """
+    """Return a ruler of 100 mm with a tick each 10 mm, from its left end on; the first stroke is the gauge."""
     x, y = at
     strokes = [Stroke("MARKS", at, (x + GAUGE, y))]
     for tick in range(int(GAUGE) // _EACH + 1):
@@ -244,11 +240,7 @@ class Tile:
 
 
 def tiles_across(size: tuple[float, float], window: tuple[float, float]) -> tuple[int, int]:
-    """Return how many columns and rows of windows cover a box, neighbours overlapping; all in millimetres.
-
-    >>> tiles_across((500, 100), (190, 261))
-    (3, 1)
-    """
+    """Return how many columns and rows of windows cover a box, neighbours overlapping; all in millimetres."""
     wide, high = (
         1 if side <= most else ceil((side - OVERLAP) / (most - OVERLAP) - _TINY)
         for side, most in zip(size, window, strict=True)
@@ -296,9 +288,6 @@ def clipped(stroke: Stroke, area: tuple[float, float, float, float]) -> Stroke |
     """Return the part of a stroke in an area (left, low, right, high); None if it has no length.
 
     The method is that of Liang and Barsky.
-
-    >>> clipped(Stroke("CUT", (-5, 0), (5, 10)), (0, 0, 20, 8))
-    Stroke(kind='CUT', start=(0.0, 5.0), end=(3.0, 8.0))
     """
     start, end = stroke.start, stroke.end
     first, last = 0.0, 1.0
@@ -365,12 +354,7 @@ _LARGEST = 140.0
 
 
 def note_page(paper: Paper, title: str, steps: Sequence[str], picture: Scene | None) -> Page:
-    """Return the page that says how a template is put together; the steps are numbered here.
-
-    >>> page = note_page(Paper(210, 297), "bird base", ["Cut it out.", "Fold it."], None)
-    >>> [text.words for text in page.texts]
-    ['bird base', '1. Cut it out.', '2. Fold it.']
-    """
+    """Return the page that says how a template is put together; the steps are numbered here."""
     wide, high = paper.width - 2 * MARGIN, paper.height - 2 * MARGIN
     top = MARGIN + high
     heading = [Text((MARGIN, top - _TITLE / 2), title, _TITLE, middle=False)] if title else []

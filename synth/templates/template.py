@@ -88,9 +88,6 @@ def millimetres(places: Floats, scale: float | None = None, size: float | None =
     `size` is the longest side of the box round the places, in millimetres. Raise InvariantError if scale or size
     is not positive, or both are given; UnsolvableError if the box would be smaller than 10 mm, which nobody could
     fold, or larger than 1e6 mm.
-
-    >>> millimetres(np.array([[0, 0], [2, 1.0]]), size=100)
-    50.0
     """
     if scale is not None and size is not None:
         raise InvariantError("scale", "both a scale and a size", "one of them")
@@ -115,12 +112,7 @@ _FOLDS: dict[Kind, tuple[str, str, str]] = {
 
 
 def steps_of_folds(pieces: Sequence[Piece]) -> list[str]:
-    """Return the steps to cut and to fold.
-
-    >>> from synth.templates.pieces import Stroke
-    >>> steps_of_folds([Piece((Stroke("CUT", (0, 0), (9, 0)), Stroke("VALLEY", (0, 5), (9, 5))), (), None)])[1]
-    'Fold 1 valley (blue, dashes: towards you). You see the printed side.'
-    """
+    """Return the steps to cut and to fold."""
     counts = Counter(stroke.kind for piece in pieces for stroke in piece.strokes)
     cut = f"Cut out {numbered(len(pieces), 'piece')} along the full black lines. Score the folds first."
     folds = [f"{numbered(counts[kind], *name)} ({how})" for kind, (*name, how) in _FOLDS.items() if counts[kind]]
@@ -170,18 +162,6 @@ _FRAMES = 2
 """Frames of a folding; the one half way is drawn, as at the end panels lie on each other."""
 _BOX = (420.0, 420.0)
 """Largest width and height of the picture, in points."""
-
-
-def folded_picture(sheet: Sheet) -> tuple[Scene | None, str]:
-    """Return a picture of a folded sheet and its caption, or None and why there is no picture.
-
-    The sheet has coordinates; it may have frames.
-    """
-    pose, seen = folded_pose(sheet)
-    if pose is None:
-        return None, seen
-    sides = "; the printed side is grey, its back blue" if list(pose.faces) == same_side_up(pose.faces) else ""
-    return folded_scene(pose, PictureOptions(numbers=False, box=_BOX, caption=None)), seen + sides
 
 
 def folded_pose(sheet: Sheet) -> tuple[Sheet | None, str]:
@@ -350,10 +330,14 @@ def pictured(template: Template, sheet: Sheet) -> tuple[Template, str]:
     >>> pictured(template_of(square, size=100), square)[0].steps[-1]
     'It then looks as below, folded half way; the printed side is grey, its back blue.'
     """
-    picture, seen = folded_picture(sheet)
-    if picture is None:
+    pose, seen = folded_pose(sheet)
+    if pose is None:
         return template, seen
-    return replace(template, picture=picture, steps=(*template.steps, f"It then looks as below, {seen}.")), ""
+    picture = folded_scene(pose, PictureOptions(numbers=False, box=_BOX, caption=None))
+    sides = "; the printed side is grey, its back blue" if list(pose.faces) == same_side_up(pose.faces) else ""
+    return replace(
+        template, picture=picture, steps=(*template.steps, f"It then looks as below, {seen}{sides}.")
+    ), ""
 
 
 def panels_of_mechanism(

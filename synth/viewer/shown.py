@@ -34,7 +34,15 @@ from synth.motion.singular.sampling import walked
 from synth.motion.walk.events import free_rates, independent_joints
 from synth.moving.made import configuration_of
 from synth.verdict.judged import MOST_PANELS, mobility
-from synth.viewer.linkage import Bodies, ShownCentre, bodies_of_linkage, bodies_of_sheet, centres_of, solver_data
+from synth.viewer.linkage import (
+    Bodies,
+    ShownCentre,
+    bodies_of_linkage,
+    bodies_of_sheet,
+    centres_of,
+    page_data,
+    solver_data,
+)
 
 __all__ = ["DrawnCreases", "MovingLinkage", "Report", "Shown", "Ways", "shown_of", "ways_of"]
 
@@ -85,10 +93,6 @@ class Ways:
     all: tuple[Beginning, ...]
     singular: bool
     taken: int
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data: `WaysData` of web/src/page/types.js."""
-        return {"all": [start.to_json() for start in self.all], "singular": self.singular, "taken": self.taken}
 
 
 def ways_of(configuration: Configuration) -> Ways:
@@ -156,8 +160,8 @@ class MovingLinkage:
         return {
             "solver": solver_data(self.linkage, limited=self.limited, ground=list(graph.nodes)[self.ground]),
             "bodies": self.bodies.to_json(),
-            "ways": None if self.ways is None else self.ways.to_json(),
-            "centres": [centre.to_json() for centre in self.centres],
+            "ways": page_data(self.ways),
+            "centres": page_data(self.centres),
             "joints": [plain(joint) for joint in graph.joints],
             "links": [plain(link) for link in graph.nodes],
             "between": [[number[first], number[second]] for first, second in graph.joints.values()],
@@ -176,10 +180,6 @@ class DrawnCreases:
     vertices: tuple[tuple[float, ...], ...]
     edges: tuple[tuple[int, int], ...]
     places: list[tuple[float, float]]
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data: `DrawnData` of web/src/page/types.js."""
-        return {"vertices": self.vertices, "edges": self.edges, "places": self.places}
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,18 +229,8 @@ class Shown:
         at, ways = self.configuration, None if self.moving is None else self.moving.ways
         first = None if ways is None else ways.taken
         return {
-            "name": self.name,
-            "verdict": self.verdict,
-            "report": self.report,
-            "notes": list(self.notes),
-            "pictures": self.pictures,
-            "moving": None if self.moving is None else self.moving.to_json(),
+            **{name: page_data(getattr(self, name)) for name in self.__slots__ if name != "configuration"},
             "configuration": None if at is None else at.to_json(at.branch(first)),
-            "answer": self.answer,
-            "stiff": list(self.stiff),
-            "clusters": [list(cluster) for cluster in self.clusters],
-            "drawn": None if self.drawn is None else self.drawn.to_json(),
-            "on_request": self.on_request,
         }
 
 

@@ -13,7 +13,7 @@ from itertools import pairwise
 from math import atan2, cos, hypot, inf, pi, sin
 from typing import TypeAlias
 
-import numpy as np
+from scipy.spatial.distance import pdist
 
 from graphs.errors import UnsolvableError, numbered
 from graphs.identity.drawings import drawing_of
@@ -66,7 +66,9 @@ def sc_scene(sc: SCGraph, options: PictureOptions = PLAIN) -> Scene:
     ways = {joint: frame.row(row) for joint, row in layout.ways.items()}
     drawn = {joint: _bent(row) for joint, row in ways.items()}
     links = {link: frame.at(place) for link, place in layout.links.items()}
-    radius = min(_LINK, 0.042 * min(options.box), 0.24 * frame.scale, 0.42 * _least_distance(list(links.values())))
+    radius = min(
+        _LINK, 0.042 * min(options.box), 0.24 * frame.scale, 0.42 * pdist(list(links.values())).min(initial=inf)
+    )
     signs, loose = _signs(sc, layout, frame, numbers)
     stubs = _stubs(sc, ways, links, radius) if isinstance(sc, SCDGraph) else []
     labels = _labels(ways, links, radius, signs, numbers)
@@ -100,16 +102,6 @@ def _kept_drawing(sc: SCGraph) -> tuple[dict[LinkId, tuple[JointId, ...]] | None
     bare = {name: tuple(side for side in sides if side is not None) for name, sides in rotation.items()}
     faces, left_of = trace_faces(sc.joints, bare)
     return bare, faces[left_of[joint, link]].joints
-
-
-def _least_distance(places: Sequence[Point]) -> float:
-    """Return the least distance of two places; infinite for one place."""
-    if len(places) < 2:
-        return inf
-    points = np.asarray(places)
-    apart = np.sqrt(((points[:, None] - points[None]) ** 2).sum(axis=-1))
-    np.fill_diagonal(apart, inf)
-    return float(apart.min())
 
 
 def _signs(

@@ -102,9 +102,6 @@ def framed(places: Iterable[Sequence[float]], unit: float, box: Box = BOX, margi
     """Return a frame round places for a box, (width, height), and a margin on each side, all in points.
 
     A unit of the layout is `unit` points long, if there is room.
-
-    >>> framed([(0, 0), (2, 1)], 30, margin=10).at((0, 1))
-    (10, 10)
     """
     rows = list(places) or [(0.0, 0.0)]
     left, right = min(p[0] for p in rows), max(p[0] for p in rows)
@@ -184,11 +181,7 @@ class Plot:
 
 
 def round_steps(low: float, high: float, most: int = 7) -> list[float]:
-    """Return at most so many round numbers from low to high (not equal), equally far from each other.
-
-    >>> round_steps(0, 30.2), round_steps(2.51, 3.74)
-    ([0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0], [2.6, 2.8, 3.0, 3.2, 3.4, 3.6])
-    """
+    """Return at most so many round numbers from low to high (not equal), equally far from each other."""
     rough = (high - low) / most
     size = 10.0 ** floor(log10(rough))
     step = next(size * factor for factor in _STEPS if size * factor >= rough * (1 - 1e-9))

@@ -16,11 +16,10 @@ a vertex, or ``x,y`` or ``x,y,z``. Theory: docs/theory/viewer.md, docs/theory/ed
 from __future__ import annotations
 
 import json
-import os
 import re
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
+from contextlib import chdir
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
@@ -53,11 +52,7 @@ _EDIT = re.compile(rf"(?:lock|remove):[0-9]{{1,9}}|crease:{_END}~{_END}|ride-alo
 
 
 def are_edits(words: Sequence[str]) -> bool:
-    """Check that edits are of known kinds, and not too many.
-
-    >>> are_edits(["lock:3", "crease:12~0.5,-1e-3", "ride-alongs"]), are_edits(["lock:-1"]), are_edits(["rm:1"])
-    (True, False, False)
-    """
+    """Check that edits are of known kinds, and not too many."""
     return len(words) <= _MOST_EDITS and all(_EDIT.fullmatch(word) for word in words)
 
 
@@ -158,21 +153,9 @@ def _mechanism(name: str, content: bytes, edits: Sequence[str]) -> Mechanism:
 
     Readers take files by their names: it is put into a private folder, so that errors name the file alone.
     """
-    with _private_folder():
+    with TemporaryDirectory() as folder, chdir(folder):
         Path(name).write_bytes(content)
         return edited(read(name), edits)
-
-
-@contextmanager
-def _private_folder() -> Iterator[None]:
-    """Work in a temporary folder."""
-    before = Path.cwd()
-    with TemporaryDirectory() as folder:
-        os.chdir(folder)
-        try:
-            yield
-        finally:
-            os.chdir(before)
 
 
 def _or_error(name: str, answer: Callable[[], dict[str, Any]]) -> dict[str, Any]:
