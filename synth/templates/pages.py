@@ -15,17 +15,7 @@ from synth.drawing.scene.writing import Scene
 from synth.templates.pieces import LOOKS, Kind, Piece, Point, Stroke, Text
 from synth.templates.template import Template
 
-__all__ = [
-    "Page",
-    "Paper",
-    "Picture",
-    "gauge",
-    "laid_out",
-    "layers_of",
-    "pages_of",
-    "paper_named",
-    "strokes_and_texts",
-]
+__all__ = ["Page", "Paper", "gauge", "laid_out", "layers_of", "pages_of", "paper_named", "strokes_and_texts"]
 
 
 MARGIN = 10.0
@@ -110,17 +100,8 @@ def paper_named(name: str) -> Paper:
 
 
 @dataclass(frozen=True)
-class Picture:
-    """A scene on a page; its corner is (left, low) in millimetres, its scale millimetres per point."""
-
-    scene: Scene
-    corner: Point
-    scale: float
-
-
-@dataclass(frozen=True)
 class Page:
-    """A page: strokes and texts in millimetres from its lower left corner.
+    """A page: strokes and texts in millimetres from its lower left corner; the picture, from the upper left one.
 
     Nothing is cut from the page of assembly: it alone has a picture, and `is_note`.
     """
@@ -128,7 +109,7 @@ class Page:
     paper: Paper
     strokes: tuple[Stroke, ...]
     texts: tuple[Text, ...]
-    picture: Picture | None = None
+    picture: Layer | None = None
     is_note: bool = False
 
     @property
@@ -138,9 +119,7 @@ class Page:
         ink = LOOKS["CUT" if self.is_note else "MARKS"].colour
         layers = layers_of(self.strokes, self.texts, self.paper.height, ink)
         if self.picture is not None:
-            drawn, (left, low), scale = self.picture.scene, self.picture.corner, self.picture.scale
-            below = scaled(Layer("PICTURE", tuple(drawn.shapes())), scale)
-            layers.append(moved(below, left, self.paper.height - low - scale * drawn.height))
+            layers.append(self.picture)
         return Scene(self.paper.width, self.paper.height, tuple(layers), unit="mm")
 
 
@@ -363,9 +342,8 @@ def note_page(paper: Paper, title: str, steps: Sequence[str], picture: Scene | N
     if picture is not None:
         room = max(high - _TITLE - 2 * _AIR - taken, FOOTER)
         scale = min(wide / picture.width, room / picture.height, _LARGEST / max(picture.width, picture.height))
-        left = MARGIN + (wide - scale * picture.width) / 2
-        low = top - _TITLE - 2 * _AIR - taken - scale * picture.height
-        placed = Picture(picture, (left, low), scale)
+        left, down = MARGIN + (wide - scale * picture.width) / 2, MARGIN + _TITLE + 2 * _AIR + taken
+        placed = moved(scaled(Layer("PICTURE", tuple(picture.shapes())), scale), left, down)
     return Page(paper, (), (*heading, *texts), placed, is_note=True)
 
 

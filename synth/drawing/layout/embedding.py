@@ -12,7 +12,7 @@ links are nodes. An edge that would come twice, between two links that share two
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -113,12 +113,12 @@ def _parted(rotations: Mapping[Node, Sequence[Node]], graph: nx.Graph) -> tuple[
     return None
 
 
-def same_cycle(first: Sequence[Node], second: Sequence[Node]) -> bool:
-    """Check whether two rows are one cycle, begun at any place, in either direction."""
-    if len(first) != len(second) or first[0] not in second:
+def same_cycle(first: Sequence[Hashable], second: Sequence[Hashable]) -> bool:
+    """Check whether two rows without repetitions are one cycle, begun at any place, and run the same way."""
+    if len(first) != len(second) or not first or first[0] not in second:
         return False
-    turned = [tuple(row[(i := list(row).index(first[0])) :]) + tuple(row[:i]) for row in (second, second[::-1])]
-    return tuple(first) in turned
+    start = second.index(first[0])
+    return tuple(first) == (*second[start:], *second[:start])
 
 
 def swaps_of(links: Sequence[LinkId], joints: Joints) -> Iterator[dict[Node, Node]]:

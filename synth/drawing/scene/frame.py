@@ -10,18 +10,7 @@ from typing import TypeAlias
 
 from graphs.printing import plain
 from graphs.types import Floats
-from synth.drawing.scene.shapes import (
-    FINE,
-    NORMAL,
-    SMALL,
-    Label,
-    Layer,
-    Line,
-    Point,
-    Shape,
-    moved,
-    text_width,
-)
+from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, Label, Layer, Line, Point, Shape, moved, text_width
 from synth.drawing.scene.writing import Scene
 
 __all__ = [

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache, singledispatchmethod
+from functools import lru_cache
 from io import BytesIO
 from math import ceil
 from pathlib import Path
@@ -159,8 +159,22 @@ def svg_text(scene: Scene, *, paper: str = "light") -> str:
     for layer in scene.layers:
         name = quoteattr(plain(layer.name))
         look = f'id={name} inkscape:groupmode="layer" inkscape:label={name}' if for_machines else f"class={name}"
-        rows += [f"<g {look}>", *map(writer.element, layer.shapes), "</g>"]
+        rows += [f"<g {look}>", *(_painted(writer, shape) for shape in layer.shapes), "</g>"]
     return "\n".join([*rows, "</svg>", ""])
+
+
+def _painted(painter: _SvgWriter | _RasterPainter | _PdfPainter, shape: Shape) -> Any:
+    """Draw a shape by the method for its kind; in SVG return its element."""
+    match shape:
+        case Line():
+            return painter.line(shape)
+        case Polygon():
+            return painter.polygon(shape)
+        case Disc():
+            return painter.disc(shape)
+        case Label():
+            return painter.label(shape)
+    raise InvariantError("shape", f"{shown(shape)} is not a shape", "Line, Polygon, Disc or Label")
 
 
 class _SvgWriter:
@@ -178,30 +192,22 @@ class _SvgWriter:
             return "0"
         return text.replace("0.", ".", 1) if text.startswith(("0.", "-0.")) else text
 
-    @singledispatchmethod
-    def element(self, shape: Shape) -> str:
-        raise InvariantError("shape", f"{shown(shape)} is not a shape", "Line, Polygon, Disc or Label")
-
-    @element.register
-    def _(self, shape: Line) -> str:
+    def line(self, shape: Line) -> str:
         dash = f' stroke-dasharray="{" ".join(map(self.number, shape.dash))}"' if shape.dash else ""
         pen = self._pen(shape.colour, shape.width)
         return f'<path{_data(shape)} d="{self._path_data(shape.points)}" fill="none"{pen}{dash}/>'
 
-    @element.register
-    def _(self, shape: Polygon) -> str:
+    def polygon(self, shape: Polygon) -> str:
         pen, fill = self._pen(shape.colour, shape.width), self._fill(shape.fill)
         light = f' fill-opacity="{self.number(shape.opacity)}"' if shape.opacity < 1 else ""
         return f'<path{_data(shape)} d="{self._path_data(shape.points)}Z"{fill}{light}{pen}/>'
 
-    @element.register
-    def _(self, shape: Disc) -> str:
+    def disc(self, shape: Disc) -> str:
         x, y = map(self.number, shape.centre)
         pen, fill = self._pen(shape.colour, shape.width), self._fill(shape.fill)
         return f'<circle{_data(shape)} cx="{x}" cy="{y}" r="{self.number(shape.radius)}"{fill}{pen}/>'
 
-    @element.register
-    def _(self, shape: Label) -> str:
+    def label(self, shape: Label) -> str:
         x, y = self.number(shape.at[0]), self.number(shape.at[1] + _BASELINE * shape.size)
         look = f' font-size="{self.number(shape.size)}" text-anchor="{shape.anchor}"' + self._fill(shape.colour)
         if shape.bold:
@@ -236,9 +242,9 @@ def pixels(scene: Scene, *, paper: str = "light", dots: float = _DOTS) -> npt.ND
     renderer = RendererAgg(wide, high, dots)  # type: ignore[no-untyped-call]
     painter = _RasterPainter(renderer, paper, unit, high)
     right, below = wide / unit, high / unit
-    painter.paint(Polygon([(0, 0), (right, 0), (right, below), (0, below)], "paper"))
+    painter.polygon(Polygon([(0, 0), (right, 0), (right, below), (0, below)], "paper"))
     for shape in scene.shapes():
-        painter.paint(shape)
+        _painted(painter, shape)
     return np.asarray(painter.renderer.buffer_rgba())[..., :3].copy()
 
 
@@ -252,19 +258,13 @@ class _RasterPainter:
         self._paper = paper
         self._on_page = Affine2D().scale(unit, -unit).translate(0, high)
 
-    @singledispatchmethod
-    def paint(self, shape: Shape) -> None:
-        raise InvariantError("shape", f"{shown(shape)} is not a shape", "Line, Polygon, Disc or Label")
-
-    @paint.register
-    def _(self, shape: Line) -> None:
+    def line(self, shape: Line) -> None:
         pen = self._pen(shape.colour, shape.width)
         if shape.dash:
             pen.set_dashes(0, list(shape.dash))
         self.renderer.draw_path(pen, _path(shape.points), self._on_page)
 
-    @paint.register
-    def _(self, shape: Polygon) -> None:
+    def polygon(self, shape: Polygon) -> None:
         path = _path([*shape.points, shape.points[0]], closed=True)
         if shape.fill is not None:  # apart, for the outline is never transparent
             pen = self._pen(None, 0)
@@ -273,8 +273,7 @@ class _RasterPainter:
         if shape.colour is not None:
             self.renderer.draw_path(self._pen(shape.colour, shape.width), path, self._on_page)
 
-    @paint.register
-    def _(self, shape: Disc) -> None:
+    def disc(self, shape: Disc) -> None:
         from matplotlib.path import Path
         from matplotlib.transforms import Affine2D
 
@@ -282,8 +281,7 @@ class _RasterPainter:
         inside = None if shape.fill is None else self._rgb(shape.fill)
         self.renderer.draw_path(self._pen(shape.colour, shape.width), Path.unit_circle(), place, inside)
 
-    @paint.register
-    def _(self, shape: Label) -> None:
+    def label(self, shape: Label) -> None:
         from matplotlib.transforms import Affine2D
 
         path, wide = _letters(shape.text, shape.bold)
@@ -356,7 +354,7 @@ def pdf_bytes(scenes: Iterable[Scene], *, paper: str = "light") -> bytes:
             canvas.rect(0, 0, page.width, page.height, stroke=0, fill=1)
         painter = _PdfPainter(canvas, paper, page.height)
         for shape in page.shapes():
-            painter.paint(shape)
+            _painted(painter, shape)
         _finish_page(canvas)
     data: bytes = canvas.getpdfdata()
     return data
@@ -381,23 +379,15 @@ class _PdfPainter:
     def __init__(self, canvas: Any, paper: str, height: float) -> None:
         self._canvas, self._paper, self._height = canvas, paper, height
 
-    @singledispatchmethod
-    def paint(self, shape: Shape) -> None:
-        """Draw a shape."""
-        raise InvariantError("shape", f"{shown(shape)} is not a shape", "Line, Polygon, Disc or Label")
-
-    @paint.register
-    def _(self, shape: Line) -> None:
+    def line(self, shape: Line) -> None:
         self._canvas.setDash(list(shape.dash))
         self._draw(shape, closed=False, inside=None)
         self._canvas.setDash([])
 
-    @paint.register
-    def _(self, shape: Polygon) -> None:
+    def polygon(self, shape: Polygon) -> None:
         self._draw(shape, closed=True, inside=shape.fill, opacity=shape.opacity)
 
-    @paint.register
-    def _(self, shape: Disc) -> None:
+    def disc(self, shape: Disc) -> None:
         self._pens(shape.colour, shape.width, shape.fill)
         x, y = shape.centre
         self._canvas.circle(
@@ -408,8 +398,7 @@ class _PdfPainter:
             fill=int(shape.fill is not None),
         )
 
-    @paint.register
-    def _(self, shape: Label) -> None:
+    def label(self, shape: Label) -> None:
         self._canvas.setFont(_font_of(shape), shape.size)
         place = self._canvas.drawCentredString if shape.anchor == "middle" else self._canvas.drawString
         x, y = shape.at[0], self._height - shape.at[1] - _BASELINE * shape.size
