@@ -199,8 +199,8 @@ def _rows(strip: _Strip) -> list[Stroke]:
         across = (2 * row + 1) / rows - 1
         bridges = [pitch * (place + 0.5 * (row % 2)) for place in range(count + 1)]
         ends = [(0.0, bridges[0] - _BRIDGE / 2)] if row % 2 else []
-        ends += [(one + _BRIDGE / 2, min(other - _BRIDGE / 2, length)) for one, other in pairwise(bridges)]
-        cuts += [strip.line("CUT", across, strip.first + one, strip.first + other) for one, other in ends]
+        ends += [(here + _BRIDGE / 2, min(after - _BRIDGE / 2, length)) for here, after in pairwise(bridges)]
+        cuts += [strip.line("CUT", across, strip.first + start, strip.first + end) for start, end in ends]
     return cuts
 
 

@@ -98,22 +98,22 @@ def tab_at(
     material: Sequence[Any],
     panel: Any,
     *,
-    taken: Sequence[Any] = (),
+    in_use: Sequence[Any] = (),
     slotted: bool = False,
 ) -> Floats | None:
     """Return the tab, float[4, 2], at an edge of a net; None if there is no room.
 
     The panel lies to the left of the edge; `depth` is the desired one, millimetres. `material` are the net's
-    panels and tabs, `panel` is where the panel across the edge would lie, `taken` are the areas in use on that
+    panels and tabs, `panel` is where the panel across the edge would lie, `in_use` are the areas in use on that
     panel (all shapely polygons); `slotted`: the tab goes through a slot of that panel.
     """
     for shape in tab_shapes(start, end, depth):
         polygon = shapely.Polygon(shape)
-        if not lies_within(polygon, panel) or lies_over(polygon, taken):
+        if not lies_within(polygon, panel) or lies_over(polygon, in_use):
             continue
         if slotted:
             rim = shapely.LineString(slot_of(shape)).buffer(_RIM)
-            if not lies_within(rim, panel) or lies_over(rim, taken):
+            if not lies_within(rim, panel) or lies_over(rim, in_use):
                 continue
         if not lies_over(polygon, material) and not lies_over(_surroundings(shape), material):
             return shape
@@ -252,13 +252,15 @@ def _glue(panels: Panels, edge: int, sides: tuple[_Side, _Side], glue: _Glue) ->
         net = here.work.net
         laid, _ = laid_across(panels, edge, here.face, net.corners[here.face], turned=net.turned[here.face])
         own = panels.planes[there.face].flat
-        taken = [shapely.Polygon(_carried(shape, own, laid)) for shape in glue.on_panel[there.face]]
+        in_use = [shapely.Polygon(_carried(shape, own, laid)) for shape in glue.on_panel[there.face]]
         panel = shapely.Polygon(laid)
         material = [*net.polygons(), *here.work.tabs]
         joins = glue.joins
         shape = None
         if joins.depth:
-            shape = tab_at(here.start, here.end, joins.depth, material, panel, taken=taken, slotted=joins.slotted)
+            shape = tab_at(
+                here.start, here.end, joins.depth, material, panel, in_use=in_use, slotted=joins.slotted
+            )
         if shape is None:
             continue
         glue.on_panel[there.face].append(_carried(shape, laid, own))

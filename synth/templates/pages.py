@@ -337,12 +337,12 @@ def note_page(paper: Paper, title: str, steps: Sequence[str], picture: Scene | N
     wide, high = paper.width - 2 * MARGIN, paper.height - 2 * MARGIN
     top = MARGIN + high
     heading = [Text((MARGIN, top - _TITLE / 2), title, _TITLE, middle=False)] if title else []
-    texts, taken = _written_steps(steps, (MARGIN, top - _TITLE - _AIR), wide)
+    texts, height = _written_steps(steps, (MARGIN, top - _TITLE - _AIR), wide)
     placed = None
     if picture is not None:
-        room = max(high - _TITLE - 2 * _AIR - taken, FOOTER)
+        room = max(high - _TITLE - 2 * _AIR - height, FOOTER)
         scale = min(wide / picture.width, room / picture.height, _LARGEST / max(picture.width, picture.height))
-        left, down = MARGIN + (wide - scale * picture.width) / 2, MARGIN + _TITLE + 2 * _AIR + taken
+        left, down = MARGIN + (wide - scale * picture.width) / 2, MARGIN + _TITLE + 2 * _AIR + height
         placed = moved(scaled(Layer("PICTURE", tuple(picture.shapes())), scale), left, down)
     return Page(paper, (), (*heading, *texts), placed, is_note=True)
 
@@ -387,13 +387,13 @@ def pages_of(template: Template, paper: Paper) -> list[Page]:
             f"{min(most)} pages; expected at most {_MOST_PAGES}; try a smaller --size or a larger --page"
         )
     contents = [_contents(template, way) for way, pages in zip(ways, most, strict=True) if pages <= _MOST_PAGES]
-    way, sheets = min(contents, key=lambda one: len(one[1]))
+    way, sheets = min(contents, key=lambda content: len(content[1]))
     pages = [_page(template, way, content, number, len(sheets)) for number, content in enumerate(sheets, start=1)]
     if not template.steps:
         return pages
     tiled = any(isinstance(content, Tile) for content in sheets)
     steps = [_PRINTING, *([_TILES] if tiled else []), *template.steps]
-    upright = min(paper, paper.turned(), key=lambda one: one.width)
+    upright = min(paper, paper.turned(), key=lambda side: side.width)
     return [*pages, note_page(upright, plain(template.title, _LONGEST_TITLE), steps, template.picture)]
 
 
@@ -405,7 +405,7 @@ def laid_out(pieces: Sequence[Piece], width: float, height: float) -> Iterator[_
     """
     laid: _Laid = []
     right = up = row = 0.0
-    for piece in sorted(pieces, key=lambda one: -one.size[1]):
+    for piece in sorted(pieces, key=lambda piece: -piece.size[1]):
         wide, high = piece.size
         if laid and right + wide > width:
             right, up, row = 0.0, up + row + _APART, 0.0

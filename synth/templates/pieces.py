@@ -159,15 +159,15 @@ def cut_once(strokes: Iterable[Stroke]) -> list[Stroke]:
 
     A machine that cuts twice burns; knives tear.
     """
-    made: list[Stroke] = []
+    parts: list[Stroke] = []
     ends: list[tuple[Point, Point]] = []
     for stroke in strokes:
         kept = [stroke]
         if stroke.kind == "CUT":
             kept = uncovered(stroke, np.array(ends).reshape(-1, 2, 2))
-            ends += [(one.start, one.end) for one in kept]
-        made += kept
-    return made
+            ends += [(part.start, part.end) for part in kept]
+        parts += kept
+    return parts
 
 
 def uncovered(stroke: Stroke, ends: Floats) -> list[Stroke]:

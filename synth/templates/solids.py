@@ -103,8 +103,7 @@ def _without_hinges(panels: Panels, face: int, width: float) -> list[Any]:
         if panels.sheet.assignments[edge] not in FLAT
     ]
     if width and strips:
-        taken = united(strips)
-        rest = shapely.difference(rest, taken, grid_size=GRID).simplify(_STRAIGHT)
+        rest = shapely.difference(rest, united(strips), grid_size=GRID).simplify(_STRAIGHT)
     parts = [part for part in getattr(rest, "geoms", [rest]) if part.area > _STRAIGHT * whole]
     if not parts:
         raise UnsolvableError(
@@ -119,10 +118,12 @@ def _plate(polygon: Any, thickness: float, name: str) -> Mesh:
     index = {tuple(corner): number for number, corner in enumerate(ring.tolist())}
     count = len(ring)
     top = [
-        [index[tuple(corner)] for corner in shapely.orient_polygons(one).exterior.coords[:-1]]
-        for one in shapely.constrained_delaunay_triangles(polygon).geoms
+        [index[tuple(corner)] for corner in shapely.orient_polygons(triangle).exterior.coords[:-1]]
+        for triangle in shapely.constrained_delaunay_triangles(polygon).geoms
     ]
-    triangles = [[corner + count for corner in one] for one in top] + [one[::-1] for one in top]
+    triangles = [[corner + count for corner in triangle] for triangle in top] + [
+        triangle[::-1] for triangle in top
+    ]
     for here in range(count):
         after = (here + 1) % count
         triangles += [[here, after, after + count], [here, after + count, here + count]]
@@ -184,9 +185,9 @@ def poses_of(sheet: Sheet) -> tuple[Sheet, Floats, int]:
     first = sheet if sheet.frames is None else sheet.frames.first_placed()
     if first.coordinates is None or not first.faces:
         raise UnsolvableError("solids require panels with coordinates, and the sheet has none")
-    frames = [] if sheet.frames is None else [sheet.frames.frame(one) for one in range(1, sheet.frames.others + 1)]
-    same = [one for one in frames if one.coordinates is not None and one.faces == first.faces]
-    poses = [in_space(one.coordinates or ()) for one in (first, *same) if one.vertices == first.vertices]
+    frames = [] if sheet.frames is None else list(map(sheet.frames.frame, range(1, sheet.frames.others + 1)))
+    same = [frame for frame in frames if frame.coordinates is not None and frame.faces == first.faces]
+    poses = [in_space(pose.coordinates or ()) for pose in (first, *same) if pose.vertices == first.vertices]
     return with_all_edges(first), np.array(poses), 1 + len(frames) - len(poses)
 
 

@@ -173,8 +173,10 @@ def folded_pose(sheet: Sheet) -> tuple[Sheet | None, str]:
     placed = sheet if sheet.frames is None else sheet.frames.first_placed()
     if not lies_flat(placed):
         return placed, "as it stands"
-    frames = [] if sheet.frames is None else [sheet.frames.frame(one) for one in range(1, sheet.frames.others + 1)]
-    standing = [one for one in frames if one.coordinates is not None and one.faces and not lies_flat(one)]
+    frames = [] if sheet.frames is None else list(map(sheet.frames.frame, range(1, sheet.frames.others + 1)))
+    standing = [
+        frame for frame in frames if frame.coordinates is not None and frame.faces and not lies_flat(frame)
+    ]
     if standing:
         return standing[len(standing) // 2], "in a frame of its file"
     if len(placed.faces) > _MOST:
@@ -309,7 +311,7 @@ def template_of(
         not_shown = (f"tabs at {numbered(without, 'edge')} with no room for one",) if without else ()
     pieces = nets.pieces
     if hinges is not None:
-        pieces = tuple(with_hinges(*one, hinges) for one in zip(pieces, nets.met, strict=True))
+        pieces = tuple(with_hinges(piece, met, hinges) for piece, met in zip(pieces, nets.met, strict=True))
     meeting = steps_of_joins(nets.numbers, nets.without_tab, slotted=slots)
     steps = (*steps_of_folds(pieces), *steps_of_hinges(hinges), *meeting)
     return Template(pieces, factor, placed, title, not_shown, steps)

@@ -185,7 +185,7 @@ def pulled(
             move = (move + move[image] * _UPRIGHT) / 2
         here = here + move
         if number % _LOOKS == _LOOKS - 1:
-            if not LinearRing(here[graph.outer]).is_simple:
+            if len(graph.outer) > 3 and not LinearRing(here[graph.outer]).is_simple:
                 return whole
             whole = here
             if length.max() < _STILL:
