@@ -73,7 +73,9 @@ def unknown_extension(path: str | Path, known: Iterable[str], rest: str = "") ->
     """Return the error of a file whose extension no table has; `rest` is added to the known ones."""
     suffix = Path(path).suffix
     wrong = f"files ending in {suffix!r} are not known" if suffix else "the name has no extension"
-    return FileError(path, "", wrong, f"one of {' '.join(known)}{rest}")
+    first, *more = known
+    expected = f"one of {' '.join((first, *more))}" if more else first
+    return FileError(path, "", wrong, expected + rest)
 
 
 def format_of(path: str | Path, formats: Formats[Content]) -> Format[Content]:

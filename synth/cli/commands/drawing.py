@@ -234,10 +234,10 @@ def view(files: tuple[str, ...], output: str | None, force: bool) -> None:
 
 
 def _check_page(output: str, *, force: bool) -> None:
-    from graphs.errors import FileError
+    from graphs.files.outputs import unknown_extension
 
     if Path(output).suffix.lower() not in (".html", ".htm"):
-        raise FileError(output, "", "the extension is not known", ".html")
+        raise unknown_extension(output, [".html"])
     check_output(output, force=force)
 
 
