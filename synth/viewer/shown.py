@@ -227,10 +227,10 @@ class Shown:
     def to_json(self) -> dict[str, Any]:
         """Return plain data: `ShownData` of web/src/page/types.js."""
         at, ways = self.configuration, None if self.moving is None else self.moving.ways
-        first = None if ways is None else ways.taken
+        configuration = None if at is None else at.to_json(at.branch(None if ways is None else ways.taken))
         return {
-            **{name: page_data(getattr(self, name)) for name in self.__slots__ if name != "configuration"},
-            "configuration": None if at is None else at.to_json(at.branch(first)),
+            name: configuration if name == "configuration" else page_data(getattr(self, name))
+            for name in self.__slots__
         }
 
 
