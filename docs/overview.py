@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import synth
-from synth.drawing.scene.shapes import Label, Layer, Scene, moved
-from synth.drawing.scene.writing import save_scene
+from synth.drawing.scene.shapes import Label, Layer, moved
+from synth.drawing.scene.writing import Scene
 from synth.drawing.space.poses import pose_scenes
 
 PLACE = Path(__file__).resolve().parent / "pictures" / "overview.svg"
@@ -36,7 +36,7 @@ def main() -> None:
     width = pattern.width + GAP + len(poses) * SIZE
     answer = verdict.text.partition(". ")[0] + "."
     layers.append(Layer("verdict", (Label((width / 2, high + 14), answer, 9.0, halo=False, widest=200),)))
-    save_scene(Scene(width, high + 28, tuple(layers), "Miura sheet"), PLACE, force=True)
+    Scene(width, high + 28, tuple(layers), "Miura sheet").save(PLACE, force=True)
 
 
 if __name__ == "__main__":

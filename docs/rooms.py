@@ -15,8 +15,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from drawings.pieces import head
 
-from synth.drawing.scene.shapes import NORMAL, SMALL, Label, Layer, Line, Polygon, Scene, Shape, text_width
-from synth.drawing.scene.writing import save_scene
+from synth.drawing.scene.shapes import NORMAL, SMALL, Label, Layer, Line, Polygon, Shape, text_width
+from synth.drawing.scene.writing import Scene
 
 ROOT = Path(__file__).resolve().parent.parent
 PLACE = ROOT / "docs" / "pictures" / "architecture.svg"
@@ -68,7 +68,7 @@ def main() -> None:
         start, tip = (x, y + HIGH), (u, v)
         shapes += [Line([start, tip], "grey", NORMAL / 2), head(start, tip, "grey")]
     scene = Scene(width, 2 * EDGE + (len(rows) - 1) * DOWN + HIGH, (Layer("rooms", tuple(shapes)),), "Rooms")
-    save_scene(scene, PLACE, force=True)
+    scene.save(PLACE, force=True)
 
 
 if __name__ == "__main__":

@@ -18,8 +18,8 @@ Reading and writing: `read`, `write`. Questions: `mobility`, `identify`, `recons
 panels, frame by frame; `move`, any linkage; `positions`, all assembly modes at given inputs. `explain`: why it
 moves; `advise`: what to lock, which panels to crease; `states`: which members bend, and what springs do. Known
 patterns and linkages: `generate`, by parameters. All types up to a size in a file: `open_atlas`. Pictures: `draw`,
-of any mechanism; templates to cut and fold: `template`, `write_template`; pages that fold: `view`. In a notebook
-mechanisms show themselves.
+of any mechanism, and their `save`; templates to cut and fold: `template`, `write_template`; pages that fold:
+`view`. In a notebook mechanisms show themselves.
 
 Where a function takes a mechanism it takes what `read` returns, the path of a file, or an id (`MechanismLike`).
 Angles are radians. Every answer prints as the command line does, has ``to_json()``, and says how it is known. An

@@ -21,7 +21,7 @@ _SHOWN = {
     "graphs.mechanism.vertex_edge": "VertexEdgeGraph",
     "enumerate.strings.panel_strings": "ChainString",
     "synth.guidance.orientations": "Orientations",
-    "synth.drawing.scene.shapes": "Scene",
+    "synth.drawing.scene.writing": "Scene",
 }
 """Module to class; subclasses are shown too."""
 
@@ -60,8 +60,7 @@ def picture_of(thing: Any) -> str | None:
     """
     from graphs.errors import SynthedraError
     from synth.drawing.mechanisms.pictures import draw
-    from synth.drawing.scene.shapes import Scene
-    from synth.drawing.scene.writing import svg_text
+    from synth.drawing.scene.writing import Scene, svg_text
 
     try:
         return svg_text(thing if isinstance(thing, Scene) else draw(thing))

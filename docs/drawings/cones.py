@@ -23,7 +23,7 @@ from synth.conformed.rates import ConformedChain
 from synth.drawing import Scene
 from synth.drawing.conformed import surface_layer
 from synth.drawing.mechanisms.chains import ChainLook, chain_scene
-from synth.drawing.scene.frame import Plot, round_steps, signed
+from synth.drawing.scene.frame import PictureOptions, Plot, round_steps, signed
 from synth.drawing.scene.shapes import (
     FINE,
     NORMAL,
@@ -201,7 +201,9 @@ def multiloop() -> Scene:
     linkage = synth.read(DATA / "surfaces" / "fig11-stephenson.json")
     places = linkage.places()
     names = [str(joint) for joint in linkage.chain.joints]
-    chain = chain_scene(linkage.chain, look=ChainLook(link_numbers=False), box=(140, 140), caption=None)
+    chain = chain_scene(
+        linkage.chain, PictureOptions(box=(140, 140), caption=None), look=ChainLook(link_numbers=False)
+    )
     circle = _Circle(58.0)
     shapes: list[Shape] = [circle.ring()]
     told = []

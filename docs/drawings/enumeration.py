@@ -26,6 +26,7 @@ from graphs.types import LinkId
 from synth.atlas.building import AtlasPlan, build_atlas
 from synth.drawing import Scene
 from synth.drawing.mechanisms.chains import ChainLook, OrderOnCircle, chain_scene
+from synth.drawing.scene.frame import PictureOptions
 from synth.drawing.scene.shapes import NORMAL, STRONG, Disc, Layer, Line, Point, Polygon, Shape
 
 __all__ = ["DRAWINGS"]
@@ -45,7 +46,9 @@ def chains() -> Scene:
     joints = joints_of_all(ends, links, placed)
     rows = []
     for numbers, pairs, code in zip(placed.tolist(), joints.tolist(), chain_ids(_SIX_BAR, joints)[0], strict=True):
-        chain = cropped(chain_scene(SCGraph(_SIX_BAR, pairs), look=_PLAIN, box=(130, 110), caption=None))
+        chain = cropped(
+            chain_scene(SCGraph(_SIX_BAR, pairs), PictureOptions(box=(130, 110), caption=None), look=_PLAIN)
+        )
         rows += [
             said(_strands(numbers), " + ".join(map(str, numbers)) + " binary links"),
             arrow(),
@@ -142,7 +145,7 @@ def _type(code: str, side: float) -> Scene:
     """Return the picture of a type by its id."""
     graph = synth.read(code)
     if code.startswith("k1:"):
-        return cropped(chain_scene(graph, look=_PLAIN, box=(side, side), caption=None))
+        return cropped(chain_scene(graph, PictureOptions(box=(side, side), caption=None), look=_PLAIN))
     return cropped(
         without(legible(synth.draw(graph, kind="graph", caption=None, box=(side, side))), "ride-alongs")
     )
@@ -155,7 +158,8 @@ def conical_candidates() -> Scene:
     query = ConicalQuery(tuple(joints.items()))
     slots = [row for _, row in conical_orders(query)]
     chain = legible(
-        chain_scene(SCGraph(len(watt), joints), look=_LETTERS, box=(150, 150), caption=None), joints=True
+        chain_scene(SCGraph(len(watt), joints), PictureOptions(box=(150, 150), caption=None), look=_LETTERS),
+        joints=True,
     )
     circles = [_circle(joints, row) for row in slots[:: len(slots) // 6][:6]]
     count = count_conical_orders(query)

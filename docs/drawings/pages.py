@@ -10,7 +10,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from drawings import cones, enumeration, guidance, holding, kinds, mobility, motion, things, turning
-from synth.drawing import Scene, save_scene
+from synth.drawing import Scene
 
 FOLDER = Path(__file__).resolve().parent.parent / "pictures" / "theory"
 
@@ -38,7 +38,7 @@ def main() -> None:
     """Write the drawings of the pages named, or all."""
     FOLDER.mkdir(exist_ok=True)
     for page in sys.argv[1:] or DRAWINGS:
-        save_scene(drawing_of(page), FOLDER / f"{page}.svg", force=True)
+        drawing_of(page).save(FOLDER / f"{page}.svg", force=True)
 
 
 if __name__ == "__main__":

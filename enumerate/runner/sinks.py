@@ -20,6 +20,7 @@ from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.errors import FileError, InvariantError, StoreError, shown
 from graphs.files.atomic import Beside, FolderBeside, remove_left
 from graphs.files.native import dumps
+from graphs.files.outputs import unknown_extension
 from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
@@ -391,8 +392,7 @@ def sink_for(
     if suffix == ".sqlite":
         return SqliteSink(path, resume=resume, force=force, tell=tell, looking=looking)
     if suffix and suffix not in SINKS:
-        known = " ".join(sorted(filter(None, [*SINKS, ".sqlite"])))
-        raise FileError(path, "", f"files ending in {suffix!r} are not known", f"one of {known}, or a folder")
+        raise unknown_extension(path, sorted([*SINKS, ".sqlite"]), ", or a folder")
     if resume:
         raise StoreError(f"{path}: only a .sqlite store can be resumed")
     if not suffix:

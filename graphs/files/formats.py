@@ -1,6 +1,6 @@
 """One path from a file to a mechanism and back: formats by extension, ids, lines of files of many.
 
-To add a format, write a reader or a writer and enter it in ``READERS`` or ``WRITERS`` (docs/architecture.md).
+To add a format, enter a reader in ``READERS``, or a `Format` in ``WRITERS`` (docs/architecture.md).
 """
 
 from __future__ import annotations
@@ -27,18 +27,19 @@ from graphs.files.bare import (
     read_graphml,
 )
 from graphs.files.losses import (
-    Lost,
     change_of_type,
     lost_as_bare_graph,
     lost_as_cp,
     lost_as_dxf,
     lost_as_fold,
+    lost_as_graphml,
     lost_as_json,
+    lost_as_nameless_graph,
     lost_as_obj,
     lost_as_svg,
-    lost_as_typed_graph,
 )
 from graphs.files.native import dumps, from_document
+from graphs.files.outputs import Format, Lost, format_of, formats_by_suffix, unknown_extension
 from graphs.files.patterns.fold import fold_text, read_fold
 from graphs.files.patterns.legend import UNSTATED, Legend, Looks
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
@@ -46,7 +47,6 @@ from graphs.files.text import load_json
 from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.joints.linkage import JointedLinkage
-from graphs.mechanism.precision import flattened
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.surfaces import SurfaceLinkage
@@ -274,18 +274,15 @@ def write_converted(
 ) -> tuple[str, ...]:
     """Write a mechanism that was made of another, if any, whose type must then be kept too; else as `write`."""
     path = Path(path)
-    suffix = path.suffix.lower()
-    writer = WRITERS.get(suffix)
-    if writer is None:
-        raise FileError(path, "", _unknown(path), "one of " + " ".join(sorted(WRITERS)))
-    text, lost = writer(mechanism)
+    written = format_of(path, WRITERS)
+    data, lost = written.to_bytes(mechanism), written.lost(mechanism)
     beside = Beside(path, force=force)
     try:
-        beside.write(text.encode("utf-8"))
-        if (made_of is not None and not lossy) or not _holds_all(suffix, mechanism):
-            again = _read_back(beside.closed(), suffix, lost)
+        beside.write(data)
+        if (made_of is not None and not lossy) or not _holds_all(written.suffix, mechanism):
+            again = _read_back(beside.closed(), written.suffix, lost)
             if not lossy:
-                _check_type(again, suffix, mechanism if made_of is None else made_of, lost)
+                _check_type(again, written.suffix, mechanism if made_of is None else made_of, lost)
         beside.commit()
     finally:
         beside.discard()
@@ -330,12 +327,8 @@ def _reader(path: Path, legend: Legend) -> Reader:
     if reader is None and not path.exists():
         raise OpenError(path, "", "no such file", "a file")
     if reader is None:
-        raise FileError(path, "", _unknown(path), "one of " + " ".join(sorted(READERS)))
+        raise unknown_extension(path, sorted(READERS))
     return reader
-
-
-def _unknown(path: Path) -> str:
-    return f"files ending in {path.suffix!r} are not known" if path.suffix else "the name has no extension"
 
 
 def _read_cp(path: Path) -> Mechanism:
@@ -391,65 +384,51 @@ READERS: dict[str, Reader] = {
 """Extension to the reader: path to (place in the file, mechanism)."""
 
 
-def _write_json(mechanism: Mechanism) -> tuple[str, Lost]:
-    held = to_sc(mechanism) if isinstance(mechanism, Sheet) else mechanism
-    return dumps(held), lost_as_json(mechanism)
+def _json_text(mechanism: Mechanism) -> str:
+    return dumps(to_sc(mechanism) if isinstance(mechanism, Sheet) else mechanism)
 
 
-def _write_fold(mechanism: Mechanism) -> tuple[str, Lost]:
-    return fold_text(to_sheet(mechanism)), lost_as_fold(mechanism)
-
-
-def _write_cp(mechanism: Mechanism) -> tuple[str, Lost]:
+def _cp_text(mechanism: Mechanism) -> str:
     from graphs.files.patterns.lines import cp_text
 
-    return _drawn(mechanism, cp_text, lost_as_cp)
+    return cp_text(to_sheet(mechanism))
 
 
-def _write_dxf(mechanism: Mechanism) -> tuple[str, Lost]:
+def _dxf_text(mechanism: Mechanism) -> str:
     from graphs.files.patterns.dxf import dxf_text
 
-    return _drawn(mechanism, dxf_text, lost_as_dxf)
+    return dxf_text(to_sheet(mechanism))
 
 
-def _write_svg(mechanism: Mechanism) -> tuple[str, Lost]:
+def _svg_text(mechanism: Mechanism) -> str:
     from graphs.files.patterns.svg import svg_text
 
-    return _drawn(mechanism, svg_text, lost_as_svg)
+    return svg_text(to_sheet(mechanism))
 
 
-def _drawn(
-    mechanism: Mechanism, text_of: Callable[[Sheet], str], lost_as: Callable[[Mechanism, Sheet], Lost]
-) -> tuple[str, Lost]:
-    """Return the text of a drawing, and what it loses; also the pose of a flat sheet turned to be drawn."""
-    sheet = to_sheet(mechanism)
-    text, flat = text_of(sheet), flattened(sheet)
-    pose = (f"the pose in space: {flat.turned}",) if flat is not None and flat.turned else ()
-    return text, (*lost_as(mechanism, sheet), *pose)
-
-
-def _write_obj(mechanism: Mechanism) -> tuple[str, Lost]:
-    sheet = to_sheet(mechanism)
-    return obj_text(sheet), lost_as_obj(mechanism, sheet)
-
-
-def _write_graphml(mechanism: Mechanism) -> tuple[str, Lost]:
+def _graphml_text(mechanism: Mechanism) -> str:
     if isinstance(mechanism, JointedLinkage):
-        return graphml_text(mechanism.chain, mechanism.kinds), lost_as_typed_graph(mechanism)
-    return graphml_text(to_sc(mechanism)), lost_as_bare_graph(mechanism, names=True)
+        return graphml_text(mechanism.chain, mechanism.kinds)
+    return graphml_text(to_sc(mechanism))
 
 
-WRITERS: dict[str, Callable[[Mechanism], tuple[str, Lost]]] = {
-    ".json": _write_json,
-    ".fold": _write_fold,
-    ".svg": _write_svg,
-    ".cp": _write_cp,
-    ".dxf": _write_dxf,
-    ".obj": _write_obj,
-    ".g6": lambda m: (graph6_text(to_sc(m), sparse=False), lost_as_bare_graph(m, names=False)),
-    ".s6": lambda m: (graph6_text(to_sc(m), sparse=True), lost_as_bare_graph(m, names=False)),
-    ".graphml": _write_graphml,
-    ".edges": lambda m: (edge_list_text(to_sc(m)), lost_as_bare_graph(m, names=True)),
-    ".txt": lambda m: (edge_list_text(to_sc(m)), lost_as_bare_graph(m, names=True)),
-}
-"""Extension to the writer: mechanism to text, and what the text could not hold."""
+def _text_format(
+    suffix: str, name: str, text_of: Callable[[Mechanism], str], lost: Callable[[Mechanism], Lost]
+) -> Format[Mechanism]:
+    return Format(suffix, name, lambda mechanism: text_of(mechanism).encode("utf-8"), lost)
+
+
+WRITERS = formats_by_suffix(
+    _text_format(".cp", "crease pattern", _cp_text, lost_as_cp),
+    _text_format(".dxf", "crease pattern, DXF R12", _dxf_text, lost_as_dxf),
+    _text_format(".edges", "list of edges", lambda m: edge_list_text(to_sc(m)), lost_as_bare_graph),
+    _text_format(".fold", "crease pattern, FOLD", lambda m: fold_text(to_sheet(m)), lost_as_fold),
+    _text_format(".g6", "graph6", lambda m: graph6_text(to_sc(m), sparse=False), lost_as_nameless_graph),
+    _text_format(".graphml", "GraphML", _graphml_text, lost_as_graphml),
+    _text_format(".json", "native", _json_text, lost_as_json),
+    _text_format(".obj", "surface, OBJ", lambda m: obj_text(to_sheet(m)), lost_as_obj),
+    _text_format(".s6", "sparse6", lambda m: graph6_text(to_sc(m), sparse=True), lost_as_nameless_graph),
+    _text_format(".svg", "crease pattern, SVG", _svg_text, lost_as_svg),
+    _text_format(".txt", "list of edges", lambda m: edge_list_text(to_sc(m)), lost_as_bare_graph),
+)
+"""Suffix to the format in which mechanisms are written."""

@@ -7,15 +7,17 @@ from dataclasses import dataclass
 from math import isclose, pi
 from typing import Any
 
-from graphs.convert.table import Mechanism, to_sc
+from graphs.convert.table import Mechanism, to_sc, to_sheet
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.files.bare import are_kept
 from graphs.files.native import is_count
+from graphs.files.outputs import Lost
 from graphs.identity.chains import class_code
 from graphs.joints.linkage import JointedLinkage, JointKind
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.precision import flattened
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import FLAT, HINGES, Sheet, with_all_edges
@@ -29,13 +31,12 @@ __all__ = [
     "lost_as_cp",
     "lost_as_dxf",
     "lost_as_fold",
+    "lost_as_graphml",
     "lost_as_json",
+    "lost_as_nameless_graph",
     "lost_as_obj",
     "lost_as_svg",
-    "lost_as_typed_graph",
 ]
-
-Lost = tuple[str, ...]
 
 _KEYS = 12
 """So many keys of a file are named."""
@@ -53,8 +54,9 @@ def lost_as_fold(mechanism: Mechanism) -> Lost:
     return _of_its_file(mechanism) if isinstance(mechanism, Sheet) else _lost_as_sheet(mechanism)
 
 
-def lost_as_cp(mechanism: Mechanism, sheet: Sheet) -> Lost:
-    """Return what the ``.cp`` file of the sheet of a mechanism does not hold."""
+def lost_as_cp(mechanism: Mechanism) -> Lost:
+    """Return what the ``.cp`` file of a mechanism does not hold."""
+    sheet = to_sheet(mechanism)
     letters = with_all_edges(sheet).assignments
     lost = [
         *_letters(letters, "C", "cut", "as borders"),
@@ -63,35 +65,57 @@ def lost_as_cp(mechanism: Mechanism, sheet: Sheet) -> Lost:
         *_angles(sheet),
         *_title(sheet),
     ]
-    return (*lost_as_fold(mechanism), *lost, *_precision(sheet), _bounds(sheet))
+    return _lost_as_lines(mechanism, sheet, *lost)
 
 
-def lost_as_dxf(mechanism: Mechanism, sheet: Sheet) -> Lost:
-    """Return what the DXF file of the sheet of a mechanism does not hold."""
-    return (*lost_as_fold(mechanism), *_angles(sheet), *_title(sheet), *_precision(sheet), _bounds(sheet))
+def lost_as_dxf(mechanism: Mechanism) -> Lost:
+    """Return what the DXF file of a mechanism does not hold."""
+    sheet = to_sheet(mechanism)
+    return _lost_as_lines(mechanism, sheet, *_angles(sheet), *_title(sheet))
 
 
-def lost_as_svg(mechanism: Mechanism, sheet: Sheet) -> Lost:
-    """Return what the SVG file of the sheet of a mechanism does not hold.
+def lost_as_svg(mechanism: Mechanism) -> Lost:
+    """Return what the SVG file of a mechanism does not hold.
 
     Opacity holds fold angles up to 180 degrees, of mountains below zero and of valleys above it.
     """
+    sheet = to_sheet(mechanism)
     letters = with_all_edges(sheet).assignments
     wrong = sum(
         angle is not None and _is_informative(letter, angle) and not _by_opacity(letter, angle)
         for letter, angle in zip(sheet.assignments, sheet.fold_angles or (), strict=False)
     )
-    lost = (*_letters(letters, "J", "join", "as flat edges"), *_some(wrong, "fold angle"), *_precision(sheet))
-    return (*lost_as_fold(mechanism), *lost, _bounds(sheet))
+    joins = _letters(letters, "J", "join", "as flat edges")
+    return _lost_as_lines(mechanism, sheet, *joins, *_some(wrong, "fold angle"))
 
 
-def lost_as_obj(mechanism: Mechanism, sheet: Sheet) -> Lost:
-    """Return what the OBJ file of a sheet that was made of a mechanism does not hold."""
+def _lost_as_lines(mechanism: Mechanism, sheet: Sheet, *lost: str) -> Lost:
+    """Return what a drawing of lines does not hold; `lost` depends on its format."""
+    flat = flattened(sheet)
+    pose = (f"the pose in space: {flat.turned}",) if flat is not None and flat.turned else ()
+    bounds = f"which lines bound which of {numbered(len(sheet.faces), 'face')}"
+    return (*lost_as_fold(mechanism), *lost, *_precision(sheet), bounds, *pose)
+
+
+def lost_as_obj(mechanism: Mechanism) -> Lost:
+    """Return what the OBJ file of a mechanism does not hold."""
+    sheet = to_sheet(mechanism)
     return (*lost_as_fold(mechanism), *_title(sheet), *_precision(sheet))
 
 
-def lost_as_bare_graph(mechanism: Mechanism, *, names: bool) -> Lost:
-    """Return what a bare link-joint graph, with names or without, does not hold."""
+def lost_as_bare_graph(mechanism: Mechanism) -> Lost:
+    """Return what a bare link-joint graph with names does not hold."""
+    names = _listed(to_sc(mechanism), are_kept, "whether names of {} are text or integers")
+    return (*_lost_as_graph(mechanism), *names)
+
+
+def lost_as_nameless_graph(mechanism: Mechanism) -> Lost:
+    """Return what a bare link-joint graph without names does not hold."""
+    names = () if isinstance(mechanism, Sheet) else _names(to_sc(mechanism))
+    return (*_lost_as_graph(mechanism), *names)
+
+
+def _lost_as_graph(mechanism: Mechanism) -> Lost:
     sc = to_sc(mechanism)
     loops = (*sc.loops, *sc.closing)
     lost = list(_some(len(loops), "loop and its centre", "loops and their centres"))
@@ -106,16 +130,16 @@ def lost_as_bare_graph(mechanism: Mechanism, *, names: bool) -> Lost:
         lost.append("the places of its joints")
     if sc.ground is not None:
         lost.append("the ground link")
-    if names:
-        return (*lost, *_listed(sc, are_kept, "whether names of {} are text or integers"))
-    return (*lost, *(() if isinstance(mechanism, Sheet) else _names(sc)))
+    return tuple(lost)
 
 
-def lost_as_typed_graph(linkage: JointedLinkage) -> Lost:
-    """Return what a link-joint graph with the types of joints does not hold."""
-    chain = linkage.chain
+def lost_as_graphml(mechanism: Mechanism) -> Lost:
+    """Return what a GraphML file does not hold: it has types of joints, where they are known."""
+    if not isinstance(mechanism, JointedLinkage):
+        return lost_as_bare_graph(mechanism)
+    chain = mechanism.chain
     lost = list(_some(len(chain.loops) + len(chain.closing), "loop and its centre", "loops and their centres"))
-    if linkage.places:
+    if mechanism.places:
         lost.append("the places of its joints")
     if chain.ground is not None:
         lost.append("the ground link")
@@ -227,10 +251,6 @@ def _by_opacity(letter: str, angle: float) -> bool:
 def _letters(assignments: str, letter: str, kind: str, becomes: str) -> Lost:
     number = assignments.count(letter)
     return (f"{numbered(number, kind)}: {becomes}",) if number else ()
-
-
-def _bounds(sheet: Sheet) -> str:
-    return f"which lines bound which of {numbered(len(sheet.faces), 'face')}"
 
 
 def _some(number: int, one: str, more: str = "") -> Lost:

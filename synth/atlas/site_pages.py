@@ -26,7 +26,6 @@ from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.writing import svg_text
 from synth.templates.pages import pages_of, paper_named
 from synth.templates.template import template_of
-from synth.templates.writing import svg_of_page
 from synth.viewer.building import BUILT
 from synth.viewer.pages import check_built, json_in_html
 from synth.viewer.shown import shown_of
@@ -221,7 +220,7 @@ def _template(sheet: Sheet) -> str | None:
         pages = pages_of(template, paper_named("A4"))
     except SynthedraError:
         return None
-    return svg_of_page(pages[0]) if len(pages) == 1 else None
+    return svg_text(pages[0].scene) if len(pages) == 1 else None
 
 
 _UNIT, _WEIGHT = 16, 1000

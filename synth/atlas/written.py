@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from enumerate.runner.job import Column, ListColumn, Row, Unit
@@ -13,13 +14,14 @@ from enumerate.runner.running import run
 from enumerate.runner.sinks import sink_for
 from enumerate.strings.panel_strings import chain_scd
 from graphs.errors import FileError, InvariantError, UnsolvableError, shown
-from graphs.files.atomic import write_text
 from graphs.files.native import dumps
+from graphs.files.outputs import Format, formats_by_suffix, unknown_extension, write_as
 from graphs.files.patterns.fold import sheet_from_fold
 from graphs.mechanism.sheet import Sheet
 from synth.atlas.columns import COLUMNS
 from synth.atlas.opened import AtlasRows
 from synth.drawing.catalogue import CatalogueEntry, catalogue_pages, drawable_of_type, write_catalogue
+from synth.drawing.scene.writing import PICTURES
 
 __all__ = ["mechanism_file_of_type", "sheet_of_type", "write_rows"]
 
@@ -53,10 +55,6 @@ def sheet_of_type(values: Mapping[str, Any]) -> Sheet | None:
     return sheet_from_fold(document, place)
 
 
-_PICTURES = (".svg", ".png", ".pdf")
-_THROUGH_SINKS = (".csv", ".jsonl", ".parquet", "")
-
-
 def write_rows(rows: AtlasRows, path: str | Path, *, force: bool = False) -> list[Path]:
     """Write rows in the format of the extension; without one, a folder with a file for each mechanism.
 
@@ -65,18 +63,15 @@ def write_rows(rows: AtlasRows, path: str | Path, *, force: bool = False) -> lis
     cannot be written.
     """
     place = Path(path)
-    suffix = place.suffix.lower()
-    if suffix in _PICTURES:
-        return write_catalogue(catalogue_pages(_entries(rows)), place, force=force)
-    if suffix == ".json":
-        write_text(place, json.dumps(rows.to_json(), indent=1, allow_nan=False) + "\n", force=force)
-    elif suffix in _THROUGH_SINKS:
-        if not suffix:
-            _check_mechanisms(rows)
+    if not place.suffix:
+        _check_mechanisms(rows)
         run(_Listed(rows), sink_for(place, force=force))
+    elif place.suffix.lower() in PICTURES:
+        return write_catalogue(catalogue_pages(_entries(rows)), place, force=force)
+    elif place.suffix.lower() in TABLES:
+        write_as(rows, place, TABLES, force=force)
     else:
-        expected = ", ".join((".csv", ".json", ".jsonl", ".parquet", *_PICTURES))
-        raise FileError(place, "", "the extension is not known", f"{expected}, or a folder")
+        raise unknown_extension(place, (*TABLES, *PICTURES), ", or a folder")
     return [place]
 
 
@@ -141,3 +136,28 @@ def _entries(rows: AtlasRows) -> Iterator[CatalogueEntry]:
         caption = [row.get("name") or "", f"M = {row['dof']}" if row.get("dof") is not None else ""]
         drawable = drawable_of_type(row["kind"], row["id"])
         yield CatalogueEntry(number, drawable, row["id"], ", ".join(filter(None, caption)))
+
+
+def _json_bytes(rows: AtlasRows) -> bytes:
+    return (json.dumps(rows.to_json(), indent=1, allow_nan=False) + "\n").encode("utf-8")
+
+
+def _table(suffix: str, name: str, needs: str = "") -> Format[AtlasRows]:
+    """Return the format of a table that a sink of the runner writes."""
+
+    def table_bytes(rows: AtlasRows) -> bytes:
+        with TemporaryDirectory() as folder:
+            place = Path(folder, f"rows{suffix}")
+            run(_Listed(rows), sink_for(place))
+            return place.read_bytes()
+
+    return Format(suffix, name, table_bytes, needs=needs)
+
+
+TABLES = formats_by_suffix(
+    _table(".csv", "CSV"),
+    Format(".json", "JSON", _json_bytes),
+    _table(".jsonl", "JSON lines"),
+    _table(".parquet", "Parquet", needs="pyarrow"),
+)
+"""Suffix to the format in which rows are written as a table; pictures of rows are a catalogue."""

@@ -15,8 +15,7 @@ from synth.candidates.job import CandidateJob
 from synth.conformed.all_angles import links_in_layers
 from synth.conformed.rates import ConformedChain
 from synth.drawing.conformed import draw_conformed
-from synth.drawing.scene.shapes import Scene
-from synth.drawing.scene.writing import save_scene
+from synth.drawing.scene.writing import Scene
 
 _MOST = 10_000
 _ANY = Cone(radians(30.0))
@@ -90,7 +89,7 @@ class PictureSink:
             if self._number > _MOST:
                 raise UnsolvableError(f"more than {_MOST} pictures; try fewer candidates")
             scene = picture_of_row(self._job, row_as_dict(self._job.columns, row))
-            save_scene(scene, self._folder.path / f"{self._number:05d}.png")
+            scene.save(self._folder.path / f"{self._number:05d}.png")
         self._inner.take(number, rows, seconds)
 
     def finish(self) -> None:

@@ -82,9 +82,10 @@ def check_output(path: str | None, *, force: bool) -> None:
 def check_picture(path: str | None, *, force: bool) -> None:
     """Refuse a picture that cannot be written, before anything is computed for it; None is no picture."""
     if path is not None:
-        from synth.drawing.scene import writing
+        from graphs.files.outputs import check_writable
+        from synth.drawing.scene.writing import PICTURES
 
-        writing.check_picture(path, force=force)
+        check_writable(path, PICTURES, force=force)
 
 
 def tell_lost(lost: Sequence[str]) -> None:

@@ -1,11 +1,6 @@
 from synth.drawing.conformed import draw_conformed as draw_conformed
 from synth.drawing.mechanisms.pictures import draw as draw
-from synth.drawing.scene.shapes import Scene as Scene
-from synth.drawing.scene.writing import (
-    check_picture as check_picture,
-    save_scene as save_scene,
-    svg_text as svg_text,
-)
+from synth.drawing.scene.writing import Scene as Scene, svg_text as svg_text
 from synth.drawing.space.poses import (
     save_moving_poses as save_moving_poses,
     strip_of_poses as strip_of_poses,

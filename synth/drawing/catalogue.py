@@ -18,14 +18,15 @@ from enumerate.chains.names import name_of
 from enumerate.runner.job import Limits, row_as_dict
 from enumerate.runner.store import read_meta, read_rows
 from enumerate.strings.panel_strings import ChainString
-from graphs.errors import FileError, InvariantError, SynthedraError, UnsolvableError, numbered, shown
+from graphs.errors import FileError, InvariantError, SynthedraError, numbered, shown
 from graphs.files.formats import is_id, mechanism_of_id, read_all
+from graphs.files.outputs import check_installed, check_writable, write_as
 from graphs.mechanism.sc import SCGraph
 from synth.conformed.rates import loops_of_chain
 from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.drawing.mechanisms.pictures import draw
-from synth.drawing.scene.shapes import LARGE, Label, Layer, Scene, moved, text_width
-from synth.drawing.scene.writing import check_picture, save_scene, whole_file, write_pdf
+from synth.drawing.scene.shapes import LARGE, Label, Layer, moved, text_width
+from synth.drawing.scene.writing import PICTURES, Pages, Scene
 
 __all__ = [
     "CatalogueEntry",
@@ -87,11 +88,10 @@ def _rows_of_lines(place: Path) -> Iterator[Row]:
 
 
 def _rows_of_parquet(place: Path) -> Iterator[Row]:
-    try:
-        from pyarrow import ArrowException
-        from pyarrow.parquet import ParquetFile
-    except ImportError:
-        raise UnsolvableError("Parquet requires pyarrow; try pip install 'synthedra[parquet]'") from None
+    check_installed("pyarrow", "Parquet")
+    from pyarrow import ArrowException
+    from pyarrow.parquet import ParquetFile
+
     try:
         with place.open("rb") as stream, ParquetFile(stream) as file:
             for batch in file.iter_batches(_AT_ONCE):
@@ -109,12 +109,6 @@ def _order_of_row(row: Row, chain: SCGraph) -> OrderOnCircle:
     from the loops. The row has ``order``, ``loops``, and ``azimuths_deg`` or ``slots``: azimuths are in the order
     of the joints of the chain (that of the row's id), and ``order`` names joints as they follow each other; a
     point opposite to one has a prime. Raise KeyError, TypeError or ValueError for another row.
-
-    >>> from graphs.files.formats import mechanism_of_id
-    >>> row = {"order": ["0", "1'", "3", "2"], "slots": [0, 5, 3, 2], "loops": [["0", "1", "3", "2"]]}
-    >>> order = _order_of_row(row, mechanism_of_id("k1:Cr"))
-    >>> order.names, [round(azimuth / pi, 3) for azimuth in order.azimuths], order.pairs
-    (['0', '1', '2', '3'], [0.0, 1.25, 0.75, 0.5], [(0, 1), (0, 2), (1, 3), (2, 3)])
     """
     # slots go round half a turn where orders name opposite points too; rows of other orders count the layers
     primed = "azimuths_deg" not in row and "most_layers" not in row
@@ -184,11 +178,7 @@ class CatalogueEntry:
 
 
 def is_catalogue(path: str | Path) -> bool:
-    """Check whether a path names many mechanisms: a store, a list or a folder.
-
-    >>> is_catalogue("chains.sqlite"), is_catalogue("watt.json")
-    (True, False)
-    """
+    """Check whether a path names many mechanisms: a store, a list or a folder."""
     return not is_id(path) and (Path(path).suffix.lower() in _CATALOGUES or Path(path).is_dir())
 
 
@@ -348,21 +338,17 @@ def write_catalogue(
     the extension is another, or a file exists or cannot be written; UnsolvableError if the library that writes PNG
     (matplotlib) or PDF (reportlab) is not installed.
     """
-    check_picture(path, force=force)
+    check_writable(path, PICTURES, force=force)
     place, rest = Path(path), iter(pages)
     first = next(rest, None)
     if first is None:
         return []
-    if place.suffix.lower() == ".pdf":
-        with whole_file(place, force=force) as beside:
-            write_pdf(chain([first], rest), beside.stream, paper=paper)
-        return [place]
-    second = next(rest, None)
+    second = None if place.suffix.lower() == ".pdf" else next(rest, None)
     if second is None:
-        save_scene(first, place, paper=paper, force=force)
+        write_as(Pages(chain([first], rest), paper), place, PICTURES, force=force)
         return [place]
     places = []
     for number, page in enumerate(chain((first, second), rest), start=1):
         places.append(place.with_name(f"{place.stem}-{number}{place.suffix}"))
-        save_scene(page, places[-1], paper=paper, force=force)
+        page.save(places[-1], paper=paper, force=force)
     return places

@@ -33,12 +33,12 @@ from synth.drawing.scene.shapes import (
     Line,
     Point,
     Polygon,
-    Scene,
     Shape,
     arc_points,
     colour_of_class,
     moved,
 )
+from synth.drawing.scene.writing import Scene
 from synth.drawing.space.panels import View, view_from
 
 __all__ = ["draw_conformed", "surface_layer"]

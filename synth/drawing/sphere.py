@@ -30,10 +30,10 @@ from synth.drawing.scene.shapes import (
     Line,
     Point,
     Polygon,
-    Scene,
     Shape,
     text_width,
 )
+from synth.drawing.scene.writing import Scene
 from synth.drawing.space.panels import View, view_from
 from synth.guidance.dyads import AxisCurve, Dyad
 from synth.guidance.order import Hoop, HoopCrossing, direction_words, order_verdicts, pair_name

@@ -9,7 +9,8 @@ import numpy as np
 
 from graphs.types import Floats
 from synth.drawing.scene.frame import Frame, Plot, page_of, round_steps
-from synth.drawing.scene.shapes import FINE, SMALL, STRONG, Disc, Label, Layer, Line, Scene, Shape, colour_of_class
+from synth.drawing.scene.shapes import FINE, SMALL, STRONG, Disc, Label, Layer, Line, Shape, colour_of_class
+from synth.drawing.scene.writing import Scene
 from synth.surfaces.loop_maps import ConeMap, CylinderMap, cone_reach, cylinder_reach
 from synth.surfaces.loop_sums import Base, loop_sum, sign_patterns
 

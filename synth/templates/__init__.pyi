@@ -3,7 +3,7 @@ from synth.templates.pages import Paper as Paper, paper_named as paper_named
 from synth.templates.solids import write_solids as write_solids
 from synth.templates.template import (
     Template as Template,
-    panels_of_thing as panels_of_thing,
+    panels_of_mechanism as panels_of_mechanism,
     pictured as pictured,
     template_of as template_of,
 )

@@ -27,6 +27,7 @@ from synth.templates.pieces import (
     Text,
     common_spans,
     cut_once,
+    point_of,
     spans_on,
     uncovered,
     united,
@@ -87,8 +88,7 @@ class _Strip:
 
     def at(self, along: float, across: float) -> Point:
         """Return a place by millimetres along the fold, and by half widths across it."""
-        place = self.start + along * self.along + across * self.width / 2 * self.off
-        return float(place[0]), float(place[1])
+        return point_of(self.start + along * self.along + across * self.width / 2 * self.off)
 
     def line(self, kind: Kind, across: float, first: float, last: float) -> Stroke:
         """Return a line along the fold."""
@@ -112,13 +112,6 @@ def with_hinges(piece: Piece, met: Sequence[Stroke], hinges: Hinges) -> Piece:
 
     `met` are the edges that meet others when it is put together; a gap is left there too. Raise UnsolvableError if
     a panel is narrower than the hinges, or a fold too short for one.
-
-    >>> outline = [(0, 0), (50, 0), (100, 0), (100, 40), (50, 40), (0, 40)]
-    >>> cuts = [Stroke("CUT", *ends) for ends in pairwise([*outline, outline[0]])]
-    >>> card = Piece((*cuts, Stroke("VALLEY", (50, 0), (50, 40))), (), shapely.Polygon(outline))
-    >>> hinged = with_hinges(card, (), Hinges("offset", 3))
-    >>> [stroke.start[0] for stroke in hinged.strokes if stroke.kind == "VALLEY"]
-    [51.5, 48.5]
     """
     folds = [stroke for stroke in piece.strokes if stroke.kind not in ("CUT", "MARKS")]
     apart = [*folds, *met] if hinges.kind == "gap" else folds
@@ -216,8 +209,8 @@ def _rows(strip: _Strip) -> list[Stroke]:
         across = (2 * row + 1) / rows - 1
         bridges = [pitch * (place + 0.5 * (row % 2)) for place in range(count + 1)]
         ends = [(0.0, bridges[0] - _BRIDGE / 2)] if row % 2 else []
-        ends += [(one + _BRIDGE / 2, min(other - _BRIDGE / 2, length)) for one, other in pairwise(bridges)]
-        cuts += [strip.line("CUT", across, strip.first + one, strip.first + other) for one, other in ends]
+        ends += [(here + _BRIDGE / 2, min(after - _BRIDGE / 2, length)) for here, after in pairwise(bridges)]
+        cuts += [strip.line("CUT", across, strip.first + start, strip.first + end) for start, end in ends]
     return cuts
 
 

@@ -26,6 +26,7 @@ from synth.templates.pieces import (
     cut_once,
     lies_over,
     lies_within,
+    point_of,
     put_together,
 )
 from synth.templates.unfolding import Net, Panels, laid_across, nets_of, panels_of
@@ -67,9 +68,6 @@ def tab_shapes(start: Floats, end: Floats, depth: float) -> Iterator[Floats]:
     """Yield tabs, float[4, 2], to try at an edge, the best first: to its right, the ends their first two corners.
 
     The ends are float[2] and `depth` is the desired one, millimetres.
-
-    >>> next(tab_shapes(np.array([0, 0.0]), np.array([0, 40.0]), 8)).tolist()
-    [[0.0, 0.0], [0.0, 40.0], [8.0, 35.2], [8.0, 4.8]]
     """
     length = float(np.linalg.norm(end - start))
     along = (end - start) / length
@@ -86,11 +84,7 @@ def tab_shapes(start: Floats, end: Floats, depth: float) -> Iterator[Floats]:
 
 
 def slot_of(shape: Floats) -> Floats:
-    """Return the slot that a tab goes through half its depth from its fold, as the ends of a cut, float[2, 2].
-
-    >>> slot_of(np.array([[0.0, 0.0], [0.0, 40.0], [8.0, 36.0], [8.0, 4.0]])).tolist()
-    [[4.0, 38.5], [4.0, 1.5]]
-    """
+    """Return the slot that a tab goes through half its depth from its fold, as the ends of a cut, float[2, 2]."""
     start, end, after, before = shape
     first, last = (end + after) / 2, (start + before) / 2
     along = unit(first - last)
@@ -104,30 +98,26 @@ def tab_at(
     material: Sequence[Any],
     panel: Any,
     *,
-    taken: Sequence[Any] = (),
+    in_use: Sequence[Any] = (),
     slotted: bool = False,
 ) -> Floats | None:
     """Return the tab, float[4, 2], at an edge of a net; None if there is no room.
 
     The panel lies to the left of the edge; `depth` is the desired one, millimetres. `material` are the net's
-    panels and tabs, `panel` is where the panel across the edge would lie, `taken` are the areas in use on that
+    panels and tabs, `panel` is where the panel across the edge would lie, `in_use` are the areas in use on that
     panel (all shapely polygons); `slotted`: the tab goes through a slot of that panel.
     """
     for shape in tab_shapes(start, end, depth):
         polygon = shapely.Polygon(shape)
-        if not lies_within(polygon, panel) or lies_over(polygon, taken):
+        if not lies_within(polygon, panel) or lies_over(polygon, in_use):
             continue
-        if slotted and not _has_rim(slot_of(shape), panel, taken):
-            continue
+        if slotted:
+            rim = shapely.LineString(slot_of(shape)).buffer(_RIM)
+            if not lies_within(rim, panel) or lies_over(rim, in_use):
+                continue
         if not lies_over(polygon, material) and not lies_over(_surroundings(shape), material):
             return shape
     return None
-
-
-def _has_rim(slot: Floats, panel: Any, taken: Sequence[Any]) -> bool:
-    """Tell whether there is material round a slot: within its panel, and off what is there already."""
-    around = shapely.LineString(slot).buffer(_RIM)
-    return lies_within(around, panel) and not lies_over(around, taken)
 
 
 def _surroundings(shape: Floats) -> Any:
@@ -170,11 +160,6 @@ class _Glue:
     numbers: int = 0
     missing: int = 0
 
-    def next_number(self) -> str:
-        """Return the number of the next edge that is glued."""
-        self.numbers += 1
-        return str(self.numbers)
-
 
 @dataclass(frozen=True)
 class _Side:
@@ -189,7 +174,7 @@ class _Side:
         """Return a place on the panel, so deep from the middle of the side."""
         along = unit(self.end - self.start)
         place = (self.start + self.end) / 2 + depth * np.array([-along[1], along[0]])
-        return _point(place)
+        return point_of(place)
 
 
 class CutNets(NamedTuple):
@@ -213,9 +198,10 @@ def pieces_of_panels(sheet: Sheet, places: Floats, joins: Joins) -> CutNets:
     glue = _Glue(joins)
     for edge in panels.joins:
         first, second = (_side(panels, of_face[face], face, edge) for face in panels.joins[edge])
-        if _are_one(first, second):
+        apart = float(np.abs([first.start - second.end, first.end - second.start]).max())
+        if first.work is second.work and apart <= _SAME:  # the panels lie side by side
             if kind := _kind(panels, edge, first):
-                first.work.strokes.append(Stroke(kind, _point(first.start), _point(first.end)))
+                first.work.strokes.append(Stroke(kind, point_of(first.start), point_of(first.end)))
             continue
         _glue(panels, edge, (first, second), glue)
     _cut_borders(panels, of_face)
@@ -230,14 +216,6 @@ def _side(panels: Panels, work: _Work, face: int, edge: int) -> _Side:
         a, b = b, a
     corners = work.net.corners[face]
     return _Side(work, face, corners[a], corners[b])
-
-
-def _are_one(first: _Side, second: _Side) -> bool:
-    """Tell whether the panels lie side by side at an edge."""
-    if first.work is not second.work:
-        return False
-    apart = np.abs([first.start - second.end, first.end - second.start])
-    return float(apart.max()) <= _SAME
 
 
 def _kind(panels: Panels, edge: int, side: _Side) -> Kind | None:
@@ -268,18 +246,21 @@ def _differ(panels: Panels, edge: int) -> bool:
 
 def _glue(panels: Panels, edge: int, sides: tuple[_Side, _Side], glue: _Glue) -> None:
     """Put a tab at one of two sides that meet, and a number at both."""
-    number = glue.next_number()
+    glue.numbers += 1
+    number = str(glue.numbers)
     for here, there in (sides, sides[::-1]):
         net = here.work.net
         laid, _ = laid_across(panels, edge, here.face, net.corners[here.face], turned=net.turned[here.face])
         own = panels.planes[there.face].flat
-        taken = [shapely.Polygon(_carried(shape, own, laid)) for shape in glue.on_panel[there.face]]
+        in_use = [shapely.Polygon(_carried(shape, own, laid)) for shape in glue.on_panel[there.face]]
         panel = shapely.Polygon(laid)
         material = [*net.polygons(), *here.work.tabs]
         joins = glue.joins
         shape = None
         if joins.depth:
-            shape = tab_at(here.start, here.end, joins.depth, material, panel, taken=taken, slotted=joins.slotted)
+            shape = tab_at(
+                here.start, here.end, joins.depth, material, panel, in_use=in_use, slotted=joins.slotted
+            )
         if shape is None:
             continue
         glue.on_panel[there.face].append(_carried(shape, laid, own))
@@ -304,24 +285,24 @@ def _add_tab(side: _Side, shape: Floats, kind: Kind | None, number: str) -> None
     """Add a tab to the piece of a side: fold its base, cut its other sides."""
     work = side.work
     work.tabs.append(shapely.Polygon(shape))
-    start, end, after, before = map(_point, shape)
+    start, end, after, before = map(point_of, shape)
     if kind is not None:
         work.strokes.append(Stroke(kind, start, end))
     work.strokes += [Stroke("CUT", *ends) for ends in ((start, before), (before, after), (after, end))]
-    work.texts.append(Text(_point(shape.mean(axis=0)), number))
+    work.texts.append(Text(point_of(shape.mean(axis=0)), number))
 
 
 def _add_slot(side: _Side, slot: Floats, laid: Floats, own: Floats, glue: _Glue) -> None:
     """Cut a slot, given where its panel lies across the edge and in its own plane, and keep other tabs off it."""
     start, end = _carried(slot, laid, side.work.net.corners[side.face])
-    side.work.strokes.append(Stroke("CUT", _point(start), _point(end)))
+    side.work.strokes.append(Stroke("CUT", point_of(start), point_of(end)))
     round_it = shapely.LineString(slot).buffer(_OFF_SLOT, cap_style="square")
     glue.on_panel[side.face].append(_carried(np.array(round_it.exterior.coords[:-1]), laid, own))
 
 
 def _cut(side: _Side, number: str, *, beyond: float = 0.0) -> None:
     """Cut along a side that is joined to another, and put its number inside, beyond a tab's depth."""
-    side.work.met.append(Stroke("CUT", _point(side.start), _point(side.end)))
+    side.work.met.append(Stroke("CUT", point_of(side.start), point_of(side.end)))
     side.work.strokes.append(side.work.met[-1])
     side.work.texts.append(Text(side.inside(_IN + beyond), number))
 
@@ -333,14 +314,10 @@ def _cut_borders(panels: Panels, of_face: dict[int, _Work]) -> None:
         for corner, side in enumerate(sides_of_face(panels.sheet.faces[face])):
             if frozenset(side) not in joined:
                 corners = work.net.corners[face]
-                ends = _point(corners[corner]), _point(corners[(corner + 1) % len(corners)])
+                ends = point_of(corners[corner]), point_of(corners[(corner + 1) % len(corners)])
                 work.strokes.append(Stroke("CUT", *ends))
 
 
 def _piece(work: _Work) -> Piece:
     covered = put_together([*work.net.polygons(), *work.tabs])
     return Piece(tuple(cut_once(work.strokes)), tuple(work.texts), covered)
-
-
-def _point(place: Floats) -> Point:
-    return float(place[0]), float(place[1])

@@ -19,7 +19,7 @@ from synth.templates.template import (
     TABS,
     Template,
     linkage_on_a_surface,
-    panels_of_thing,
+    panels_of_mechanism,
     pictured,
     template_of,
 )
@@ -121,7 +121,7 @@ def template(
         return result if note else replace(result, steps=())
     _refuse(of_surface, "a linkage on a cone or cylinder")
     panels = with_stated_precision(source, precision)
-    sheet, realised = panels_of_thing(panels, kind=kind, mode=mode)
+    sheet, realised = panels_of_mechanism(panels, kind=kind, mode=mode)
     if realised and scale is None and size is None:
         size = _REALISED
     depth = TABS if tabs is None else tabs

@@ -24,7 +24,7 @@ from synth.conformed.all_angles import links_in_layers
 from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain
 from synth.drawing.conformed import surface_layer
-from synth.drawing.scene.shapes import Scene
+from synth.drawing.scene.writing import Scene
 from synth.templates.pieces import Kind, Piece, Point, Stroke, Text
 from synth.templates.template import GREATEST, Template
 
@@ -153,12 +153,6 @@ def layered(linkage: OnSurface, surface: Surface, dimensions: Dimensions) -> Lay
     """Return the links of a linkage in the fewest layers; only its chain and its azimuths matter.
 
     Raise UnsolvableError if two joints are on one ruling line, or a link has one joint only.
-
-    >>> from synth.conformed.linkages import loop_of_steps
-    >>> from graphs.mechanism.surfaces import Cone
-    >>> made = layered(loop_of_steps(np.radians([40, 50, 50])), Cone(0.5), Dimensions())
-    >>> [(link.layer, round(np.degrees(link.width))) for link in made.links]
-    [(0, 40), (0, 50), (0, 50), (1, 140)]
     """
     chain = ConformedChain.of(linkage.chain)
     places = np.remainder(np.asarray(linkage.places, dtype=float), 2 * pi)
@@ -262,29 +256,20 @@ class _Unrolled:
 
     def points(self, corners: Sequence[_Corner]) -> list[Point]:
         """Return a way along corners; from one to the next at the same length it goes along the arc."""
-        height, found = self.linkage.height(self.layer), [np.array(corners[:1])]
+        height, ways = self.linkage.height(self.layer), [np.array(corners[:1])]
         for (azimuth, along), (after, then) in pairwise(corners):
             count = 1
             if along == then:
                 count = self.linkage.surface.chords(abs(after - azimuth), along, height, _OFF)
             parts = np.arange(1, count + 1)[:, None] / count
-            found.append(np.array([azimuth, along]) * (1 - parts) + np.array([after, then]) * parts)
-        azimuths, lengths = np.concatenate(found).T
+            ways.append(np.array([azimuth, along]) * (1 - parts) + np.array([after, then]) * parts)
+        azimuths, lengths = np.concatenate(ways).T
         flat = self.linkage.surface.flat(azimuths - self.middle, lengths, height).tolist()
         return [(x, y) for x, y in flat]
 
     def lines(self, kind: Kind, corners: Sequence[_Corner]) -> list[Stroke]:
         """Return the strokes of a way along corners."""
         return [Stroke(kind, a, b) for a, b in pairwise(self.points(corners))]
-
-
-def flat_pieces(linkage: LayeredLinkage) -> list[Piece]:
-    """Return the pieces of a linkage: the surface with the ruling lines of its joints, then a piece for each link.
-
-    All are seen from outside; the arcs of their edges are chords that miss them by 0.004 mm at most.
-    """
-    links = [_piece_of_link(linkage, number) for number in range(len(linkage.links))]
-    return [_piece_of_surface(linkage), *links]
 
 
 def _piece_of_surface(linkage: LayeredLinkage) -> Piece:
@@ -313,7 +298,7 @@ def _piece_of_link(linkage: LayeredLinkage, number: int) -> Piece:
     start, end = link.start, link.start + link.width
     inner, outer = linkage.dimensions.ends
     unrolled = _Unrolled(linkage, link.layer, start + link.width / 2)
-    joinings = {one.side: one for one in linkage.joinings if one.tabbed == number and one.side}
+    joinings = {joining.side: joining for joining in linkage.joinings if joining.tabbed == number and joining.side}
     tabs = {
         side: _tab_corners(azimuth, side, linkage.tab, linkage.dimensions.tab_ends)
         for side, azimuth in ((-1, start), (1, end))
@@ -397,15 +382,17 @@ def surface_of(linkage: OnSurface, radius: float | None = None) -> Surface:
 def template_on_surface(
     linkage: OnSurface, surface: Surface, dimensions: Dimensions | None = None, title: str = ""
 ) -> Template:
-    """Return the template of a linkage on a cone or a cylinder: the surface, and each link as a piece.
+    """Return the template of a linkage on a cone or a cylinder: a piece for the surface, and one for each link.
 
+    All pieces are seen from outside; the arcs of their edges are chords that miss them by 0.004 mm at most.
     Raise UnsolvableError if two joints are on one ruling line, or a link has one joint only.
     """
-    made = layered(linkage, surface, dimensions or Dimensions())
+    links = layered(linkage, surface, dimensions or Dimensions())
     picture = _picture(linkage, surface)
     below = "It then lies as below; the picture puts layers beside each other, so that none hides another."
-    steps = [*_steps(made), below]
-    return Template(tuple(flat_pieces(made)), None, linkage, title, (), tuple(steps), picture)
+    steps = [*_steps(links), below]
+    pieces = (_piece_of_surface(links), *(_piece_of_link(links, number) for number in range(len(links.links))))
+    return Template(pieces, None, linkage, title, (), tuple(steps), picture)
 
 
 def _picture(linkage: OnSurface, surface: Surface) -> Scene:
@@ -432,7 +419,7 @@ def _steps(linkage: LayeredLinkage) -> list[str]:
         f"Roll the surface, {rolled}; glue its seam.",
         f"Lay the links on it in {numbered(count, 'layer')}, layer 0 first, each along the lines of its joints.",
     ]
-    return [*steps, *(_step_of_joint(linkage, one) for one in linkage.joinings)]
+    return [*steps, *(_step_of_joint(linkage, joining) for joining in linkage.joinings)]
 
 
 def _step_of_joint(linkage: LayeredLinkage, joining: Joining) -> str:
@@ -522,8 +509,8 @@ def _shell(
     for column, row in np.argwhere(there).tolist():
         ring = [(column, row), (column + 1, row), (column + 1, row + 1), (column, row + 1)]
         beyond = [(column, row - 1), (column + 1, row), (column, row + 1), (column - 1, row)]
-        quads.append([at(1, *one) for one in ring[::-1]])
-        quads.append([at(0, *one) for one in ring])
+        quads.append([at(1, *corner) for corner in ring[::-1]])
+        quads.append([at(0, *corner) for corner in ring])
         for side in range(4):
             if not holds(*beyond[side]):
                 a, b = ring[side], ring[(side + 1) % 4]

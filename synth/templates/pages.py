@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import ceil, prod
 from textwrap import wrap
 
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.printing import plain
-from synth.drawing.scene.shapes import Scene
+from synth.drawing.scene.shapes import Label, Layer, Line, moved, scaled
+from synth.drawing.scene.writing import Scene
 from synth.templates.pieces import LOOKS, Kind, Piece, Point, Stroke, Text
 from synth.templates.template import Template
 
-__all__ = ["Page", "Paper", "Picture", "gauge", "laid_out", "pages_of", "paper_named"]
+__all__ = ["Page", "Paper", "gauge", "laid_out", "layers_of", "pages_of", "paper_named", "strokes_and_texts"]
 
 
 MARGIN = 10.0
@@ -25,6 +26,8 @@ OVERLAP = 10.0
 """Millimetres by which tiles on pages that meet overlap."""
 _SIZES = {"a4": (210.0, 297.0), "a3": (297.0, 420.0), "letter": (215.9, 279.4)}
 _SHORTEST_SIDE, _LONGEST_SIDE = 130.0, 5000.0
+_WIDEST = 1000
+"""Letters of a line of text, at most."""
 _NUMBER = r"(\d{1,4}(?:\.\d{1,3})?)"
 
 
@@ -97,17 +100,8 @@ def paper_named(name: str) -> Paper:
 
 
 @dataclass(frozen=True)
-class Picture:
-    """A scene on a page; its corner is (left, low) in millimetres, its scale millimetres per point."""
-
-    scene: Scene
-    corner: Point
-    scale: float
-
-
-@dataclass(frozen=True)
 class Page:
-    """A page: strokes and texts in millimetres from its lower left corner.
+    """A page: strokes and texts in millimetres from its lower left corner; the picture, from the upper left one.
 
     Nothing is cut from the page of assembly: it alone has a picture, and `is_note`.
     """
@@ -115,13 +109,47 @@ class Page:
     paper: Paper
     strokes: tuple[Stroke, ...]
     texts: tuple[Text, ...]
-    picture: Picture | None = None
+    picture: Layer | None = None
     is_note: bool = False
 
     @property
-    def ink(self) -> str:
-        """The colour of texts, ``#rrggbb``: on pages to be cut that of marks, which no machine cuts."""
-        return LOOKS["CUT" if self.is_note else "MARKS"].colour
+    def scene(self) -> Scene:
+        """The page as a picture in millimetres: a layer for each kind of stroke, for texts, for the picture."""
+        # the colour of texts on pages to be cut is that of marks, which no machine cuts
+        ink = LOOKS["CUT" if self.is_note else "MARKS"].colour
+        layers = layers_of(self.strokes, self.texts, self.paper.height, ink)
+        if self.picture is not None:
+            layers.append(self.picture)
+        return Scene(self.paper.width, self.paper.height, tuple(layers), unit="mm")
+
+
+def layers_of(strokes: Sequence[Stroke], texts: Sequence[Text], height: float, ink: str) -> list[Layer]:
+    """Return strokes by their kinds, and texts in an ink, on a page of a height; all in millimetres."""
+
+    def down(at: Point) -> Point:
+        return at[0], height - at[1]
+
+    layers = []
+    for kind, look in LOOKS.items():
+        lines = [
+            Line((down(stroke.start), down(stroke.end)), look.colour, look.width, look.dash)
+            for stroke in strokes
+            if stroke.kind == kind
+        ]
+        layers.append(Layer(kind, tuple(lines)))
+    labels = [
+        Label(
+            down(text.at),
+            text.words,
+            text.size,
+            ink,
+            "middle" if text.middle else "start",
+            halo=False,
+            widest=_WIDEST,
+        )
+        for text in texts
+    ]
+    return [layer for layer in (*layers, Layer("TEXT", tuple(labels))) if layer.shapes]
 
 
 GAUGE = 100.0
@@ -134,11 +162,7 @@ _GAUGE_TEXT = 2.5
 
 
 def gauge(at: Point) -> tuple[list[Stroke], list[Text]]:
-    """Return a ruler of 100 mm with a tick each 10 mm, from its left end on; the first stroke is the gauge itself.
-
-    >>> gauge((10, 20))[0][0]
-    Stroke(kind='MARKS', start=(10, 20), end=(110.0, 20))
-    """
+    """Return a ruler of 100 mm with a tick each 10 mm, from its left end on; the first stroke is the gauge."""
     x, y = at
     strokes = [Stroke("MARKS", at, (x + GAUGE, y))]
     for tick in range(int(GAUGE) // _EACH + 1):
@@ -195,11 +219,7 @@ class Tile:
 
 
 def tiles_across(size: tuple[float, float], window: tuple[float, float]) -> tuple[int, int]:
-    """Return how many columns and rows of windows cover a box, neighbours overlapping; all in millimetres.
-
-    >>> tiles_across((500, 100), (190, 261))
-    (3, 1)
-    """
+    """Return how many columns and rows of windows cover a box, neighbours overlapping; all in millimetres."""
     wide, high = (
         1 if side <= most else ceil((side - OVERLAP) / (most - OVERLAP) - _TINY)
         for side, most in zip(size, window, strict=True)
@@ -236,8 +256,8 @@ def tiles_of(piece: Piece, window: tuple[float, float], name: str = "") -> Itera
                     texts.append(text)
             right, up = MARGIN - corner[0], MARGIN + FOOTER - corner[1]
             yield Tile(
-                (*(one.moved(right, up) for one in strokes), *frame(window)),
-                tuple(replace(one, at=(one.at[0] + right, one.at[1] + up)) for one in texts),
+                (*(stroke.moved(right, up) for stroke in strokes), *frame(window)),
+                tuple(text.moved(right, up) for text in texts),
                 f"{f'piece {name}, ' if name else ''}column {column + 1} of {counts[0]} from the left, "
                 f"row {counts[1] - row} of {counts[1]} from the top",
             )
@@ -247,9 +267,6 @@ def clipped(stroke: Stroke, area: tuple[float, float, float, float]) -> Stroke |
     """Return the part of a stroke in an area (left, low, right, high); None if it has no length.
 
     The method is that of Liang and Barsky.
-
-    >>> clipped(Stroke("CUT", (-5, 0), (5, 10)), (0, 0, 20, 8))
-    Stroke(kind='CUT', start=(0.0, 5.0), end=(3.0, 8.0))
     """
     start, end = stroke.start, stroke.end
     first, last = 0.0, 1.0
@@ -316,23 +333,17 @@ _LARGEST = 140.0
 
 
 def note_page(paper: Paper, title: str, steps: Sequence[str], picture: Scene | None) -> Page:
-    """Return the page that says how a template is put together; the steps are numbered here.
-
-    >>> page = note_page(Paper(210, 297), "bird base", ["Cut it out.", "Fold it."], None)
-    >>> [text.words for text in page.texts]
-    ['bird base', '1. Cut it out.', '2. Fold it.']
-    """
+    """Return the page that says how a template is put together; the steps are numbered here."""
     wide, high = paper.width - 2 * MARGIN, paper.height - 2 * MARGIN
     top = MARGIN + high
     heading = [Text((MARGIN, top - _TITLE / 2), title, _TITLE, middle=False)] if title else []
-    texts, taken = _written_steps(steps, (MARGIN, top - _TITLE - _AIR), wide)
+    texts, height = _written_steps(steps, (MARGIN, top - _TITLE - _AIR), wide)
     placed = None
     if picture is not None:
-        room = max(high - _TITLE - 2 * _AIR - taken, FOOTER)
+        room = max(high - _TITLE - 2 * _AIR - height, FOOTER)
         scale = min(wide / picture.width, room / picture.height, _LARGEST / max(picture.width, picture.height))
-        left = MARGIN + (wide - scale * picture.width) / 2
-        low = top - _TITLE - 2 * _AIR - taken - scale * picture.height
-        placed = Picture(picture, (left, low), scale)
+        left, down = MARGIN + (wide - scale * picture.width) / 2, MARGIN + _TITLE + 2 * _AIR + height
+        placed = moved(scaled(Layer("PICTURE", tuple(picture.shapes())), scale), left, down)
     return Page(paper, (), (*heading, *texts), placed, is_note=True)
 
 
@@ -369,19 +380,20 @@ def pages_of(template: Template, paper: Paper) -> list[Page]:
     assembly if the template has one. Raise UnsolvableError if there would be more than 500 pages.
     """
     ways = (paper, paper.turned())
-    most = [_pages_at_most(template, way) for way in ways]
+    # with one piece per page, which is known before any is made
+    most = [sum(prod(tiles_across(piece.size, way.window)) for piece in template.pieces) for way in ways]
     if min(most) > _MOST_PAGES:
         raise UnsolvableError(
             f"{min(most)} pages; expected at most {_MOST_PAGES}; try a smaller --size or a larger --page"
         )
     contents = [_contents(template, way) for way, pages in zip(ways, most, strict=True) if pages <= _MOST_PAGES]
-    way, sheets = min(contents, key=lambda one: len(one[1]))
+    way, sheets = min(contents, key=lambda content: len(content[1]))
     pages = [_page(template, way, content, number, len(sheets)) for number, content in enumerate(sheets, start=1)]
     if not template.steps:
         return pages
     tiled = any(isinstance(content, Tile) for content in sheets)
     steps = [_PRINTING, *([_TILES] if tiled else []), *template.steps]
-    upright = min(paper, paper.turned(), key=lambda one: one.width)
+    upright = min(paper, paper.turned(), key=lambda side: side.width)
     return [*pages, note_page(upright, plain(template.title, _LONGEST_TITLE), steps, template.picture)]
 
 
@@ -393,7 +405,7 @@ def laid_out(pieces: Sequence[Piece], width: float, height: float) -> Iterator[_
     """
     laid: _Laid = []
     right = up = row = 0.0
-    for piece in sorted(pieces, key=lambda one: -one.size[1]):
+    for piece in sorted(pieces, key=lambda piece: -piece.size[1]):
         wide, high = piece.size
         if laid and right + wide > width:
             right, up, row = 0.0, up + row + _APART, 0.0
@@ -404,11 +416,6 @@ def laid_out(pieces: Sequence[Piece], width: float, height: float) -> Iterator[_
         right, row = right + wide + _APART, max(row, high)
     if laid:
         yield laid
-
-
-def _pages_at_most(template: Template, paper: Paper) -> int:
-    """Return the number of pages with one piece each, which is known before any is made."""
-    return sum(prod(tiles_across(piece.size, paper.window)) for piece in template.pieces)
 
 
 def _contents(template: Template, paper: Paper) -> tuple[Paper, list[_Laid | Tile]]:
@@ -448,7 +455,13 @@ def _in_the_middle(laid: _Laid, paper: Paper) -> tuple[list[Stroke], list[Text]]
         most - max(shift[axis] + piece.size[axis] for piece, *shift in laid)
         for axis, most in enumerate(paper.window)
     ]
-    moved = [
-        piece.moved(MARGIN + free[0] / 2 + right, MARGIN + FOOTER + free[1] / 2 + up) for piece, right, up in laid
+    left, low = MARGIN + free[0] / 2, MARGIN + FOOTER + free[1] / 2
+    return strokes_and_texts((piece, left + right, low + up) for piece, right, up in laid)
+
+
+def strokes_and_texts(laid: Iterable[tuple[Piece, float, float]]) -> tuple[list[Stroke], list[Text]]:
+    """Return the strokes and texts of pieces, each moved to the right and up."""
+    pieces = [piece.moved(right, up) for piece, right, up in laid]
+    return [stroke for piece in pieces for stroke in piece.strokes], [
+        text for piece in pieces for text in piece.texts
     ]
-    return [one for piece in moved for one in piece.strokes], [one for piece in moved for one in piece.texts]

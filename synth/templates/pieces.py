@@ -32,6 +32,7 @@ __all__ = [
     "lies_over",
     "lies_within",
     "piece_of_flat_sheet",
+    "point_of",
     "put_together",
     "spans_on",
     "uncovered",
@@ -98,6 +99,10 @@ class Text:
     size: float = 3.0
     middle: bool = True
 
+    def moved(self, right: float, up: float) -> Text:
+        """Return the word elsewhere."""
+        return replace(self, at=(self.at[0] + right, self.at[1] + up))
+
 
 @dataclass(frozen=True)
 class Piece:
@@ -130,7 +135,7 @@ class Piece:
 
         return Piece(
             tuple(stroke.moved(right, up) for stroke in self.strokes),
-            tuple(replace(text, at=(text.at[0] + right, text.at[1] + up)) for text in self.texts),
+            tuple(text.moved(right, up) for text in self.texts),
             translate(self.covered, right, up),
         )
 
@@ -153,27 +158,20 @@ def cut_once(strokes: Iterable[Stroke]) -> list[Stroke]:
     """Return strokes; of cuts, only the parts that no cut before them covers.
 
     A machine that cuts twice burns; knives tear.
-
-    >>> cut_once([Stroke("CUT", (0, 0), (30, 0)), Stroke("CUT", (50, 0), (10, 0)), Stroke("CUT", (30, 0), (0, 0))])
-    [Stroke(kind='CUT', start=(0, 0), end=(30, 0)), Stroke(kind='CUT', start=(50.0, 0.0), end=(30.0, 0.0))]
     """
-    made: list[Stroke] = []
+    parts: list[Stroke] = []
     ends: list[tuple[Point, Point]] = []
     for stroke in strokes:
         kept = [stroke]
         if stroke.kind == "CUT":
             kept = uncovered(stroke, np.array(ends).reshape(-1, 2, 2))
-            ends += [(one.start, one.end) for one in kept]
-        made += kept
-    return made
+            ends += [(part.start, part.end) for part in kept]
+        parts += kept
+    return parts
 
 
 def uncovered(stroke: Stroke, ends: Floats) -> list[Stroke]:
-    """Return the parts of a stroke, those of some length, that no line covers; the lines are float[lines, 2, 2].
-
-    >>> uncovered(Stroke("CUT", (0, 0), (9, 0)), np.array([[[4, 0], [20, 0.0]]]))
-    [Stroke(kind='CUT', start=(0.0, 0.0), end=(4.0, 0.0))]
-    """
+    """Return the parts of a stroke, of some length, that no line covers; the lines are float[lines, 2, 2]."""
     start, end = np.array(stroke.start), np.array(stroke.end)
     length = float(np.linalg.norm(end - start))
     if length == 0:
@@ -182,7 +180,7 @@ def uncovered(stroke: Stroke, ends: Floats) -> list[Stroke]:
     free = _between(length, spans_on(start, along, ends))
     if free == [(0.0, length)]:
         return [stroke]
-    return [Stroke(stroke.kind, _at(start + a * along), _at(start + b * along)) for a, b in free]
+    return [Stroke(stroke.kind, point_of(start + a * along), point_of(start + b * along)) for a, b in free]
 
 
 def spans_on(start: Floats, along: Floats, ends: Floats) -> list[tuple[float, float]]:
@@ -199,11 +197,7 @@ def spans_on(start: Floats, along: Floats, ends: Floats) -> list[tuple[float, fl
 def common_spans(
     first: Sequence[tuple[float, float]], second: Sequence[tuple[float, float]]
 ) -> list[tuple[float, float]]:
-    """Return the spans that are in both lists, in order.
-
-    >>> common_spans([(0, 5), (8, 12)], [(3, 10)])
-    [(3, 5), (8, 10)]
-    """
+    """Return the spans that are in both lists, in order."""
     common = ((max(a, c), min(b, d)) for a, b in first for c, d in second)
     return sorted((low, high) for low, high in common if high - low > _NEAR)
 
@@ -220,7 +214,8 @@ def _between(length: float, covered: list[tuple[float, float]]) -> list[tuple[fl
     return free
 
 
-def _at(place: Floats) -> Point:
+def point_of(place: Floats) -> Point:
+    """Return a place, float[2], as a point."""
     return float(place[0]), float(place[1])
 
 
@@ -237,23 +232,12 @@ def united(shapes: Sequence[Any]) -> Any:
 
 
 def lies_over(shape: Any, others: Sequence[Any]) -> bool:
-    """Check whether a shapely polygon (millimetres) shares more than an edge with one of others.
-
-    >>> square = shapely.box(0, 0, 9, 9)
-    >>> lies_over(square, [shapely.box(9, 0, 20, 9)]), lies_over(square, [shapely.box(8.9, 0, 20, 9)])
-    (False, True)
-    """
+    """Check whether a shapely polygon (millimetres) shares more than an edge with one of others."""
     return bool(shapely.intersects(shape.buffer(-_INSIDE), list(others)).any())
 
 
 def lies_within(shape: Any, area: Any) -> bool:
-    """Check whether a shape lies within an area, up to its edge.
-
-    >>> lies_within(shapely.box(0, 0, 9, 9), shapely.box(0, 0, 9, 20))
-    True
-    >>> lies_within(shapely.box(0, 0, 9, 9), shapely.box(0, 0, 8.9, 20))
-    False
-    """
+    """Check whether a shape lies within an area, up to its edge."""
     return bool(shapely.covers(area, shape.buffer(-_INSIDE)))
 
 
@@ -268,15 +252,7 @@ FOLDS: dict[str, Kind] = {"M": "MOUNTAIN", "V": "VALLEY", "U": "CREASE"}
 
 
 def is_laid_out(sheet: Sheet, places: Floats) -> bool:
-    """Check whether the panels of a sheet, at places float[vertices, 2], lie side by side, none over another.
-
-    >>> import numpy as np
-    >>> folded = Sheet(4, (), "", ((0, 1, 2), (2, 1, 3)))
-    >>> is_laid_out(folded, np.array([[0, 0], [1, 0], [0, 1], [1, 1.0]]))
-    True
-    >>> is_laid_out(folded, np.array([[0, 0], [1, 0], [0, 1], [0.1, 0.1]]))
-    False
-    """
+    """Check whether the panels of a sheet, at places float[vertices, 2], lie side by side, none over another."""
     polygons = [shapely.Polygon(places[list(face)]) for face in sheet.faces]
     each = float(sum(polygon.area for polygon in polygons))
     grid = _GRID * float(np.ptp(places, axis=0).max())
@@ -297,7 +273,7 @@ def piece_of_flat_sheet(sheet: Sheet, places: Floats) -> tuple[Piece, tuple[str,
         seen.add(pair)
         kind = _kind(letter, faces[pair])
         if kind is not None:
-            start, end = (_point(places[vertex]) for vertex in edge)
+            start, end = (point_of(places[vertex]) for vertex in edge)
             strokes.append(Stroke(kind, start, end))
         elif faces[pair]:
             flat += 1
@@ -322,9 +298,6 @@ def put_together(polygons: Iterable[Any]) -> Any:
     Corners as good as equal are made equal, each the first of its kind. Rounding them to a grid would not do: one
     corner of two polygons can be rounded two ways. Nor would making all wider and the whole narrower again: there
     GEOS now and then leaves nothing.
-
-    >>> put_together([shapely.box(0, 0, 9, 9), shapely.box(9 + 1e-12, 0, 20, 9)]).geom_type
-    'Polygon'
     """
     rings = [np.array(polygon.exterior.coords)[:-1] for polygon in polygons]
     corners = np.concatenate(rings)
@@ -334,7 +307,3 @@ def put_together(polygons: Iterable[Any]) -> Any:
     area = united([shapely.Polygon(same[a:b]) for a, b in pairwise(ends)])
     parts = [part for part in getattr(area, "geoms", [area]) if part.area > _SLIT]
     return parts[0] if len(parts) == 1 else shapely.MultiPolygon(parts)
-
-
-def _point(place: Floats) -> Point:
-    return float(place[0]), float(place[1])

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
 
-from graphs.errors import FileError, InvariantError, UnsolvableError, numbered
-from graphs.files.atomic import Beside, check_place
+from graphs.errors import InvariantError, UnsolvableError, numbered
+from graphs.files.outputs import Format, Lost, check_writable, formats_by_suffix, write_as
 from graphs.files.solids.gltf import gltf_text
 from graphs.files.solids.meshes import Mesh, obj_of_meshes, stl_bytes, three_mf_bytes
 from graphs.geometry import rigid_motion
@@ -25,17 +25,7 @@ from synth.templates.pieces import GRID, united
 from synth.templates.template import GREATEST, millimetres, scale_of
 from synth.templates.unfolding import Panels, Plane, panels_of
 
-__all__ = [
-    "SOLIDS",
-    "THICKNESS",
-    "Plates",
-    "plates_in_space",
-    "plates_of",
-    "poses_of",
-    "write_linkage_on_surface",
-    "write_meshes",
-    "write_solids",
-]
+__all__ = ["SOLIDS", "THICKNESS", "write_linkage_on_surface", "write_solids"]
 
 
 _RIGID = 1e-4
@@ -113,8 +103,7 @@ def _without_hinges(panels: Panels, face: int, width: float) -> list[Any]:
         if panels.sheet.assignments[edge] not in FLAT
     ]
     if width and strips:
-        taken = united(strips)
-        rest = shapely.difference(rest, taken, grid_size=GRID).simplify(_STRAIGHT)
+        rest = shapely.difference(rest, united(strips), grid_size=GRID).simplify(_STRAIGHT)
     parts = [part for part in getattr(rest, "geoms", [rest]) if part.area > _STRAIGHT * whole]
     if not parts:
         raise UnsolvableError(
@@ -129,10 +118,12 @@ def _plate(polygon: Any, thickness: float, name: str) -> Mesh:
     index = {tuple(corner): number for number, corner in enumerate(ring.tolist())}
     count = len(ring)
     top = [
-        [index[tuple(corner)] for corner in shapely.orient_polygons(one).exterior.coords[:-1]]
-        for one in shapely.constrained_delaunay_triangles(polygon).geoms
+        [index[tuple(corner)] for corner in shapely.orient_polygons(triangle).exterior.coords[:-1]]
+        for triangle in shapely.constrained_delaunay_triangles(polygon).geoms
     ]
-    triangles = [[corner + count for corner in one] for one in top] + [one[::-1] for one in top]
+    triangles = [[corner + count for corner in triangle] for triangle in top] + [
+        triangle[::-1] for triangle in top
+    ]
     for here in range(count):
         after = (here + 1) % count
         triangles += [[here, after, after + count], [here, after + count, here + count]]
@@ -150,14 +141,36 @@ def _frame(corners: Floats, plane: Plane, where: str) -> tuple[Floats, Floats]:
     return turn, shift
 
 
-SOLIDS = (".stl", ".3mf", ".gltf", ".obj")
-"""Extensions of files of solids."""
-_WRITERS: dict[str, Callable[[Sequence[Mesh]], bytes]] = {
-    ".stl": stl_bytes,
-    ".3mf": three_mf_bytes,
-    ".obj": lambda meshes: obj_of_meshes(meshes).encode(),
-}
-_HINGES = "hinges, but for the gaps"
+class Solids(NamedTuple):
+    """Closed meshes to write. The title and the motion are for glTF.
+
+    A motion is (float[poses, meshes, 3, 3], float[poses, meshes, 3]), how meshes rotate and translate.
+    """
+
+    meshes: Sequence[Mesh]
+    title: str = ""
+    motion: tuple[Floats, Floats] | None = None
+    frames_left_out: int = 0
+
+
+def _gltf_bytes(solids: Solids) -> bytes:
+    count = len(solids.meshes)
+    motion = solids.motion or (np.tile(np.eye(3), (1, count, 1, 1)), np.zeros((1, count, 3)))
+    return gltf_text(solids.meshes, *motion, title=solids.title).encode()
+
+
+def _lost(solids: Solids) -> Lost:
+    frames = solids.frames_left_out
+    return ("hinges, but for the gaps", *((numbered(frames, "other frame"),) if frames else ()))
+
+
+SOLIDS = formats_by_suffix(
+    Format(".stl", "STL", lambda solids: stl_bytes(solids.meshes), _lost),
+    Format(".3mf", "3MF", lambda solids: three_mf_bytes(solids.meshes), _lost),
+    Format(".gltf", "glTF, with the motion", _gltf_bytes, _lost),
+    Format(".obj", "OBJ", lambda solids: obj_of_meshes(solids.meshes).encode(), _lost),
+)
+"""Suffix to the format in which solids are written."""
 THICKNESS = 1.0
 """Default thickness of panels, millimetres."""
 
@@ -172,9 +185,9 @@ def poses_of(sheet: Sheet) -> tuple[Sheet, Floats, int]:
     first = sheet if sheet.frames is None else sheet.frames.first_placed()
     if first.coordinates is None or not first.faces:
         raise UnsolvableError("solids require panels with coordinates, and the sheet has none")
-    frames = [] if sheet.frames is None else [sheet.frames.frame(one) for one in range(1, sheet.frames.others + 1)]
-    same = [one for one in frames if one.coordinates is not None and one.faces == first.faces]
-    poses = [in_space(one.coordinates or ()) for one in (first, *same) if one.vertices == first.vertices]
+    frames = [] if sheet.frames is None else list(map(sheet.frames.frame, range(1, sheet.frames.others + 1)))
+    same = [frame for frame in frames if frame.coordinates is not None and frame.faces == first.faces]
+    poses = [in_space(pose.coordinates or ()) for pose in (first, *same) if pose.vertices == first.vertices]
     return with_all_edges(first), np.array(poses), 1 + len(frames) - len(poses)
 
 
@@ -226,51 +239,15 @@ def write_solids(
     ...     write_solids(square, Path(folder, "square.stl"), size=50)
     ('hinges, but for the gaps',)
     """
-    suffix = _checked(Path(path), force=force)
+    check_writable(path, SOLIDS, force=force)
     whole, poses, left_out = poses_of(sheet)
     poses = poses * millimetres(poses[0], scale_of(sheet, scale, size), size)
     plates = plates_of(whole, poses[0], thickness=thickness, gap=2 * thickness if gap is None else gap)
-    if suffix == ".gltf":
-        meshes: Sequence[Mesh] = plates.meshes
-        motion = plates.motions(whole, poses)
+    if Path(path).suffix.lower() == ".gltf":
+        solids = Solids(plates.meshes, whole.title, plates.motions(whole, poses), left_out)
     else:
-        left_out += len(poses) - 1
-        meshes, motion = plates_in_space(plates), None
-    write_meshes(meshes, path, title=whole.title, motion=motion, force=force)
-    return (_HINGES, *((numbered(left_out, "other frame"),) if left_out else ()))
-
-
-def write_meshes(
-    meshes: Sequence[Mesh],
-    path: str | Path,
-    *,
-    title: str = "",
-    motion: tuple[Floats, Floats] | None = None,
-    force: bool = False,
-) -> None:
-    """Write closed meshes as ``.stl``, ``.3mf``, ``.obj`` or ``.gltf``; equal meshes give equal files.
-
-    The title and the motion are for glTF; a motion is (float[poses, meshes, 3, 3], float[poses, meshes, 3]), how
-    meshes rotate and translate. `force` overwrites a file. Raise FileError if the extension is unknown, or the
-    file cannot be written or exists.
-
-    >>> write_meshes([], "a.doc")
-    Traceback (most recent call last):
-    ...
-    graphs.errors.FileError: a.doc: the extension is not known; expected .stl, .3mf, .gltf, .obj
-    """
-    suffix = _checked(Path(path), force=force)
-    if suffix == ".gltf":
-        still = np.tile(np.eye(3), (1, len(meshes), 1, 1)), np.zeros((1, len(meshes), 3))
-        data = gltf_text(meshes, *(still if motion is None else motion), title=title).encode()
-    else:
-        data = _WRITERS[suffix](meshes)
-    beside = Beside(Path(path), force=force)
-    try:
-        beside.write(data)
-        beside.commit()
-    finally:
-        beside.discard()
+        solids = Solids(plates_in_space(plates), frames_left_out=left_out + len(poses) - 1)
+    return write_as(solids, path, SOLIDS, force=force)
 
 
 def write_linkage_on_surface(
@@ -289,15 +266,7 @@ def write_linkage_on_surface(
     UnsolvableError if two joints are on one ruling line, or a link has one joint only, or is narrower than the
     gap.
     """
-    _checked(Path(path), force=force)
-    write_meshes(solids_on_surface(layered(linkage, surface, dimensions), gap), path, force=force)
-    return (_HINGES,)
-
-
-def _checked(place: Path, *, force: bool) -> str:
-    """Return the extension of a place that can be written to."""
-    suffix = place.suffix.lower()
-    if suffix not in SOLIDS:
-        raise FileError(place, "", "the extension is not known", ", ".join(SOLIDS))
-    check_place(place, force=force)
-    return suffix
+    check_writable(path, SOLIDS, force=force)
+    return write_as(
+        Solids(solids_on_surface(layered(linkage, surface, dimensions), gap)), path, SOLIDS, force=force
+    )

@@ -27,7 +27,8 @@ from graphs.types import Floats
 from synth.conformed.linkages import OnSurface, linkage_on_surfaces, surface_of_number
 from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.drawing.mechanisms.space import folded_scene
-from synth.drawing.scene.shapes import Scene
+from synth.drawing.scene.frame import PictureOptions
+from synth.drawing.scene.writing import Scene
 from synth.drawing.space.panels import same_side_up
 from synth.folding.motion import fold
 from synth.motion.configuration import Configuration
@@ -45,7 +46,7 @@ __all__ = [
     "folded_pose",
     "linkage_on_a_surface",
     "millimetres",
-    "panels_of_thing",
+    "panels_of_mechanism",
     "pictured",
     "scale_of",
     "template_of",
@@ -87,9 +88,6 @@ def millimetres(places: Floats, scale: float | None = None, size: float | None =
     `size` is the longest side of the box round the places, in millimetres. Raise InvariantError if scale or size
     is not positive, or both are given; UnsolvableError if the box would be smaller than 10 mm, which nobody could
     fold, or larger than 1e6 mm.
-
-    >>> millimetres(np.array([[0, 0], [2, 1.0]]), size=100)
-    50.0
     """
     if scale is not None and size is not None:
         raise InvariantError("scale", "both a scale and a size", "one of them")
@@ -114,12 +112,7 @@ _FOLDS: dict[Kind, tuple[str, str, str]] = {
 
 
 def steps_of_folds(pieces: Sequence[Piece]) -> list[str]:
-    """Return the steps to cut and to fold.
-
-    >>> from synth.templates.pieces import Stroke
-    >>> steps_of_folds([Piece((Stroke("CUT", (0, 0), (9, 0)), Stroke("VALLEY", (0, 5), (9, 5))), (), None)])[1]
-    'Fold 1 valley (blue, dashes: towards you). You see the printed side.'
-    """
+    """Return the steps to cut and to fold."""
     counts = Counter(stroke.kind for piece in pieces for stroke in piece.strokes)
     cut = f"Cut out {numbered(len(pieces), 'piece')} along the full black lines. Score the folds first."
     folds = [f"{numbered(counts[kind], *name)} ({how})" for kind, (*name, how) in _FOLDS.items() if counts[kind]]
@@ -171,18 +164,6 @@ _BOX = (420.0, 420.0)
 """Largest width and height of the picture, in points."""
 
 
-def folded_picture(sheet: Sheet) -> tuple[Scene | None, str]:
-    """Return a picture of a folded sheet and its caption, or None and why there is no picture.
-
-    The sheet has coordinates; it may have frames.
-    """
-    pose, seen = folded_pose(sheet)
-    if pose is None:
-        return None, seen
-    sides = "; the printed side is grey, its back blue" if list(pose.faces) == same_side_up(pose.faces) else ""
-    return folded_scene(pose, numbers=False, box=_BOX, caption=None), seen + sides
-
-
 def folded_pose(sheet: Sheet) -> tuple[Sheet | None, str]:
     """Return a folded configuration of a sheet, and which it is in words; None, and the reason, if there is none.
 
@@ -192,8 +173,10 @@ def folded_pose(sheet: Sheet) -> tuple[Sheet | None, str]:
     placed = sheet if sheet.frames is None else sheet.frames.first_placed()
     if not lies_flat(placed):
         return placed, "as it stands"
-    frames = [] if sheet.frames is None else [sheet.frames.frame(one) for one in range(1, sheet.frames.others + 1)]
-    standing = [one for one in frames if one.coordinates is not None and one.faces and not lies_flat(one)]
+    frames = [] if sheet.frames is None else list(map(sheet.frames.frame, range(1, sheet.frames.others + 1)))
+    standing = [
+        frame for frame in frames if frame.coordinates is not None and frame.faces and not lies_flat(frame)
+    ]
     if standing:
         return standing[len(standing) // 2], "in a frame of its file"
     if len(placed.faces) > _MOST:
@@ -329,17 +312,14 @@ def template_of(
         nets = CutNets((piece,), ((),), 0, 0)
     else:
         nets = pieces_of_panels(whole, in_space(whole.coordinates or ()) * factor, joins)
-        not_shown = _without_tab(nets.without_tab) if joins.depth else ()
+        without = nets.without_tab if joins.depth else 0
+        not_shown = (f"tabs at {numbered(without, 'edge')} with no room for one",) if without else ()
     pieces = nets.pieces
     if hinges is not None:
-        pieces = tuple(with_hinges(*one, hinges) for one in zip(pieces, nets.met, strict=True))
+        pieces = tuple(with_hinges(piece, met, hinges) for piece, met in zip(pieces, nets.met, strict=True))
     meeting = steps_of_joins(nets.numbers, nets.without_tab, slotted=slots)
     steps = (*steps_of_folds(pieces), *steps_of_hinges(hinges), *meeting)
     return Template(pieces, factor, placed, title, not_shown, steps)
-
-
-def _without_tab(edges: int) -> tuple[str, ...]:
-    return (f"tabs at {numbered(edges, 'edge')} with no room for one",) if edges else ()
 
 
 def pictured(template: Template, sheet: Sheet) -> tuple[Template, str]:
@@ -357,20 +337,24 @@ def pictured(template: Template, sheet: Sheet) -> tuple[Template, str]:
     >>> pictured(template_of(square, size=100), square)[0].steps[-1]
     'It then looks as below, folded half way; the printed side is grey, its back blue.'
     """
-    picture, seen = folded_picture(sheet)
-    if picture is None:
+    pose, seen = folded_pose(sheet)
+    if pose is None:
         return template, seen
-    return replace(template, picture=picture, steps=(*template.steps, f"It then looks as below, {seen}.")), ""
+    picture = folded_scene(pose, PictureOptions(numbers=False, box=_BOX, caption=None))
+    sides = "; the printed side is grey, its back blue" if list(pose.faces) == same_side_up(pose.faces) else ""
+    return replace(
+        template, picture=picture, steps=(*template.steps, f"It then looks as below, {seen}{sides}.")
+    ), ""
 
 
-def panels_of_thing(
-    thing: Mechanism | ChainString, *, kind: RealisedKind | None = None, mode: str | None = None
+def panels_of_mechanism(
+    mechanism: Mechanism | ChainString, *, kind: RealisedKind | None = None, mode: str | None = None
 ) -> tuple[Sheet, str]:
     """Return the panels of a mechanism, realised if it is a type, and a note on that.
 
     Parameters
     ----------
-    thing : Mechanism or ChainString
+    mechanism : Mechanism or ChainString
         A sheet, a model of panels, or a type, which is realised.
     kind : {"sheet", "space"}, optional
         Kind of realisation of a type; a flat sheet by default.
@@ -390,22 +374,22 @@ def panels_of_thing(
 
     Examples
     --------
-    >>> panels_of_thing(ChainString((2, 1)))
+    >>> panels_of_mechanism(ChainString((2, 1)))
     (<Sheet: 4 faces, 3 creases, 9 vertices, flat>, 'no coordinates: realised as a flat sheet')
     """
-    sheet = sheet_of(thing) if not isinstance(thing, ChainString) else None
+    sheet = sheet_of(mechanism) if not isinstance(mechanism, ChainString) else None
     if sheet is not None:
         if kind is not None or mode is not None:
             raise UnsolvableError(
                 "a kind or a mode of realisation requires a type, and the mechanism has coordinates"
             )
         return sheet, ""
-    if not isinstance(thing, SCGraph | SCDGraph | ChainString):
-        raise UnsolvableError(f"a template requires panels, and {thing!r} has none")
+    if not isinstance(mechanism, SCGraph | SCDGraph | ChainString):
+        raise UnsolvableError(f"a template requires panels, and {mechanism!r} has none")
     from synth.realisation.realised import realise  # it loads numba, which only types need
 
     form = "a flat sheet" if kind != "space" else "a pose in space"
-    return realise(thing, kind=kind or "sheet", mode=mode).sheet, f"no coordinates: realised as {form}"
+    return realise(mechanism, kind=kind or "sheet", mode=mode).sheet, f"no coordinates: realised as {form}"
 
 
 def linkage_on_a_surface(

@@ -48,9 +48,6 @@ def plane_of_panel(corners: Floats, face: int) -> Plane:
     """Return the plane of a panel with corners float[corners, 3]; messages name its number, the face.
 
     Raise UnsolvableError if the corners lie in no plane or in a line, a side has no length, or sides cross.
-
-    >>> plane_of_panel(np.array([[0, 0, 5], [1, 0, 5], [0, 1, 5.0]]), 0).normal.tolist()
-    [0.0, 0.0, 1.0]
     """
     origin: Floats = corners.mean(axis=0)
     arms = corners - origin

@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from io import BytesIO
-from math import sqrt
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import chain
+from math import inf, sqrt
 from pathlib import Path
-from typing import Any
-from xml.sax.saxutils import escape
 
-from graphs.errors import FileError, UnsolvableError
-from graphs.files.atomic import Beside, check_place
+from graphs.files.atomic import check_place
+from graphs.files.outputs import Format, check_writable, formats_by_suffix, write_as
 from graphs.files.patterns.dxf import DxfLayer, DxfLine, DxfWord, dxf_of
 from graphs.printing import plain
-from synth.drawing.scene.writing import PdfPainter, svg_group
-from synth.templates.pages import Page, Paper, Picture, gauge, laid_out, pages_of
-from synth.templates.pieces import LOOKS, Piece, Stroke, Text
+from synth.drawing.scene.shapes import Label, Line
+from synth.drawing.scene.writing import PICTURES, Pages, Scene
+from synth.templates.pages import Page, Paper, gauge, laid_out, layers_of, pages_of, strokes_and_texts
+from synth.templates.pieces import LOOKS
 from synth.templates.template import Template
 
-__all__ = ["check_template", "svg_of_page", "write_template"]
+__all__ = ["TEMPLATES", "write_template"]
 
 
 _BELOW = -8.0
@@ -28,177 +28,41 @@ _ROW = 1.5
 _LAYERS = [DxfLayer(kind, look.number) for kind, look in LOOKS.items()]
 
 
-def dxf_of_template(template: Template) -> str:
-    """Return a template as DXF R12 in millimetres."""
+def dxf_bytes(pages: Pages) -> bytes:
+    """Return a template on one page as DXF R12 in millimetres; texts are among the marks, for no machine."""
+    (scene,) = pages.scenes
+    lines: list[DxfLine] = []
+    words: list[DxfWord] = []
+    for layer in scene.layers:
+        for shape in layer.shapes:
+            if isinstance(shape, Line):
+                start, end = ((x, scene.height - y) for x, y in shape.points)
+                lines.append(DxfLine(layer.name, start, end))
+            elif isinstance(shape, Label):
+                at = (shape.at[0], scene.height - shape.at[1])
+                words.append(DxfWord("MARKS", at, shape.text, shape.size, shape.anchor == "middle"))
+    return dxf_of(_LAYERS, lines, words, remark="millimetres").encode("ascii", "replace")
+
+
+def _side_by_side(template: Template) -> Scene:
+    """Return all pieces of a template in rows without end, on no page, with the gauge below."""
     pieces = [piece.at_origin() for piece in template.pieces]
-    strokes, texts = _side_by_side(pieces)
-    ruler, words = gauge((0.0, _BELOW))
-    lines = [DxfLine(stroke.kind, stroke.start, stroke.end) for stroke in (*strokes, *ruler)]
-    named = [DxfWord("MARKS", text.at, text.words, text.size, text.middle) for text in (*texts, *words)]
-    return dxf_of(_LAYERS, lines, named, remark="millimetres")
-
-
-def _side_by_side(pieces: list[Piece]) -> tuple[list[Stroke], list[Text]]:
-    """Return the strokes and texts of all pieces, in rows without end."""
     widest = max(piece.size[0] for piece in pieces)
     width = max(widest, _ROW * sqrt(sum(piece.size[0] * piece.size[1] for piece in pieces)))
-    moved = [piece.moved(right, up) for laid in laid_out(pieces, width, float("inf")) for piece, right, up in laid]
-    return [one for piece in moved for one in piece.strokes], [one for piece in moved for one in piece.texts]
+    strokes, texts = strokes_and_texts(chain.from_iterable(laid_out(pieces, width, inf)))
+    ruler, words = gauge((0.0, _BELOW))
+    layers = layers_of([*strokes, *ruler], [*texts, *words], 0.0, LOOKS["MARKS"].colour)
+    return Scene(0.0, 0.0, tuple(layers), unit="mm")
 
 
-_POINTS = 72 / 25.4
-"""Points, the unit of PDF, in a millimetre."""
-_BASELINE = 0.35
-
-
-def check_reportlab() -> None:
-    """Raise UnsolvableError if reportlab, which writes PDF, is not installed."""
-    try:
-        import reportlab  # noqa: F401
-    except ImportError:
-        raise UnsolvableError("PDF requires reportlab; try pip install 'synthedra[draw]'") from None
-
-
-def pdf_of_pages(pages: Sequence[Page], title: str = "") -> bytes:
-    """Return a PDF file of pages, each as large as its paper.
-
-    Raise UnsolvableError if reportlab is not installed.
-    """
-    check_reportlab()
-    from reportlab.pdfgen.canvas import Canvas
-
-    stream = BytesIO()
-    canvas = Canvas(stream, invariant=1, pageCompression=1)
-    canvas.setTitle(title)
-    canvas.setViewerPreference("PrintScaling", "None")  # printers would shrink it to what they can reach
-    for page in pages:
-        canvas.setPageSize((page.paper.width * _POINTS, page.paper.height * _POINTS))
-        canvas.setLineCap(1)
-        for kind, look in LOOKS.items():
-            canvas.setStrokeColor(look.colour)
-            canvas.setLineWidth(look.width * _POINTS)
-            canvas.setDash([part * _POINTS for part in look.dash])
-            for stroke in page.strokes:
-                if stroke.kind == kind:
-                    ends = (*stroke.start, *stroke.end)
-                    canvas.line(*(number * _POINTS for number in ends))
-        canvas.setFillColor(page.ink)
-        for text in page.texts:
-            _write(canvas, text)
-        if page.picture is not None:
-            _paint(canvas, page.picture)
-        canvas.showPage()
-    canvas.save()
-    return stream.getvalue()
-
-
-def _write(canvas: Any, text: Text) -> None:
-    canvas.setFont("Helvetica", text.size * _POINTS)
-    place = canvas.drawCentredString if text.middle else canvas.drawString
-    place(text.at[0] * _POINTS, (text.at[1] - _BASELINE * text.size) * _POINTS, text.words)
-
-
-def _paint(canvas: Any, picture: Picture) -> None:
-    scene = picture.scene
-    canvas.saveState()
-    canvas.translate(*(side * _POINTS for side in picture.corner))
-    canvas.scale(picture.scale * _POINTS, picture.scale * _POINTS)
-    canvas.setLineJoin(1)
-    canvas.setDash([])
-    painter = PdfPainter(canvas, "light", scene.height)
-    for shape in scene.shapes():
-        painter.paint(shape)
-    canvas.restoreState()
-
-
-_DIGITS = 6
-
-
-def svg_of_page(page: Page) -> str:
-    """Return a page as SVG; a unit of its coordinates is a millimetre.
-
-    >>> from synth.templates.pages import Paper
-    >>> print(svg_of_page(Page(Paper(200, 300), (Stroke("CUT", (10, 10), (60, 10)),), ())).splitlines()[2])
-    <line x1="10" y1="290" x2="60" y2="290"/>
-    """
-    width, height = page.paper.width, page.paper.height
-    rows = [
-        '<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" '
-        f'width="{width:g}mm" height="{height:g}mm" viewBox="0 0 {width:g} {height:g}">'
-    ]
-    for kind, look in LOOKS.items():
-        strokes = [stroke for stroke in page.strokes if stroke.kind == kind]
-        if not strokes:
-            continue
-        dash = f' stroke-dasharray="{" ".join(f"{part:g}" for part in look.dash)}"' if look.dash else ""
-        rows.append(
-            f'<g id="{kind}" inkscape:groupmode="layer" inkscape:label="{kind}" fill="none" '
-            f'stroke="{look.colour}" stroke-width="{look.width:g}" stroke-linecap="round"{dash}>'
-        )
-        rows += [_line(stroke, height) for stroke in strokes]
-        rows.append("</g>")
-    if page.texts:
-        rows.append('<g id="TEXT" inkscape:groupmode="layer" inkscape:label="TEXT" font-family="sans-serif">')
-        rows += [_text(text, height, page.ink) for text in page.texts]
-        rows.append("</g>")
-    if page.picture is not None:
-        rows.append(_picture(page.picture, height))
-    return "\n".join([*rows, "</svg>"]) + "\n"
-
-
-def _line(stroke: Stroke, height: float) -> str:
-    (x1, y1), (x2, y2) = stroke.start, stroke.end
-    return f'<line x1="{_put(x1)}" y1="{_put(height - y1)}" x2="{_put(x2)}" y2="{_put(height - y2)}"/>'
-
-
-def _text(text: Text, height: float, ink: str) -> str:
-    x, y = text.at
-    anchor = ' text-anchor="middle"' if text.middle else ""
-    low = height - y + _BASELINE * text.size
-    return (
-        f'<text x="{_put(x)}" y="{_put(low)}" font-size="{text.size:g}" fill="{ink}"{anchor}>'
-        f"{escape(text.words)}</text>"
-    )
-
-
-def _picture(picture: Picture, height: float) -> str:
-    scene, (left, low) = picture.scene, picture.corner
-    wide, high = (picture.scale * side for side in (scene.width, scene.height))
-    head = (
-        f'<svg x="{_put(left)}" y="{_put(height - low - high)}" width="{_put(wide)}" height="{_put(high)}" '
-        f'viewBox="0 0 {_put(scene.width)} {_put(scene.height)}" stroke-linejoin="round" stroke-linecap="round">'
-    )
-    return "\n".join([head, svg_group(scene), "</svg>"])
-
-
-def _put(number: float) -> str:
-    """Write a number to a millionth of a millimetre, without zeros at its end."""
-    return f"{round(number, _DIGITS) + 0.0:.{_DIGITS}f}".rstrip("0").rstrip(".")
-
-
-_KINDS = (".pdf", ".svg", ".dxf")
+TEMPLATES = formats_by_suffix(
+    PICTURES[".pdf"],
+    PICTURES[".svg"],
+    Format(".dxf", "DXF R12, without pages and assembly instructions", dxf_bytes),
+)
+"""Suffix to the format in which templates are written."""
 _LONGEST_TITLE = 200
 _A4 = Paper(210.0, 297.0)
-
-
-def check_template(path: str | Path, *, force: bool = False) -> None:
-    """Refuse a path where no template can be written, before one is made.
-
-    Raise FileError if the extension is unknown, or an existing file must not be replaced; UnsolvableError for a
-    PDF if reportlab is not installed.
-
-    >>> check_template("a.doc")
-    Traceback (most recent call last):
-    ...
-    graphs.errors.FileError: a.doc: the extension is not known; expected .pdf, .svg, .dxf
-    """
-    place = Path(path)
-    suffix = place.suffix.lower()
-    if suffix not in _KINDS:
-        raise FileError(place, "", "the extension is not known", ", ".join(_KINDS))
-    if suffix == ".pdf":
-        check_reportlab()
-    check_place(place, force=force)
 
 
 def write_template(
@@ -241,32 +105,26 @@ def write_template(
     [('square.svg', '<svg'), ('square-note.svg', '<svg')]
     """
     place = Path(path)
-    check_template(place, force=force)
+    check_writable(place, TEMPLATES, force=force)
     suffix = place.suffix.lower()
     if suffix == ".dxf":
-        files = {place: dxf_of_template(template).encode("ascii", "replace")}
+        files = {place: Pages([_side_by_side(template)])}
     elif suffix == ".pdf":
-        files = {place: pdf_of_pages(pages_of(template, paper), plain(template.title, _LONGEST_TITLE))}
+        first, *rest = (page.scene for page in pages_of(template, paper))
+        files = {place: Pages([replace(first, title=plain(template.title, _LONGEST_TITLE)), *rest])}
     else:
-        files = _svg_files(pages_of(template, paper), place)
-    for one in files:
-        check_place(one, force=force)
-    for one, data in files.items():
-        beside = Beside(one, force=force)
-        try:
-            beside.write(data)
-            beside.commit()
-        finally:
-            beside.discard()
+        files = {name: Pages([page.scene]) for name, page in _svg_files(pages_of(template, paper), place)}
+    for name in files:
+        check_place(name, force=force)
+    for name, pages in files.items():
+        write_as(pages, name, TEMPLATES, force=force)
     return tuple(files)
 
 
-def _svg_files(pages: list[Page], place: Path) -> dict[Path, bytes]:
-    """Return the name and content of each page; that of assembly is a file of its own, of which nothing is cut."""
-    lines = [page for page in pages if not page.is_note]
-    names = [place]
-    if len(lines) > 1:
-        names = [place.with_name(f"{place.stem}-{number}{place.suffix}") for number in range(1, len(lines) + 1)]
-    files = dict(zip(names, lines, strict=True))
-    files |= {place.with_name(f"{place.stem}-note{place.suffix}"): page for page in pages if page.is_note}
-    return {name: svg_of_page(page).encode() for name, page in files.items()}
+def _svg_files(pages: list[Page], place: Path) -> Iterator[tuple[Path, Page]]:
+    """Yield the name of each page with it; that of assembly is a file of its own, of which nothing is cut."""
+    to_cut = [page for page in pages if not page.is_note]
+    for number, page in enumerate(to_cut, start=1):
+        yield (place if len(to_cut) == 1 else place.with_name(f"{place.stem}-{number}{place.suffix}")), page
+    for page in pages[len(to_cut) :]:
+        yield place.with_name(f"{place.stem}-note{place.suffix}"), page

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields, is_dataclass
 from itertools import chain, pairwise
 from typing import Any, Literal
 
@@ -38,8 +38,7 @@ __all__ = [
     "bodies_of_linkage",
     "bodies_of_sheet",
     "centres_of",
-    "factor_order",
-    "hull_faces",
+    "page_data",
     "solver_data",
 ]
 
@@ -49,6 +48,20 @@ _FROM_APEX = (0.35, 1.0)
 """Distances from the common point of all axes between which each is shown."""
 _AXIS, _BODY = "-", "|"
 """Letters of lines that are not edges of a crease pattern: pieces of axes, sides of bodies."""
+
+
+def page_data(value: Any) -> Any:
+    """Return plain data of web/src/page/types.js: records by the names of their fields, arrays as lists.
+
+    A record with data of its own has `to_json`.
+    """
+    if hasattr(value, "to_json"):
+        return value.to_json()
+    if is_dataclass(value):
+        return {field.name: page_data(getattr(value, field.name)) for field in fields(value)}
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    return list(map(page_data, value)) if isinstance(value, tuple | list) else value
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,10 +168,11 @@ Kind = Literal["explicit", "implicit", "finite", "infinite"]
 class ShownCentre:
     """The centre of a centre class, the joints whose axes pass through it, and a link that carries it.
 
-    A vertex of panels round which a loop goes is explicit; a centre that the panels do not reach is implicit. Of
-    other linkages, whose links have no shape, centres are finite, or infinite: the axes are parallel to
-    `direction`. The place, float[3], is that at the configuration, in units of the extent, about the middle; for
-    an infinite centre, a place among its axes. Link and joints are indices; `loops` is a count.
+    `CentreData` of the page. A vertex of panels round which a loop goes is explicit; a centre that the panels
+    do not reach is implicit. Of other linkages, whose links have no shape, centres are finite, or infinite:
+    the axes are parallel to `direction`. The place, float[3], is that at the configuration, in units of the
+    extent, about the middle; for an infinite centre, a place among its axes. Link and joints are indices;
+    `loops` is a count.
     """
 
     kind: Kind
@@ -167,17 +181,6 @@ class ShownCentre:
     link: int
     joints: tuple[int, ...]
     loops: int
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data: `CentreData` of web/src/page/types.js."""
-        return {
-            "kind": self.kind,
-            "place": self.place.tolist(),
-            "direction": None if self.direction is None else self.direction.tolist(),
-            "link": self.link,
-            "joints": list(self.joints),
-            "loops": self.loops,
-        }
 
 
 def centres_of(configuration: Configuration) -> tuple[ShownCentre, ...]:

@@ -34,7 +34,15 @@ from synth.motion.singular.sampling import walked
 from synth.motion.walk.events import free_rates, independent_joints
 from synth.moving.made import configuration_of
 from synth.verdict.judged import MOST_PANELS, mobility
-from synth.viewer.linkage import Bodies, ShownCentre, bodies_of_linkage, bodies_of_sheet, centres_of, solver_data
+from synth.viewer.linkage import (
+    Bodies,
+    ShownCentre,
+    bodies_of_linkage,
+    bodies_of_sheet,
+    centres_of,
+    page_data,
+    solver_data,
+)
 
 __all__ = ["DrawnCreases", "MovingLinkage", "Report", "Shown", "Ways", "shown_of", "ways_of"]
 
@@ -85,10 +93,6 @@ class Ways:
     all: tuple[Beginning, ...]
     singular: bool
     taken: int
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data: `WaysData` of web/src/page/types.js."""
-        return {"all": [start.to_json() for start in self.all], "singular": self.singular, "taken": self.taken}
 
 
 def ways_of(configuration: Configuration) -> Ways:
@@ -156,8 +160,8 @@ class MovingLinkage:
         return {
             "solver": solver_data(self.linkage, limited=self.limited, ground=list(graph.nodes)[self.ground]),
             "bodies": self.bodies.to_json(),
-            "ways": None if self.ways is None else self.ways.to_json(),
-            "centres": [centre.to_json() for centre in self.centres],
+            "ways": page_data(self.ways),
+            "centres": page_data(self.centres),
             "joints": [plain(joint) for joint in graph.joints],
             "links": [plain(link) for link in graph.nodes],
             "between": [[number[first], number[second]] for first, second in graph.joints.values()],
@@ -176,10 +180,6 @@ class DrawnCreases:
     vertices: tuple[tuple[float, ...], ...]
     edges: tuple[tuple[int, int], ...]
     places: list[tuple[float, float]]
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data: `DrawnData` of web/src/page/types.js."""
-        return {"vertices": self.vertices, "edges": self.edges, "places": self.places}
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,25 +227,15 @@ class Shown:
     def to_json(self) -> dict[str, Any]:
         """Return plain data: `ShownData` of web/src/page/types.js."""
         at, ways = self.configuration, None if self.moving is None else self.moving.ways
-        first = None if ways is None else ways.taken
+        configuration = None if at is None else at.to_json(at.branch(None if ways is None else ways.taken))
         return {
-            "name": self.name,
-            "verdict": self.verdict,
-            "report": self.report,
-            "notes": list(self.notes),
-            "pictures": self.pictures,
-            "moving": None if self.moving is None else self.moving.to_json(),
-            "configuration": None if at is None else at.to_json(at.branch(first)),
-            "answer": self.answer,
-            "stiff": list(self.stiff),
-            "clusters": [list(cluster) for cluster in self.clusters],
-            "drawn": None if self.drawn is None else self.drawn.to_json(),
-            "on_request": self.on_request,
+            name: configuration if name == "configuration" else page_data(getattr(self, name))
+            for name in self.__slots__
         }
 
 
 def shown_of(
-    thing: Mechanism,
+    mechanism: Mechanism,
     name: str = "",
     *,
     motion: bool | None = None,
@@ -255,7 +245,7 @@ def shown_of(
 
     Parameters
     ----------
-    thing : Sheet, SCGraph, SCDGraph, PolyhedronModel, HingedSolids, SurfaceLinkage, ...
+    mechanism : Sheet, SCGraph, SCDGraph, PolyhedronModel, HingedSolids, SurfaceLinkage, ...
         For a sheet with several frames, the first that has coordinates is moved.
     name : str, optional
         Name on the page, such as that of a file.
@@ -278,7 +268,11 @@ def shown_of(
     >>> shown.verdict, len(shown.moving.ways.all)
     ('Rigid-foldable from the flat state: 1 degree of freedom. 2 folding branches.', 2)
     """
-    placed = thing.frames.first_placed() if isinstance(thing, Sheet) and thing.frames is not None else thing
+    placed = (
+        mechanism.frames.first_placed()
+        if isinstance(mechanism, Sheet) and mechanism.frames is not None
+        else mechanism
+    )
     notes: list[str] = []
     on_request = isinstance(placed, Sheet) and len(placed.faces) > MOST_PANELS and not motion
     report("finding motion branches", 1, _STEPS)
@@ -310,11 +304,11 @@ def shown_of(
 
 
 def _moving(
-    thing: Mechanism, notes: list[str], *, still: bool
+    mechanism: Mechanism, notes: list[str], *, still: bool
 ) -> tuple[Configuration | None, MovingLinkage | None]:
     """Return a mechanism at its configuration, and its motions unless it is `still`; note why there are none."""
     try:
-        at = configuration_of(thing, mend=not still)
+        at = configuration_of(mechanism, mend=not still)
     except SynthedraError as error:
         notes.append(f"not moved: {error}")
         return None, None
@@ -332,10 +326,10 @@ def _moving(
     return at, MovingLinkage(at.linkage, bodies, ways, centres, largest_panel(at.mechanism.panels), limited=True)
 
 
-def _pictures(thing: Mechanism | Configuration, notes: list[str]) -> dict[str, str]:
+def _pictures(mechanism: Mechanism | Configuration, notes: list[str]) -> dict[str, str]:
     """Return the picture on light and on dark paper; note why there is none."""
     try:
-        scene = draw(thing, box=_BOX, caption=None)
+        scene = draw(mechanism, box=_BOX, caption=None)
     except SynthedraError as error:
         notes.append(f"not drawn: {error}")
         return {}

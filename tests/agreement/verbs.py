@@ -27,7 +27,7 @@ from graphs.types import JointId
 from synth.cli.main import main
 from synth.compliance.joint_limits import limits
 from synth.moving.made import sheet_of
-from synth.templates.template import panels_of_thing, template_of
+from synth.templates.template import panels_of_mechanism, template_of
 from synth.viewer.shown import Shown, shown_of
 from tests.agreement.specimens import Placed
 
@@ -194,7 +194,7 @@ VERBS = (
     ),
     Verb(
         "template",
-        lambda s: template_of(panels_of_thing(s.thing)[0], size=150.0),
+        lambda s: template_of(panels_of_mechanism(s.thing)[0], size=150.0),
         lambda s: [
             "template", str(s.file), "--size", "150", "-o", str(s.folder / "template.dxf"), "--no-note", "--force",
             "--json",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import re
 import zlib
 from collections import defaultdict
@@ -13,6 +12,7 @@ import numpy as np
 _SVG = "{http://www.w3.org/2000/svg}"
 _POINT = 25.4 / 72
 COLOURS = {"0 0 0": "CUT", "1 0 0": "MOUNTAIN", "0 0 1": "VALLEY", "1 0 1": "CREASE"}
+KINDS = {*COLOURS.values(), "MARKS"}
 
 
 def lines_of_svg(path):
@@ -22,9 +22,9 @@ def lines_of_svg(path):
     assert root.get("viewBox") == f"0 0 {wide:g} {high:g}"  # a unit is a millimetre
     lines = {}
     for group in root.iter(f"{_SVG}g"):
-        ends = [[float(line.get(key)) for key in ("x1", "y1", "x2", "y2")] for line in group.iter(f"{_SVG}line")]
-        if ends:
-            lines[group.get("id")] = np.array([0, high, 0, high]) + np.array(ends) * (1, -1, 1, -1)
+        paths = [re.split("[MLZ ]", path.get("d"))[1:] for path in group.iter(f"{_SVG}path")]
+        if paths and group.get("id") in KINDS:
+            lines[group.get("id")] = np.array([0, high, 0, high]) + np.array(paths, dtype=float) * (1, -1, 1, -1)
     words = {text.text: (float(text.get("x")), high - float(text.get("y"))) for text in root.iter(f"{_SVG}text")}
     return {kind: rows.reshape(-1, 2, 2) for kind, rows in lines.items()}, words, (wide, high)
 
@@ -34,16 +34,18 @@ def lines_of_pdf(data):
     boxes = re.findall(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", data)
     pages = []
     for stream in re.findall(rb"stream\r?\n(.*?)endstream", data, re.DOTALL):
-        text = zlib.decompress(base64.a85decode(stream.strip().removesuffix(b"~>"))).decode("latin-1")
+        text = zlib.decompress(stream).decode("latin-1")
         lines, kind = defaultdict(list), None
         matrix = re.match(r"1 0 0 1 0 0 cm", text)  # user space is never scaled
         assert matrix
         assert text.count(" cm") == 1
-        for row in text.splitlines():
-            if colour := re.search(r"([\d.]+ [\d.]+ [\d.]+) RG", row):
-                kind = COLOURS.get(colour[1], "MARKS")
-            if line := re.search(r"n ([-\d.]+) ([-\d.]+) m ([-\d.]+) ([-\d.]+) l S", row):
-                lines[kind].append([float(number) * _POINT for number in line.groups()])
+        for found in re.finditer(
+            r"([\d.]+ [\d.]+ [\d.]+) RG|n ([-\d.]+) ([-\d.]+) m ([-\d.]+) ([-\d.]+) l\s+S", text
+        ):
+            if found[1]:
+                kind = COLOURS.get(found[1], "MARKS")
+            else:
+                lines[kind].append([float(number) * _POINT for number in found.groups()[1:]])
         pages.append({kind: np.array(rows).reshape(-1, 2, 2) for kind, rows in lines.items()})
     return pages, [(float(wide) * _POINT, float(high) * _POINT) for wide, high in boxes]
 

@@ -126,12 +126,11 @@ def draw(
     if where:
         raise click.UsageError("--where requires a catalogue: a store, rows, a graph6 file or a folder")
     from synth.drawing.mechanisms import pictures
-    from synth.drawing.scene.writing import save_scene
 
     drawable = _read(file)
     with about(file):
         scene = pictures.draw(drawable, kind, **look)
-    save_scene(scene, output, paper=paper, force=force)
+    scene.save(output, paper=paper, force=force)
     tell_written(output)
 
 
@@ -235,10 +234,10 @@ def view(files: tuple[str, ...], output: str | None, force: bool) -> None:
 
 
 def _check_page(output: str, *, force: bool) -> None:
-    from graphs.errors import FileError
+    from graphs.files.outputs import unknown_extension
 
     if Path(output).suffix.lower() not in (".html", ".htm"):
-        raise FileError(output, "", "the extension is not known", ".html")
+        raise unknown_extension(output, [".html"])
     check_output(output, force=force)
 
 
@@ -364,16 +363,17 @@ def template(
       synth template types.sqlite --row 7 --size 150 -o seventh.svg
     """
     from graphs.errors import InvariantError
+    from graphs.files.outputs import check_writable
     from graphs.mechanism.surfaces import SurfaceLinkage
     from synth.drawing.mechanisms.chains import OrderOnCircle
     from synth.templates.pages import paper_named
-    from synth.templates.writing import check_template, write_template
+    from synth.templates.writing import TEMPLATES, write_template
 
     try:
         paper = paper_named(page)
     except InvariantError as error:
         raise click.BadParameter(str(error), param_hint="--page") from None
-    check_template(output, force=force)
+    check_writable(output, TEMPLATES, force=force)
     source = read_named(file, row, mode)
     source = replace(source, mechanism=precise_sheet(source.mechanism))
     on_surface = isinstance(source.mechanism, SurfaceLinkage | OrderOnCircle)
@@ -409,13 +409,13 @@ def _of_panels(
 ) -> tuple[Template, list[str]]:
     """Return the template of panels, and notes to print."""
     from synth.templates.hinges import Hinges
-    from synth.templates.template import panels_of_thing, pictured, template_of, unit_of
+    from synth.templates.template import panels_of_mechanism, pictured, template_of, unit_of
 
     if (look["hinge_kind"] == "fold") != (look["hinge_width"] is None):
         raise click.UsageError("--hinges offset, living or gap and --hinge-width require each other")
     hinges = None if look["hinge_width"] is None else Hinges(look["hinge_kind"], look["hinge_width"])
     mechanism: Any = source.mechanism
-    sheet, realised = panels_of_thing(mechanism, kind=kind, mode=source.mode)
+    sheet, realised = panels_of_mechanism(mechanism, kind=kind, mode=source.mode)
     options = {name: look[name] for name in ("scale", "size", "tabs", "slots")}
     notes = [f"{realised}, as by `synth realise`"] if realised else []
     if look["scale"] is None and look["size"] is None and realised:

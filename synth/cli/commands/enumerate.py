@@ -124,11 +124,11 @@ def _rows(numbers: list[int], limits: dict[str, int | None], modes: bool) -> Ite
 def _write(output: str, rows: Iterator[dict[str, Any]], force: bool) -> None:
     from pathlib import Path
 
-    from graphs.errors import FileError
     from graphs.files.atomic import write_chunks
+    from graphs.files.outputs import unknown_extension
 
     if not output.endswith(".jsonl"):
-        raise FileError(output, "", "the extension is not known", ".jsonl")
+        raise unknown_extension(output, [".jsonl"])
     write_chunks(Path(output), (json.dumps(row) + "\n" for row in rows), force=force)
 
 

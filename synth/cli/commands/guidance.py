@@ -82,10 +82,9 @@ def order(
     with about(file):
         analysis = analyse_order(orientations, axis, direction)
     if picture is not None:
-        from synth.drawing.scene.writing import save_scene
         from synth.drawing.sphere import draw_hoop
 
-        save_scene(draw_hoop(orientations, axis, analysis.hoop), picture, force=force)
+        draw_hoop(orientations, axis, analysis.hoop).save(picture, force=force)
     if as_json:
         print_json({"file": file, "axis": list(axis), **analysis.to_json()})
     else:
@@ -146,9 +145,7 @@ def dyads(
     with about(file):
         guiding = _guiding_dyads(orientations, axes, samples)
         if picture is not None:
-            from synth.drawing.scene.writing import save_scene
-
-            save_scene(_drawn(orientations, guiding.dyads), picture, force=force)
+            _drawn(orientations, guiding.dyads).save(picture, force=force)
     if as_json:
         print_json({"file": file, **guiding.to_json()})
         return

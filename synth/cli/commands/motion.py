@@ -91,14 +91,14 @@ def fold(
       synth fold data/patterns/bird-base.fold --all -o folded.gif
       synth fold data/linkages/sarrus.json --frames 11 -o rising.svg
     """
-    from synth.drawing.space.poses import check_output, write_motion
+    from synth.drawing.space.poses import check_motion_file, write_motion
     from synth.moving.made import configuration_of
     from synth.moving.motion import move
 
     if sum(map(bool, (whole, drive, along))) > 1:
         raise click.UsageError("--drive, --along and --all exclude each other; try one of them")
     if output is not None:
-        check_output(output, force=force)
+        check_motion_file(output, force=force)
     mechanism = read(file, warn=False)
     with about(file):
         mechanism = precise(mechanism)

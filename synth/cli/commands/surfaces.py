@@ -171,10 +171,9 @@ def map_answer(
         if chosen.sizes is not None:
             mapped = (map_to_cones if chosen.kind == "cone" else map_to_cylinders)(chosen.linkage_sizes)
             if output is not None and number is None and not _is_linkage(output):
-                from synth.drawing.scene.writing import save_scene
                 from synth.drawing.sums import draw_loop_sums
 
-                save_scene(draw_loop_sums(mapped), output, force=force)
+                draw_loop_sums(mapped).save(output, force=force)
                 return mapped
             if output is None:
                 return mapped
@@ -210,11 +209,10 @@ def _write(linkage: SurfaceLinkage | OnSurface, output: str, *, force: bool) -> 
 def _draw(linkage: OnSurface, output: str, ground: Any = None, *, force: bool) -> None:
     from synth.conformed.rates import ConformedChain
     from synth.drawing.conformed import draw_conformed
-    from synth.drawing.scene.writing import save_scene
 
     chain = ConformedChain.of(linkage.chain, ground)
     scene = draw_conformed(chain, linkage.places, linkage.surface, begins=linkage.begins(chain))
-    save_scene(scene, output, force=force)
+    scene.save(output, force=force)
 
 
 _MAP = {

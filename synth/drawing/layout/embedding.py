@@ -12,7 +12,7 @@ links are nodes. An edge that would come twice, between two links that share two
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -58,11 +58,7 @@ def part_of(graph: nx.Graph, nodes: Collection[Node]) -> nx.Graph:
 
 
 def faces_of(around: Mapping[Node, Sequence[Node]]) -> list[tuple[Node, ...]]:
-    """Return the faces, each walked round with the face on the left; bounded ones counter-clockwise.
-
-    >>> faces_of({0: (1, 2), 1: (2, 0), 2: (0, 1)})
-    [(0, 1, 2), (0, 2, 1)]
-    """
+    """Return the faces, each walked round with the face on the left; bounded ones counter-clockwise."""
     before = {
         (node, next_): previous
         for node, row in around.items()
@@ -87,10 +83,6 @@ def made_biconnected(around: Mapping[Node, Sequence[Node]]) -> Neighbours:
 
     Where two neighbours that follow each other round a node are in different blocks, a node is put between them
     and joined to both.
-
-    >>> path = {0: (1,), 1: (0, 2), 2: (1,)}
-    >>> made_biconnected(path)[("fill", 0)]
-    (0, 2)
     """
     rotations = {node: list(row) for node, row in around.items()}
     fills = 0
@@ -121,25 +113,18 @@ def _parted(rotations: Mapping[Node, Sequence[Node]], graph: nx.Graph) -> tuple[
     return None
 
 
-def same_cycle(first: Sequence[Node], second: Sequence[Node]) -> bool:
-    """Check whether two rows are one cycle, begun at any place, in either direction.
-
-    >>> same_cycle((0, 1, 2, 3), (2, 1, 0, 3)), same_cycle((0, 1, 2, 3), (0, 2, 1, 3))
-    (True, False)
-    """
-    if len(first) != len(second) or first[0] not in second:
+def same_cycle(first: Sequence[Hashable], second: Sequence[Hashable]) -> bool:
+    """Check whether two rows without repetitions are one cycle, begun at any place, and run the same way."""
+    if len(first) != len(second) or not first or first[0] not in second:
         return False
-    turned = [tuple(row[(i := list(row).index(first[0])) :]) + tuple(row[:i]) for row in (second, second[::-1])]
-    return tuple(first) in turned
+    start = second.index(first[0])
+    return tuple(first) == (*second[start:], *second[:start])
 
 
 def swaps_of(links: Sequence[LinkId], joints: Joints) -> Iterator[dict[Node, Node]]:
     """Yield symmetries of order two of a link-joint graph, as moves of ``("link", id)`` and ``("joint", id)``.
 
     For a large group the first are tried, those that are products of few generators.
-
-    >>> len(list(swaps_of([0, 1, 2, 3], {0: (0, 1), 1: (1, 2), 2: (2, 3), 3: (3, 0)})))
-    5
     """
     number = {link: i for i, link in enumerate(links)}
     pairs = [(number[a], number[b]) for a, b in joints.values()]
@@ -162,12 +147,7 @@ def swaps_of(links: Sequence[LinkId], joints: Joints) -> Iterator[dict[Node, Nod
 def mirrored(graph: nx.Graph, swap: Mapping[Node, Node]) -> Neighbours | None:
     """Return rotations of a connected graph that a symmetry of order two reverses; None if there are none.
 
-    The symmetry swaps the ends of no edge. A square mirrored in a diagonal, and rotated by half a turn, which is
-    no mirror:
-
-    >>> square = nx.cycle_graph(4)
-    >>> mirrored(square, {0: 0, 1: 3, 2: 2, 3: 1}) is None, mirrored(square, {0: 2, 1: 3, 2: 0, 3: 1}) is None
-    (False, True)
+    The symmetry swaps the ends of no edge.
     """
     fixed = [node for node in graph if swap[node] == node]
     half = _one_side(graph, fixed, swap)

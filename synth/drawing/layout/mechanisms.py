@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
 
@@ -163,10 +163,7 @@ def _drawings(
 def _if_reversed(kept: Neighbours, swap: Mapping[Node, Node]) -> Neighbours | None:
     """Return rotations if a symmetry reverses them all."""
     for node, row in kept.items():
-        image = tuple(swap[other] for other in reversed(row))
-        there = kept[swap[node]]
-        turned = there[(i := there.index(image[0])) :] + there[:i] if image and image[0] in there else ()
-        if turned != image:
+        if row and not same_cycle([swap[other] for other in reversed(row)], kept[swap[node]]):
             return None
     return kept
 
@@ -181,15 +178,16 @@ def _outer_faces(skeleton: Skeleton, joints: Joints, outer: Sequence[JointId]) -
     if any(len(set(face)) < len(face) for face in faces):
         return []
     if skeleton.mirror is not None:
-        mirror = skeleton.mirror
+        images = [[skeleton.mirror[node] for node in face] for face in faces]
         faces = [
-            face for face in faces if same_cycle([mirror[node] for node in face[::-1]], face) and len(face) > 2
+            face
+            for face, image in zip(faces, images, strict=True)
+            if len(face) > 2 and (same_cycle(image[::-1], face) or same_cycle(image, face))
         ]
-        faces = [face for face in faces if {mirror[node] for node in face} == set(face)]
     fit = [face for face in faces if _shared(face, joints, skeleton, outer) == len(outer)]
 
     def preferred(face: tuple[Node, ...]) -> tuple[bool, int]:
-        return _runs_as(_joints_of_face(face, joints, skeleton), outer), len(face)
+        return same_cycle(_joints_of_face(face, joints, skeleton), outer), len(face)
 
     return sorted(fit, key=preferred, reverse=True)
 
@@ -199,17 +197,8 @@ def _shared(face: Sequence[Node], joints: Joints, skeleton: Skeleton, outer: Seq
     return len(set(outer) & set(_joints_of_face(face, joints, skeleton))) if outer else 0
 
 
-def _runs_as(row: Sequence[Hashable], other: Sequence[Hashable]) -> bool:
-    """Whether two rows are one cycle and run the same way."""
-    if len(row) != len(other) or not row or row[0] not in other:
-        return False
-    start = other.index(row[0])
-    return tuple(row) == (*other[start:], *other[:start])
-
-
 def _is_body(face: Sequence[Node], skeleton: Skeleton) -> bool:
-    return any(len(row) > 2 and set(row) == set(face) and same_cycle(row, face) and _runs_as(row, face)
-               for row in skeleton.outlines.values())  # fmt: skip
+    return any(len(row) > 2 and same_cycle(row, face) for row in skeleton.outlines.values())
 
 
 def _drawn_plane(skeleton: Skeleton, outer: tuple[Node, ...]) -> _Part:

@@ -15,8 +15,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from shapely import LinearRing
 
-from graphs.types import Flags, Floats, Ints
+from graphs.types import Floats, Ints
 from synth.drawing.layout.embedding import Node, faces_of
 
 __all__ = ["LayoutSprings", "PlaneGraph", "barycentric", "plane_graph", "pulled", "springs_of"]
@@ -184,7 +185,7 @@ def pulled(
             move = (move + move[image] * _UPRIGHT) / 2
         here = here + move
         if number % _LOOKS == _LOOKS - 1:
-            if _crosses_itself(here[graph.outer]):
+            if len(graph.outer) > 3 and not LinearRing(here[graph.outer]).is_simple:
                 return whole
             whole = here
             if length.max() < _STILL:
@@ -290,21 +291,3 @@ def _free_way(triangles: Ints, here: Floats) -> Floats:
     way = np.full(len(here), np.inf)
     np.minimum.at(way, triangles, height[:, None])
     return _OF_HEIGHT * way
-
-
-def _crosses_itself(ring: Floats) -> bool:
-    """Whether two sides of a polygon that have no corner in common meet."""
-    ends = np.roll(ring, -1, axis=0)
-    sides = _turn(ring[:, None], ends[:, None], ring[None]) * _turn(ring[:, None], ends[:, None], ends[None])
-    crossed: Flags = (sides <= 0) & (sides.T <= 0)
-    count = len(ring)
-    step = (np.arange(count)[:, None] - np.arange(count)[None]) % count
-    crossed &= (step > 1) & (step < count - 1)
-    return bool(crossed.any())
-
-
-def _turn(a: Floats, b: Floats, c: Floats) -> Floats:
-    turn: Floats = (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (
-        c[..., 0] - a[..., 0]
-    )
-    return turn

@@ -21,8 +21,9 @@ from graphs.mechanism.surfaces import SurfaceLinkage
 from graphs.types import JointId, LinkId
 from synth.drawing.layout.mechanisms import Layout, layout_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, joint_dot, placed
-from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of
-from synth.drawing.scene.shapes import NORMAL, SMALL, Disc, Label, Layer, Line, Point, Polygon, Scene, Shape
+from synth.drawing.scene.frame import PLAIN, Frame, PictureOptions, captions_of, framed, page_of
+from synth.drawing.scene.shapes import NORMAL, SMALL, Disc, Label, Layer, Line, Point, Polygon, Shape
+from synth.drawing.scene.writing import Scene
 
 __all__ = ["ChainLook", "OrderOnCircle", "chain_scene", "order_of_linkage", "order_scene", "strip_scene"]
 
@@ -49,24 +50,22 @@ class ChainLook:
     dot: float = 2.3
 
 
-def chain_scene(
-    chain: SCGraph, *, look: ChainLook | None = None, box: Box = BOX, caption: str | None = ""
-) -> Scene:
-    """Return a picture of a link-joint graph with links as bodies, without the loops' centres.
-
-    It is at most as large as the box (width, height), in points. The caption comes before the line that describes
-    the picture; with None there is neither.
-    """
+def chain_scene(chain: SCGraph, options: PictureOptions = PLAIN, *, look: ChainLook | None = None) -> Scene:
+    """Return a picture of a link-joint graph with links as bodies, without the loops' centres."""
+    if look is None:
+        look = ChainLook(options.numbers, options.numbers)
+        if min(options.box) < _SMALL_BOX:
+            look = ChainLook(options.numbers, False, size=5.0, dot=1.6)
     layout = layout_of(chain.nodes, chain.joints)
     corners = [place for outline in layout.outlines.values() for place in outline]
-    frame = framed([*layout.links.values(), *layout.joints.values(), *corners], _UNIT, box)
-    layers = _chain_layers(chain, layout, frame, look or ChainLook())
+    frame = framed([*layout.links.values(), *layout.joints.values(), *corners], _UNIT, options.box)
+    layers = _chain_layers(chain, layout, frame, look)
     said = f"{numbered(len(chain), 'link')}, {numbered(len(chain.joints), 'joint')}"
     if not layout.plane:
         said += "; not planar: lines cross"
     elif layout.mirror:
         said += "; drawn with a mirror"
-    return page_of(frame, layers, captions_of(caption, said))
+    return page_of(frame, layers, captions_of(options.caption, said))
 
 
 def _chain_layers(chain: SCGraph, layout: Layout, frame: Frame, look: ChainLook) -> list[Layer]:
@@ -180,14 +179,10 @@ def order_of_linkage(linkage: SurfaceLinkage) -> OrderOnCircle:
     return OrderOnCircle(linkage.chain, list(map(str, joints)), azimuths, sorted(pairs))
 
 
-def order_scene(order: OrderOnCircle, *, numbers: bool = True, box: Box = BOX, caption: str | None = "") -> Scene:
-    """Return a picture of an order of joints round a cone, at most as large as the box, in points.
-
-    `numbers`: write the names of joints. The caption comes before the line that describes the picture; with None
-    there is neither.
-    """
-    size, dot = (5.0, 1.6) if min(box) < _SMALL_BOX else (SMALL, 2.1)
-    frame = framed([(-1, -1), (1, 1)], _CIRCLE, box, margin=2 * size + dot)
+def order_scene(order: OrderOnCircle, options: PictureOptions = PLAIN) -> Scene:
+    """Return a picture of an order of joints round a cone; the numbers are the names of joints."""
+    size, dot = (5.0, 1.6) if min(options.box) < _SMALL_BOX else (SMALL, 2.1)
+    frame = framed([(-1, -1), (1, 1)], _CIRCLE, options.box, margin=2 * size + dot)
     middle, radius = frame.at((0, 0)), frame.scale
     places = [frame.at((-sin(azimuth), cos(azimuth))) for azimuth in order.azimuths]
     chords = [(places[a], places[b]) for a, b in order.pairs]
@@ -197,7 +192,7 @@ def order_scene(order: OrderOnCircle, *, numbers: bool = True, box: Box = BOX, c
         Layer("links", tuple(Line(chord, "class0", 1.2 * NORMAL) for chord in chords)),
         Layer("joints", tuple(dots)),
     ]
-    if numbers:
+    if options.numbers:
         turns = [2 * pi * i / 48 for i in range(49)]
         circle = [(middle[0] + radius * cos(turn), middle[1] + radius * sin(turn)) for turn in turns]
         obstacles = Obstacles([(*at, dot + 0.8) for at in places], [*chords, *pairwise(circle)])
@@ -209,19 +204,15 @@ def order_scene(order: OrderOnCircle, *, numbers: bool = True, box: Box = BOX, c
     planar = bool(order.chain.loops) and all(loop.centre is Centre.INFINITE for loop in order.chain.loops)
     where = "cylinder, seen along its axis" if planar else "cone, seen from the apex"
     said = f"{numbered(len(order.names), 'joint')} round a {where}; links are chords between joints"
-    return page_of(frame, layers, captions_of(caption, said))
+    return page_of(frame, layers, captions_of(options.caption, said))
 
 
-def strip_scene(chain: ChainString, *, box: Box = BOX, caption: str | None = "") -> Scene:
-    """Return a picture of an R/- string: the bodies at its ends are grey, a fan meets at the lower edge.
-
-    It is at most as large as the box, in points. The caption comes before the line that describes the picture;
-    with None there is neither.
-    """
+def strip_scene(chain: ChainString, options: PictureOptions = PLAIN) -> Scene:
+    """Return a picture of an R/- string: the bodies at its ends are grey, a fan meets at the lower edge."""
     creases = _creases_of_strip(chain)
     right = max(top for _, top in creases) + _END
     sides = [(0.0, 0.0), *creases, (right, right)]
-    frame = framed([(0, 0), (right, _HIGH)], _STRIP, box)
+    frame = framed([(0, 0), (right, _HIGH)], _STRIP, options.box)
     panels: list[Shape] = []
     for number, ((b0, t0), (b1, t1)) in enumerate(pairwise(sides)):
         corners = [(b0, 0.0), (b1, 0.0), (t1, _HIGH), (t0, _HIGH)]
@@ -233,7 +224,9 @@ def strip_scene(chain: ChainString, *, box: Box = BOX, caption: str | None = "")
         for number, (bottom, top) in enumerate(creases)
     )
     said = f"{chain.text}: {chain.creases} creases"
-    return page_of(frame, [Layer("panels", tuple(panels)), Layer("creases", lines)], captions_of(caption, said))
+    return page_of(
+        frame, [Layer("panels", tuple(panels)), Layer("creases", lines)], captions_of(options.caption, said)
+    )
 
 
 def _creases_of_strip(chain: ChainString) -> list[tuple[float, float]]:

@@ -26,7 +26,7 @@ from graphs.tolerances import DOUBLE
 from graphs.types import JointId, LinkId
 from synth.drawing.mechanisms.labelling import SIGN, Obstacles, beside, centre_sign, placed
 from synth.drawing.mechanisms.sc_graphs import class_numbers
-from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of
+from synth.drawing.scene.frame import BOX, PLAIN, Box, Frame, PictureOptions, captions_of, framed, page_of
 from synth.drawing.scene.shapes import (
     FINE,
     NORMAL,
@@ -38,11 +38,11 @@ from synth.drawing.scene.shapes import (
     Line,
     Point,
     Polygon,
-    Scene,
     Shape,
     colour_of_class,
     text_width,
 )
+from synth.drawing.scene.writing import Scene
 from synth.drawing.space.panels import sheet_and_mechanism
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.branches import Branch
@@ -51,16 +51,7 @@ from synth.motion.marked import disagreement_with
 from synth.moving.made import configuration_of
 from synth.verdict.judged import verdict_of_motion
 
-__all__ = [
-    "COLOURINGS",
-    "Overlay",
-    "crease_scene",
-    "motions_by_verdict",
-    "motions_on_branch",
-    "overlay_of_marks",
-    "overlay_of_repairs",
-    "places_on_page",
-]
+__all__ = ["COLOURINGS", "crease_scene", "overlay_of_marks", "overlay_of_repairs", "places_on_page"]
 
 COLOURINGS = ("letters", "verdict", "branch", "centres", "none")
 """Colours show the assignment; immobile creases and panels that move as one; how creases begin to fold on a
@@ -134,47 +125,39 @@ class Overlay:
 
 
 def crease_scene(
-    sheet: Sheet | SheetConfiguration,
-    *,
-    colour: str = "letters",
-    branch: int | str | None = None,
-    numbers: bool = True,
-    graph: bool = False,
-    box: Box = BOX,
-    caption: str | None = "",
-    overlay: Overlay | None = None,
+    sheet: Sheet | SheetConfiguration, options: PictureOptions = PLAIN, *, overlay: Overlay | None = None
 ) -> Scene:
-    """Return a picture of a crease pattern that lies in a plane, at most as large as the box, in points.
+    """Return a picture of a crease pattern that lies in a plane; its colouring is one of `COLOURINGS`.
 
-    `colour` is one of `COLOURINGS`. `branch` goes with the colouring by branch: its number or signs; by default
-    the one nearest to the assignment. `numbers` are those of links and joints; `graph` draws the SC graph over
-    the pattern: links in their panels, joints across their creases, the signs of the centres. The caption comes
-    before the line that describes the picture; with None there is neither. Raise UnsolvableError if the sheet has
-    no coordinates or does not lie in a plane; InvariantError if the colouring or the branch is unknown, or a
-    branch comes with another colouring.
+    The SC graph over the pattern has links in their panels, joints across their creases, the signs of the centres.
+    Raise UnsolvableError if the sheet has no coordinates or does not lie in a plane; InvariantError if the
+    colouring or the branch is unknown, or a branch comes with another colouring.
     """
+    colour, graph = options.colour, options.graph
     if colour not in COLOURINGS:
         raise InvariantError("colour", f"unknown colouring {shown(colour)}", ", ".join(COLOURINGS))
-    if branch is not None and colour != "branch":
+    if options.branch is not None and colour != "branch":
         raise InvariantError("branch", f"the colouring {shown(colour)} shows no branch", "the colouring 'branch'")
     drawn_sheet, mechanism = sheet_and_mechanism(sheet)
     whole = with_all_edges(drawn_sheet)
-    frame, places = _framed(whole, box, () if overlay is None else overlay.beyond)
+    frame, places = _framed(whole, options.box, () if overlay is None else overlay.beyond)
     motions = Motions()
     if colour == "verdict":
         motions = motions_by_verdict(sheet)
     elif colour == "branch":
-        motions = motions_on_branch(sheet, branch)
+        motions = motions_on_branch(sheet, options.branch)
     drawn = DrawnPattern(whole, mechanism, frame, places, motions)
     layers = [Layer("panels", tuple(_panels(drawn))), Layer("creases", tuple(_creases(drawn, colour, graph)))]
     if overlay is not None:
         layers.insert(1, Layer(overlay.name, tuple(overlay.shapes(drawn))))
     if graph:
         layers.append(Layer("graph", tuple(_graph(drawn))))
-    if numbers:
+    if options.numbers:
         layers.append(Layer("labels", tuple(_labels(drawn, graph))))
     said = () if overlay is None else overlay.said
-    return page_of(frame, layers, captions_of(caption, _said(drawn, colour, graph), drawn.motions.said, *said))
+    return page_of(
+        frame, layers, captions_of(options.caption, _said(drawn, colour, graph), drawn.motions.said, *said)
+    )
 
 
 def places_on_page(sheet: Sheet, box: Box = BOX) -> list[Point]:

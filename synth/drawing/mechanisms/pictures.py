@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import partial
 from types import MappingProxyType
 from typing import Any, TypeAlias
@@ -21,46 +21,22 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import SurfaceLinkage
-from synth.drawing.mechanisms.chains import (
-    ChainLook,
-    OrderOnCircle,
-    chain_scene,
-    order_of_linkage,
-    order_scene,
-    strip_scene,
-)
+from synth.drawing.mechanisms.chains import OrderOnCircle, chain_scene, order_of_linkage, order_scene, strip_scene
 from synth.drawing.mechanisms.creases import COLOURINGS, crease_scene, overlay_of_marks, overlay_of_repairs
 from synth.drawing.mechanisms.sc_graphs import sc_scene
 from synth.drawing.mechanisms.space import folded_scene, model_scene, solids_scene
-from synth.drawing.scene.frame import BOX, Box
-from synth.drawing.scene.shapes import Scene
+from synth.drawing.scene.frame import BOX, Box, PictureOptions
+from synth.drawing.scene.writing import Scene
 from synth.folding.configuration import SheetConfiguration
 from synth.guidance.orientations import Orientations
 from synth.motion.configuration import Configuration
 
-__all__ = ["COLOURINGS", "KINDS", "Drawable", "PictureOptions", "draw"]
+__all__ = ["COLOURINGS", "KINDS", "Drawable", "draw"]
 
 Drawable: TypeAlias = Configuration | MechanismLike | Orientations | ChainString | OrderOnCircle | nx.Graph
 
 _SMALL = 200.0
-"""Width or height, points, below which a chain has smaller joints, without numbers."""
-
-
-@dataclass(frozen=True, slots=True)
-class PictureOptions:
-    """Options of a picture, which is at most as large as `box`, (width, height) in points.
-
-    `colour` is one of `COLOURINGS`; `branch` goes with ``colour="branch"``: its number or its signs, or None for
-    the one nearest to the assignment. `numbers` are those of links and joints; `graph` puts the SC graph over a
-    crease pattern. `caption` is the first line below the picture; with None there are none.
-    """
-
-    colour: str = "letters"
-    branch: int | str | None = None
-    numbers: bool = True
-    graph: bool = False
-    box: Box = BOX
-    caption: str | None = ""
+"""Width or height, points, below which no linkage is drawn on its cone."""
 
 
 def draw(
@@ -79,8 +55,8 @@ def draw(
     Parameters
     ----------
     mechanism : Mechanism, str, Path, Configuration, Orientations, ChainString, OrderOnCircle or networkx graph
-        A mechanism, its file or its configuration, orientations of a body, an R/- string, an order of joints round
-        a cone, or a plain link-joint graph.
+        A mechanism, its file or its configuration, orientations of a body, an R/- string, an order of joints
+        around a cone, or a plain link-joint graph.
     kind : {"pattern", "marks", "repairs", "folded", "chain", "graph", "model", "solids", "cone", ...}, optional
         One of `KINDS`: a crease pattern in its plane, with the creases whose assignment disagrees with a branch,
         or with repairs made when it was read; a folded sheet in space; links as bodies; links as discs with the
@@ -90,21 +66,21 @@ def draw(
     colour : {"letters", "verdict", "branch", "centres", "none"}, optional
         Colouring of a crease pattern.
     branch : int or str, optional
-        With ``colour="branch"`` or the kind "marks": the number or the signs of a branch. By default the one
-        nearest to the assignment.
+        Number or signs of the branch to show, with ``colour="branch"`` or marks; by default the one nearest to
+        the assignment.
     numbers : bool, optional
-        Label links and joints.
+        Write the numbers of links and joints.
     graph : bool, optional
         Draw the SC graph over a crease pattern.
     box : (float, float), optional
         Largest width and height, points.
-    caption : str or None, optional
-        The first line below the picture; with None there are none.
+    caption : str, optional
+        First line below the picture; with None there are no lines.
 
     Returns
     -------
     Scene
-        A notebook shows it; `synth.drawing.save_scene` writes it.
+        A notebook shows it; its `save` writes it to a file.
 
     Raises
     ------
@@ -118,157 +94,121 @@ def draw(
     >>> [layer.name for layer in draw("k1:Cr").layers]
     ['links', 'joints', 'labels', 'caption']
     """
-    thing: object = mechanism_for("draw", mechanism, Drawable)
-    if isinstance(thing, Configuration) and not isinstance(thing, SheetConfiguration):
-        thing = thing.given
-    kind = _suiting(thing) if kind is None else kind
+    drawable: object = mechanism_for("draw", mechanism, Drawable)
+    if isinstance(drawable, Configuration) and not isinstance(drawable, SheetConfiguration):
+        drawable = drawable.given
+    kind = _suiting(drawable) if kind is None else kind
     if kind not in KINDS:
         raise InvariantError("kind", f"unknown kind {shown(kind)}", ", ".join(KINDS))
-    how = PictureOptions(colour, branch, numbers, graph, box, caption)
-    branched = how.branch is not None and kind != "marks"
-    if kind != "pattern" and (how.colour != "letters" or branched or how.graph):
+    if kind != "pattern" and (colour != "letters" or (branch is not None and kind != "marks") or graph):
         raise UnsolvableError(
             f"colourings, branches and the SC graph over it require a picture of the kind pattern, not {kind}"
         )
-    if isinstance(thing, ChainString):
-        return strip_scene(thing, box=how.box, caption=how.caption)
-    return KINDS[kind](thing, how)
+    options = PictureOptions(colour, branch, numbers, graph, box, caption)
+    return strip_scene(drawable, options) if isinstance(drawable, ChainString) else KINDS[kind](drawable, options)
 
 
-def _suiting(thing: object) -> str:
-    """Return the kind of picture that suits a thing."""
-    if isinstance(thing, SheetConfiguration):
-        thing = thing.drawn
-    if isinstance(thing, Sheet):
-        if thing.coordinates is None:
+def _suiting(drawable: object) -> str:
+    """Return the kind of picture that suits a mechanism."""
+    if isinstance(drawable, SheetConfiguration):
+        drawable = drawable.drawn
+    if isinstance(drawable, Sheet):
+        if drawable.coordinates is None:
             return "graph"
-        return "pattern" if lies_flat(thing) else "folded"
-    if isinstance(thing, PolyhedronModel):
+        return "pattern" if lies_flat(drawable) else "folded"
+    if isinstance(drawable, PolyhedronModel):
         return "model"
-    if isinstance(thing, HingedSolids) or (isinstance(thing, JointedLinkage) and thing.places):
+    if isinstance(drawable, HingedSolids) or (isinstance(drawable, JointedLinkage) and drawable.places):
         return "solids"
-    if isinstance(thing, SCDGraph):
+    if isinstance(drawable, SCDGraph):
         return "graph"
-    if isinstance(thing, Orientations):
+    if isinstance(drawable, Orientations):
         return "sphere"
-    if isinstance(thing, OrderOnCircle) or (isinstance(thing, SurfaceLinkage) and thing.steps is not None):
+    if isinstance(drawable, OrderOnCircle) or (
+        isinstance(drawable, SurfaceLinkage) and drawable.steps is not None
+    ):
         return "circle"
-    assumed = getattr(thing, "centres_assumed", isinstance(thing, nx.Graph))
+    assumed = getattr(drawable, "centres_assumed", isinstance(drawable, nx.Graph))
     return "chain" if assumed else "graph"
 
 
-def _unfit(kind: str, expected: str, thing: object) -> UnsolvableError:
-    return UnsolvableError(f"a picture of the kind {kind} requires {expected}, got {repr(thing).strip('<>')}")
+def _unfit(kind: str, expected: str, drawable: object) -> UnsolvableError:
+    return UnsolvableError(f"a picture of the kind {kind} requires {expected}, got {repr(drawable).strip('<>')}")
 
 
-def _sheet(thing: object, kind: str) -> Sheet | SheetConfiguration:
-    if not isinstance(thing, Sheet | SheetConfiguration):
-        raise _unfit(kind, "a crease pattern or a folded sheet", thing)
-    return thing
+def _sheet(drawable: object, kind: str) -> Sheet | SheetConfiguration:
+    if not isinstance(drawable, Sheet | SheetConfiguration):
+        raise _unfit(kind, "a crease pattern or a folded sheet", drawable)
+    return drawable
 
 
-def _pattern(thing: Any, look: PictureOptions) -> Scene:
-    return crease_scene(
-        _sheet(thing, "pattern"),
-        colour=look.colour,
-        branch=look.branch,
-        numbers=look.numbers,
-        graph=look.graph,
-        box=look.box,
-        caption=look.caption,
-    )
+def _marks(drawable: object, options: PictureOptions) -> Scene:
+    sheet = _sheet(drawable, "marks")
+    return crease_scene(sheet, replace(options, branch=None), overlay=overlay_of_marks(sheet, options.branch))
 
 
-def _marks(thing: Any, look: PictureOptions) -> Scene:
-    sheet = _sheet(thing, "marks")
-    overlay = overlay_of_marks(sheet, look.branch)
-    return crease_scene(sheet, numbers=look.numbers, box=look.box, caption=look.caption, overlay=overlay)
-
-
-def _repairs(thing: Any, look: PictureOptions) -> Scene:
-    sheet = _sheet(thing, "repairs")
+def _repairs(drawable: object, options: PictureOptions) -> Scene:
+    sheet = _sheet(drawable, "repairs")
     overlay = overlay_of_repairs(sheet.drawn if isinstance(sheet, SheetConfiguration) else sheet)
-    return crease_scene(sheet, numbers=False, box=look.box, caption=look.caption, overlay=overlay)
+    return crease_scene(sheet, replace(options, numbers=False), overlay=overlay)
 
 
-def _folded(thing: Any, look: PictureOptions) -> Scene:
-    return folded_scene(_sheet(thing, "folded"), numbers=look.numbers, box=look.box, caption=look.caption)
+def _graph_of(drawable: Any) -> Any:
+    if isinstance(drawable, SurfaceLinkage | OrderOnCircle):
+        return drawable.chain
+    return to_sc(drawable) if isinstance(drawable, Sheet) else graph_of(drawable)
 
 
-def _chain(thing: Any, look: PictureOptions) -> Scene:
-    how = ChainLook(look.numbers, look.numbers)
-    if min(look.box) < _SMALL:
-        how = ChainLook(look.numbers, False, size=5.0, dot=1.6)
-    return chain_scene(_graph_of(thing), look=how, box=look.box, caption=look.caption)
+def _solids(drawable: object, options: PictureOptions) -> Scene:
+    solids = to_solids(drawable) if isinstance(drawable, JointedLinkage) else drawable
+    if not isinstance(solids, HingedSolids):
+        raise _unfit("solids", "solids hinged at edges", solids)
+    return solids_scene(solids, options)
 
 
-def _sc_graph(thing: Any, look: PictureOptions) -> Scene:
-    graph = thing if isinstance(thing, SCDGraph) else _graph_of(thing)
-    return sc_scene(graph, box=look.box, caption=look.caption)
-
-
-def _graph_of(thing: Any) -> Any:
-    if isinstance(thing, SurfaceLinkage | OrderOnCircle):
-        return thing.chain
-    return to_sc(thing) if isinstance(thing, Sheet) else graph_of(thing)
-
-
-def _model(thing: Any, look: PictureOptions) -> Scene:
-    model = thing if isinstance(thing, PolyhedronModel) else to_polyhedron(thing)
-    return model_scene(model, box=look.box, caption=look.caption)
-
-
-def _solids(thing: Any, look: PictureOptions) -> Scene:
-    if isinstance(thing, JointedLinkage):
-        thing = to_solids(thing)
-    if not isinstance(thing, HingedSolids):
-        raise _unfit("solids", "solids hinged at edges", thing)
-    return solids_scene(thing, numbers=look.numbers, box=look.box, caption=look.caption)
-
-
-def _surface(kind: str, thing: Any, look: PictureOptions) -> Scene:
+def _surface(kind: str, drawable: object, options: PictureOptions) -> Scene:
     """Return a linkage on the first of its cones or cylinders."""
-    if not isinstance(thing, SurfaceLinkage) or thing.kind != kind:
-        raise _unfit(kind, f"a linkage defined by links or angles round a {kind}", thing)
-    if min(look.box) < _SMALL:
+    if not isinstance(drawable, SurfaceLinkage) or drawable.kind != kind:
+        raise _unfit(kind, f"a linkage defined by links or angles round a {kind}", drawable)
+    if min(options.box) < _SMALL:
         raise UnsolvableError(f"a linkage on its {kind} is too large for a catalogue; try its chain (--as chain)")
     from synth.conformed.linkages import linkage_on_surfaces
     from synth.conformed.rates import ConformedChain
     from synth.drawing.conformed import draw_conformed
 
-    linkages = linkage_on_surfaces(thing)
+    linkages = linkage_on_surfaces(drawable)
     if not linkages or linkages[0].surface is None:
         raise UnsolvableError(f"the linkage closes on no {kind}, or on any; try its chain (--as chain)")
-    chain = ConformedChain.of(thing.chain, thing.chain.ground)
-    title = look.caption or f"first of {numbered(len(linkages), kind)}"
+    chain = ConformedChain.of(drawable.chain, drawable.chain.ground)
+    title = options.caption or f"first of {numbered(len(linkages), kind)}"
     return draw_conformed(chain, linkages[0].places, linkages[0].surface, title)
 
 
-def _circle(thing: Any, look: PictureOptions) -> Scene:
-    if isinstance(thing, SurfaceLinkage) and thing.steps is not None:
-        thing = order_of_linkage(thing)
-    if not isinstance(thing, OrderOnCircle):
-        raise _unfit("circle", "joints in their order round a cone", thing)
-    return order_scene(thing, numbers=look.numbers, box=look.box, caption=look.caption)
+def _circle(drawable: object, options: PictureOptions) -> Scene:
+    if isinstance(drawable, SurfaceLinkage) and drawable.steps is not None:
+        drawable = order_of_linkage(drawable)
+    if not isinstance(drawable, OrderOnCircle):
+        raise _unfit("circle", "joints in their order round a cone", drawable)
+    return order_scene(drawable, options)
 
 
-def _sphere(thing: Any, look: PictureOptions) -> Scene:
-    if not isinstance(thing, Orientations):
-        raise _unfit("sphere", "orientations of a body", thing)
+def _sphere(drawable: object, options: PictureOptions) -> Scene:
+    if not isinstance(drawable, Orientations):
+        raise _unfit("sphere", "orientations of a body", drawable)
     from synth.drawing.sphere import draw_map
 
-    return draw_map(thing)
+    return draw_map(drawable)
 
 
 KINDS: Mapping[str, Callable[[Any, PictureOptions], Scene]] = MappingProxyType(
     {
-        "pattern": _pattern,
+        "pattern": lambda drawable, options: crease_scene(_sheet(drawable, "pattern"), options),
         "marks": _marks,
         "repairs": _repairs,
-        "folded": _folded,
-        "chain": _chain,
-        "graph": _sc_graph,
-        "model": _model,
+        "folded": lambda drawable, options: folded_scene(_sheet(drawable, "folded"), options),
+        "chain": lambda drawable, options: chain_scene(_graph_of(drawable), options),
+        "graph": lambda drawable, options: sc_scene(_graph_of(drawable), options),
+        "model": lambda drawable, options: model_scene(to_polyhedron(drawable), options),
         "solids": _solids,
         "cone": partial(_surface, "cone"),
         "cylinder": partial(_surface, "cylinder"),

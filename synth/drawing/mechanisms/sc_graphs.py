@@ -13,7 +13,7 @@ from itertools import pairwise
 from math import atan2, cos, hypot, inf, pi, sin
 from typing import TypeAlias
 
-import numpy as np
+from scipy.spatial.distance import pdist
 
 from graphs.errors import UnsolvableError, numbered
 from graphs.identity.drawings import drawing_of
@@ -25,7 +25,7 @@ from graphs.reduce.ride_alongs import Reduction, reduce
 from graphs.types import JointId, LinkId
 from synth.drawing.layout.mechanisms import Layout, layout_of
 from synth.drawing.mechanisms.labelling import SIGN, Obstacles, beside, centre_sign, placed
-from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of
+from synth.drawing.scene.frame import PLAIN, Frame, PictureOptions, captions_of, framed, page_of
 from synth.drawing.scene.shapes import (
     NORMAL,
     SMALL,
@@ -35,11 +35,11 @@ from synth.drawing.scene.shapes import (
     Layer,
     Line,
     Point,
-    Scene,
     Shape,
     colour_of_class,
     text_width,
 )
+from synth.drawing.scene.writing import Scene
 
 __all__ = ["class_numbers", "sc_scene"]
 
@@ -56,21 +56,19 @@ _Sign: TypeAlias = tuple[Point, int, list[Shape]]
 """Place, number and shapes of the sign of a centre class."""
 
 
-def sc_scene(sc: SCGraph, *, box: Box = BOX, caption: str | None = "") -> Scene:
-    """Return a picture of an SC or SCD graph, at most as large as the box (width, height), in points.
-
-    An SCD graph is drawn by its rotations, with its open edges; the outer face is outside. The caption comes
-    before the lines that describe the picture; with None there are none.
-    """
+def sc_scene(sc: SCGraph, options: PictureOptions = PLAIN) -> Scene:
+    """Return a picture of an SC or SCD graph, the latter by its rotations, with its open edges."""
     rotation, outer = _kept_drawing(sc)
     layout = layout_of(sc.nodes, sc.joints, as_bodies=False, rotation=rotation, outer=outer)
     places = [*layout.links.values(), *layout.joints.values()]
-    frame = framed(places, _UNIT, box, margin=_STUB + 2 * _LINK)
+    frame = framed(places, _UNIT, options.box, margin=_STUB + 2 * _LINK)
     numbers = class_numbers(sc)
     ways = {joint: frame.row(row) for joint, row in layout.ways.items()}
     drawn = {joint: _bent(row) for joint, row in ways.items()}
     links = {link: frame.at(place) for link, place in layout.links.items()}
-    radius = min(_LINK, 0.042 * min(box), 0.24 * frame.scale, 0.42 * _least_distance(list(links.values())))
+    radius = min(
+        _LINK, 0.042 * min(options.box), 0.24 * frame.scale, 0.42 * pdist(list(links.values())).min(initial=inf)
+    )
     signs, loose = _signs(sc, layout, frame, numbers)
     stubs = _stubs(sc, ways, links, radius) if isinstance(sc, SCDGraph) else []
     labels = _labels(ways, links, radius, signs, numbers)
@@ -87,7 +85,7 @@ def sc_scene(sc: SCGraph, *, box: Box = BOX, caption: str | None = "") -> Scene:
     if reduction.steps:
         count = numbered(len(reduction.steps), "ride-along")
         said.append(f"{count} (yellow band); without, {len(reduction.graph)} links stay")
-    return page_of(frame, layers, captions_of(caption, *said))
+    return page_of(frame, layers, captions_of(options.caption, *said))
 
 
 def class_numbers(sc: SCGraph) -> dict[int, int]:
@@ -104,16 +102,6 @@ def _kept_drawing(sc: SCGraph) -> tuple[dict[LinkId, tuple[JointId, ...]] | None
     bare = {name: tuple(side for side in sides if side is not None) for name, sides in rotation.items()}
     faces, left_of = trace_faces(sc.joints, bare)
     return bare, faces[left_of[joint, link]].joints
-
-
-def _least_distance(places: Sequence[Point]) -> float:
-    """Return the least distance of two places; infinite for one place."""
-    if len(places) < 2:
-        return inf
-    points = np.asarray(places)
-    apart = np.sqrt(((points[:, None] - points[None]) ** 2).sum(axis=-1))
-    np.fill_diagonal(apart, inf)
-    return float(apart.min())
 
 
 def _signs(

@@ -19,8 +19,9 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.types import Floats, LinkId
 from synth.drawing.layout.mechanisms import layout_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
-from synth.drawing.scene.frame import BOX, Box, Frame, captions_of, framed, page_of
-from synth.drawing.scene.shapes import NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Point, Scene, Shape
+from synth.drawing.scene.frame import PLAIN, Box, Frame, PictureOptions, captions_of, framed, page_of
+from synth.drawing.scene.shapes import NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Point, Shape
+from synth.drawing.scene.writing import Scene
 from synth.drawing.space.panels import SpatialPanels, View, bodies_of, panel_shapes, panels_of, view_from_above
 from synth.folding.configuration import SheetConfiguration
 from synth.moving.made import configuration_of
@@ -31,43 +32,41 @@ _MANY = 60
 """Number of visible panels above which links are not numbered."""
 
 
-def folded_scene(
-    sheet: Sheet | SheetConfiguration, *, numbers: bool = True, box: Box = BOX, caption: str | None = ""
-) -> Scene:
+def folded_scene(sheet: Sheet | SheetConfiguration, options: PictureOptions = PLAIN) -> Scene:
     """Return a picture of a folded sheet: panels shaded, creases in the colours of their letters.
 
-    `numbers`: write the numbers of links on panels that are not covered. Box and caption are as in `order_scene`.
-    Raise UnsolvableError if the sheet has no coordinates.
+    Numbers are those of links, on panels that are not covered. Raise UnsolvableError if the sheet has no
+    coordinates.
     """
     coordinates = (sheet.drawn if isinstance(sheet, SheetConfiguration) else sheet).coordinates
     if coordinates is None:
         raise UnsolvableError("a picture in space requires a sheet with coordinates; try `synth realise`")
     points, panels = in_space(coordinates), panels_of(sheet)
-    frame, view, page = _seen_from_above(points, box)
+    frame, view, page = _seen_from_above(points, options.box)
     shapes, visible = panel_shapes(panels, points, view, page)
-    labels = _numbers(visible, panels.link_of) if numbers and len(visible) <= _MANY else []
+    labels = _numbers(visible, panels.link_of) if options.numbers and len(visible) <= _MANY else []
     counts = (len(set(panels.link_of.values())), "link"), (len(set(panels.joint_of.values())), "joint")
     said = ", ".join(numbered(number, word) for number, word in counts) + "; in space, seen from above"
     layers = [Layer("panels", tuple(shapes)), Layer("labels", tuple(labels))]
-    return page_of(frame, layers, captions_of(caption, said))
+    return page_of(frame, layers, captions_of(options.caption, said))
 
 
-def solids_scene(solids: HingedSolids, *, numbers: bool = True, box: Box = BOX, caption: str | None = "") -> Scene:
+def solids_scene(solids: HingedSolids, options: PictureOptions = PLAIN) -> Scene:
     """Return a picture of solids hinged at edges: each the hull of its hinges, these orange.
 
-    `numbers` are those of links, on their visible parts, and of joints, beside their hinges. Box and caption are
-    as in `order_scene`. Raise InvariantError if the axes of a loop do not meet in its centre.
+    Numbers are those of links, on their visible parts, and of joints, beside their hinges. Raise InvariantError if
+    the axes of a loop do not meet in its centre.
     """
     panels, points = bodies_of(configuration_of(solids).linkage)
-    frame, view, page = _seen_from_above(points, box)
+    frame, view, page = _seen_from_above(points, options.box)
     shapes, visible = panel_shapes(panels, points, view, page)
-    labels = _numbers(visible, panels.link_of) if numbers else []
-    if numbers:
+    labels = _numbers(visible, panels.link_of) if options.numbers else []
+    if options.numbers:
         labels += _numbers_of_hinges(panels, page, visible, labels)
     counts = (len(solids.chain), "link"), (len(solids.chain.joints), "joint")
     said = ", ".join(numbered(number, word) for number, word in counts) + "; in space, hinges orange"
     layers = [Layer("solids", tuple(shapes)), Layer("labels", tuple(labels))]
-    return page_of(frame, layers, captions_of(caption, said))
+    return page_of(frame, layers, captions_of(options.caption, said))
 
 
 def _seen_from_above(points: Floats, box: Box) -> tuple[Frame, View, list[Point]]:
@@ -129,11 +128,10 @@ def _numbers(visible: Mapping[int, list[Point]], link_of: Mapping[int, LinkId]) 
     return placed(wishes, Obstacles([], []))
 
 
-def model_scene(model: PolyhedronModel, *, box: Box = BOX, caption: str | None = "") -> Scene:
+def model_scene(model: PolyhedronModel, options: PictureOptions = PLAIN) -> Scene:
     """Return a picture of a polyhedron model: vertices, rods, remote centres and what else it has, in words.
 
-    With coordinates it is seen from a little above; without, it is drawn as a graph. Box and caption are as in
-    `order_scene`.
+    With coordinates it is seen from a little above; without, it is drawn as a graph.
     """
     vertices = list(model.nodes)
     scissors = [(four[i], four[(i + 1) % 4]) for four in model.scissors for i in range(4)]
@@ -142,11 +140,11 @@ def model_scene(model: PolyhedronModel, *, box: Box = BOX, caption: str | None =
         points = np.array([model.coordinates[v] for v in vertices])
         seen = view_from_above(points).places(points)
         places = dict(zip(vertices, seen.tolist(), strict=True))
-        unit = 0.7 * min(box) / (float(np.ptp(seen, axis=0).max()) or 1.0)
+        unit = 0.7 * min(options.box) / (float(np.ptp(seen, axis=0).max()) or 1.0)
     else:
         layout = layout_of(vertices, dict(enumerate(pairs)), as_bodies=False)
         places, unit = {vertex: list(place) for vertex, place in layout.links.items()}, 52.0
-    frame = framed(places.values(), unit, box)
+    frame = framed(places.values(), unit, options.box)
     page = {vertex: frame.at(place) for vertex, place in places.items()}
     ground = model.ground or frozenset()
     rods: list[Shape] = []
@@ -159,7 +157,7 @@ def model_scene(model: PolyhedronModel, *, box: Box = BOX, caption: str | None =
     wishes = [(Label((0, 0), str(v), SMALL, widest=10), beside(page[v], 8)) for v in vertices]
     labels = placed(wishes, Obstacles([(*page[v], 3.4) for v in vertices], lines if len(lines) < 200 else []))
     layers = [Layer("rods", tuple(rods)), Layer("vertices", tuple(dots)), Layer("labels", tuple(labels))]
-    return page_of(frame, layers, captions_of(caption, *_terms(model)))
+    return page_of(frame, layers, captions_of(options.caption, *_terms(model)))
 
 
 def _terms(model: PolyhedronModel) -> list[str]:

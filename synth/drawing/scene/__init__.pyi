@@ -4,6 +4,5 @@ from synth.drawing.scene.shapes import (
     Layer as Layer,
     Line as Line,
     Polygon as Polygon,
-    Scene as Scene,
 )
-from synth.drawing.scene.writing import save_scene as save_scene, svg_text as svg_text
+from synth.drawing.scene.writing import Scene as Scene, svg_text as svg_text

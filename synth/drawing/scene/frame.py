@@ -10,21 +10,23 @@ from typing import TypeAlias
 
 from graphs.printing import plain
 from graphs.types import Floats
-from synth.drawing.scene.shapes import (
-    FINE,
-    NORMAL,
-    SMALL,
-    Label,
-    Layer,
-    Line,
-    Point,
-    Scene,
-    Shape,
-    moved,
-    text_width,
-)
+from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, Label, Layer, Line, Point, Shape, moved, text_width
+from synth.drawing.scene.writing import Scene
 
-__all__ = ["BOX", "COLUMN", "Box", "Frame", "Plot", "captions_of", "framed", "page_of", "round_steps", "signed"]
+__all__ = [
+    "BOX",
+    "COLUMN",
+    "PLAIN",
+    "Box",
+    "Frame",
+    "PictureOptions",
+    "Plot",
+    "captions_of",
+    "framed",
+    "page_of",
+    "round_steps",
+    "signed",
+]
 
 COLUMN = 340.0
 """The width of a picture at most, points: it fits a page with margins, and a half of it is a column."""
@@ -37,6 +39,27 @@ _LETTERS, _LONGEST = 84, 336
 """Letters of a line below a picture, which is as wide as a picture at most; letters of a text of several lines."""
 _TICK = 3.0
 _STEPS = (1.0, 2.0, 5.0, 10.0)
+
+
+@dataclass(frozen=True, slots=True)
+class PictureOptions:
+    """Options of a picture, which is at most as large as `box`, (width, height) in points.
+
+    `colour` is a colouring of a crease pattern; `branch` goes with ``colour="branch"``: its number or its signs,
+    or None for the one nearest to the assignment. `numbers` are those of links and joints; `graph` puts the SC
+    graph over a crease pattern. `caption` comes before the lines that describe the picture; with None there are
+    none.
+    """
+
+    colour: str = "letters"
+    branch: int | str | None = None
+    numbers: bool = True
+    graph: bool = False
+    box: Box = BOX
+    caption: str | None = ""
+
+
+PLAIN = PictureOptions()
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,9 +91,6 @@ def framed(places: Iterable[Sequence[float]], unit: float, box: Box = BOX, margi
     """Return a frame round places for a box, (width, height), and a margin on each side, all in points.
 
     A unit of the layout is `unit` points long, if there is room.
-
-    >>> framed([(0, 0), (2, 1)], 30, margin=10).at((0, 1))
-    (10, 10)
     """
     rows = list(places) or [(0.0, 0.0)]
     left, right = min(p[0] for p in rows), max(p[0] for p in rows)
@@ -150,11 +170,7 @@ class Plot:
 
 
 def round_steps(low: float, high: float, most: int = 7) -> list[float]:
-    """Return at most so many round numbers from low to high (not equal), equally far from each other.
-
-    >>> round_steps(0, 30.2), round_steps(2.51, 3.74)
-    ([0.0, 5.0, 10.0, 15.0, 20.0, 25.0, 30.0], [2.6, 2.8, 3.0, 3.2, 3.4, 3.6])
-    """
+    """Return at most so many round numbers from low to high (not equal), equally far from each other."""
     rough = (high - low) / most
     size = 10.0 ** floor(log10(rough))
     step = next(size * factor for factor in _STEPS if size * factor >= rough * (1 - 1e-9))

@@ -1,4 +1,4 @@
-"""Scenes: shapes in layers, in typographic points, y downwards from the upper left corner; colours by name.
+"""Shapes in layers, in typographic points, y downwards from the upper left corner; colours by name.
 
 The palette has colours for light and for dark paper, for all kinds of sight: the eight colours of classes are
 those of Okabe and Ito, but for yellow, which is too light on paper; on dark paper the darker ones are lightened.
@@ -7,10 +7,9 @@ Whatever a colour shows is shown by a dash, a sign or a number too.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import cos, pi, sin
-from types import MappingProxyType
 from typing import TypeAlias
 
 from graphs.errors import InvariantError, shown
@@ -28,13 +27,13 @@ __all__ = [
     "Line",
     "Point",
     "Polygon",
-    "Scene",
     "Shape",
     "arc_points",
     "colour_of",
     "colour_of_class",
     "moved",
     "put",
+    "scaled",
     "text_width",
 ]
 
@@ -73,23 +72,21 @@ _COLOURS = {
     "class7": ("#6a3d9a", "#b08ee0"),
 }
 """Name of a colour to its value on light and on dark paper."""
-_PAPERS: Mapping[str, Mapping[str, str]] = MappingProxyType(
-    {
-        paper: {name: values[place] for name, values in _COLOURS.items()}
-        for place, paper in enumerate(("light", "dark"))
-    }
-)
-"""Name of a paper to its colours."""
+_PAPERS = ("light", "dark")
 
 
 def colour_of(name: str, paper: str) -> str:
-    """Return a colour as ``#rrggbb``; raise InvariantError if the colour or the paper is unknown."""
+    """Return a colour as ``#rrggbb``; raise InvariantError if the colour or the paper is unknown.
+
+    A colour that is ``#rrggbb`` already is the same on both papers.
+    """
     if paper not in _PAPERS:
         raise InvariantError("paper", f"unknown paper {shown(paper)}", " or ".join(_PAPERS))
-    colours = _PAPERS[paper]
-    if name not in colours:
-        raise InvariantError("colour", f"unknown colour {shown(name)}", ", ".join(colours))
-    return colours[name]
+    if name.startswith("#"):
+        return name
+    if name not in _COLOURS:
+        raise InvariantError("colour", f"unknown colour {shown(name)}", ", ".join(_COLOURS))
+    return _COLOURS[name][_PAPERS.index(paper)]
 
 
 def colour_of_class(number: int) -> str:
@@ -189,43 +186,6 @@ class Layer:
     shapes: tuple[Shape, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Scene:
-    """A picture before it is written.
-
-    Attributes
-    ----------
-    width, height : float
-        Points, 72 to an inch.
-    layers : tuple of Layer
-        From below to above.
-    title : str
-        Description for those who cannot see the picture; it is not drawn.
-
-    Examples
-    --------
-    >>> Scene(100, 50, (Layer("links", (Disc((50, 25), 4),)),)).layers[0].name
-    'links'
-    """
-
-    width: float
-    height: float
-    layers: tuple[Layer, ...]
-    title: str = ""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "title", plain(self.title, 400))
-
-    def shapes(self) -> Iterator[Shape]:
-        """Yield the shapes of all layers, from below to above."""
-        for layer in self.layers:
-            yield from layer.shapes
-
-    def labels(self) -> list[Label]:
-        """Return the labels of all layers."""
-        return [shape for shape in self.shapes() if isinstance(shape, Label)]
-
-
 def text_width(text: str, size: float) -> float:
     """Return the largest width of text, in points: fonts differ, and the widest in use counts."""
     return size * sum(_LETTER if ord(letter) < 0x2000 else _WIDE_LETTER for letter in text)
@@ -257,3 +217,20 @@ def put(layer: Layer, there: Callable[[Point], Point]) -> Layer:
         return replace(shape, points=[there(point) for point in shape.points])
 
     return Layer(layer.name, tuple(map(shape_there, layer.shapes)))
+
+
+def scaled(layer: Layer, factor: float) -> Layer:
+    """Return a layer in which places, widths of lines, dashes, discs and letters are larger by a factor."""
+
+    def larger(shape: Shape) -> Shape:
+        if isinstance(shape, Label):
+            return replace(shape, size=factor * shape.size)
+        if isinstance(shape, Disc):
+            return replace(shape, radius=factor * shape.radius, width=factor * shape.width)
+        if isinstance(shape, Line):
+            dash = tuple(factor * part for part in shape.dash)
+            return replace(shape, width=factor * shape.width, dash=dash)
+        return replace(shape, width=factor * shape.width)
+
+    placed = put(layer, lambda place: (factor * place[0], factor * place[1]))
+    return Layer(layer.name, tuple(map(larger, placed.shapes)))

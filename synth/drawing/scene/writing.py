@@ -1,55 +1,128 @@
-"""Scenes written as SVG, PNG or PDF: equal scenes give equal files, whole or not at all.
+"""Scenes: pictures in layers, and their writers for SVG, PNG and PDF.
 
-SVG is plain text with nothing in it that runs or loads. Each layer is a group with its name as class; shapes
-carry ``data-joint`` and ``data-link``. Numbers have two decimals: a hundredth of a point is less than any printer
-shows. Raster images are drawn by the renderer of matplotlib, without its figures: these look after ticks, layouts
-and events, and would take ten times as long. PDF is written by reportlab, page by page.
+Equal scenes give equal files, whole or not at all. SVG is plain text with nothing in it that runs or loads. Each
+layer is a group with its name as class; shapes carry ``data-joint`` and ``data-link``. Numbers have two decimals:
+a hundredth of a point is less than any printer shows. Raster images are drawn by the renderer of matplotlib,
+without its figures: these look after ticks, layouts and events, and would take ten times as long. PDF is written
+by reportlab, page by page.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
-from functools import lru_cache, singledispatchmethod
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from io import BytesIO
 from math import ceil
 from pathlib import Path
-from typing import IO, Any
+from typing import Any, Literal, NamedTuple
 from xml.sax.saxutils import escape, quoteattr
 from zlib import compress
 
 import numpy as np
 import numpy.typing as npt
 
-from graphs.errors import FileError, InvariantError, UnsolvableError, shown
-from graphs.files.atomic import Beside, check_place
+from graphs.errors import InvariantError, shown
+from graphs.files.outputs import Format, formats_by_suffix, write_as
 from graphs.printing import LONGEST_CELL, plain
-from synth.drawing.scene.shapes import Disc, Label, Line, Point, Polygon, Scene, Shape, colour_of
+from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Shape, colour_of, scaled
 
-__all__ = [
-    "PdfPainter",
-    "check_matplotlib",
-    "check_picture",
-    "pixels",
-    "save_scene",
-    "svg_group",
-    "svg_text",
-    "whole_file",
-    "write_pdf",
-]
+__all__ = ["PICTURES", "Pages", "Scene", "pdf_bytes", "pixels", "svg_text"]
 
 _FONT = "Helvetica, Arial, 'DejaVu Sans', sans-serif"
-_KINDS = (".png", ".svg", ".pdf")
 _BASELINE = 0.35
 """From the middle of letters down to the line they stand on, in SVG and PDF, in units of their size."""
 _HALO = 0.3
 """Width of the rim of letters, in units of their size."""
 _INCH = 72
+_MILLIMETRE = 72 / 25.4
+"""Points."""
+_DECIMALS = {"pt": 2, "mm": 6}
 _DOTS = 200.0
 _PACKED = 3
 """Compression level of PNG, of nine: files a tenth larger in a third of the time."""
 _MIDDLE = 0.36
 """Height of the middle of figures and capitals of matplotlib, in units of the size of letters."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """A picture before it is written.
+
+    Attributes
+    ----------
+    width, height : float
+        Points, 72 to an inch, or millimetres.
+    layers : tuple of Layer
+        From below to above.
+    title : str
+        Description for those who cannot see the picture; it is not drawn.
+    unit : {"pt", "mm"}
+        Of all lengths. A scene in millimetres is for printers and machines: no paper is painted below it, and in
+        SVG its layers are layers of drawing programs, with six decimals.
+
+    Examples
+    --------
+    >>> Scene(100, 50, (Layer("links", (Disc((50, 25), 4),)),)).layers[0].name
+    'links'
+    """
+
+    width: float
+    height: float
+    layers: tuple[Layer, ...]
+    title: str = ""
+    unit: Literal["pt", "mm"] = "pt"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "title", plain(self.title, 400))
+
+    def shapes(self) -> Iterator[Shape]:
+        """Yield the shapes of all layers, from below to above."""
+        for layer in self.layers:
+            yield from layer.shapes
+
+    def labels(self) -> list[Label]:
+        """Return the labels of all layers."""
+        return [shape for shape in self.shapes() if isinstance(shape, Label)]
+
+    def save(self, path: str | Path, *, paper: str = "light", force: bool = False) -> None:
+        """Write the picture in the format of the extension; equal pictures give equal files.
+
+        Parameters
+        ----------
+        path : str or Path
+            Ends in .png, .svg or .pdf.
+        paper : {"light", "dark"}, optional
+        force : bool, optional
+            Overwrite an existing file.
+
+        Raises
+        ------
+        FileError
+            If the extension is another, or the file exists already or cannot be written.
+        UnsolvableError
+            If the library that writes PNG (matplotlib) or PDF (reportlab) is not installed.
+
+        Examples
+        --------
+        >>> from tempfile import TemporaryDirectory
+        >>> import synth
+        >>> with TemporaryDirectory() as folder:
+        ...     synth.draw(synth.read("k1:Cr")).save(f"{folder}/four-bar.svg")
+        ...     print(Path(folder, "four-bar.svg").read_text()[:4])
+        <svg
+        """
+        write_as(Pages([self], paper), path, PICTURES, force=force)
+
+
+def in_points(scene: Scene) -> Scene:
+    """Return a scene with all lengths in points."""
+    if scene.unit == "pt":
+        return scene
+    layers = tuple(scaled(layer, _MILLIMETRE) for layer in scene.layers)
+    return replace(
+        scene, width=_MILLIMETRE * scene.width, height=_MILLIMETRE * scene.height, layers=layers, unit="pt"
+    )
 
 
 def svg_text(scene: Scene, *, paper: str = "light") -> str:
@@ -67,74 +140,89 @@ def svg_text(scene: Scene, *, paper: str = "light") -> str:
 
     Examples
     --------
-    >>> from synth.drawing.scene.shapes import Layer
     >>> text = svg_text(Scene(9, 9, (Layer("a", (Label((4, 4), "<script>"),)),), title="x"))
     >>> "&lt;script&gt;" in text, "<script" in text
     (True, False)
     """
-    wide, high = _number(scene.width), _number(scene.height)
-    head = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide}pt" height="{high}pt" viewBox="0 0 {wide} {high}" '
-        f'role="img" font-family="{_FONT}" stroke-linejoin="round" stroke-linecap="round">'
-    )
-    sheet = f'<rect width="{wide}" height="{high}" fill="{colour_of("paper", paper)}"/>'
-    body = svg_group(scene, paper=paper)
-    return "\n".join([head, f"<title>{escape(scene.title)}</title>", sheet, body, "</svg>", ""])
-
-
-def svg_group(scene: Scene, *, paper: str = "light") -> str:
-    """Return the layers of a scene as SVG groups, without a document round them."""
-    writer = _SvgWriter(paper)
-    rows = []
+    writer = _SvgWriter(paper, _DECIMALS[scene.unit])
+    wide, high = writer.number(scene.width), writer.number(scene.height)
+    for_machines = scene.unit == "mm"
+    inkscape = ' xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"' if for_machines else ""
+    rows = [
+        f'<svg xmlns="http://www.w3.org/2000/svg"{inkscape} width="{wide}{scene.unit}" '
+        f'height="{high}{scene.unit}" viewBox="0 0 {wide} {high}" role="img" font-family="{_FONT}" '
+        'stroke-linejoin="round" stroke-linecap="round">',
+        f"<title>{escape(scene.title)}</title>",
+    ]
+    if not for_machines:
+        rows.append(f'<rect width="{wide}" height="{high}" fill="{colour_of("paper", paper)}"/>')
     for layer in scene.layers:
-        rows.append(f"<g class={quoteattr(plain(layer.name))}>")
-        rows += [writer.element(shape) for shape in layer.shapes]
-        rows.append("</g>")
-    return "\n".join(rows)
+        name = quoteattr(plain(layer.name))
+        look = f'id={name} inkscape:groupmode="layer" inkscape:label={name}' if for_machines else f"class={name}"
+        rows += [f"<g {look}>", *(_painted(writer, shape) for shape in layer.shapes), "</g>"]
+    return "\n".join([*rows, "</svg>", ""])
+
+
+def _painted(painter: _SvgWriter | _RasterPainter | _PdfPainter, shape: Shape) -> Any:
+    """Draw a shape by the method for its kind; in SVG return its element."""
+    match shape:
+        case Line():
+            return painter.line(shape)
+        case Polygon():
+            return painter.polygon(shape)
+        case Disc():
+            return painter.disc(shape)
+        case Label():
+            return painter.label(shape)
+    raise InvariantError("shape", f"{shown(shape)} is not a shape", "Line, Polygon, Disc or Label")
 
 
 class _SvgWriter:
-    """Shapes as elements, in the colours of a paper."""
+    """Shapes as elements, in the colours of a paper; numbers have at most so many decimals."""
 
-    def __init__(self, paper: str) -> None:
-        self._paper = paper
+    def __init__(self, paper: str, decimals: int) -> None:
+        self._paper, self._decimals = paper, decimals
 
-    @singledispatchmethod
-    def element(self, shape: Shape) -> str:
-        raise InvariantError("shape", f"{shown(shape)} is not a shape", "Line, Polygon, Disc or Label")
+    def number(self, value: float) -> str:
+        """Return a number without zeros that say nothing."""
+        if not abs(value) < 1e7:
+            raise InvariantError("picture", f"a coordinate is {shown(value)}", "a number of points below 1e7")
+        text = f"{value:.{self._decimals}f}".rstrip("0").rstrip(".")
+        if text in ("-0", ""):
+            return "0"
+        return text.replace("0.", ".", 1) if text.startswith(("0.", "-0.")) else text
 
-    @element.register
-    def _(self, shape: Line) -> str:
-        dash = f' stroke-dasharray="{" ".join(map(_number, shape.dash))}"' if shape.dash else ""
+    def line(self, shape: Line) -> str:
+        dash = f' stroke-dasharray="{" ".join(map(self.number, shape.dash))}"' if shape.dash else ""
         pen = self._pen(shape.colour, shape.width)
-        return f'<path{_data(shape)} d="{_path_data(shape.points)}" fill="none"{pen}{dash}/>'
+        return f'<path{_data(shape)} d="{self._path_data(shape.points)}" fill="none"{pen}{dash}/>'
 
-    @element.register
-    def _(self, shape: Polygon) -> str:
+    def polygon(self, shape: Polygon) -> str:
         pen, fill = self._pen(shape.colour, shape.width), self._fill(shape.fill)
-        light = f' fill-opacity="{_number(shape.opacity)}"' if shape.opacity < 1 else ""
-        return f'<path{_data(shape)} d="{_path_data(shape.points)}Z"{fill}{light}{pen}/>'
+        light = f' fill-opacity="{self.number(shape.opacity)}"' if shape.opacity < 1 else ""
+        return f'<path{_data(shape)} d="{self._path_data(shape.points)}Z"{fill}{light}{pen}/>'
 
-    @element.register
-    def _(self, shape: Disc) -> str:
-        x, y = map(_number, shape.centre)
+    def disc(self, shape: Disc) -> str:
+        x, y = map(self.number, shape.centre)
         pen, fill = self._pen(shape.colour, shape.width), self._fill(shape.fill)
-        return f'<circle{_data(shape)} cx="{x}" cy="{y}" r="{_number(shape.radius)}"{fill}{pen}/>'
+        return f'<circle{_data(shape)} cx="{x}" cy="{y}" r="{self.number(shape.radius)}"{fill}{pen}/>'
 
-    @element.register
-    def _(self, shape: Label) -> str:
-        x, y = _number(shape.at[0]), _number(shape.at[1] + _BASELINE * shape.size)
-        look = f' font-size="{_number(shape.size)}" text-anchor="{shape.anchor}"' + self._fill(shape.colour)
+    def label(self, shape: Label) -> str:
+        x, y = self.number(shape.at[0]), self.number(shape.at[1] + _BASELINE * shape.size)
+        look = f' font-size="{self.number(shape.size)}" text-anchor="{shape.anchor}"' + self._fill(shape.colour)
         if shape.bold:
             look += ' font-weight="bold"'
         if shape.halo:
             look += self._pen("paper", _HALO * shape.size) + ' paint-order="stroke"'
         return f'<text{_data(shape)} x="{x}" y="{y}"{look}>{escape(shape.text)}</text>'
 
+    def _path_data(self, points: Sequence[Point]) -> str:
+        return "M" + "L".join(f"{self.number(x)} {self.number(y)}" for x, y in points)
+
     def _pen(self, colour: str | None, width: float) -> str:
         if colour is None:
             return ""
-        return f' stroke="{colour_of(colour, self._paper)}" stroke-width="{_number(width)}"'
+        return f' stroke="{colour_of(colour, self._paper)}" stroke-width="{self.number(width)}"'
 
     def _fill(self, colour: str | None) -> str:
         return ' fill="none"' if colour is None else f' fill="{colour_of(colour, self._paper)}"'
@@ -144,46 +232,19 @@ def _data(shape: Shape) -> str:
     return "".join(f" data-{key}={quoteattr(plain(value, LONGEST_CELL))}" for key, value in shape.data)
 
 
-def _path_data(points: Sequence[Point]) -> str:
-    return "M" + "L".join(f"{_number(x)} {_number(y)}" for x, y in points)
-
-
-def _number(value: float) -> str:
-    """Return a number with two decimals at most, without zeros that say nothing."""
-    if not abs(value) < 1e7:
-        raise InvariantError("picture", f"a coordinate is {shown(value)}", "a number of points below 1e7")
-    text = f"{value:.2f}".rstrip("0").rstrip(".")
-    if text in ("-0", ""):
-        return "0"
-    return text.replace("0.", ".", 1) if text.startswith(("0.", "-0.")) else text
-
-
-def check_matplotlib() -> None:
-    """Raise UnsolvableError if matplotlib is missing or has no folder to write to."""
-    try:
-        import matplotlib.font_manager as _  # noqa: F401
-    except ImportError:
-        raise UnsolvableError("pictures need matplotlib: pip install 'synthedra[draw]'") from None
-    except OSError:  # neither a home nor a temporary folder
-        raise UnsolvableError("matplotlib needs a folder to write to: name one in MPLCONFIGDIR") from None
-
-
 def pixels(scene: Scene, *, paper: str = "light", dots: float = _DOTS) -> npt.NDArray[np.uint8]:
-    """Return a scene as pixels: uint8[height, width, 3], red, green and blue; `dots` per inch.
-
-    Raise UnsolvableError if matplotlib is not installed.
-    """
-    check_matplotlib()
+    """Return a scene as pixels: uint8[height, width, 3], red, green and blue; `dots` per inch."""
     from matplotlib.backends.backend_agg import RendererAgg
 
+    scene = in_points(scene)
     unit = dots / _INCH
     wide, high = ceil(scene.width * unit), ceil(scene.height * unit)
     renderer = RendererAgg(wide, high, dots)  # type: ignore[no-untyped-call]
     painter = _RasterPainter(renderer, paper, unit, high)
     right, below = wide / unit, high / unit
-    painter.paint(Polygon([(0, 0), (right, 0), (right, below), (0, below)], "paper"))
+    painter.polygon(Polygon([(0, 0), (right, 0), (right, below), (0, below)], "paper"))
     for shape in scene.shapes():
-        painter.paint(shape)
+        _painted(painter, shape)
     return np.asarray(painter.renderer.buffer_rgba())[..., :3].copy()
 
 
@@ -197,19 +258,13 @@ class _RasterPainter:
         self._paper = paper
         self._on_page = Affine2D().scale(unit, -unit).translate(0, high)
 
-    @singledispatchmethod
-    def paint(self, shape: Shape) -> None:
-        raise InvariantError("shape", f"{shown(shape)} is not a shape", "Line, Polygon, Disc or Label")
-
-    @paint.register
-    def _(self, shape: Line) -> None:
+    def line(self, shape: Line) -> None:
         pen = self._pen(shape.colour, shape.width)
         if shape.dash:
             pen.set_dashes(0, list(shape.dash))
         self.renderer.draw_path(pen, _path(shape.points), self._on_page)
 
-    @paint.register
-    def _(self, shape: Polygon) -> None:
+    def polygon(self, shape: Polygon) -> None:
         path = _path([*shape.points, shape.points[0]], closed=True)
         if shape.fill is not None:  # apart, for the outline is never transparent
             pen = self._pen(None, 0)
@@ -218,8 +273,7 @@ class _RasterPainter:
         if shape.colour is not None:
             self.renderer.draw_path(self._pen(shape.colour, shape.width), path, self._on_page)
 
-    @paint.register
-    def _(self, shape: Disc) -> None:
+    def disc(self, shape: Disc) -> None:
         from matplotlib.path import Path
         from matplotlib.transforms import Affine2D
 
@@ -227,8 +281,7 @@ class _RasterPainter:
         inside = None if shape.fill is None else self._rgb(shape.fill)
         self.renderer.draw_path(self._pen(shape.colour, shape.width), Path.unit_circle(), place, inside)
 
-    @paint.register
-    def _(self, shape: Label) -> None:
+    def label(self, shape: Label) -> None:
         from matplotlib.transforms import Affine2D
 
         path, wide = _letters(shape.text, shape.bold)
@@ -282,29 +335,29 @@ def _letters(text: str, bold: bool) -> tuple[Any, float]:
     return path, float(wide) * scale
 
 
-def write_pdf(scenes: Iterable[Scene], stream: IO[bytes], *, paper: str = "light") -> None:
-    """Write scenes as the pages of a PDF file; a scene is released when its page is written.
+def pdf_bytes(scenes: Iterable[Scene], *, paper: str = "light") -> bytes:
+    """Return scenes as the pages of a PDF file; a scene is released when its page is written."""
+    from reportlab.pdfgen.canvas import Canvas
 
-    Raise UnsolvableError if reportlab is not installed.
-    """
-    try:
-        from reportlab.pdfgen.canvas import Canvas
-    except ImportError:
-        raise UnsolvableError("PDF needs reportlab: pip install 'synthedra[draw]'") from None
-    canvas = Canvas(stream, invariant=1)
+    canvas = Canvas(BytesIO(), invariant=1)
     for number, scene in enumerate(scenes):
+        page = in_points(scene)
         if number == 0:
             canvas.setTitle(scene.title)
-        canvas.setPageSize((scene.width, scene.height))
+            if scene.unit == "mm":
+                canvas.setViewerPreference("PrintScaling", "None")  # printers would shrink it to what they reach
+        canvas.setPageSize((page.width, page.height))
         canvas.setLineJoin(1)
         canvas.setLineCap(1)
-        canvas.setFillColor(colour_of("paper", paper))
-        canvas.rect(0, 0, scene.width, scene.height, stroke=0, fill=1)
-        painter = PdfPainter(canvas, paper, scene.height)
-        for shape in scene.shapes():
-            painter.paint(shape)
+        if scene.unit == "pt":
+            canvas.setFillColor(colour_of("paper", paper))
+            canvas.rect(0, 0, page.width, page.height, stroke=0, fill=1)
+        painter = _PdfPainter(canvas, paper, page.height)
+        for shape in page.shapes():
+            _painted(painter, shape)
         _finish_page(canvas)
-    canvas.save()
+    data: bytes = canvas.getpdfdata()
+    return data
 
 
 def _finish_page(canvas: Any) -> None:
@@ -320,29 +373,21 @@ def _finish_page(canvas: Any) -> None:
     page.stream = None
 
 
-class PdfPainter:
+class _PdfPainter:
     """Shapes on a page of a reportlab canvas, whose y goes upwards; the height is that of the scene, points."""
 
     def __init__(self, canvas: Any, paper: str, height: float) -> None:
         self._canvas, self._paper, self._height = canvas, paper, height
 
-    @singledispatchmethod
-    def paint(self, shape: Shape) -> None:
-        """Draw a shape."""
-        raise InvariantError("shape", f"{shown(shape)} is not a shape", "Line, Polygon, Disc or Label")
-
-    @paint.register
-    def _(self, shape: Line) -> None:
+    def line(self, shape: Line) -> None:
         self._canvas.setDash(list(shape.dash))
         self._draw(shape, closed=False, inside=None)
         self._canvas.setDash([])
 
-    @paint.register
-    def _(self, shape: Polygon) -> None:
+    def polygon(self, shape: Polygon) -> None:
         self._draw(shape, closed=True, inside=shape.fill, opacity=shape.opacity)
 
-    @paint.register
-    def _(self, shape: Disc) -> None:
+    def disc(self, shape: Disc) -> None:
         self._pens(shape.colour, shape.width, shape.fill)
         x, y = shape.centre
         self._canvas.circle(
@@ -353,8 +398,7 @@ class PdfPainter:
             fill=int(shape.fill is not None),
         )
 
-    @paint.register
-    def _(self, shape: Label) -> None:
+    def label(self, shape: Label) -> None:
         self._canvas.setFont(_font_of(shape), shape.size)
         place = self._canvas.drawCentredString if shape.anchor == "middle" else self._canvas.drawString
         x, y = shape.at[0], self._height - shape.at[1] - _BASELINE * shape.size
@@ -398,90 +442,31 @@ def _font_of(label: Label) -> str:
     return "Helvetica-Bold" if label.bold else "Helvetica"
 
 
-def check_picture(path: str | Path, *, force: bool = False) -> None:
-    """Refuse a place where no picture can be written, before one is computed.
+class Pages(NamedTuple):
+    """What a picture file holds: a scene, or in a PDF one for each page, in the colours of a paper."""
 
-    Parameters
-    ----------
-    path : str or Path
-    force : bool, optional
-        Whether an existing file may be overwritten.
-
-    Raises
-    ------
-    FileError
-        If the extension is unknown, or the file exists and must not be overwritten.
-    UnsolvableError
-        If it is a raster image, and matplotlib is not installed.
-
-    Examples
-    --------
-    >>> check_picture("a.bmp")
-    Traceback (most recent call last):
-    ...
-    graphs.errors.FileError: a.bmp: the extension is not known; expected .png, .svg, .pdf
-    """
-    place = Path(path)
-    kind = place.suffix.lower()
-    if kind not in _KINDS:
-        raise FileError(place, "", "the extension is not known", ", ".join(_KINDS))
-    check_place(place, force=force)
-    if kind == ".png":
-        check_matplotlib()
+    scenes: Iterable[Scene]
+    paper: str = "light"
 
 
-def save_scene(scene: Scene, path: str | Path, *, paper: str = "light", force: bool = False) -> None:
-    """Write a scene; equal scenes give equal files.
+def _png_bytes(pages: Pages) -> bytes:
+    from PIL import Image  # comes with matplotlib
 
-    Parameters
-    ----------
-    scene : Scene
-    path : str or Path
-        Ends in .svg, .png or .pdf.
-    paper : {"light", "dark"}, optional
-    force : bool, optional
-        Overwrite an existing file.
-
-    Raises
-    ------
-    FileError
-        If the extension is another, or the file exists already or cannot be written.
-    UnsolvableError
-        If the library that writes PNG (matplotlib) or PDF (reportlab) is not installed.
-
-    Examples
-    --------
-    >>> save_scene(Scene(9, 9, ()), "a.bmp")
-    Traceback (most recent call last):
-    ...
-    graphs.errors.FileError: a.bmp: the extension is not known; expected .png, .svg, .pdf
-    """
-    check_picture(path, force=force)
-    place = Path(path)
-    kind = place.suffix.lower()
-    if kind == ".pdf":
-        stream = BytesIO()
-        write_pdf([scene], stream, paper=paper)
-        data = stream.getvalue()
-    elif kind == ".png":
-        image = pixels(scene, paper=paper)
-        from PIL import Image  # comes with matplotlib
-
-        stream = BytesIO()
-        Image.fromarray(image).save(stream, "PNG", dpi=(_DOTS, _DOTS), compress_level=_PACKED)
-        data = stream.getvalue()
-    else:
-        data = svg_text(scene, paper=paper).encode("utf-8")
-    with whole_file(place, force=force) as beside:
-        beside.write(data)
+    (scene,) = pages.scenes
+    stream = BytesIO()
+    image = Image.fromarray(pixels(scene, paper=pages.paper))
+    image.save(stream, "PNG", dpi=(_DOTS, _DOTS), compress_level=_PACKED)
+    return stream.getvalue()
 
 
-@contextmanager
-def whole_file(place: Path, *, force: bool) -> Iterator[Beside]:
-    """Yield a file beside its place, which is moved there when all is written, and removed after an error."""
-    beside = Beside(place, force=force)
-    try:
-        yield beside
-        beside.commit()
-    finally:
-        beside.discard()
+def _svg_bytes(pages: Pages) -> bytes:
+    (scene,) = pages.scenes
+    return svg_text(scene, paper=pages.paper).encode("utf-8")
+
+
+PICTURES = formats_by_suffix(
+    Format(".png", "PNG", _png_bytes, needs="matplotlib.font_manager"),
+    Format(".svg", "SVG", _svg_bytes),
+    Format(".pdf", "PDF", lambda pages: pdf_bytes(pages.scenes, paper=pages.paper), needs="reportlab"),
+)
+"""Suffix to the format in which scenes are written."""

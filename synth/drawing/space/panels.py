@@ -199,9 +199,6 @@ def same_side_up(faces: Sequence[Sequence[int]]) -> list[tuple[int, ...]]:
 
     The first of each piece stays as it is. A strip that is twisted into itself has one side only: somewhere on it
     the colours change.
-
-    >>> same_side_up([(0, 1, 2), (0, 1, 3)])
-    [(0, 1, 2), (3, 1, 0)]
     """
     beside: dict[frozenset[int], list[int]] = {}
     for number, face in enumerate(faces):

@@ -9,12 +9,13 @@ from collections.abc import Iterator, Sequence
 from io import BytesIO
 from math import ceil
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
-from graphs.errors import FileError, UnsolvableError
-from graphs.files.atomic import check_place, write_text
+from graphs.errors import UnsolvableError
+from graphs.files.atomic import check_place
+from graphs.files.outputs import Format, check_writable, formats_by_suffix, listed, write_as
 from graphs.files.patterns.fold import fold_text_of_poses
 from graphs.files.patterns.obj import obj_text
 from graphs.joints.linkage import JointedLinkage
@@ -22,8 +23,8 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.types import Floats
 from synth.drawing.scene.frame import Frame, framed, page_of
-from synth.drawing.scene.shapes import SMALL, Label, Layer, Scene, moved
-from synth.drawing.scene.writing import check_matplotlib, pixels, save_scene, whole_file
+from synth.drawing.scene.shapes import SMALL, Label, Layer, moved
+from synth.drawing.scene.writing import PICTURES, Pages, Scene, pixels
 from synth.drawing.space.panels import (
     SpatialPanels,
     bodies_of,
@@ -36,7 +37,7 @@ from synth.drawing.space.panels import (
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.motion import Motion
 
-__all__ = ["check_output", "pose_scenes", "save_moving_poses", "strip_of_poses", "write_motion"]
+__all__ = ["MOTIONS", "check_motion_file", "pose_scenes", "save_moving_poses", "strip_of_poses", "write_motion"]
 
 _IN_STRIP, _IN_ROW = 12, 4
 """Poses of a strip, and in one row of it, at most."""
@@ -45,12 +46,10 @@ _SIZE, _MOVING = 120.0, 288.0
 _DOTS = 100
 _MILLISECONDS, _PAUSE = 80, 1000
 _COLOURS = 128
-_STRIPS = (".png", ".svg")
-_PIXELS = (".gif", ".png")
 
 
 def pose_scenes(
-    thing: Sheet | SpatialPanels, places: Floats, side: float = _MOVING, air: float = 8.0
+    panels: Sheet | SpatialPanels, places: Floats, side: float = _MOVING, air: float = 8.0
 ) -> Iterator[Scene]:
     """Yield a square picture of each pose, all from one place and at one scale.
 
@@ -58,7 +57,8 @@ def pose_scenes(
     square, `air` is left free on each side, in points.
     """
     view = view_of_motion(places[0])
-    panels = thing if isinstance(thing, SpatialPanels) else front_up(panels_of(thing), places[0], view)
+    if isinstance(panels, Sheet):
+        panels = front_up(panels_of(panels), places[0], view)
     frame = _square(view.places(places).reshape(-1, 2), side, air)
     for points in places:
         shapes, _ = panel_shapes(panels, points, view, frame.row(view.places(points).tolist()))
@@ -73,12 +73,12 @@ def _square(seen: Floats, side: float, air: float) -> Frame:
     return framed(corners, (side - 2 * air) / (2 * half), (2 * side, 2 * side), air)
 
 
-def strip_of_poses(thing: Sheet | SpatialPanels, places: Floats) -> Scene:
+def strip_of_poses(panels: Sheet | SpatialPanels, places: Floats) -> Scene:
     """Return a strip of poses: at most twelve, equally far from each other, numbered.
 
     Parameters
     ----------
-    thing : Sheet or SpatialPanels
+    panels : Sheet or SpatialPanels
     places : float[F, vertices, 3]
 
     Examples
@@ -92,37 +92,88 @@ def strip_of_poses(thing: Sheet | SpatialPanels, places: Floats) -> Scene:
     columns = min(len(chosen), _IN_ROW)
     layers: list[Layer] = []
     numbers: list[Label] = []
-    scenes = pose_scenes(thing, places[chosen], _SIZE)
+    scenes = pose_scenes(panels, places[chosen], _SIZE)
     for place, (number, scene) in enumerate(zip(chosen.tolist(), scenes, strict=True)):
         right, down = place % columns * _SIZE, place // columns * _SIZE
         layers += [moved(layer, right, down) for layer in scene.layers if layer.shapes]
         numbers.append(Label((right + SMALL, down + SMALL), str(number), SMALL, "grey"))
     frame = Frame(1.0, 0.0, 0.0, 0.0, 0.0, columns * _SIZE, ceil(len(chosen) / columns) * _SIZE)
-    solid = isinstance(thing, SpatialPanels) and thing.solid
+    solid = isinstance(panels, SpatialPanels) and panels.solid
     said = "frames by number, seen from one place; " + ("hinges orange" if solid else "front grey, back blue")
     return page_of(frame, [*layers, Layer("numbers", tuple(numbers))], [said])
 
 
+class Poses(NamedTuple):
+    """What a file of a motion holds: panels or solids, and float[F, vertices, 3], their vertices in each pose.
+
+    The sheets, one for each pose, are for FOLD and OBJ.
+    """
+
+    panels: Sheet | SpatialPanels
+    places: Floats
+    sheets: Sequence[Sheet] = ()
+
+
+def _gif_bytes(poses: Poses) -> bytes:
+    """Return a moving picture: there and back, again and again."""
+    from PIL import Image
+
+    frames = [pixels(scene, dots=_DOTS) for scene in pose_scenes(poses.panels, poses.places)]
+    forth = [Image.fromarray(frame).quantize(_COLOURS) for frame in frames]
+    images = [*forth, *forth[-2:0:-1]]
+    durations = [_MILLISECONDS] * len(images)
+    durations[0] = durations[len(forth) - 1] = _PAUSE
+    stream = BytesIO()
+    images[0].save(stream, "GIF", save_all=True, append_images=images[1:], duration=durations, loop=0)
+    return stream.getvalue()
+
+
+def _fold_bytes(poses: Poses) -> bytes:
+    assert isinstance(poses.panels, Sheet)
+    return fold_text_of_poses(poses.panels, poses.sheets).encode("utf-8")
+
+
+def _strip_as(picture: Format[Pages]) -> Format[Poses]:
+    def strip_bytes(poses: Poses) -> bytes:
+        return picture.to_bytes(Pages([strip_of_poses(poses.panels, poses.places)]))
+
+    return Format(picture.suffix, picture.name, strip_bytes, needs=picture.needs)
+
+
+_PICTURES_OF_POSES = formats_by_suffix(
+    Format(".gif", "GIF", _gif_bytes, needs="matplotlib.font_manager"),
+    _strip_as(PICTURES[".png"]),
+    _strip_as(PICTURES[".svg"]),
+)
+MOTIONS = {
+    ".fold": Format(".fold", "FOLD", _fold_bytes),
+    ".obj": Format(".obj", "OBJ, a file for each pose", lambda poses: obj_text(poses.sheets[0]).encode("utf-8")),
+    **_PICTURES_OF_POSES,
+}
+"""Suffix to the format in which motions are written; solids are only drawn."""
+
+
 def save_moving_poses(
-    thing: Sheet | SpatialPanels, places: Floats, path: str | Path, *, force: bool = False
+    panels: Sheet | SpatialPanels, places: Floats, path: str | Path, *, force: bool = False
 ) -> None:
-    """Write poses as a GIF that moves: there and back, again and again.
+    """Draw poses: as a GIF that moves there and back, or as a strip.
 
     Parameters
     ----------
-    thing : Sheet or SpatialPanels
+    panels : Sheet or SpatialPanels
     places : float[F, vertices, 3]
         Vertices in each pose.
     path : str or Path
+        Ends in .gif, .png or .svg.
     force : bool, optional
         Overwrite an existing file.
 
     Raises
     ------
     UnsolvableError
-        If matplotlib is not installed.
+        If it is a raster image (.gif, .png), and matplotlib is not installed.
     FileError
-        If the file exists already or cannot be written.
+        If the extension is unknown, or the file exists already or cannot be written.
 
     Examples
     --------
@@ -134,37 +185,14 @@ def save_moving_poses(
     ...     print(path.read_bytes()[:6])
     b'GIF89a'
     """
-    frames = [pixels(scene, dots=_DOTS) for scene in pose_scenes(thing, places)]
-    with whole_file(Path(path), force=force) as beside:
-        beside.write(_gif(frames))
+    write_as(Poses(panels, places), path, _PICTURES_OF_POSES, force=force)
 
 
-def _gif(frames: Sequence[npt.NDArray[np.uint8]]) -> bytes:
-    from PIL import Image
-
-    forth = [Image.fromarray(frame).quantize(_COLOURS) for frame in frames]
-    images = [*forth, *forth[-2:0:-1]]
-    durations = [_MILLISECONDS] * len(images)
-    durations[0] = durations[len(forth) - 1] = _PAUSE
-    stream = BytesIO()
-    images[0].save(stream, "GIF", save_all=True, append_images=images[1:], duration=durations, loop=0)
-    return stream.getvalue()
-
-
-def check_output(path: str | Path, *, force: bool = False) -> None:
-    """Refuse a path that a folding cannot be written to.
-
-    Raise FileError if the extension is unknown or the file exists, UnsolvableError for a raster image (.gif,
-    .png) if matplotlib is not installed.
-    """
+def check_motion_file(path: str | Path, *, force: bool = False) -> None:
+    """Refuse a path that a motion cannot be written to, as `graphs.files.outputs.check_writable` does."""
     path = Path(path)
-    suffix = path.suffix.lower()
-    if suffix not in (".fold", ".obj", ".gif", *_STRIPS):
-        known = ".fold, .obj for a series, .gif, or .png or .svg for a strip"
-        raise FileError(path, "", f"files ending in {suffix!r} cannot hold a folding", known)
-    if suffix in _PIXELS:
-        check_matplotlib()
-    check_place(_of_series(path, 0) if suffix == ".obj" else path, force=force)
+    first = _of_series(path, 0) if path.suffix.lower() == ".obj" else path
+    check_writable(first, MOTIONS, force=force)
 
 
 def write_motion(motion: Motion, path: str | Path, *, force: bool = False) -> list[Path]:
@@ -208,40 +236,27 @@ def write_motion(motion: Motion, path: str | Path, *, force: bool = False) -> li
     vertex.fold 4
     """
     path = Path(path)
-    check_output(path, force=force)
+    check_motion_file(path, force=force)
     at = motion.configuration
-    is_picture = path.suffix.lower() in (*_STRIPS, ".gif")
-    if not isinstance(at, SheetConfiguration):
+    is_picture = path.suffix.lower() in _PICTURES_OF_POSES
+    if isinstance(at, SheetConfiguration):
+        sheets = () if is_picture else [pose for pose in motion.frames() if isinstance(pose, Sheet)]
+        poses = Poses(at.sheet, motion.places, sheets)
+    elif is_picture and isinstance(at.given, HingedSolids | JointedLinkage):
+        poses = Poses(bodies_of(motion.linkage)[0], places_of_hinges(motion.linkage, motion.path.angles))
+    else:
         are_solids = isinstance(at.given, HingedSolids | JointedLinkage)
-        if not are_solids or not is_picture:
-            solids = "solids are drawn as .png, .svg, .gif; " if are_solids else ""
-            raise UnsolvableError(
-                f"there are no panels to write: {solids}--json gives the joint angles of each frame"
-            )
-        places = places_of_hinges(motion.linkage, motion.path.angles)
-        _draw(bodies_of(motion.linkage)[0], places, path, force=force)
+        solids = f"solids are drawn as {listed(_PICTURES_OF_POSES)}; " if are_solids else ""
+        raise UnsolvableError(f"there are no panels to write: {solids}--json gives the joint angles of each frame")
+    if path.suffix.lower() != ".obj":
+        write_as(poses, path, MOTIONS, force=force)
         return [path]
-    if is_picture:
-        _draw(at.sheet, motion.places, path, force=force)
-        return [path]
-    poses = [pose for pose in motion.frames() if isinstance(pose, Sheet)]
-    if path.suffix.lower() == ".fold":
-        write_text(path, fold_text_of_poses(at.sheet, poses), force=force)
-        return [path]
-    series = [_of_series(path, number) for number in range(len(poses))]
+    series = [_of_series(path, number) for number in range(len(poses.sheets))]
     for place in series:
         check_place(place, force=force)
-    for place, pose in zip(series, poses, strict=True):
-        write_text(place, obj_text(pose), force=force)
+    for place, sheet in zip(series, poses.sheets, strict=True):
+        write_as(poses._replace(sheets=[sheet]), place, MOTIONS, force=force)
     return series
-
-
-def _draw(panels: Sheet | SpatialPanels, places: Floats, path: Path, *, force: bool) -> None:
-    """Write a moving picture, or a strip of poses."""
-    if path.suffix.lower() == ".gif":
-        save_moving_poses(panels, places, path, force=force)
-    else:
-        save_scene(strip_of_poses(panels, places), path, force=force)
 
 
 def _of_series(path: Path, number: int) -> Path:

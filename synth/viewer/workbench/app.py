@@ -64,11 +64,7 @@ class Place:
 
     @property
     def address(self) -> str:
-        """The address that a browser opens.
-
-        >>> Place(8000, "secret").address
-        'http://127.0.0.1:8000/secret/'
-        """
+        """The address that a browser opens."""
         return f"http://{self.host}/{self.token}/"
 
 

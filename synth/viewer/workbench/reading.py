@@ -16,11 +16,10 @@ a vertex, or ``x,y`` or ``x,y,z``. Theory: docs/theory/viewer.md, docs/theory/ed
 from __future__ import annotations
 
 import json
-import os
 import re
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
+from contextlib import chdir
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
@@ -53,15 +52,11 @@ _EDIT = re.compile(rf"(?:lock|remove):[0-9]{{1,9}}|crease:{_END}~{_END}|ride-alo
 
 
 def are_edits(words: Sequence[str]) -> bool:
-    """Check that edits are of known kinds, and not too many.
-
-    >>> are_edits(["lock:3", "crease:12~0.5,-1e-3", "ride-alongs"]), are_edits(["lock:-1"]), are_edits(["rm:1"])
-    (True, False, False)
-    """
+    """Check that edits are of known kinds, and not too many."""
     return len(words) <= _MOST_EDITS and all(_EDIT.fullmatch(word) for word in words)
 
 
-def edited(thing: Mechanism, edits: Sequence[str]) -> Mechanism:
+def edited(mechanism: Mechanism, edits: Sequence[str]) -> Mechanism:
     """Return a mechanism after edits, one after the other, each with the ids that the last one left.
 
     The edits pass `are_edits`. Of a sheet with several frames the first that has coordinates is edited. Raise
@@ -69,36 +64,36 @@ def edited(thing: Mechanism, edits: Sequence[str]) -> Mechanism:
     mechanisms of this kind.
     """
     for edit in edits:
-        if isinstance(thing, Sheet) and thing.frames is not None:
-            thing = thing.frames.first_placed()
+        if isinstance(mechanism, Sheet) and mechanism.frames is not None:
+            mechanism = mechanism.frames.first_placed()
         if edit == "ride-alongs":
-            thing = _without_ride_alongs(thing)
+            mechanism = _without_ride_alongs(mechanism)
             continue
-        if not isinstance(thing, Sheet):
+        if not isinstance(mechanism, Sheet):
             raise UnsolvableError("only crease patterns can be edited here; try `synth edit`")
         kind, _, place = edit.partition(":")
         if kind == "crease":
             start, end = map(_end, place.split("~"))
-            thing = crease_sheet(thing, start, end).sheet
+            mechanism = crease_sheet(mechanism, start, end).sheet
         else:
-            thing = (lock_crease if kind == "lock" else remove_crease)(thing, int(place)).sheet
-    return thing
+            mechanism = (lock_crease if kind == "lock" else remove_crease)(mechanism, int(place)).sheet
+    return mechanism
 
 
 def _end(text: str) -> int | tuple[float, ...]:
     return tuple(map(float, text.split(","))) if "," in text else int(text)
 
 
-def _without_ride_alongs(thing: Mechanism) -> Mechanism:
+def _without_ride_alongs(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism without ride-alongs: a sheet without their panels, solids, or else a graph."""
-    reduction = reduce(thing)
+    reduction = reduce(mechanism)
     if not reduction.steps:
         raise UnsolvableError("the mechanism has no ride-alongs that can be removed")
-    if isinstance(thing, Sheet):
+    if isinstance(mechanism, Sheet):
         panels = {int(str(link)) for step in reduction.steps for link in step.removed}
-        return take_off_panels(thing, panels).sheet
-    if isinstance(thing, HingedSolids):
-        axes = {joint: thing.axes[joint] for joint in reduction.graph.joints}
+        return take_off_panels(mechanism, panels).sheet
+    if isinstance(mechanism, HingedSolids):
+        axes = {joint: mechanism.axes[joint] for joint in reduction.graph.joints}
         return HingedSolids(reduction.graph, axes)
     return reduction.graph
 
@@ -158,21 +153,9 @@ def _mechanism(name: str, content: bytes, edits: Sequence[str]) -> Mechanism:
 
     Readers take files by their names: it is put into a private folder, so that errors name the file alone.
     """
-    with _private_folder():
+    with TemporaryDirectory() as folder, chdir(folder):
         Path(name).write_bytes(content)
         return edited(read(name), edits)
-
-
-@contextmanager
-def _private_folder() -> Iterator[None]:
-    """Work in a temporary folder."""
-    before = Path.cwd()
-    with TemporaryDirectory() as folder:
-        os.chdir(folder)
-        try:
-            yield
-        finally:
-            os.chdir(before)
 
 
 def _or_error(name: str, answer: Callable[[], dict[str, Any]]) -> dict[str, Any]:

@@ -136,10 +136,10 @@ def test_what_files_lose():
     bounds = "which lines bound which of 1 face"
     cut = Sheet(3, ((0, 1), (1, 2)), "CU", ((0, 1, 2),), fold_angles=(None, pi / 2))
     lost = ("1 cut: as borders", "1 unassigned crease: as valleys", "1 fold angle", bounds)
-    assert losses.lost_as_cp(cut, cut) == lost
+    assert losses.lost_as_cp(cut) == lost
     joined = replace(cut, assignments="JM")
-    assert losses.lost_as_dxf(joined, joined) == ("1 fold angle", bounds)
-    assert losses.lost_as_svg(joined, joined) == ("1 join: as flat edges", "1 fold angle", bounds)
+    assert losses.lost_as_dxf(joined) == ("1 fold angle", bounds)
+    assert losses.lost_as_svg(joined) == ("1 join: as flat edges", "1 fold angle", bounds)
     ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4))])
-    assert losses.lost_as_bare_graph(ring, names=False) == ("1 loop and its centre",)
-    assert losses.lost_as_typed_graph(JointedLinkage(SCGraph(2, [(0, 1)], ground=0), {})) == ("the ground link",)
+    assert losses.lost_as_nameless_graph(ring) == ("1 loop and its centre",)
+    assert losses.lost_as_graphml(JointedLinkage(SCGraph(2, [(0, 1)], ground=0), {})) == ("the ground link",)

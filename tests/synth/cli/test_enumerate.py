@@ -42,7 +42,7 @@ def test_enumerate_strings(tmp_path):
         (["--max-panels", "many"], "'many' is neither a number nor none"),
         (["--max-cluster", 0], "max_cluster is 0; expected 1 or more"),
         (["--dof", 0], "0 is not in the range"),
-        (["-o", "strings.txt"], "strings.txt: the extension is not known; expected .jsonl"),
+        (["-o", "strings.txt"], "strings.txt: files ending in '.txt' are not known; expected .jsonl"),
     ],
 )
 def test_strings_that_cannot_be_listed(words, message):

@@ -148,7 +148,7 @@ def test_pictures_of_the_hoop(printed, tmp_path):
         assert f"written: {tmp_path / name}" in out
         assert (tmp_path / name).stat().st_size > 10_000
     result = run("order", "--orientations", printed, "--axis", AXIS_1, "-o", tmp_path / "a.gif", code=2)
-    assert "a.gif: the extension is not known" in result.stderr
+    assert "a.gif: files ending in '.gif' are not known" in result.stderr
 
 
 @pytest.mark.parametrize(
@@ -210,7 +210,7 @@ def test_without_matplotlib_a_picture_is_one_line(printed, tmp_path, monkeypatch
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     result = run("order", "--orientations", printed, "--axis", AXIS_1, "-o", tmp_path / "a.png", code=2)
     assert result.stdout == ""
-    assert result.stderr == "pictures need matplotlib: pip install 'synthedra[draw]'\n"
+    assert result.stderr == "PNG requires matplotlib; try pip install 'synthedra[draw]'\n"
 
 
 @pytest.mark.parametrize("command", ["order", "dyads", "fourbar"])

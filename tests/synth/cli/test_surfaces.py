@@ -214,7 +214,7 @@ def test_a_picture_without_matplotlib_names_the_extra(monkeypatch, tmp_path):
 
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     result = run("cylinder", "map", "--lengths", "4,3,5,1", "-o", tmp_path / "a.png", code=2)
-    assert result.stderr.strip() == "pictures need matplotlib: pip install 'synthedra[draw]'"
+    assert result.stderr.strip() == "PNG requires matplotlib; try pip install 'synthedra[draw]'"
     assert not list(tmp_path.iterdir())
 
 
@@ -229,7 +229,7 @@ def test_a_picture_without_matplotlib_names_the_extra(monkeypatch, tmp_path):
         (["cone", "map", "--angles", ",".join(["20"] * 17)], "a loop of 17 links; expected 3 to 16"),
         (["cylinder", "map", "--lengths", "1,2,30"], "the lengths 1, 2, 30 cannot close"),
         (["cylinder", "map", "--lengths", "1,-2,2"], "length 2 is -2; expected a length above 0"),
-        (["cylinder", "map", "--lengths", "3,4,5", "-o", "a.bmp"], "a.bmp: the extension is not known"),
+        (["cylinder", "map", "--lengths", "3,4,5", "-o", "a.bmp"], "a.bmp: files ending in '.bmp' are not known"),
         (["cone", "map", "missing.json"], "missing.json: no such file"),
         (["cone", "map", ROOT / "data" / "wiener" / "watt.json"], "a linkage on a surface, 'synthedra/conical' or 'synthedra/cylindrical'"),
         (["cone", "behaviour", "--steps", "40,50,50", "--lambda", "90"], "the cone angle is 90 degrees; expected 0 or"),

@@ -10,7 +10,7 @@ from graphs.mechanism.surfaces import Cone
 from synth.conformed.rates import ConformedChain
 from synth.drawing.conformed import draw_conformed
 from synth.drawing.scene.shapes import Label, Polygon
-from synth.drawing.scene.writing import save_scene, svg_text
+from synth.drawing.scene.writing import svg_text
 
 
 def four_bar(names="OABC"):
@@ -23,7 +23,7 @@ def test_names_are_no_formulas_and_no_control_characters(tmp_path, kind):
     pytest.importorskip({"svg": "xml", "png": "matplotlib", "pdf": "reportlab"}[kind])
     names = ["$x^$", "\\$_{$", "\x1b[3", "a$\x07"]
     scene = draw_conformed(four_bar(names), np.radians([40, 90, 140, 0]), None, "$\\frac$ " + " ".join(names))
-    save_scene(scene, tmp_path / f"a.{kind}")
+    scene.save(tmp_path / f"a.{kind}")
     assert (tmp_path / f"a.{kind}").stat().st_size > 1_000
     if kind == "svg":
         ET.parse(tmp_path / "a.svg")

@@ -168,4 +168,4 @@ def test_svg_of_orientations_needs_no_matplotlib(monkeypatch, tmp_path):
         run("order", "--orientations", TASK, axis, "--direction", "cw", "-o", tmp_path / f"{name}.svg")
     assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
     told = run("order", "--orientations", TASK, axis, "--direction", "cw", "-o", tmp_path / "a.png", code=2).stderr
-    assert "pictures need matplotlib: pip install 'synthedra[draw]'" in told
+    assert "PNG requires matplotlib; try pip install 'synthedra[draw]'" in told

@@ -74,7 +74,7 @@ def test_panels_are_rigid_in_every_pattern_that_closes(name):
         (["--drive", "=3"], "is not JOINT=DEGREES"),
         (["--branch", "+++++"], "no branch has the signs '+++++'"),
         (["--branch", "99"], "there is no branch 99; expected one from 0 to 0"),
-        (["-o", "out.bmp"], "files ending in '.bmp' cannot hold a folding"),
+        (["-o", "out.bmp"], "files ending in '.bmp' are not known; expected one of .fold .obj .gif .png .svg"),
     ],
 )
 def test_bad_input_is_told_in_one_line(data, words, told):

@@ -55,15 +55,10 @@ def test_the_picture_lies_on_the_page_below_the_steps(wide, high):
     page = pages_of(template, Paper(wide, high))[-1]
     assert page.is_note
     assert any("crosses of one name" in text.words for text in page.texts)
-    (left, low), scale, scene = page.picture.corner, page.picture.scale, page.picture.scene
-    assert left >= 10
-    assert left + scale * scene.width <= page.paper.width - 10
-    assert low + scale * scene.height <= min(text.at[1] for text in page.texts)
-    assert low >= 10 - 1e-9
-    for shape in scene.shapes():
-        if isinstance(shape, Polygon):
-            assert np.min(shape.points) >= 0
-            assert (np.max(shape.points, axis=0) <= (scene.width, scene.height)).all()
+    size = np.array([page.paper.width, page.paper.height])
+    corners = np.concatenate([shape.points for shape in page.picture.shapes if isinstance(shape, Polygon)])
+    assert (corners.min(axis=0) >= (10, size[1] - min(text.at[1] for text in page.texts))).all()
+    assert (corners.max(axis=0) <= size - 10 + 1e-9).all()
 
 
 def test_the_pose_is_the_one_that_stands_or_a_frame_or_the_sheet_folded_as_its_letters_say(tmp_path):

@@ -13,7 +13,7 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.mechanism.surfaces import Cylinder
 from synth.templates.on_surface import template_on_surface
-from synth.templates.template import linkage_on_a_surface, panels_of_thing, template_of
+from synth.templates.template import linkage_on_a_surface, panels_of_mechanism, template_of
 
 FOUR_BAR = "m1:a-b.ac-.b-d.cd-"
 LISTED = [(chain, mode) for creases in range(1, 7) for chain in strings(creases) for mode in chain.modes()]
@@ -23,7 +23,7 @@ def test_each_string_of_table_8_prints_in_each_mode_and_is_read_back_as_it():
     assert len({chain for chain, _ in LISTED}) == 20
     assert len(LISTED) == 30
     for chain, mode in LISTED:
-        sheet, told = panels_of_thing(chain, mode=mode)
+        sheet, told = panels_of_mechanism(chain, mode=mode)
         assert told
         again = string_of_chain(to_scd(sheet))
         assert again in ((chain, mode), (chain.reverse, mode[::-1]))
@@ -66,12 +66,12 @@ def test_which_one_of_many_has_to_be_said_and_be_there(tmp_path):
 def test_modes_and_ways_to_realise_are_of_types(data):
     bird = read(data / "patterns" / "bird-base.fold")
     with pytest.raises(UnsolvableError, match="requires a type, and the mechanism has coordinates"):
-        panels_of_thing(bird, kind="space")
+        panels_of_mechanism(bird, kind="space")
     with pytest.raises(InvariantError, match=r"the mode 'S' for <SCDGraph: 4 links.*expected an R/- string"):
-        panels_of_thing(read(FOUR_BAR), mode="S")
+        panels_of_mechanism(read(FOUR_BAR), mode="S")
     with pytest.raises(InvariantError, match="expected 1 letter S or D"):
-        panels_of_thing(ChainString((2, 2)), mode="X")
-    standing, _ = panels_of_thing(ChainString((2, 2)), kind="space")
+        panels_of_mechanism(ChainString((2, 2)), mode="X")
+    standing, _ = panels_of_mechanism(ChainString((2, 2)), kind="space")
     kinds = {stroke.kind for stroke in template_of(standing, size=150).pieces[0].strokes}
     assert kinds == {"CUT", "MOUNTAIN", "VALLEY"}
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from synth.drawing.scene.shapes import Label, Layer, Scene
-from synth.drawing.scene.writing import pixels
+from synth.drawing.scene.shapes import Label, Layer
+from synth.drawing.scene.writing import Scene, pixels
 
 DARK = (0x14, 0x17, 0x1A)
 

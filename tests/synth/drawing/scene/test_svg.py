@@ -10,8 +10,8 @@ import pytest
 from graphs.errors import InvariantError
 from graphs.mechanism.sc import SCGraph
 from synth.drawing.mechanisms.pictures import draw
-from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Polygon, Scene
-from synth.drawing.scene.writing import svg_text
+from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Polygon
+from synth.drawing.scene.writing import Scene, svg_text
 
 
 def test_joints_and_links_can_be_found():

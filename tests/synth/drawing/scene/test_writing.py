@@ -7,8 +7,8 @@ import sys
 import pytest
 
 from graphs.errors import FileError
-from synth.drawing.scene.shapes import Label, Layer, Line, Scene
-from synth.drawing.scene.writing import save_scene
+from synth.drawing.scene.shapes import Label, Layer, Line
+from synth.drawing.scene.writing import Scene
 
 SCENE = Scene(60, 20, (Layer("a", (Line([(0, 0), (20, 9)]), Label((30, 10), "a"))),))
 
@@ -18,7 +18,7 @@ def test_equal_scenes_give_equal_files(tmp_path, kind):
     """No date in them."""
     pytest.importorskip({"svg": "xml", "png": "matplotlib", "pdf": "reportlab"}[kind])
     for name in "ab":
-        save_scene(SCENE, tmp_path / f"{name}.{kind}")
+        SCENE.save(tmp_path / f"{name}.{kind}")
     one, other = ((tmp_path / f"{name}.{kind}").read_bytes() for name in "ab")
     assert one == other
     assert b"dc:date" not in one
@@ -26,12 +26,14 @@ def test_equal_scenes_give_equal_files(tmp_path, kind):
 
 def test_a_folder_that_is_not_there(tmp_path):
     with pytest.raises(FileError, match="nowhere"):
-        save_scene(SCENE, tmp_path / "nowhere" / "a.svg")
+        SCENE.save(tmp_path / "nowhere" / "a.svg")
 
 
 def test_pictures_of_other_kinds_are_refused(tmp_path):
-    with pytest.raises(FileError, match="the extension is not known"):
-        save_scene(SCENE, tmp_path / "a.jpeg")
+    with pytest.raises(
+        FileError, match=r"files ending in '\.jpeg' are not known; expected one of \.png \.svg \.pdf"
+    ):
+        SCENE.save(tmp_path / "a.jpeg")
 
 
 def test_a_user_who_can_write_nowhere_is_told(tmp_path):
@@ -43,9 +45,10 @@ def test_a_user_who_can_write_nowhere_is_told(tmp_path):
 import tempfile
 tempfile._candidate_tempdir_list = lambda: [{str(closed / "tmp")!r}]
 from graphs.errors import UnsolvableError
-from synth.drawing.scene.writing import check_picture
+from graphs.files.outputs import check_writable
+from synth.drawing.scene.writing import PICTURES
 try:
-    check_picture("a.png")
+    check_writable("a.png", PICTURES)
 except UnsolvableError as error:
     print(error)
 """
@@ -53,4 +56,6 @@ except UnsolvableError as error:
     done = subprocess.run(
         [sys.executable, "-c", code], env=os.environ | nowhere, capture_output=True, text=True, check=False
     )
-    assert done.stdout == "matplotlib needs a folder to write to: name one in MPLCONFIGDIR\n", done.stderr
+    assert done.stdout == "matplotlib requires a folder to write to; try to name one in MPLCONFIGDIR\n", (
+        done.stderr
+    )
