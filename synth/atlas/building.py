@@ -34,11 +34,11 @@ from enumerate.scd.query import PlacementQuery, SCDQuery
 from enumerate.strings.panel_strings import strings
 from graphs.errors import InvariantError
 from graphs.files.formats import mechanism_of_id
-from synth.atlas.columns import COLUMNS, SCHEMA, stored_columns
+from synth.atlas.columns import COLUMNS, RELATIONS, SCHEMA, stored_columns
 from synth.atlas.filling import filled
 from synth.candidates.job import CandidateJob
 
-__all__ = ["RELATIONS", "AtlasJob", "AtlasPlan", "AtlasSink", "build_atlas"]
+__all__ = ["AtlasJob", "AtlasPlan", "AtlasSink", "build_atlas"]
 
 _FEWEST = 4
 """Fewest links of a chain: with less it is rigid, or not closed."""
@@ -219,17 +219,6 @@ class AtlasJob:
         return tuple(values.get(column) for column in COLUMNS)
 
 
-RELATIONS = {
-    "chain_id": "has the chain",
-    "sc_id": "is a drawing, with open edges, of",
-    "reduced": "reduces to",
-    "planar_analogue": "has the planar analogue",
-    "spherical_analogue": "has the spherical analogue",
-    "general_form": "has the general form",
-}
-"""Columns that hold the id of another type, and the relation."""
-
-
 class AtlasSink(SqliteSink):
     """A store that becomes an atlas when all rows are there.
 
@@ -309,5 +298,5 @@ def _relations() -> str:
     """Return the statement that selects ``id``, ``relation``, ``other`` of all types."""
     return " UNION ALL ".join(
         f'SELECT id, \'{relation}\' AS relation, "{column}" AS other FROM type WHERE "{column}" IS NOT NULL'
-        for column, relation in RELATIONS.items()
+        for column, (relation, _) in RELATIONS.items()
     )

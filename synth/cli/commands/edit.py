@@ -7,15 +7,20 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphs.errors import numbered
-from synth.cli.options import BRANCH, FORCE, LOSSY
+import graphs.convert
+import graphs.creasing
+import graphs.edit
+import graphs.reduce
+import synth.folding
+from graphs.errors import UnsolvableError, numbered
+from synth.cli import options
 from synth.cli.output import (
     about,
     check_output,
     console,
     plain,
-    print_answer,
     print_json,
+    print_result,
     table,
     tell_lost,
     tell_written,
@@ -23,12 +28,10 @@ from synth.cli.output import (
 from synth.cli.reading import DRAWN, read
 
 if TYPE_CHECKING:
-    from graphs.creasing.edits import SheetEdit
-    from graphs.edit.edits import Edit
-    from graphs.mechanism.sc import SCGraph
-    from graphs.mechanism.sheet import Sheet
-    from graphs.reduce.assur import AssurReduction
-    from graphs.reduce.ride_alongs import Reduction
+    from graphs.creasing import SheetEdit
+    from graphs.edit import Edit
+    from graphs.mechanism import SCGraph, Sheet
+    from graphs.reduce import AssurReduction, Reduction
 
 __all__ = ["edit", "reduce_command"]
 
@@ -37,61 +40,53 @@ _OF_PATTERNS = ("lock", "add_crease", "remove_crease")
 """The edits whose result is a crease pattern again."""
 
 
-def _repeated(name: str, metavar: str, text: str) -> Callable[..., Callable[..., object]]:
-    return click.option(name, multiple=True, metavar=metavar, help=text)
-
-
-@click.command(short_help="Add creases, ride-alongs and loops; change centres; lock joints.")
-@click.argument("file", metavar="FILE")
+@click.command()
+@options.FILE
 @DRAWN
-@_repeated(
+@options.repeated(
     "--add-crease",
     "LINK[:X,Y]",
     "Crease a link. For an SC graph, X,Y are the joints beyond the crease; for an SCD "
     "graph, its vertices. For a pattern, A:B, each a vertex or a point X,Y.",
 )
-@_repeated("--remove-crease", "JOINT", "For a pattern: remove a crease; its two panels become one.")
-@_repeated(
+@options.repeated("--remove-crease", "JOINT", "For a pattern: remove a crease; its two panels become one.")
+@options.repeated(
     "--add-loop",
     "A,B,K[:J,...]",
     "Add K links between links A and B: a loop with a centre, through the joints J,... from A to B.",
 )
-@_repeated(
+@options.repeated(
     "--add-spatial-loop",
     "A,B,K[:J,...]",
     "Add K links between links A and B: a loop without a centre, through the joints J,... from A to B.",
 )
-@_repeated("--add-ride-along", "A,B", "Add a ride-along to the adjacent links A and B.")
-@_repeated(
+@options.repeated("--add-ride-along", "A,B", "Add a ride-along to the adjacent links A and B.")
+@options.repeated(
     "--implicit",
     "LOOP",
     "For an SCD graph: make the centre of a loop implicit, so that no link reaches it. LOOP is an index.",
 )
-@_repeated(
+@options.repeated(
     "--explicit",
     "LOOP",
     "For an SCD graph: make the centre of a loop explicit, so that its links reach it. LOOP is an index.",
 )
-@_repeated("--lock", "JOINT", "Lock a joint; its two links become one. For a pattern, the crease becomes flat.")
-@click.option(
-    "--assign-branch", type=BRANCH, metavar="K",
-    help="For a pattern: assign the mountains and valleys of a folding branch, by its number "
-    "or signs, as `synth fold --branches` lists them. Creases that are immobile on it "
-    "become flat (F).",
+@options.repeated(
+    "--lock", "JOINT", "Lock a joint; its two links become one. For a pattern, the crease becomes flat."
+)
+@options.value(
+    "--assign-branch", "K",
+    "For a pattern: assign the mountains and valleys of a folding branch, by its number or signs, as `synth "
+    "fold --branches` lists them. Creases that are immobile on it become flat (F).", type=options.BRANCH,
 )  # fmt: skip
-@click.option("-o", "--output", metavar="OUT", help="Write the result to this file.")
-@FORCE
-@LOSSY
-@click.option("--json", "as_json", is_flag=True, help="Print the edits as JSON.")
+@options.output("Write the result to this file.")
+@options.FORCE
+@options.LOSSY
+@options.flag("--json as_json", "Print the edits as JSON.")
 def edit(
-    file: str,
-    assign_branch: int | str | None,
-    output: str | None,
-    force: bool,
-    lossy: bool,
-    as_json: bool,
+    file: str, assign_branch: int | str | None, output: str | None, force: bool, lossy: bool, as_json: bool,
     **words: tuple[str, ...],
-) -> None:
+) -> None:  # fmt: skip
     """Edit a mechanism. Each edit predicts its change of mobility (Wiener, Eqs. 5 to 7); the count confirms it.
 
     Options may be repeated; the edits are made in the order of the list below. An SCD graph keeps the sides of its
@@ -110,16 +105,14 @@ def edit(
       synth edit data/wiener/six-bar.json --add-spatial-loop 0,2,4:1,2 -o ten-bar.json
     """
     from graphs.convert.table import graph_of
-    from graphs.edit.edits import Edit as EditOfGraph
-    from graphs.errors import UnsolvableError
-    from graphs.files.formats import write
-    from graphs.mechanism.sheet import Sheet
 
     check_output(output, force=force)
     mechanism = read(file)
     with about(file):
         edits: list[Edit] | list[SheetEdit]
-        if isinstance(mechanism, Sheet) and not any(words[name] for name in words if name not in _OF_PATTERNS):
+        if isinstance(mechanism, synth.Sheet) and not any(
+            words[name] for name in words if name not in _OF_PATTERNS
+        ):
             edits = list(_pattern_edits(mechanism, words, assign_branch))
         elif words["remove_crease"] or assign_branch is not None:
             option = "--remove-crease" if words["remove_crease"] else "--assign-branch"
@@ -129,8 +122,8 @@ def edit(
         if not edits:
             raise click.UsageError("no edit; try --add-ride-along A,B or another")
         last = edits[-1]
-        result = last.graph if isinstance(last, EditOfGraph) else last.sheet
-        lost = () if output is None else write(result, output, force=force, lossy=lossy)
+        result = last.graph if isinstance(last, graphs.edit.Edit) else last.sheet
+        lost = () if output is None else synth.write(result, output, force=force, lossy=lossy)
     if as_json:
         print_json(
             {"file": file, "output": output, "lost": list(lost), "edits": [each.to_json() for each in edits]}
@@ -141,9 +134,8 @@ def edit(
         mobilities = (each.predicted, each.counted, each.to_json()["mobility"])
         rows.add_row(plain(each.what), each.equation, *map(plain, mobilities))
     console().print(rows)
-    if output is not None:
-        tell_written(output)
-        tell_lost(lost)
+    tell_written(output)
+    tell_lost(lost)
 
 
 def _edited(sc: SCGraph, words: dict[str, tuple[str, ...]]) -> list[Edit]:
@@ -179,62 +171,46 @@ def _whole(word: str, option: str) -> int:
 
 
 def _crease(sc: SCGraph, text: str) -> Edit:
-    from graphs.edit.edits import add_crease, crease_link
-    from graphs.edit.named import joint_named, link_named
-    from graphs.mechanism.scd import SCDGraph
-
     name, _, rest = text.partition(":")
-    link, words = link_named(sc, name), [word.strip() for word in rest.split(",") if word.strip()]
-    if not isinstance(sc, SCDGraph):
-        return add_crease(sc, link, [joint_named(sc, word) for word in words])
+    link, words = options.link_of(sc, name), [word.strip() for word in rest.split(",") if word.strip()]
+    if not isinstance(sc, synth.SCDGraph):
+        return graphs.edit.add_crease(sc, link, [options.joint_of(sc, word) for word in words])
     if len(words) not in (1, 2):
         raise click.BadParameter(
             f"{plain(text)!r} is not LINK:VERTEX or LINK:VERTEX,VERTEX", param_hint="--add-crease"
         )
-    return crease_link(sc, link, *(_whole(word, "--add-crease") for word in words))
+    return graphs.edit.crease_link(sc, link, *(_whole(word, "--add-crease") for word in words))
 
 
 def _loop(sc: SCGraph, text: str, centre: str, option: str) -> Edit:
-    from graphs.edit.edits import add_loop
-    from graphs.edit.named import joint_named, link_named
-    from graphs.mechanism.scd import SCDGraph
-
     chain, _, rest = text.partition(":")
     a, b, k = _words(chain, 3, option)
-    through = [joint_named(sc, word.strip()) for word in rest.split(",") if word.strip()]
-    bare = sc.sc_graph() if isinstance(sc, SCDGraph) else sc
-    ends = link_named(sc, a), link_named(sc, b)
-    return add_loop(bare, *ends, _whole(k, option), centre=centre, through=through or None)
+    through = [options.joint_of(sc, word.strip()) for word in rest.split(",") if word.strip()]
+    bare = sc.sc_graph() if isinstance(sc, synth.SCDGraph) else sc
+    ends = options.link_of(sc, a), options.link_of(sc, b)
+    return graphs.edit.add_loop(bare, *ends, _whole(k, option), centre=centre, through=through or None)
 
 
 def _ride_along(sc: SCGraph, text: str) -> Edit:
-    from graphs.edit.edits import add_ride_along, ride_along
-    from graphs.edit.named import link_named
-    from graphs.mechanism.scd import SCDGraph
-
-    a, b = (link_named(sc, word) for word in _words(text, 2, "--add-ride-along"))
-    if isinstance(sc, SCDGraph) and sc.has_edge(a, b):
-        return ride_along(sc, next(iter(sc[a][b])))
-    return add_ride_along(sc, a, b)
+    a, b = (options.link_of(sc, word) for word in _words(text, 2, "--add-ride-along"))
+    if isinstance(sc, synth.SCDGraph) and sc.has_edge(a, b):
+        return graphs.edit.ride_along(sc, next(iter(sc[a][b])))
+    return graphs.edit.add_ride_along(sc, a, b)
 
 
 def _centre(sc: SCGraph, text: str, option: str) -> Edit:
-    from graphs.edit.edits import make_explicit, make_implicit
-    from graphs.errors import UnsolvableError
-    from graphs.mechanism.scd import SCDGraph
-
-    if not isinstance(sc, SCDGraph):
+    if not isinstance(sc, synth.SCDGraph):
         raise UnsolvableError(f"{option} requires an SCD graph, which has the sides of the links")
-    return (make_implicit if option == "--implicit" else make_explicit)(sc, _whole(text, option))
+    return (graphs.edit.make_implicit if option == "--implicit" else graphs.edit.make_explicit)(
+        sc, _whole(text, option)
+    )
 
 
 def _lock(sc: SCGraph, text: str) -> Edit:
-    from graphs.edit.edits import lock_hinge, lock_joint
-    from graphs.edit.named import joint_named
-    from graphs.mechanism.scd import SCDGraph
-
-    joint = joint_named(sc, text)
-    return lock_hinge(sc, joint) if isinstance(sc, SCDGraph) else lock_joint(sc, joint)
+    joint = options.joint_of(sc, text)
+    return (
+        graphs.edit.lock_hinge(sc, joint) if isinstance(sc, synth.SCDGraph) else graphs.edit.lock_joint(sc, joint)
+    )
 
 
 def _pattern_edits(
@@ -244,28 +220,25 @@ def _pattern_edits(
 
     Edges keep their numbers until creases are removed; those are named before.
     """
-    from graphs.creasing.edits import crease_sheet, joint_of_sheet_named, lock_crease, remove_crease
     from graphs.mechanism.sheet import with_all_edges
 
     if branch is not None:
-        from synth.folding.motion import assign_branch
-
-        edit = assign_branch(sheet, branch)
+        edit = synth.folding.assign_branch(sheet, branch)
         sheet = edit.sheet
         yield edit
     for text in words["lock"]:
-        edit = lock_crease(sheet, joint_of_sheet_named(sheet, text))
+        edit = graphs.creasing.lock_crease(sheet, graphs.creasing.joint_of_sheet_named(sheet, text))
         sheet = edit.sheet
         yield edit
     for text in words["add_crease"]:
-        edit = crease_sheet(sheet, *_ends(text))
+        edit = graphs.creasing.crease_sheet(sheet, *_ends(text))
         sheet = edit.sheet
         yield edit
     whole = with_all_edges(sheet)
-    leaving = [whole.edges[joint_of_sheet_named(sheet, text)] for text in words["remove_crease"]]
+    leaving = [whole.edges[graphs.creasing.joint_of_sheet_named(sheet, text)] for text in words["remove_crease"]]
     for ends in leaving:
         number = next((i for i, edge in enumerate(with_all_edges(sheet).edges) if set(edge) == set(ends)), -1)
-        edit = remove_crease(sheet, joint_of_sheet_named(sheet, str(number)))
+        edit = graphs.creasing.remove_crease(sheet, graphs.creasing.joint_of_sheet_named(sheet, str(number)))
         sheet = edit.sheet
         yield edit
 
@@ -292,40 +265,22 @@ def _end(word: str) -> int | tuple[float, ...]:
     return point
 
 
-@click.command("reduce", short_help="Remove ride-alongs and adjunct addenda.")
-@click.argument("file", metavar="FILE")
+@click.command("reduce")
+@options.FILE
 @DRAWN
-@click.option("-o", "--output", metavar="OUT", help="Write the reduced mechanism to this file.")
-@click.option(
-    "--rule", type=click.Choice(["ride-along", "dyad", "assur"]), default="ride-along", show_default=True,
-    help="Rule of reduction.",
-)  # fmt: skip
-@click.option("--fully", is_flag=True, help="Reduce a block even if no loop of it is left.")
-@click.option(
-    "--keep", multiple=True, metavar="LINK",
-    help="Link that must not be removed, such as an input link; may be repeated.",
-)  # fmt: skip
-@click.option(
-    "--ground", metavar="LINK", help="Fixed link, for --rule assur. By default the one that the file names."
-)
-@click.option(
-    "--input", "inputs", multiple=True, metavar="JOINT", help="Input joint, for --rule assur; may be repeated."
-)
-@FORCE
-@LOSSY
-@click.option("--json", "as_json", is_flag=True, help="Print counts and steps as JSON.")
+@options.output("Write the reduced mechanism to this file.")
+@options.choice("--rule", ("ride-along", "dyad", "assur"), "Rule of reduction.", default="ride-along")
+@options.flag("--fully", "Reduce a block even if no loop of it is left.")
+@options.repeated("--keep", "LINK", "Link that must not be removed, such as an input link; may be repeated.")
+@options.value("--ground", "LINK", "Fixed link, for --rule assur. By default the one that the file names.")
+@options.repeated("--input inputs", "JOINT", "Input joint, for --rule assur; may be repeated.")
+@options.FORCE
+@options.LOSSY
+@options.flag("--json as_json", "Print counts and steps as JSON.")
 def reduce_command(
-    file: str,
-    output: str | None,
-    rule: str,
-    fully: bool,
-    keep: tuple[str, ...],
-    ground: str | None,
-    inputs: tuple[str, ...],
-    force: bool,
-    lossy: bool,
-    as_json: bool,
-) -> None:
+    file: str, output: str | None, rule: str, fully: bool, keep: tuple[str, ...], ground: str | None,
+    inputs: tuple[str, ...], force: bool, lossy: bool, as_json: bool,
+) -> None:  # fmt: skip
     """Remove the ride-alongs of a mechanism one by one, until none is left. The mobility does not change.
 
     A ride-along is two binary links u, v on two adjacent links a, b, all four about one centre. Chains of them,
@@ -339,35 +294,22 @@ def reduce_command(
       synth reduce data/wiener/fortune-teller.json -o eight-bar.json
       synth reduce data/wiener/stephenson.json --rule assur --ground 0 --input 0
     """
-    from graphs.convert.table import to_sc
-    from graphs.edit.named import link_named
-    from graphs.files.formats import write
-    from graphs.reduce.ride_alongs import reduce
-
     if (rule != "assur") and (ground is not None or inputs):
         raise click.UsageError("--ground and --input require --rule assur")
     check_output(output, force=force)
     with about(file):
-        sc = to_sc(read(file))
+        sc = graphs.convert.to_sc(read(file))
         if rule == "assur":
             reduction: Reduction | AssurReduction = _assur(sc, ground, inputs)
         else:
-            reduction = reduce(sc, rule=rule, fully=fully, keep=[link_named(sc, name) for name in keep])
-        lost = () if output is None else write(reduction.graph, output, force=force, lossy=lossy)
-    if as_json:
-        print_json({"file": file, "output": output, "lost": list(lost), **reduction.to_json()})
-        return
-    print_answer(reduction)
-    if output is not None:
-        tell_written(output)
-        tell_lost(lost)
+            reduction = synth.reduce(sc, rule=rule, fully=fully, keep=[options.link_of(sc, name) for name in keep])
+        lost = () if output is None else synth.write(reduction.graph, output, force=force, lossy=lossy)
+    keys = {"file": file, "output": output, "lost": list(lost)}
+    print_result(reduction, keys, as_json=as_json, written=[output], lost=lost)
 
 
 def _assur(sc: SCGraph, ground: str | None, inputs: tuple[str, ...]) -> AssurReduction:
-    from graphs.edit.named import joint_named, link_named
-    from graphs.reduce.assur import reduce_assur
-
-    fixed = sc.ground if ground is None else link_named(sc, ground)
+    fixed = sc.ground if ground is None else options.link_of(sc, ground)
     if fixed is None or not inputs:
         raise click.UsageError("--rule assur requires --ground LINK, and an --input JOINT per degree of freedom")
-    return reduce_assur(sc, fixed, [joint_named(sc, name) for name in inputs])
+    return graphs.reduce.reduce_assur(sc, fixed, [options.joint_of(sc, name) for name in inputs])
