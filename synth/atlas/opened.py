@@ -94,10 +94,10 @@ def _authorized(action: int, first: str | None, second: str | None, *_: str | No
 def selected(
     connection: sqlite3.Connection, statement: str, values: Sequence[Any], *, limit: int, seconds: float
 ) -> Rows:
-    """Return the selection of a statement, up to a limit of rows and of seconds.
+    """Return what a statement selects through a guarded connection, within limits; `values` are for placeholders.
 
-    `values` are for its placeholders, the connection is from `open_guarded`. Raise InvariantError if the statement
-    is no SELECT on the contents of an atlas, with the message of SQLite; UnsolvableError if it takes longer.
+    Raise InvariantError, with the message of SQLite, unless it selects from an atlas; UnsolvableError if it takes
+    longer.
     """
     try:
         with _stopped_after(connection, seconds):
@@ -117,10 +117,9 @@ def selected(
 
 @contextmanager
 def _stopped_after(connection: sqlite3.Connection, seconds: float) -> Iterator[None]:
-    """Interrupt SQLite after some time.
+    """Interrupt SQLite after some time, from another thread, since steps may be long.
 
-    Another thread does so, since steps may be long. The check of the clock between many steps is for a statement
-    that had not begun when the thread interrupted it.
+    The check of the clock between many steps is for a statement that had not begun when it was interrupted.
     """
     end = monotonic() + seconds
     connection.set_progress_handler(lambda: monotonic() > end, _STEPS)

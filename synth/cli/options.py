@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from graphs.types import JointId, LinkId
 
 __all__ = [
-    "BRANCH", "FILE", "FILES", "FILE_NAME", "FORCE", "FRAMES", "JSON", "LENGTH", "LENGTH_OR_NONE", "LOSSY",
+    "BRANCH", "FILE", "FILES", "FILE_NAME", "FORCE", "JSON", "LENGTH", "LENGTH_OR_NONE", "LOSSY",
     "NUMBER_OF_SURFACE", "WORKERS", "LimitsType", "NumberList", "branch", "choice", "driven_angles", "flag",
     "in_radians", "joint_of", "limits", "link_of", "named_value", "number", "numbers_of_joints", "output",
     "repeated", "seed", "surface_from_options", "value",
@@ -191,7 +191,6 @@ FORCE = flag("--force", "Overwrite an existing file, but never a folder, symboli
 LOSSY = flag("--lossy", "Write even if the output reads back as another type.")
 """The option of every command that writes a mechanism."""
 JSON = flag("--json as_json", "Print the answer as JSON.")
-FRAMES = number("--frames", "N", "Number of frames after the first.", most=10_000, default=20)
 WORKERS = number("--workers", "N", "Number of processes. By default one per core.")
 NUMBER_OF_SURFACE = number(
     "--cone --cylinder cone", "K",

@@ -10,18 +10,7 @@ import click
 import synth.atlas
 from graphs.errors import UnsolvableError, numbered
 from graphs.printing import TableBlock
-from synth.cli import options
-from synth.cli.output import (
-    about,
-    check_output,
-    console,
-    entries,
-    plain,
-    print_answer,
-    print_json,
-    print_result,
-    tell_written,
-)
+from synth.cli import options, output as out
 from synth.cli.runner import RunOptions, run_resumable, run_whole, runner_options
 
 __all__ = ["atlas_group"]
@@ -81,11 +70,11 @@ def build(
     run_resumable(AtlasJob(plan), sink, running)
     summary = synth.atlas.open_atlas(str(running.output)).about()
     if running.as_json:
-        print_json({"output": running.output, **summary})
+        out.print_json({"output": running.output, **summary})
         return
     for kind, number in summary["types"].items():
         click.echo(f"{number:>9}  {kind}")
-    tell_written(running.output)
+    out.tell_written(running.output)
 
 
 @atlas_group.command()
@@ -120,13 +109,13 @@ def query(
     """
     if columns == "help":
         meanings = [(name, " ".join(column.kinds), column.says) for name, column in synth.atlas.COLUMNS.items()]
-        console().print(TableBlock(("column", "kinds", "meaning"), meanings))
+        out.console().print(TableBlock(("column", "kinds", "meaning"), meanings))
         return
     if statement is not None and (condition or columns or sort):
         raise click.UsageError("--sql excludes a condition, --columns and --sort")
     if output is not None and as_json:
         raise click.UsageError("-o and --json exclude each other; try one of them")
-    check_output(output if output is None or Path(output).suffix else None, force=force)
+    out.check_output(output if output is None or Path(output).suffix else None, force=force)
     opened = synth.atlas.open_atlas(atlas)
     if statement is not None:
         rows = opened.sql(statement, limit=limit, seconds=seconds)
@@ -136,11 +125,11 @@ def query(
     if output is not None:
         from synth.atlas.written import write_rows
 
-        tell_written(*write_rows(rows, output, force=force))
+        out.tell_written(*write_rows(rows, output, force=force))
     elif as_json:
-        print_json(rows.to_json())
+        out.print_json(rows.to_json())
     else:
-        console().print(rows.blocks()[0])
+        out.console().print(rows.blocks()[0])
     if rows.more:
         click.echo(f"more than {numbered(len(rows), 'row')}; try a larger --limit", err=True)
 
@@ -153,7 +142,7 @@ def query(
 @options.JSON
 def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: bool) -> None:
     """Show the properties of a type, given its id or its name, and the types related to it."""
-    check_output(output, force=force)
+    out.check_output(output, force=force)
     report = synth.atlas.open_atlas(atlas).show(type_id)
     if output is not None:
         from graphs.files.atomic import write_text
@@ -161,10 +150,10 @@ def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: boo
 
         text = report.values.get("fold_file")
         if text is None:
-            raise UnsolvableError(f"{plain(type_id)}: the atlas has no coordinates of this type")
+            raise UnsolvableError(f"{out.plain(type_id)}: the atlas has no coordinates of this type")
         sheet_of_type(report.values)  # raises an error for a damaged file, which is not written
         write_text(Path(output), text, force=force)
-    print_result(report, {}, as_json=as_json, written=[output])
+    out.print_result(report, {}, as_json=as_json, written=[output])
 
 
 @atlas_group.command()
@@ -183,7 +172,7 @@ def page(atlas: str, condition: str, folder: str, title: str, workers: int | Non
 
     site, first = site_of(synth.atlas.open_atlas(atlas), condition, title)
     run_whole(site, SiteSink(folder, first), RunOptions(folder, workers, quiet=quiet))
-    tell_written(Path(folder) / "index.html")
+    out.tell_written(Path(folder) / "index.html")
 
 
 @atlas_group.command()
@@ -195,15 +184,15 @@ def find(atlas: str, files: tuple[str, ...], as_json: bool) -> None:
     opened = synth.atlas.open_atlas(atlas)
     failures: list[str] = []
     answers = []
-    for entry in entries(files, failures):
-        with about(entry.label):
+    for entry in out.entries(files, failures):
+        with out.about(entry.label):
             answer = synth.atlas.find_type(opened, entry.mechanism)
         answers.append({"file": entry.label, **answer.to_json()})
         if not as_json:
-            click.echo(plain(entry.label, 4096))
-            print_answer(answer)
+            click.echo(out.plain(entry.label, 4096))
+            out.print_answer(answer)
     if as_json:
-        print_json(answers)
+        out.print_json(answers)
     for failure in failures:
         click.echo(failure, err=True)
     if failures:

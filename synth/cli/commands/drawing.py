@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 import webbrowser
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
-from time import monotonic
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import click
@@ -19,7 +17,7 @@ import synth.templates
 import synth.viewer
 from graphs.errors import FileError, InvariantError
 from synth.cli import options, reading
-from synth.cli.output import about, check_output, check_picture, plain, print_json, tell_written
+from synth.cli.output import about, check_output, check_picture, plain, print_json, progress_line, tell_written
 from synth.cli.reading import DRAWN, MODE, PRECISION, NamedMechanism, precise_sheet, read, read_named
 
 if TYPE_CHECKING:
@@ -36,8 +34,6 @@ _KINDS = (
     "pattern", "marks", "repairs", "folded", "chain", "graph", "model", "solids", "cone", "cylinder", "circle",
     "sphere",
 )  # fmt: skip
-_PATIENCE = 2.0
-"""Seconds between two reports of the progress of a catalogue."""
 _COLOURS = ("letters", "verdict", "branch", "centres", "none")
 
 
@@ -140,15 +136,11 @@ def _draw_catalogue(
 
 
 def _counted(entries: Iterator[CatalogueEntry]) -> Iterator[CatalogueEntry]:
-    """Yield entries; a terminal shows their number every few seconds."""
-    number, shown = 0, monotonic()
-    for number, entry in enumerate(entries, start=1):
-        if sys.stderr.isatty() and monotonic() - shown > _PATIENCE:
-            click.echo(f"\r{number} drawn", nl=False, err=True)
-            shown = monotonic()
-        yield entry
-    if sys.stderr.isatty():
-        click.echo(f"\r{number} drawn", err=True)
+    """Yield entries; a terminal shows their number."""
+    with progress_line() as show:
+        for number, entry in enumerate(entries, start=1):
+            show(f"{number} drawn")
+            yield entry
 
 
 def _condition(text: str) -> tuple[str, Limits | str]:

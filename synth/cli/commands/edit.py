@@ -8,23 +8,12 @@ from typing import TYPE_CHECKING
 import click
 
 import graphs.convert
-import graphs.creasing
 import graphs.edit
 import graphs.reduce
 import synth.folding
+from graphs import creasing
 from graphs.errors import UnsolvableError, numbered
-from synth.cli import options
-from synth.cli.output import (
-    about,
-    check_output,
-    console,
-    plain,
-    print_json,
-    print_result,
-    table,
-    tell_lost,
-    tell_written,
-)
+from synth.cli import options, output as out
 from synth.cli.reading import DRAWN, read
 
 if TYPE_CHECKING:
@@ -106,9 +95,9 @@ def edit(
     """
     from graphs.convert.table import graph_of
 
-    check_output(output, force=force)
+    out.check_output(output, force=force)
     mechanism = read(file)
-    with about(file):
+    with out.about(file):
         edits: list[Edit] | list[SheetEdit]
         if isinstance(mechanism, synth.Sheet) and not any(
             words[name] for name in words if name not in _OF_PATTERNS
@@ -125,17 +114,17 @@ def edit(
         result = last.graph if isinstance(last, graphs.edit.Edit) else last.sheet
         lost = () if output is None else synth.write(result, output, force=force, lossy=lossy)
     if as_json:
-        print_json(
+        out.print_json(
             {"file": file, "output": output, "lost": list(lost), "edits": [each.to_json() for each in edits]}
         )
         return
-    rows = table("edit", "by", "dM predicted", "counted", "M", numbers=["dM predicted", "counted", "M"])
+    rows = out.table("edit", "by", "dM predicted", "counted", "M", numbers=["dM predicted", "counted", "M"])
     for each in edits:
         mobilities = (each.predicted, each.counted, each.to_json()["mobility"])
-        rows.add_row(plain(each.what), each.equation, *map(plain, mobilities))
-    console().print(rows)
-    tell_written(output)
-    tell_lost(lost)
+        rows.add_row(out.plain(each.what), each.equation, *map(out.plain, mobilities))
+    out.console().print(rows)
+    out.tell_written(output)
+    out.tell_lost(lost)
 
 
 def _edited(sc: SCGraph, words: dict[str, tuple[str, ...]]) -> list[Edit]:
@@ -160,13 +149,13 @@ def _words(text: str, number: int, option: str) -> list[str]:
     words = [word.strip() for word in text.split(",")]
     if len(words) != number:
         parts = numbered(len(words), "part")
-        raise click.BadParameter(f"{plain(text)!r} has {parts}; expected {number}", param_hint=option)
+        raise click.BadParameter(f"{out.plain(text)!r} has {parts}; expected {number}", param_hint=option)
     return words
 
 
 def _whole(word: str, option: str) -> int:
     if not word.isascii() or not word.isdigit() or len(word) > 6:
-        raise click.BadParameter(f"{plain(word)!r} is not a number", param_hint=option)
+        raise click.BadParameter(f"{out.plain(word)!r} is not a number", param_hint=option)
     return int(word)
 
 
@@ -177,7 +166,7 @@ def _crease(sc: SCGraph, text: str) -> Edit:
         return graphs.edit.add_crease(sc, link, [options.joint_of(sc, word) for word in words])
     if len(words) not in (1, 2):
         raise click.BadParameter(
-            f"{plain(text)!r} is not LINK:VERTEX or LINK:VERTEX,VERTEX", param_hint="--add-crease"
+            f"{out.plain(text)!r} is not LINK:VERTEX or LINK:VERTEX,VERTEX", param_hint="--add-crease"
         )
     return graphs.edit.crease_link(sc, link, *(_whole(word, "--add-crease") for word in words))
 
@@ -201,20 +190,17 @@ def _ride_along(sc: SCGraph, text: str) -> Edit:
 def _centre(sc: SCGraph, text: str, option: str) -> Edit:
     if not isinstance(sc, synth.SCDGraph):
         raise UnsolvableError(f"{option} requires an SCD graph, which has the sides of the links")
-    return (graphs.edit.make_implicit if option == "--implicit" else graphs.edit.make_explicit)(
-        sc, _whole(text, option)
-    )
+    make = graphs.edit.make_implicit if option == "--implicit" else graphs.edit.make_explicit
+    return make(sc, _whole(text, option))
 
 
 def _lock(sc: SCGraph, text: str) -> Edit:
-    joint = options.joint_of(sc, text)
-    return (
-        graphs.edit.lock_hinge(sc, joint) if isinstance(sc, synth.SCDGraph) else graphs.edit.lock_joint(sc, joint)
-    )
+    lock = graphs.edit.lock_hinge if isinstance(sc, synth.SCDGraph) else graphs.edit.lock_joint
+    return lock(sc, options.joint_of(sc, text))
 
 
 def _pattern_edits(
-    sheet: Sheet, words: dict[str, tuple[str, ...]], branch: int | str | None = None
+    sheet: Sheet, words: dict[str, tuple[str, ...]], branch: int | str | None
 ) -> Iterator[SheetEdit]:
     """Yield the edits of a pattern: assigned as a branch, creases locked, added, removed, each to the last result.
 
@@ -224,23 +210,23 @@ def _pattern_edits(
 
     if branch is not None:
         edit = synth.folding.assign_branch(sheet, branch)
-        sheet = edit.sheet
         yield edit
+        sheet = edit.sheet
     for text in words["lock"]:
-        edit = graphs.creasing.lock_crease(sheet, graphs.creasing.joint_of_sheet_named(sheet, text))
-        sheet = edit.sheet
+        edit = creasing.lock_crease(sheet, creasing.joint_of_sheet_named(sheet, text))
         yield edit
+        sheet = edit.sheet
     for text in words["add_crease"]:
-        edit = graphs.creasing.crease_sheet(sheet, *_ends(text))
-        sheet = edit.sheet
+        edit = creasing.crease_sheet(sheet, *_ends(text))
         yield edit
+        sheet = edit.sheet
     whole = with_all_edges(sheet)
-    leaving = [whole.edges[graphs.creasing.joint_of_sheet_named(sheet, text)] for text in words["remove_crease"]]
+    leaving = [whole.edges[creasing.joint_of_sheet_named(sheet, text)] for text in words["remove_crease"]]
     for ends in leaving:
         number = next((i for i, edge in enumerate(with_all_edges(sheet).edges) if set(edge) == set(ends)), -1)
-        edit = graphs.creasing.remove_crease(sheet, graphs.creasing.joint_of_sheet_named(sheet, str(number)))
-        sheet = edit.sheet
+        edit = creasing.remove_crease(sheet, creasing.joint_of_sheet_named(sheet, str(number)))
         yield edit
+        sheet = edit.sheet
 
 
 def _ends(text: str) -> tuple[int | tuple[float, ...], int | tuple[float, ...]]:
@@ -248,7 +234,7 @@ def _ends(text: str) -> tuple[int | tuple[float, ...], int | tuple[float, ...]]:
     ends = text.split(":")
     if len(ends) != 2:
         raise click.BadParameter(
-            f"{plain(text)!r} is not A:B, two vertices or points X,Y of the pattern", param_hint="--add-crease"
+            f"{out.plain(text)!r} is not A:B, two vertices or points X,Y of the pattern", param_hint="--add-crease"
         )
     return _end(ends[0].strip()), _end(ends[1].strip())
 
@@ -261,7 +247,9 @@ def _end(word: str) -> int | tuple[float, ...]:
     except ValueError:
         point = ()
     if len(point) not in (2, 3) or not all(abs(x) < 1e12 for x in point):
-        raise click.BadParameter(f"{plain(word)!r} is neither a vertex nor a point X,Y", param_hint="--add-crease")
+        raise click.BadParameter(
+            f"{out.plain(word)!r} is neither a vertex nor a point X,Y", param_hint="--add-crease"
+        )
     return point
 
 
@@ -296,8 +284,8 @@ def reduce_command(
     """
     if (rule != "assur") and (ground is not None or inputs):
         raise click.UsageError("--ground and --input require --rule assur")
-    check_output(output, force=force)
-    with about(file):
+    out.check_output(output, force=force)
+    with out.about(file):
         sc = graphs.convert.to_sc(read(file))
         if rule == "assur":
             reduction: Reduction | AssurReduction = _assur(sc, ground, inputs)
@@ -305,7 +293,7 @@ def reduce_command(
             reduction = synth.reduce(sc, rule=rule, fully=fully, keep=[options.link_of(sc, name) for name in keep])
         lost = () if output is None else synth.write(reduction.graph, output, force=force, lossy=lossy)
     keys = {"file": file, "output": output, "lost": list(lost)}
-    print_result(reduction, keys, as_json=as_json, written=[output], lost=lost)
+    out.print_result(reduction, keys, as_json=as_json, written=[output], lost=lost)
 
 
 def _assur(sc: SCGraph, ground: str | None, inputs: tuple[str, ...]) -> AssurReduction:

@@ -27,9 +27,10 @@ __all__ = ["enumerate_group"]
 
 
 _COLUMNS: dict[str, type] = {
-    "creases": int, "string": str, "joints": str, "distance": str, "dof": int, "modes": int, "comment": str,
+    "creases": int, "string": str, "joints": str, "distance": str, "dof": int, "modes": int, "mode": str,
+    "comment": str,
 }  # fmt: skip
-"""Columns of R/- strings that are printed."""
+"""Columns of the table of R/- strings; ``mode`` with --modes only."""
 
 
 def _limit(_context: click.Context, _parameter: click.Parameter, value: str) -> int | None:
@@ -97,9 +98,10 @@ def strings(
     elif as_json:
         print_json(list(rows))
     else:
-        printer = TablePrinter(_COLUMNS | ({"mode": str} if modes else {}))
+        columns = {name: kind for name, kind in _COLUMNS.items() if modes or name != "mode"}
+        printer = TablePrinter(columns)
         for row in rows:
-            printer.take((), [tuple(row.values())])
+            printer.take((), [tuple(row[name] for name in columns)])
         printer.finish()
 
 

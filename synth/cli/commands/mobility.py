@@ -82,14 +82,9 @@ def mobility(
             try:
                 with about(entry.label):
                     answer = synth.mobility(
-                        precise(entry.mechanism),
-                        exact=exact,
-                        hinge_flat=hinge_flat,
-                        pose=frame,
-                        geometry=not no_geometry,
-                        motion=look_for_motion,
-                        more=more,
-                    )
+                        precise(entry.mechanism), exact=exact, hinge_flat=hinge_flat, pose=frame,
+                        geometry=not no_geometry, motion=look_for_motion, more=more,
+                    )  # fmt: skip
                     answers.append((entry.label, answer))
             except FileError as error:
                 failures.append(str(error))

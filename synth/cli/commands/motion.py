@@ -38,7 +38,7 @@ __all__ = ["advise", "explain", "fold", "limits", "positions", "states"]
 )
 @options.branch("Folding branch from a flat state, by its number or its signs; --branches lists them.")
 @options.flag("--branches listed", "List the motion branches from this configuration.")
-@options.FRAMES
+@options.number("--frames", "N", "Number of frames after the first.", most=10_000, default=20)
 @options.flag("--collisions", "Stop the motion before panels pass through each other.")
 @options.output(
     "Write the motion: .fold with frames, a series of .obj files, a .gif, or a strip of pictures (.png, .svg)."
@@ -82,14 +82,10 @@ def fold(
         graph = at.linkage.graph
         with progress_line() as show:
             motion = synth.move(
-                at,
-                drive=options.driven_angles(graph, drive),
-                along=options.numbers_of_joints(graph, along, "--along", "JOINT=RATE"),
-                branch=branch,
-                frames=frames,
-                collisions=collisions,
-                report=lambda made: show(f"{made} of {frames + 1} frames"),
-            )
+                at, drive=options.driven_angles(graph, drive),
+                along=options.numbers_of_joints(graph, along, "--along", "JOINT=RATE"), branch=branch,
+                frames=frames, collisions=collisions, report=lambda n: show(f"{n} of {frames + 1} frames"),
+            )  # fmt: skip
         curves = {text: motion.path_of(*_point(graph, text)).tolist() for text in points}
         written = [] if output is None else write_motion(motion, output, force=force)
     if as_json:
@@ -238,17 +234,12 @@ def advise(
             else mechanism_of_sheet(sheet).sc
         )
         advice = synth.advise(
-            mechanism,
-            freedoms,
-            branch=branch,
+            mechanism, freedoms, branch=branch,
             weights=options.numbers_of_joints(graph, weight, "--weight", "JOINT=W"),
             joints=[options.joint_of(graph, name) for name in protect_joint],
             links=[options.link_of(graph, name) for name in protect_link],
-            flaps=flaps,
-            limit=limit,
-            size=size,
-            leave_out=leave_out,
-        )
+            flaps=flaps, limit=limit, size=size, leave_out=leave_out,
+        )  # fmt: skip
     print_result(advice, {"file": file}, as_json=as_json)
     if advice.wanted > advice.freedoms and not advice.creases:
         sys.exit(1)

@@ -13,19 +13,8 @@ import click
 import synth.patterns
 import synth.realisation
 from graphs.errors import FileError, numbered
-from synth.cli import options
+from synth.cli import options, output as out
 from synth.cli.main import NamedGroup
-from synth.cli.output import (
-    about,
-    check_output,
-    console,
-    plain,
-    print_json,
-    print_result,
-    table,
-    tell_lost,
-    tell_written,
-)
 from synth.cli.reading import MODE, read_named
 from synth.cli.runner import RunOptions, run_resumable
 
@@ -77,14 +66,14 @@ def generate(ctx: click.Context, listed: bool, as_json: bool) -> None:
         return
     generators = synth.patterns.GENERATORS.values()
     if as_json:
-        print_json([_described(generator) for generator in generators])
+        out.print_json([_described(generator) for generator in generators])
         return
-    rows = table("name", "what", "parameters", "source")
+    rows = out.table("name", "what", "parameters", "source")
     for generator in generators:
         names = " ".join(parameter.name for parameter in generator.parameters)
         parameters = f"{names}; {generator.relations}" if generator.relations else names
         rows.add_row(generator.name, generator.title, parameters, generator.source)
-    console().print(rows)
+    out.console().print(rows)
 
 
 def _described(generator: Generator) -> dict[str, Any]:
@@ -118,21 +107,21 @@ def _command(generator: Generator) -> click.Command:
         as_json: bool,
         **parameters: float | None,
     ) -> None:
-        check_output(output, force=force)
+        out.check_output(output, force=force)
         values = {
             name: radians(value) if units[name] == "angle" else value
             for name, value in parameters.items()
             if value is not None
         }
-        with about(generator.name):
+        with out.about(generator.name):
             generated = synth.generate(generator.name, fold=None if fold is None else radians(fold), **values)
         lost = () if output is None else synth.write(generated.mechanism, output, force=force)
         if as_json:
-            print_json({**generated.to_json(), "output": output})
+            out.print_json({**generated.to_json(), "output": output})
             return
         click.echo(str(generated))
-        tell_lost(lost)
-        tell_written(output)
+        out.tell_lost(lost)
+        out.tell_written(output)
 
     units = {parameter.name: parameter.unit for parameter in generator.parameters}
     relations = f" Limits on parameters: {generator.relations}." if generator.relations else ""
@@ -250,23 +239,17 @@ def realise(
         return
     many, on_cone = is_catalogue(file), kind == "cone"
     _refuse(
-        (
-            geometry is not None or every or some_joints or mark is not None,
-            "--geometry, --every, --some-joints and --mark require --freedoms",
-        ),
+        (geometry is not None or every or some_joints or mark is not None,
+         "--geometry, --every, --some-joints and --mark require --freedoms"),
         (on_cone and size is not None, "--size is for panels: a linkage on a cone has angles only"),
         (not on_cone and cone_angle is not None, "--lambda requires --as cone"),
         (kind != "sheet" and (flat_foldable or symmetric), "--flat-foldable and --symmetric require --as sheet"),
-        (
-            mode and (on_cone or many),
-            "--mode requires one R/- string as panels; rows of a list have modes of their own",
-        ),
+        (mode and (on_cone or many),
+         "--mode requires one R/- string as panels; rows of a list have modes of their own"),
         (many and on_cone, "--as cone requires one type, not a store, a list or a folder"),
-        (
-            not many and (workers or resume),
-            "--workers and --resume require many types: a store, a list or a folder",
-        ),
-    )
+        (not many and (workers or resume),
+         "--workers and --resume require many types: a store, a list or a folder"),
+    )  # fmt: skip
     settings = {"kind": kind, "size": 1.0 if size is None else size, "seed": seed, "tries": tries}
     settings |= {"flat_foldable": True} if flat_foldable else {}
     settings |= {"symmetric": True} if symmetric else {}
@@ -274,17 +257,17 @@ def realise(
         running = RunOptions(output, workers, resume=resume, quiet=quiet, force=force)
         _realise_many(file, running, settings, as_json=as_json)
         return
-    check_output(output, force=force)
+    out.check_output(output, force=force)
     if on_cone and output is not None and not output.lower().endswith(".json"):
         raise FileError(output, "", "a linkage on a cone cannot be written to it", "a name that ends in .json")
-    with about(file):
+    with out.about(file):
         if on_cone:
             realisation, mechanism = _on_cone(file, cone_angle, seed, tries)
         else:
             realisation, mechanism = _as_panels(file, mode, settings)
     if output is not None:
         synth.write(mechanism, output, force=force)
-    print_result(realisation, {"file": file, "output": output}, as_json=as_json, written=[output])
+    out.print_result(realisation, {"file": file, "output": output}, as_json=as_json, written=[output])
 
 
 def _refuse(*rules: tuple[object, str]) -> None:
@@ -329,16 +312,16 @@ def _realise_many(source: str, running: RunOptions, settings: dict[str, Any], *,
     run_resumable(job, sink, running)
     summary = summary_of(row_as_dict(COLUMNS, row) for row in read_rows(store))
     if as_json:
-        print_json({"file": source, "output": running.output, "left_out": job.failures, **summary})
+        out.print_json({"file": source, "output": running.output, "left_out": job.failures, **summary})
         return
     for row in summary["types"]:
         if row["outcome"] != "realised":
-            click.echo(f"{row['number']}  {plain(row['name'])}: {plain(row['reason'], 4096)}")
+            click.echo(f"{row['number']}  {out.plain(row['name'])}: {out.plain(row['reason'], 4096)}")
     for failure in job.failures:
-        click.echo(f"left out: {plain(failure, 4096)}", err=True)
+        click.echo(f"left out: {out.plain(failure, 4096)}", err=True)
     counts = "{realised} realised, {not_found} not found, {refused} refused".format(**summary)
     click.echo(f"{numbered(len(summary['types']), 'type')}: {counts}")
-    tell_written(*dict.fromkeys((str(running.output), str(store))))
+    out.tell_written(*dict.fromkeys((str(running.output), str(store))))
 
 
 def _sink_of(running: RunOptions) -> tuple[Callable[..., Sink], Path]:
@@ -370,8 +353,8 @@ def _search_special_geometry(
     if is_catalogue(file):
         raise click.UsageError("--freedoms requires one type, not a store, a list or a folder")
     for path in (output, mark):
-        check_output(path, force=force)
-    with about(file):
+        out.check_output(path, force=force)
+    with out.about(file):
         mechanism: Any = read_named(file).mechanism
         answer = synth.realise(mechanism, **search)
     if not answer.members:
@@ -380,6 +363,6 @@ def _search_special_geometry(
         synth.write(answer.members[0].mechanism, output, force=force)
     if mark is not None:
         synth.write(answer.type_with_mark, mark, force=force)
-    print_result(answer, {"file": file, "output": output}, as_json=as_json, written=[output, mark])
+    out.print_result(answer, {"file": file, "output": output}, as_json=as_json, written=[output, mark])
     if not answer.members:
         sys.exit(1)

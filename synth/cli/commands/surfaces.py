@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from functools import cached_property, wraps
@@ -56,34 +56,27 @@ class _Arc(click.ParamType):  # type: ignore[type-arg,unused-ignore]
 
 @dataclass(frozen=True)
 class LinkageOptions:
-    """A linkage as options name it: sizes are link angles in degrees, on cones, or lengths, on cylinders."""
+    """The values of `linkage_options`: sizes are link angles in degrees, on cones, or lengths, on cylinders."""
 
     kind: Kind
     file: str | None
     sizes: tuple[float, ...] | None
     steps: tuple[float, ...] | None
-    surface: Surface | None
-    arcs: Mapping[str, str]
+    surface_size: float | None
+    arcs: Sequence[tuple[str, str]] | None = None
 
-    @classmethod
-    def of(
-        cls,
-        kind: Kind,
-        file: str | None,
-        link_sizes: tuple[float, ...] | None,
-        steps: tuple[float, ...] | None,
-        surface_size: float | None,
-        arcs: Sequence[tuple[str, str]] | None,
-    ) -> LinkageOptions:
-        """Take the values of `linkage_options`, and refuse those that exclude each other."""
-        size, sizes = ("lambda", "angles") if kind == "cone" else ("radius", "lengths")
-        if sum(source is not None for source in (file, link_sizes, steps)) != 1:
+    def __post_init__(self) -> None:
+        size, sizes = ("lambda", "angles") if self.kind == "cone" else ("radius", "lengths")
+        if sum(source is not None for source in (self.file, self.sizes, self.steps)) != 1:
             raise click.UsageError(f"expected one of --{sizes}, --steps (of one loop) and FILE")
-        if surface_size is not None and link_sizes is not None:
-            raise click.UsageError(f"--{sizes} determine the {kind}; leave out --{size}")
-        cone_and_radius = (surface_size, None) if kind == "cone" else (None, surface_size)
-        surface = options.surface_from_options(*cone_and_radius)
-        return cls(kind, file, link_sizes, steps, surface, dict(arcs or ()))
+        if self.surface_size is not None and self.sizes is not None:
+            raise click.UsageError(f"--{sizes} determine the {self.kind}; leave out --{size}")
+
+    @property
+    def surface(self) -> Surface | None:
+        """The cone of --lambda, or the cylinder of --radius."""
+        cone_angle, radius = (self.surface_size, None) if self.kind == "cone" else (None, self.surface_size)
+        return options.surface_from_options(cone_angle, radius)
 
     def about(self) -> AbstractContextManager[None]:
         """Name the file in errors."""
@@ -122,7 +115,7 @@ class LinkageOptions:
             placed = synth.conformed.loop_on_cylinders(self.linkage_sizes)
         else:
             placed = [self._of_steps()]
-        return [linkage.curved(self.arcs) for linkage in placed] if self.arcs else placed
+        return [linkage.curved(dict(self.arcs)) for linkage in placed] if self.arcs else placed
 
 
 def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _Command]:
@@ -152,7 +145,7 @@ def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _C
         @wraps(command)
         def run_command(**values: Any) -> None:
             names = ("file", "sizes", "steps", "surface_size", "arcs")
-            chosen = LinkageOptions.of(kind, *(values.pop(name, None) for name in names))
+            chosen = LinkageOptions(kind, *(values.pop(name, None) for name in names))
             command(chosen=chosen, **values)
 
         for option in reversed(every):
