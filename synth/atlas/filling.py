@@ -6,6 +6,7 @@ A row of an enumeration becomes a row of the atlas; columns that a kind of type 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import lru_cache
 from typing import Any, get_args
 
@@ -51,10 +52,8 @@ def coordinates_of(code: str) -> dict[str, Any]:
 def _realised(code: str) -> Realised | None:
     """Return a type as a flat sheet, or else in space; None if neither was found."""
     for kind in get_args(Kind):
-        try:
+        with suppress(SynthedraError):
             return realise(mechanism_of_id(code), kind=kind)
-        except SynthedraError:
-            continue
     return None
 
 
@@ -111,10 +110,9 @@ def _of_sc(row: Mapping[str, Any]) -> Values:
 
 def _id_or_none(make: Callable[[SCGraph], SCGraph], graph: SCGraph) -> str | None:
     """Return the id of another form of a mechanism; None where there is none, as for one with a spatial loop."""
-    try:
+    with suppress(SynthedraError):
         return map_id(make(graph))
-    except SynthedraError:
-        return None
+    return None
 
 
 def _of_scd(row: Mapping[str, Any]) -> Values:

@@ -369,10 +369,8 @@ class Atlas:
 
         Raises
         ------
-        ExpressionError
-            If the condition cannot be read.
         InvariantError
-            If there is no such column.
+            If there is no such column, or the condition cannot be read (`ExpressionError`).
         UnsolvableError
             If it takes longer.
         """

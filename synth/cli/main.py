@@ -51,8 +51,8 @@ _SECTIONS: dict[str, dict[str, str]] = {
         "atlas": "Build, query, show and find all types up to a size, in one file.",
     },
     "Cones and cylinders": {
-        "cone": "Map spherical linkages to cones; find which way links move.",
-        "cylinder": "Map planar linkages to cylinders; find which way links move.",
+        "cone": "Map spherical linkages to cones; find to which side links move.",
+        "cylinder": "Map planar linkages to cylinders; find to which side links move.",
     },
     "Guide a body through orientations": {
         "order": "Check whether a crank about a fixed axis guides a body through orientations in order.",
@@ -197,7 +197,8 @@ def main(debug: bool) -> None:
     Exit status: 0, done; 1, the answer is no; 2, bad input or usage, or output that cannot be written; 70, a fault
     of the program, please report it; 128 + n, stopped by signal n (130: Ctrl-C).
 
-    Completion of commands, options and file names by the shell: put eval "$(_SYNTH_COMPLETE=bash_source synth)"
-    into ~/.bashrc; for zsh or fish, with zsh_source or fish_source.
+    \b
+    Shell completion: add to ~/.bashrc (for zsh and fish: zsh_source, fish_source)
+      eval "$(_SYNTH_COMPLETE=bash_source synth)"
     """
     del debug  # `_LazyGroup.invoke` reads it

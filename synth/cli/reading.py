@@ -53,13 +53,13 @@ def keep_looks(ctx: click.Context, words: tuple[str, ...]) -> None:
 
 COLOUR = options.repeated(
     "--colour", LOOK,
-    "For a drawing (.svg, .dxf): assignment of the lines of a colour, a dash pattern or both "
-    "('V=dashed #000000'). M mountain, V valley, B border, C cut, F flat, U unassigned, - leaves them out.",
+    "For a drawing (.svg, .dxf): assignment of lines by their colour, their dash pattern or both, such as "
+    "'V=dashed #000000'. M mountain, V valley, B border, C cut, F flat, U unassigned; - leaves lines out.",
     expose_value=False, callback=lambda ctx, _parameter, words: keep_looks(ctx, words),
 )  # fmt: skip
 LAYER = options.repeated(
     "--layer", "M=NAME,...",
-    "For a drawing (.svg, .dxf): assignment of the lines of a layer or group, by the same letters.",
+    "For a drawing (.svg, .dxf): assignment of lines by their layer or group, with the same letters.",
     expose_value=False, callback=lambda ctx, _parameter, words: _keep(ctx, "layers", words),
 )  # fmt: skip
 
@@ -139,12 +139,8 @@ class NamedMechanism:
 def read_named(argument: str, row: int | None = None, mode: str | None = None) -> NamedMechanism:
     """Return the mechanism that an argument names: a file, an id ``k1:...`` or ``m1:...``, an R/- string.
 
-    With a row, from 1, it is one of a store, a list or a folder. The mode is that of an R/- string; a row of a
-    list of modes has its own. Raise click.UsageError if a row is required and missing, or the other way round;
-    FileError if the file cannot be read, or has no such row.
-
-    >>> read_named("RR-R-RRR").mechanism
-    ChainString(clusters=(2, 1, 3))
+    With a row, from 1, it is one of a store, a list or a folder; a row of a list of modes has its own mode. Raise
+    click.UsageError if a row is required and missing, or the other way round.
     """
     from synth.drawing.catalogue import entry_numbered, is_catalogue
 

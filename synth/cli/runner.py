@@ -67,21 +67,23 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+_OUTPUT = options.output(
+    "Write .jsonl, .csv, .sqlite, .parquet, .g6 (chains only), or a folder of mechanisms; counts go to .sqlite.",
+    "FILE",
+)
 _OPTIONS = (
-    options.output(
-        "Write .jsonl, .csv, .sqlite, .parquet, .g6 (chains only), or a folder of mechanisms; counts go to "
-        ".sqlite.", "FILE",
-    ),
     options.WORKERS,
     options.value("--scheduler", "ADDRESS", "Work on a Dask cluster, such as tcp://host:8786."),
     options.flag("--resume", "Continue a stopped run from its .sqlite store."),
     options.FORCE,
     options.flag("--quiet", "Show neither progress nor the names of written files."),
     options.JSON,
-)  # fmt: skip
+)
 
 
-def runner_options(command: Callable[..., None], *, counting: bool = False) -> Callable[..., None]:
+def runner_options(
+    command: Callable[..., None], *, counting: bool = False, output: Callable[..., Any] = _OUTPUT
+) -> Callable[..., None]:
     """Add the options of the runner to a subcommand, which takes them as one `RunOptions`, ``running``.
 
     Its output is a store only if `counting`, or with --count.
@@ -93,7 +95,7 @@ def runner_options(command: Callable[..., None], *, counting: bool = False) -> C
         settings = {name: values.pop(name) for name in names}
         command(running=RunOptions(**settings, counting=values.get("only_count", counting)), **values)
 
-    for each in reversed(_OPTIONS):
+    for each in reversed((output, *_OPTIONS)):
         run_command = each(run_command)
     return run_command
 

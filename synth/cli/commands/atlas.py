@@ -32,7 +32,7 @@ def atlas_group() -> None:
     """
 
 
-@atlas_group.command()
+@atlas_group.command(short_help="Build an atlas in one file.")
 @options.value("--max-links", "N", "Largest number of links of SC and SCD graphs.", default=8, type=int)
 @options.repeated("--dof dofs", "M", "Degrees of freedom, 1 by default; may be repeated.", default=(1,), type=int)
 @options.value("--max-degree", "D", "Largest number of sides of a link.", default=4, type=int)
@@ -49,7 +49,7 @@ def atlas_group() -> None:
 @options.value("--spatial", "S", "Include hybrids of 1 to S spatial loops.", default=0, type=int)
 @options.flag("--infinite", "Include centres at infinity.")
 @options.flag("--realise/--no-realise realised", "Realise the types, and fold them.", default=True)
-@partial(runner_options, counting=True)
+@partial(runner_options, counting=True, output=options.output("Atlas to write.", "FILE.sqlite"))
 def build(
     max_links: int, dofs: tuple[int, ...], max_degree: int, chain_links: int | None, creases: int,
     orders_of: tuple[str, ...], spatial: int, infinite: bool, realised: bool, running: RunOptions,
@@ -156,7 +156,7 @@ def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: boo
     out.print_result(report, {}, as_json=as_json, written=[output])
 
 
-@atlas_group.command()
+@atlas_group.command(short_help="Write a site, with one page per type.")
 @_ATLAS
 @click.argument("condition", required=False, default="")
 @options.output("New folder to write the site to.", "FOLDER", "-o --output folder", required=True)

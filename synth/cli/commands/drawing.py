@@ -55,8 +55,8 @@ def _colouring(ctx: click.Context, _parameter: click.Parameter, words: tuple[str
     "--colour", "WHAT|" + reading.LOOK,
     "Colouring of a crease pattern: letters (the assignment in the file; the default), verdict (mobile and "
     "immobile creases), branch (initial rates of a branch), centres (classes of centres) or none. With M=..., for "
-    "a drawing (.svg, .dxf): assignment of the lines of a colour, a dash pattern or both "
-    "('V=dashed #000000'); - leaves them out.", callback=_colouring,
+    "a drawing (.svg, .dxf): assignment of lines by their colour, their dash pattern or both, such as "
+    "'V=dashed #000000'; - leaves lines out.", callback=_colouring,
 )  # fmt: skip
 @reading.LAYER
 @options.branch("Branch to show with --colour branch or --as marks, by its number or its signs.")

@@ -78,10 +78,10 @@ def edit(
 ) -> None:  # fmt: skip
     """Edit a mechanism. Each edit predicts its change of mobility (Wiener, Eqs. 5 to 7); the count confirms it.
 
-    Options may be repeated; the edits are made in the order of the list below. An SCD graph keeps the sides of its
-    links, unless a loop is added: then it becomes an SC graph. A crease pattern stays a crease pattern if creases
-    are locked, added and removed; if links are added, it becomes the SC graph of its mechanism. --assign-branch
-    comes before all others: it gives a pattern that folds with its mountain-valley assignment.
+    Options may be repeated; the edits are made in the order of the options below. An SCD graph keeps the sides of
+    its links, unless a loop is added: then it becomes an SC graph. A crease pattern stays a crease pattern if
+    creases are locked, added and removed; if links are added, it becomes the SC graph of its mechanism.
+    --assign-branch comes before all others: it gives a pattern that folds with its mountain-valley assignment.
 
     JOINT is an id, a number in the list of joints (for a pattern, of edges), or two links A,B with one joint. For
     a loop between links that are not adjacent, name the joints of a path between them, as in the last example.

@@ -49,9 +49,9 @@ def order(
 ) -> None:  # fmt: skip
     """Check whether a crank guides a body through orientations in order (Tipparthi and Larochelle 2011).
 
-    The hoop, half a great circle through the ends of the axis, turns from S12 by 180 degrees; the order in which
-    it crosses the relative axes Sij decides. Inequalities and the crank angles of the best-fitting dyad check the
-    result. Exit status 1: the order is not kept.
+    The hoop, half a great circle through the ends of the axis, turns by 180 degrees from S12; the order in which
+    it crosses the axes Sij, of the rotation from orientation i to orientation j, decides. Inequalities and the
+    crank angles of the best-fitting dyad check the result. Exit status 1: the order is not kept.
 
     \b
     Example:
@@ -96,7 +96,8 @@ def dyads(
 
     For three orientations every fixed axis has a dyad, so --axis is required. For four there are curves of dyads,
     which are sampled. For five there are up to six dyads, and all are found. For more orientations the
-    best-fitting dyads are found. W is in the frame of the body. The residual is the largest |G . (Mi - M1) W|.
+    best-fitting dyads are found. W is in the frame of the body. The residual is the largest |G . (Mi - M1) W|,
+    Mi being the matrix of orientation i.
 
     \b
     Example:

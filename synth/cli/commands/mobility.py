@@ -58,9 +58,9 @@ def mobility(
 ) -> None:  # fmt: skip
     """Report how a mechanism moves: its degrees of freedom, its motion branches, and the evidence.
 
-    FILE is an SC graph, an SCD graph, a polyhedron model or a vertex-edge graph (.json), a crease pattern (.fold,
-    .svg, .dxf, .cp, .opx, .obj), or a bare link-joint graph (.g6, .s6, .graphml, .edges, .csv). One file gives a
-    full report, several give a table.
+    FILE holds an SC graph, an SCD graph, a polyhedron model or a vertex-edge graph (.json), a crease pattern
+    (.fold, .svg, .dxf, .cp, .opx, .obj), or a bare link-joint graph (.g6, .s6, .graphml, .edges, .csv). One file
+    gives a full report, several give a table.
 
     The verdict comes first: whether a crease pattern is rigid-foldable from its configuration, with how many
     degrees of freedom, and which creases are immobile; for a type without coordinates, what a generic realisation

@@ -30,7 +30,7 @@ __all__ = ["advise", "explain", "fold", "limits", "positions", "states"]
 @options.repeated("--along", "JOINT=RATE", "Initial joint rates; the motion keeps their direction if it can.")
 @options.repeated(
     "--point points", "LINK=X,Y[,Z]",
-    "Print where this point of a link is in each frame (a coupler curve); may be repeated."
+    "Print the position of this point of a link in each frame (a coupler curve); may be repeated."
 )  # fmt: skip
 @options.flag(
     "--all whole",

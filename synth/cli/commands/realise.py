@@ -182,10 +182,8 @@ _FIGURES = 12
 )  # fmt: skip
 @options.value("--geometry", "TEXT", "With --freedoms: try only families with TEXT in their name.")
 @options.flag("--every", "With --freedoms: try every family, not only until one moves.")
-@options.flag("--some-joints", "With --freedoms: joints may stay immobile.")
-@options.output(
-    "With --freedoms: write the type with a mark of the geometry that was found.", "OUT.json", "--mark"
-)
+@options.flag("--some-joints", "With --freedoms: allow joints to stay immobile.")
+@options.output("With --freedoms: write the type, marked with the geometry that was found.", "OUT.json", "--mark")
 @options.output("Write the realisation: .fold, .obj or .svg; .json on a cone; a folder or .sqlite for many types.")
 @options.number("--workers", "N", "For many types: number of processes. By default one per core.")
 @options.flag("--resume", "For many types: continue a run that was stopped.")
@@ -209,11 +207,11 @@ def realise(
     folding branch on which every crease turns; its mountains and valleys are those of that branch. It can be made
     flat-foldable and symmetric.
 
-    With --freedoms the type is searched for members that move although counts say they are rigid: flat sheets with
-    flat-foldable vertices whose ratios agree, straight lines, parallel creases or symmetries; axes in space that
-    are symmetric, parallel or meet in groups, equal links, poses along a motion that close (--as space: axes
-    alone). Each is followed by a finite motion in which all joints move. The answer lists what was tried, found or
-    not; the first member is written, a sheet as .fold, axes as .json. Exit status 1: none was found.
+    With --freedoms, search for realisations of the type that move although counts say it is rigid: flat sheets
+    with flat-foldable vertices whose ratios agree, straight lines, parallel creases or symmetries; axes in space
+    that are symmetric, parallel or meet in groups, equal links, poses along a motion that close (--as space: axes
+    alone). A finite motion in which all joints move confirms each of them. The answer lists all families that were
+    tried; the first realisation that moves is written, a sheet as .fold, axes as .json. Exit status 1: none moves.
 
     A type with one centre can lie on a cone, with all its axes on ruling lines; the output is a file for `synth
     cone`.

@@ -272,8 +272,8 @@ def map_command(kind: Kind) -> click.Command:
     )  # fmt: skip
     @options_of_kind
     @options.output(
-        f"Draw the loop sums (.png, .svg, .pdf); for a FILE or with --{kind}, draw the linkage; "
-        "or write it (.json).",
+        f"Draw the loop sums, or the linkage for a FILE or with --{kind} (.png, .svg, .pdf); "
+        "or write the linkage (.json).",
     )  # fmt: skip
     @options.number(
         f"--{kind} number", "K",
@@ -301,49 +301,29 @@ def map_command(kind: Kind) -> click.Command:
     return command
 
 
-_BEHAVIOUR = {
-    "cone": """
-    \b
-    Examples:
-      synth cone behaviour --angles 120,95,45,85
-      synth cone behaviour --steps 40,50,50 --ground 2
-      synth cone behaviour --steps 40,50,90 --arc 4=1
-      synth cone behaviour data/surfaces/fig11-stephenson.json --ground 2
-    """,
-    "cylinder": """
-    \b
-    Examples:
-      synth cylinder behaviour --lengths 4,3,5,1
-      synth cylinder behaviour --steps 40,50,50 --radius 25 --ground 2
-      synth cylinder behaviour --steps 40,50,90 --arc 4=1
-      synth cylinder behaviour data/surfaces/fig10-four-bar.json --ground 2
-    """,
+_EXAMPLE = {
+    "cone": ("--angles 120,95,45,85", "--lambda 20", "data/surfaces/fig11-stephenson.json"),
+    "cylinder": ("--lengths 4,3,5,1", "--radius 25", "data/surfaces/fig10-four-bar.json"),
 }
-_MOVE = {
-    "cone": """
-    \b
-    Examples:
-      synth cone move --angles 120,95,45,85
-      synth cone move data/surfaces/fig11-stephenson.json --at 0.1
-      synth cone move --steps 50,110,80 --lambda 20 --at 0,10,20 --point 2,30 --axes 1,3
-    """,
-    "cylinder": """
-    \b
-    Examples:
-      synth cylinder move data/surfaces/fig10-four-bar.json
-      synth cylinder move --steps 50,110,80 --radius 25 --at 0,10 --point 3,90 --axes 1,3
-    """,
-}
+"""A loop by its sizes, the size of a surface, and a file, in the examples of the help."""
 
 
 def behaviour_command(kind: Kind) -> click.Command:
     """Return the command that finds in which direction links leave a surface of a kind."""
+    sizes, size, file = _EXAMPLE[kind]
     text = f"""Find which links can move inward (intramobile), outward (extramobile), or both ways (transmobile).
 
     The answer is to first order, from the conformed position. It does not depend on the size of the {kind}, and is
     the same on cones and cylinders. Give the links or the steps of one loop, or a FILE of a linkage. A link that
     spans half a turn may curve either way: both arcs are rows, unless --arc, or the sign of its step, chooses one.
-    {_BEHAVIOUR[kind]}"""
+
+    \b
+    Examples:
+      synth {kind} behaviour {sizes}
+      synth {kind} behaviour --steps 40,50,50 {size} --ground 2
+      synth {kind} behaviour --steps 40,50,90 --arc 4=1
+      synth {kind} behaviour {file} --ground 2
+    """
 
     @click.command(
         "behaviour", help=text, short_help=f"Find which links leave the {kind} inward, outward, or both ways."
@@ -373,13 +353,20 @@ def behaviour_command(kind: Kind) -> click.Command:
 
 def move_command(kind: Kind) -> click.Command:
     """Return the command that moves a linkage from its surface of a kind."""
+    sizes, size, file = _EXAMPLE[kind]
     text = f"""Move a linkage with one degree of freedom from its conformed position, all round its circuit.
 
     The answer has the range of the driving joint, the side of the {kind} on which each link stays, and the
     circuit. With --at it lists the configurations of the circuit at given angles of the driving joint; there,
     --point gives the positions of points of links, and --axes the axis about which two links turn relative to
     each other.
-    {_MOVE[kind]}"""
+
+    \b
+    Examples:
+      synth {kind} move {sizes}
+      synth {kind} move {file} --at 0.1
+      synth {kind} move --steps 50,110,80 {size} --at 0,10,20 --point 2,30 --axes 1,3
+    """
 
     @click.command(
         "move", help=text, short_help=f"Find how far a linkage moves from its {kind}, and to which side."
@@ -452,28 +439,21 @@ def _pair(linkage: OnSurface, text: str) -> tuple[LinkId, LinkId]:
     return first, second
 
 
-@click.group("cone")
-def cone_group() -> None:
-    """Map spherical linkages to right cones, and find which way their links move from them.
+def _group(kind: Kind) -> click.Group:
+    linkages = "spherical" if kind == "cone" else "planar"
+    sizes, *_ = _EXAMPLE[kind]
+    text = f"""Map {linkages} linkages to right circular {kind}s, and find to which side their links move.
 
     \b
     Examples:
-      synth cone map --angles 70,80,120,40
-      synth cone behaviour --angles 70,80,120,40
+      synth {kind} map {sizes}
+      synth {kind} behaviour {sizes}
+      synth {kind} move {sizes}
     """
+    group = click.Group(kind, help=text)
+    for command in (map_command, behaviour_command, move_command):
+        group.add_command(command(kind))
+    return group
 
 
-@click.group("cylinder")
-def cylinder_group() -> None:
-    """Map planar linkages to right circular cylinders, and find which way their links move from them.
-
-    \b
-    Examples:
-      synth cylinder map --lengths 4,3,5,1
-      synth cylinder behaviour --lengths 4,3,5,1
-    """
-
-
-for _command in (map_command, behaviour_command, move_command):
-    cone_group.add_command(_command("cone"))
-    cylinder_group.add_command(_command("cylinder"))
+cone_group, cylinder_group = _group("cone"), _group("cylinder")
