@@ -419,14 +419,14 @@ class Atlas:
 
     def ids(self, codes: Sequence[str]) -> list[dict[str, Any]]:
         """Return the rows of the types with some ids, in the order of the ids; of a string, that of its panels."""
-        found = []
+        types: list[dict[str, Any]] = []
         with open_guarded(self.path) as connection:
             for code in dict.fromkeys(codes):
                 for column in ("id", "panels"):
                     statement = f"SELECT {quoted(_all_columns())} FROM type WHERE {column} = ?"
                     rows = selected(connection, statement, (code,), limit=_LIMIT, seconds=_SECONDS)
-                    found += [self._row(_all_columns(), row) for row in rows.rows]
-        return found
+                    types += [self._row(_all_columns(), row) for row in rows.rows]
+        return types
 
     def _row(self, names: Sequence[str], row: Sequence[Any]) -> dict[str, Any]:
         return {name: value_of(self.path, name, value) for name, value in zip(names, row, strict=True)}

@@ -18,7 +18,6 @@ from synth.cli.runner import RunOptions, check_method, run_count, run_rows, runn
 
 if TYPE_CHECKING:
     from enumerate.runner import Limits, Sink
-    from graphs.mechanism import SCGraph
     from graphs.types import LinkId
 
 __all__ = ["conical"]
@@ -121,7 +120,7 @@ def conical(
         run_count(ConicalCountJob(job.query, method or "burnside"), running)
 
 
-def _chain(name: str) -> SCGraph:
+def _chain(name: str) -> synth.SCGraph:
     """Return the chain of a name, an id or a file."""
     from enumerate.chains.names import chain_named, chain_names
     from graphs.convert.table import graph_of
@@ -136,7 +135,7 @@ def _chain(name: str) -> SCGraph:
         return sc if sc.loops else graphs.convert.sc_from_link_joint_graph(sc)
 
 
-def _grounds(chain: SCGraph, ground: str | None) -> tuple[LinkId | None, ...]:
+def _grounds(chain: synth.SCGraph, ground: str | None) -> tuple[LinkId | None, ...]:
     """Return the fixed links of --ground; without it that of the chain."""
     from enumerate.conical.query import links_apart
 
@@ -158,7 +157,7 @@ def _around(sink: Sink, job: synth.candidates.CandidateJob, sort: str | None, pi
     return sink
 
 
-def _print_formulas(chain: SCGraph, grounds: tuple[LinkId | None, ...]) -> None:
+def _print_formulas(chain: synth.SCGraph, grounds: tuple[LinkId | None, ...]) -> None:
     click.echo("[a b c] = 4 sin((b - a) / 2) sin((c - b) / 2) sin((c - a) / 2); joints stand for their azimuths.")
     click.echo("A link can go one way if all its joints have one sign and lie on half the circle.")
     for ground in grounds:

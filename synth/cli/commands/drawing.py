@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from synth.drawing.catalogue import CatalogueEntry
     from synth.realisation.realised import Kind as RealisedKind
     from synth.templates.hinges import HingeKind
-    from synth.viewer import Shown
 
 __all__ = ["draw", "template", "view"]
 
@@ -191,7 +190,7 @@ def view(files: tuple[str, ...], output: str | None, force: bool) -> None:
             "the workbench requires pip install 'synthedra[view]'; a page without it requires -o page.html"
         )
     check_built()
-    mechanisms: list[Shown] = []
+    mechanisms: list[synth.viewer.Shown] = []
     for file in files:
         mechanism = read(file)
         with about(file):
@@ -207,7 +206,7 @@ def view(files: tuple[str, ...], output: str | None, force: bool) -> None:
     tell_written(output)
 
 
-def _serve(mechanisms: list[Shown], sources: list[bytes | None]) -> None:
+def _serve(mechanisms: list[synth.viewer.Shown], sources: list[bytes | None]) -> None:
     from synth.viewer.workbench.app import serve
 
     def opened(address: str) -> None:

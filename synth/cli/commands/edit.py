@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
 
 import click
 
@@ -15,12 +14,6 @@ from graphs import creasing
 from graphs.errors import UnsolvableError, numbered
 from synth.cli import options, output as out
 from synth.cli.reading import DRAWN, read
-
-if TYPE_CHECKING:
-    from graphs.creasing import SheetEdit
-    from graphs.edit import Edit
-    from graphs.mechanism import SCGraph, Sheet
-    from graphs.reduce import AssurReduction, Reduction
 
 __all__ = ["edit", "reduce_command"]
 
@@ -98,7 +91,7 @@ def edit(
     out.check_output(output, force=force)
     mechanism = read(file)
     with out.about(file):
-        edits: list[Edit] | list[SheetEdit]
+        edits: list[graphs.edit.Edit] | list[creasing.SheetEdit]
         if isinstance(mechanism, synth.Sheet) and not any(
             words[name] for name in words if name not in _OF_PATTERNS
         ):
@@ -127,9 +120,9 @@ def edit(
     out.tell_lost(lost)
 
 
-def _edited(sc: SCGraph, words: dict[str, tuple[str, ...]]) -> list[Edit]:
+def _edited(sc: synth.SCGraph, words: dict[str, tuple[str, ...]]) -> list[graphs.edit.Edit]:
     """Make the edits of an SC graph in the order of the options, each to the result of the last."""
-    kinds: dict[str, Callable[[SCGraph, str], Edit]] = {
+    kinds: dict[str, Callable[[synth.SCGraph, str], graphs.edit.Edit]] = {
         "add_crease": _crease,
         "add_loop": lambda sc, text: _loop(sc, text, "finite", "--add-loop"),
         "add_spatial_loop": lambda sc, text: _loop(sc, text, "none", "--add-spatial-loop"),
@@ -138,7 +131,7 @@ def _edited(sc: SCGraph, words: dict[str, tuple[str, ...]]) -> list[Edit]:
         "explicit": lambda sc, text: _centre(sc, text, "--explicit"),
         "lock": _lock,
     }
-    edits: list[Edit] = []
+    edits: list[graphs.edit.Edit] = []
     for name, make in kinds.items():
         for text in words[name]:
             edits.append(make(edits[-1].graph if edits else sc, text))
@@ -159,7 +152,7 @@ def _whole(word: str, option: str) -> int:
     return int(word)
 
 
-def _crease(sc: SCGraph, text: str) -> Edit:
+def _crease(sc: synth.SCGraph, text: str) -> graphs.edit.Edit:
     name, _, rest = text.partition(":")
     link, words = options.link_of(sc, name), [word.strip() for word in rest.split(",") if word.strip()]
     if not isinstance(sc, synth.SCDGraph):
@@ -171,7 +164,7 @@ def _crease(sc: SCGraph, text: str) -> Edit:
     return graphs.edit.crease_link(sc, link, *(_whole(word, "--add-crease") for word in words))
 
 
-def _loop(sc: SCGraph, text: str, centre: str, option: str) -> Edit:
+def _loop(sc: synth.SCGraph, text: str, centre: str, option: str) -> graphs.edit.Edit:
     chain, _, rest = text.partition(":")
     a, b, k = _words(chain, 3, option)
     through = [options.joint_of(sc, word.strip()) for word in rest.split(",") if word.strip()]
@@ -180,28 +173,28 @@ def _loop(sc: SCGraph, text: str, centre: str, option: str) -> Edit:
     return graphs.edit.add_loop(bare, *ends, _whole(k, option), centre=centre, through=through or None)
 
 
-def _ride_along(sc: SCGraph, text: str) -> Edit:
+def _ride_along(sc: synth.SCGraph, text: str) -> graphs.edit.Edit:
     a, b = (options.link_of(sc, word) for word in _words(text, 2, "--add-ride-along"))
     if isinstance(sc, synth.SCDGraph) and sc.has_edge(a, b):
         return graphs.edit.ride_along(sc, next(iter(sc[a][b])))
     return graphs.edit.add_ride_along(sc, a, b)
 
 
-def _centre(sc: SCGraph, text: str, option: str) -> Edit:
+def _centre(sc: synth.SCGraph, text: str, option: str) -> graphs.edit.Edit:
     if not isinstance(sc, synth.SCDGraph):
         raise UnsolvableError(f"{option} requires an SCD graph, which has the sides of the links")
     make = graphs.edit.make_implicit if option == "--implicit" else graphs.edit.make_explicit
     return make(sc, _whole(text, option))
 
 
-def _lock(sc: SCGraph, text: str) -> Edit:
+def _lock(sc: synth.SCGraph, text: str) -> graphs.edit.Edit:
     lock = graphs.edit.lock_hinge if isinstance(sc, synth.SCDGraph) else graphs.edit.lock_joint
     return lock(sc, options.joint_of(sc, text))
 
 
 def _pattern_edits(
-    sheet: Sheet, words: dict[str, tuple[str, ...]], branch: int | str | None
-) -> Iterator[SheetEdit]:
+    sheet: synth.Sheet, words: dict[str, tuple[str, ...]], branch: int | str | None
+) -> Iterator[creasing.SheetEdit]:
     """Yield the edits of a pattern: assigned as a branch, creases locked, added, removed, each to the last result.
 
     Edges keep their numbers until creases are removed; those are named before.
@@ -288,7 +281,7 @@ def reduce_command(
     with out.about(file):
         sc = graphs.convert.to_sc(read(file))
         if rule == "assur":
-            reduction: Reduction | AssurReduction = _assur(sc, ground, inputs)
+            reduction: graphs.reduce.Reduction | graphs.reduce.AssurReduction = _assur(sc, ground, inputs)
         else:
             reduction = synth.reduce(sc, rule=rule, fully=fully, keep=[options.link_of(sc, name) for name in keep])
         lost = () if output is None else synth.write(reduction.graph, output, force=force, lossy=lossy)
@@ -296,7 +289,7 @@ def reduce_command(
     out.print_result(reduction, keys, as_json=as_json, written=[output], lost=lost)
 
 
-def _assur(sc: SCGraph, ground: str | None, inputs: tuple[str, ...]) -> AssurReduction:
+def _assur(sc: synth.SCGraph, ground: str | None, inputs: tuple[str, ...]) -> graphs.reduce.AssurReduction:
     fixed = sc.ground if ground is None else options.link_of(sc, ground)
     if fixed is None or not inputs:
         raise click.UsageError("--rule assur requires --ground LINK, and an --input JOINT per degree of freedom")

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 import graphs.files
+import synth
 from graphs.errors import FileError
 from synth.cli import options
 from synth.cli.commands.conical import conical
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from enumerate.runner import Limits
     from enumerate.scd.jobs import Mechanisms
     from enumerate.strings import ChainString
-    from graphs.mechanism import SCGraph
 
 __all__ = ["enumerate_group"]
 
@@ -318,7 +318,7 @@ def scd(
         run_rows(SCDJob(mechanisms), running)
 
 
-def _graph(file: str) -> SCGraph:
+def _graph(file: str) -> synth.SCGraph:
     from graphs.convert.table import graph_of
 
     mechanism = graphs.files.read(file)

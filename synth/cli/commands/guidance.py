@@ -17,7 +17,6 @@ from synth.cli import options
 from synth.cli.output import about, check_output, check_picture, console, plain, print_json, print_result, table
 
 if TYPE_CHECKING:
-    from synth.guidance import Dyad, GuidedFourBar, GuidingDyads, Orientations
     from synth.guidance.order import Direction
 
 __all__ = ["dyads", "fourbar", "order"]
@@ -113,8 +112,8 @@ def dyads(
 
 
 def _guiding_dyads(
-    orientations: Orientations, axes: tuple[tuple[float, float, float], ...], samples: int
-) -> GuidingDyads:
+    orientations: synth.guidance.Orientations, axes: tuple[tuple[float, float, float], ...], samples: int
+) -> synth.guidance.GuidingDyads:
     """Return the dyads of orientations; refuse an --axis for other than three, or its absence for three."""
     if axes and len(orientations) != 3:
         raise click.UsageError(f"--axis requires three orientations, got {len(orientations)}")
@@ -123,7 +122,7 @@ def _guiding_dyads(
     return synth.guidance.guiding_dyads(orientations, axes, samples)
 
 
-def _drawn(orientations: Orientations, guiding: tuple[Dyad, ...]) -> Any:
+def _drawn(orientations: synth.guidance.Orientations, guiding: tuple[synth.guidance.Dyad, ...]) -> Any:
     """Return the map of orders, with the dyads, or with the curve of fixed axes for four orientations."""
     if len(orientations) == 4:
         return synth.drawing.draw_map(orientations, (), synth.guidance.centre_axes(orientations, 720))
@@ -197,7 +196,7 @@ def fourbar(
         out.print(f"written: {plain(motion, 4096)} ({frames} orientations)")
 
 
-def _cones_json(four_bar: GuidedFourBar) -> dict[str, Any]:
+def _cones_json(four_bar: synth.guidance.GuidedFourBar) -> dict[str, Any]:
     """Return every cone, and interval of cones, on which a four-bar can lie."""
     forms = synth.guidance.conical_forms(four_bar)
     return {
@@ -206,7 +205,7 @@ def _cones_json(four_bar: GuidedFourBar) -> dict[str, Any]:
     }
 
 
-def _table_of_cones(listed: Sequence[GuidedFourBar]) -> Any:
+def _table_of_cones(listed: Sequence[synth.guidance.GuidedFourBar]) -> Any:
     rows = table("row", "ground driver coupler follower", "cone angle", "circuit", numbers=["row", "cone angle"])
     for number, four_bar in enumerate(listed, start=1):
         forms = _cones_json(four_bar)
@@ -220,7 +219,7 @@ def _table_of_cones(listed: Sequence[GuidedFourBar]) -> Any:
     return rows
 
 
-def _table(listed: Sequence[GuidedFourBar]) -> Any:
+def _table(listed: Sequence[synth.guidance.GuidedFourBar]) -> Any:
     from synth.guidance.order import direction_words
 
     rows = table(

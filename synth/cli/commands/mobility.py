@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
-import synth
+import synth.verdict
 from graphs.errors import FileError, numbered
 from synth.cli import options
 from synth.cli.output import about, console, entries, plain, print_json, table
@@ -20,7 +20,6 @@ from synth.cli.reading import DRAWN, PRECISION, precise
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from synth.verdict import JudgedMobility
 
 __all__ = ["mobility"]
 
@@ -76,7 +75,7 @@ def mobility(
         raise click.UsageError("--pose and --no-pose exclude each other")
     frame: int | Literal[False] | None = False if no_pose else pose
     failures: list[str] = []
-    answers: list[tuple[str, JudgedMobility]] = []
+    answers: list[tuple[str, synth.verdict.JudgedMobility]] = []
     with _no_collection():
         for entry in entries(files, failures):
             try:
@@ -118,7 +117,7 @@ def _in_number_order(label: str) -> list[str | int]:
     return [int(part) if part.isdecimal() else part for part in re.split(r"([0-9]+)", label)]
 
 
-def _print_table(out: Console, answers: list[tuple[str, JudgedMobility]], failed: int) -> None:
+def _print_table(out: Console, answers: list[tuple[str, synth.verdict.JudgedMobility]], failed: int) -> None:
     """Print one line per mechanism, with totals; of one file alone all notes are printed."""
     numbers = ("DOF", "N", "J", "L", "centres", "M", "exact", "pose", "notes")
     rows = table("file", "class", *numbers, numbers=numbers)

@@ -17,7 +17,6 @@ from synth.cli.reading import DRAWN, PRECISION, precise, read
 
 if TYPE_CHECKING:
     from graphs.convert import Mechanism
-    from graphs.mechanism import SCGraph
     from graphs.types import LinkId
 
 __all__ = ["advise", "explain", "fold", "limits", "positions", "states"]
@@ -107,7 +106,7 @@ def fold(
     tell_written(*written)
 
 
-def _point(graph: SCGraph, text: str) -> tuple[LinkId, list[float]]:
+def _point(graph: synth.SCGraph, text: str) -> tuple[LinkId, list[float]]:
     """Return a link and the coordinates of a point, as they were typed."""
     name, place = options.named_value(text, "--point", "LINK=X,Y or LINK=X,Y,Z", (2, 3))
     return options.link_of(graph, name), place
@@ -308,7 +307,7 @@ def states(
 
 
 def _masses(
-    mechanism: Mechanism, graph: SCGraph, words: tuple[str, ...], density: float | None, ground: str | None
+    mechanism: Mechanism, graph: synth.SCGraph, words: tuple[str, ...], density: float | None, ground: str | None
 ) -> synth.compliance.Masses | None:
     """Return the masses of the options --mass, --density and --ground."""
     from synth.moving.made import sheet_of
@@ -326,7 +325,7 @@ def _masses(
     return synth.compliance.Masses(tuple(points), options.link_of(graph, ground))
 
 
-def _mass(graph: SCGraph, word: str) -> synth.compliance.Mass:
+def _mass(graph: synth.SCGraph, word: str) -> synth.compliance.Mass:
     """Return the point mass of a word ``LINK=M@X,Y,Z``."""
     link, _, rest = word.rpartition("=")
     value, _, place = rest.partition("@")

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 import synth.patterns
-import synth.realisation
 from graphs.errors import FileError, numbered
 from synth.cli import options, output as out
 from synth.cli.main import NamedGroup
@@ -23,7 +22,6 @@ if TYPE_CHECKING:
 
     from enumerate.runner import Sink
     from graphs.convert import Mechanism
-    from synth.patterns import Generator, Parameter
     from synth.realisation import OnOneCone, Realised
 
 __all__ = ["generate", "realise"]
@@ -76,7 +74,7 @@ def generate(ctx: click.Context, listed: bool, as_json: bool) -> None:
     out.console().print(rows)
 
 
-def _described(generator: Generator) -> dict[str, Any]:
+def _described(generator: synth.patterns.Generator) -> dict[str, Any]:
     return {
         "name": generator.name,
         "title": generator.title,
@@ -96,7 +94,7 @@ def _described(generator: Generator) -> dict[str, Any]:
     }
 
 
-def _command(generator: Generator) -> click.Command:
+def _command(generator: synth.patterns.Generator) -> click.Command:
     """Return the command of one generator, an option for each of its parameters."""
 
     def run(
@@ -148,7 +146,7 @@ def _command(generator: Generator) -> click.Command:
     return command
 
 
-def _in_degrees(parameter: Parameter, value: float) -> float:
+def _in_degrees(parameter: synth.patterns.Parameter, value: float) -> float:
     """Return a value of a parameter, an angle in degrees."""
     return round(degrees(value), 9) if parameter.unit == "angle" else value
 

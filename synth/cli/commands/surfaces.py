@@ -28,11 +28,8 @@ from synth.cli.output import (
 )
 
 if TYPE_CHECKING:
-    from graphs.mechanism import SurfaceLinkage
     from graphs.mechanism.surfaces import Surface
     from graphs.types import LinkId
-    from synth.conformed import OnSurface
-    from synth.surfaces import ConeMap, CylinderMap, LinkageMap
 
 __all__ = ["cone_group", "cylinder_group"]
 
@@ -87,7 +84,7 @@ class LinkageOptions:
         """Lengths, or link angles in radians."""
         return options.in_radians(self.sizes or ()) if self.kind == "cone" else self.sizes or ()
 
-    def linkage(self) -> SurfaceLinkage:
+    def linkage(self) -> synth.SurfaceLinkage:
         """Return the linkage of the options, which need not lie on a surface."""
         from graphs.files.formats import read_linkage
 
@@ -97,13 +94,13 @@ class LinkageOptions:
             return synth.SurfaceLinkage.loop(self.linkage_sizes, self.kind)
         return self._of_steps().linkage()
 
-    def _of_steps(self) -> OnSurface:
+    def _of_steps(self) -> synth.conformed.OnSurface:
         from graphs.mechanism.surfaces import as_planar
 
         loop = synth.conformed.loop_of_steps(options.in_radians(self.steps or ()), self.surface)
         return loop if self.kind == "cone" else replace(loop, chain=as_planar(loop.chain))
 
-    def on_surfaces(self) -> list[OnSurface]:
+    def on_surfaces(self) -> list[synth.conformed.OnSurface]:
         """Return the linkage on each of its surfaces."""
         from graphs.files.formats import read_linkage
 
@@ -166,7 +163,7 @@ def map_answer(
     output: str | None,
     number: int | None,
     force: bool,
-) -> ConeMap | CylinderMap | LinkageMap:
+) -> synth.surfaces.ConeMap | synth.surfaces.CylinderMap | synth.surfaces.LinkageMap:
     """Return every surface on which a linkage lies; write or draw the output.
 
     A picture of a loop by its link sizes shows loop sums, unless the number of a surface is chosen.
@@ -201,7 +198,7 @@ def _is_linkage(output: str | None) -> bool:
     return output is not None and output.lower().endswith(".json")
 
 
-def _write(linkage: SurfaceLinkage | OnSurface, output: str, *, force: bool) -> None:
+def _write(linkage: synth.SurfaceLinkage | synth.conformed.OnSurface, output: str, *, force: bool) -> None:
     """Write a linkage, with or without its surface, or draw it there."""
     if not isinstance(linkage, synth.conformed.OnSurface):
         synth.write(linkage, output, force=force)
@@ -211,7 +208,7 @@ def _write(linkage: SurfaceLinkage | OnSurface, output: str, *, force: bool) -> 
         _draw(linkage, output, force=force)
 
 
-def _draw(linkage: OnSurface, output: str, ground: Any = None, *, force: bool) -> None:
+def _draw(linkage: synth.conformed.OnSurface, output: str, ground: Any = None, *, force: bool) -> None:
     chain = synth.conformed.ConformedChain.of(linkage.chain, ground)
     scene = synth.drawing.draw_conformed(chain, linkage.places, linkage.surface, begins=linkage.begins(chain))
     synth.drawing.save_scene(scene, output, force=force)
@@ -419,7 +416,7 @@ def _print_linkages(answers: Sequence[Any], kind: Kind, *, as_json: bool) -> Non
         click.echo(f"no {kind}")
 
 
-def _point(linkage: OnSurface, text: str) -> synth.moving.LinkPoint:
+def _point(linkage: synth.conformed.OnSurface, text: str) -> synth.moving.LinkPoint:
     """Return a point of a link, by its azimuth at the conformed position and its length along the ruling line."""
     link, *numbers = text.split(",")
     try:
@@ -431,7 +428,7 @@ def _point(linkage: OnSurface, text: str) -> synth.moving.LinkPoint:
     return synth.moving.LinkPoint(options.link_of(linkage.chain, link), radians(azimuth), along)
 
 
-def _pair(linkage: OnSurface, text: str) -> tuple[LinkId, LinkId]:
+def _pair(linkage: synth.conformed.OnSurface, text: str) -> tuple[LinkId, LinkId]:
     names = text.split(",")
     if len(names) != 2:
         raise click.UsageError(f"--axes: {plain(text)!r} is not LINK,LINK, such as 1,3")
