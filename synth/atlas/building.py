@@ -2,10 +2,8 @@
 
 Each kind of type is listed by its own job; its rows become rows of the atlas (`synth.atlas.filling`) in the table
 ``type`` of a store (`enumerate.runner.store_units`), so that a build that was killed can resume, and damage is
-found. When all are there, the view ``types`` is made (the columns of `synth.atlas.columns`), the view
-``relations`` (the relations between types), and an index for each column that is often asked for. The table
-``atlas`` makes a file an atlas: versions of the schema and of synthedra, the command. Theory:
-docs/theory/atlas.md.
+found. When all are there, views and indexes are made, and the table ``atlas``, which makes a file an atlas.
+Theory: docs/theory/atlas.md.
 """
 
 from __future__ import annotations
@@ -34,11 +32,11 @@ from enumerate.scd.query import PlacementQuery, SCDQuery
 from enumerate.strings.panel_strings import strings
 from graphs.errors import InvariantError
 from graphs.files.formats import mechanism_of_id
-from synth.atlas.columns import COLUMNS, SCHEMA, stored_columns
+from synth.atlas.columns import COLUMNS, RELATIONS, SCHEMA, stored_columns
 from synth.atlas.filling import filled
 from synth.candidates.job import CandidateJob
 
-__all__ = ["RELATIONS", "AtlasJob", "AtlasPlan", "AtlasSink", "build_atlas"]
+__all__ = ["AtlasJob", "AtlasPlan", "AtlasSink", "build_atlas"]
 
 _FEWEST = 4
 """Fewest links of a chain: with less it is rigid, or not closed."""
@@ -115,8 +113,7 @@ class AtlasPlan:
     @property
     def key(self) -> dict[str, Any]:
         """The plan in JSON values."""
-        values = asdict(self)
-        return {**values, "dofs": list(self.dofs), "orders_of": list(self.orders_of)}
+        return {**asdict(self), "dofs": list(self.dofs), "orders_of": list(self.orders_of)}
 
     @property
     def command(self) -> str:
@@ -145,11 +142,6 @@ class AtlasPlan:
             chain = mechanism_of_id(name if name.startswith("k1:") else chain_named(name))
             if len(chain) <= self.max_links:
                 yield "order", CandidateJob(chain)
-
-    def strings(self) -> Iterator[Any]:
-        """Yield the strings, shortest first."""
-        for creases in range(1, self.creases + 1):
-            yield from strings(creases)
 
     def _sizes(self, most: int) -> Iterator[tuple[int, int]]:
         for dof in self.dofs:
@@ -194,16 +186,12 @@ class AtlasJob:
 
     def units(self) -> list[Unit]:
         """Units of each part, in order; the strings are the last."""
-        return list(self._units())
-
-    def _units(self) -> Iterator[Unit]:
+        units = []
         for part, (kind, job) in enumerate(self._parts):
             weight = _REALISED if kind == "scd" and self.plan.realised else 1
-            for unit in job.units():
-                yield Unit((part, unit.payload), unit.weight * weight)
-        strings_of_plan = tuple(self.plan.strings())
-        if strings_of_plan:
-            yield Unit((None, strings_of_plan), len(strings_of_plan))
+            units += [Unit((part, unit.payload), unit.weight * weight) for unit in job.units()]
+        every = tuple(string for creases in range(1, self.plan.creases + 1) for string in strings(creases))
+        return [*units, Unit((None, every), len(every))] if every else units
 
     def work(self, payload: tuple[int | None, Any]) -> list[Row]:
         """Return the rows of a unit."""
@@ -217,17 +205,6 @@ class AtlasJob:
     def _row(self, kind: str, listed: dict[str, Any]) -> Row:
         values = filled(kind, listed, realised=self.plan.realised)
         return tuple(values.get(column) for column in COLUMNS)
-
-
-RELATIONS = {
-    "chain_id": "has the chain",
-    "sc_id": "is a drawing, with open edges, of",
-    "reduced": "reduces to",
-    "planar_analogue": "has the planar analogue",
-    "spherical_analogue": "has the spherical analogue",
-    "general_form": "has the general form",
-}
-"""Columns that hold the id of another type, and the relation."""
 
 
 class AtlasSink(SqliteSink):
@@ -255,7 +232,7 @@ def build_atlas(
     force: bool = False,
     report: Callable[[Progress], None] | None = None,
 ) -> Progress:
-    """Build an atlas; one that was stopped goes on with ``resume``.
+    """Build an atlas.
 
     Parameters
     ----------
@@ -263,9 +240,9 @@ def build_atlas(
         Ends in .sqlite, as stores do.
     plan : AtlasPlan
     workers : int, optional
-        Processes.
+        Number of processes.
     resume, force : bool, optional
-        Go on with the existing store; or replace it.
+        Continue the existing store, of a build that was stopped; or replace it.
     report : callable, optional
         Called with the progress after each unit.
 
@@ -283,8 +260,7 @@ def build_atlas(
     9
     """
     sink = AtlasSink(path, plan.command, resume=resume, force=force)
-    job: Job = AtlasJob(plan)
-    return run(job, sink, workers=workers, report=report)
+    return run(AtlasJob(plan), sink, workers=workers, report=report)
 
 
 def _make_askable(path: Path, command: str) -> None:
@@ -309,5 +285,5 @@ def _relations() -> str:
     """Return the statement that selects ``id``, ``relation``, ``other`` of all types."""
     return " UNION ALL ".join(
         f'SELECT id, \'{relation}\' AS relation, "{column}" AS other FROM type WHERE "{column}" IS NOT NULL'
-        for column, relation in RELATIONS.items()
+        for column, (relation, _) in RELATIONS.items()
     )

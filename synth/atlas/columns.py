@@ -22,18 +22,9 @@ from graphs.mechanism.sc import ARRANGEMENTS
 from graphs.printing import plain
 
 __all__ = [
-    "COLUMNS",
-    "KINDS",
-    "SCHEMA",
-    "AtlasColumn",
-    "NamedType",
-    "damaged",
-    "name_of_type",
-    "named_types",
-    "stored_columns",
-    "text_values",
-    "value_of",
-]
+    "COLUMNS", "KINDS", "RELATIONS", "SCHEMA", "AtlasColumn", "NamedType", "damaged", "name_of_type",
+    "named_types", "stored_columns", "text_values", "value_of",
+]  # fmt: skip
 
 SCHEMA = 2
 """Version of the columns and of what they mean."""
@@ -113,6 +104,17 @@ COLUMNS: dict[str, AtlasColumn] = {
     "fold_file": AtlasColumn(str, "the realised type (FOLD)", ("scd",)),
 }
 """By their names, in the order in which they are stored."""
+
+
+RELATIONS = {
+    "chain_id": ("has the chain", "is the chain of"),
+    "sc_id": ("is a drawing, with open edges, of", "is, without open edges,"),
+    "reduced": ("reduces to", "is what is left without ride-alongs of"),
+    "planar_analogue": ("has the planar analogue", "is the planar analogue of"),
+    "spherical_analogue": ("has the spherical analogue", "is the spherical analogue of"),
+    "general_form": ("has the general form", "is the general form of"),
+}
+"""Columns that hold the id of another type, with the relation to it, and its relation to this one."""
 
 
 def stored_columns() -> dict[str, Column]:

@@ -20,8 +20,7 @@ A type for which a value is unknown fulfils no condition on it, negated or not. 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, NamedTuple, NoReturn
 
 from enumerate.runner.job import Column, ListColumn, stored
@@ -40,7 +39,8 @@ _TOKEN = re.compile(
     r"""\s*(?:(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?![\w.])
         |(?P<text>'(?:[^']|'')*'|"(?:[^"]|"")*")
         |(?P<word>[^\W\d]\w*)
-        |(?P<sign><=|>=|!=|<>|==|[=<>(),]))""",
+        |(?P<sign><=|>=|!=|<>|==|[=<>(),])
+        |(?P<odd>[\w.]+|\S))""",
     re.VERBOSE,
 )
 _SIGNS = {"=": "=", "==": "=", "!=": "<>", "<>": "<>", "<": "<", "<=": "<=", ">": ">", ">=": ">="}
@@ -49,16 +49,7 @@ _KEYWORDS = ("and", "or", "not", "in", "between", "like", "contains", "is", "kno
 
 
 class ExpressionError(InvariantError):
-    """A condition that cannot be read; the message shows the word in square brackets where it stands.
-
-    Examples
-    --------
-    >>> try:
-    ...     condition_of("links 8", {"links": int})
-    ... except ExpressionError as error:
-    ...     print(error)
-    [links] 8: 'links' is not compared with anything; expected =, <, in, like, contains or is known ...
-    """
+    """A condition that cannot be read; the message shows the word in square brackets where it stands."""
 
 
 class Condition(NamedTuple):
@@ -68,21 +59,22 @@ class Condition(NamedTuple):
     values: tuple[Any, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class _Token:
+class _Token(NamedTuple):
+    """A part of an expression: the name of its group in `_TOKEN`, or ``end``, its text, and where it is."""
+
     kind: str
     text: str
     start: int
     end: int
 
 
-@dataclass(frozen=True, slots=True)
-class _Value:
-    """An operand: its SQL, and what it holds: int (numbers, yes or no), str, tuple, or the type of a column."""
+class _Operand(NamedTuple):
+    """A column or a value: its SQL, its values, what it holds (int for numbers, yes and no; str; tuple)."""
 
-    condition: Condition
-    holds: type
     token: _Token
+    holds: type
+    sql: str
+    values: tuple[Any, ...] = ()
     column: str | None = None
 
 
@@ -115,29 +107,21 @@ class _Reader:
         self._text, self._columns = expression, columns
         if len(expression) > _LONGEST:
             raise ExpressionError("condition", f"{len(expression)} letters", f"{_LONGEST} at most")
-        self._tokens = self._split()
+        self._tokens = list(self._split())
         self._next, self._depth = 0, 0
 
-    def _split(self) -> list[_Token]:
-        tokens, at = [], 0
+    def _split(self) -> Iterator[_Token]:
+        for match in _TOKEN.finditer(self._text):
+            kind = str(match.lastgroup)
+            token = _Token(kind, match[kind], *match.span(kind))
+            if token.text in "'\"":
+                self._wrong(token, "a text does not end", f"a second {token.text}")
+            if kind == "odd":
+                expected = "a column, a number, a text in quotes, and, or, not"
+                self._wrong(token, f"{shown(token.text)} has no meaning here", expected)
+            yield token
         end = len(self._text.rstrip())
-        while at < end:
-            match = _TOKEN.match(self._text, at)
-            if match is None or match.lastgroup is None:
-                start = at + len(self._text[at:]) - len(self._text[at:].lstrip())
-                odd = re.match(r"[\w.]+|.", self._text[start:], re.DOTALL)
-                assert odd is not None
-                what, expected = (
-                    f"{shown(odd[0])} has no meaning here",
-                    "a column, a number, a text in quotes, and, or, not",
-                )
-                if odd[0] in "'\"":
-                    what, expected = "a text does not end", f"a second {odd[0]}"
-                self._wrong(_Token("odd", odd[0], start, start + len(odd[0])), what, expected)
-            tokens.append(_Token(match.lastgroup, match[match.lastgroup], *match.span(match.lastgroup)))
-            at = match.end()
-        tokens.append(_Token("end", "", end, end))
-        return tokens
+        yield _Token("end", "", end, end)
 
     def whole(self) -> Condition:
         """Return the condition; nothing may be left."""
@@ -192,8 +176,7 @@ class _Reader:
             self._wrong(token, "there are too many brackets or nots in each other", f"{_DEEPEST} at most")
         try:
             if self._takes("not"):
-                inner = self._negation()
-                return Condition(f"(NOT {inner.sql})", inner.values)
+                return _negated(self._negation())
             if self._takes("("):
                 inner = self._condition()
                 self._must_take(")")
@@ -204,33 +187,28 @@ class _Reader:
 
     def _comparison(self) -> Condition:
         left = self._operand(None)
-        token = self._peek()
-        if token.text in _SIGNS:
+        if self._peek().text in _SIGNS:
             return self._chain(left)
         negated = self._takes("not")
         if left.column is None:
             self._wrong(left.token, f"{shown(left.token.text)} is no condition", "a column, or a comparison")
-        for word, read in (
-            ("in", self._in),
-            ("between", self._between),
-            ("like", self._like),
-            ("contains", self._contains),
-        ):
+        readers = {"in": self._in, "between": self._between, "like": self._like, "contains": self._contains}
+        for word, read in readers.items():
             if self._takes(word):
                 condition = read(left)
-                return Condition(f"(NOT {condition.sql})", condition.values) if negated else condition
+                return _negated(condition) if negated else condition
         if negated:
             self._wrong(self._peek(), "not stands alone", "in, between, like or contains after it")
         if self._takes("is"):
             negated = self._takes("not")
             self._must_take("known")
-            return Condition(f"{left.condition.sql} IS {'' if negated else 'NOT '}NULL")
+            return Condition(f"{left.sql} IS {'' if negated else 'NOT '}NULL")
         if self._columns[left.column] is not bool:
             what = f"{shown(left.column)} is not compared with anything"
             self._wrong(left.token, what, "=, <, in, like, contains or is known after it")
-        return Condition(f"{left.condition.sql} = 1")
+        return Condition(f"{left.sql} = 1")
 
-    def _chain(self, left: _Value) -> Condition:
+    def _chain(self, left: _Operand) -> Condition:
         """Read one comparison or several in a row, as in 4 <= links <= 8."""
         parts: list[Condition] = []
         while self._peek().text in _SIGNS:
@@ -240,7 +218,7 @@ class _Reader:
             left = right
         return _together("and", parts)
 
-    def _compared(self, left: _Value, sign: _Token, right: _Value) -> Condition:
+    def _compared(self, left: _Operand, sign: _Token, right: _Operand) -> Condition:
         if left.column is None and right.column is None:
             self._wrong(sign, "no column is compared", "a column on one side")
         if left.holds is not right.holds:
@@ -248,80 +226,72 @@ class _Reader:
             self._wrong(right.token, what, f"{_HELD[left.holds]} on both sides")
         if left.holds is tuple and _SIGNS[sign.text] not in ("=", "<>"):
             self._wrong(sign, "lists are not ordered", "= or !=, or contains")
-        sql = f"{left.condition.sql} {_SIGNS[sign.text]} {right.condition.sql}"
-        return Condition(sql, left.condition.values + right.condition.values)
+        return Condition(f"{left.sql} {_SIGNS[sign.text]} {right.sql}", left.values + right.values)
 
-    def _in(self, left: _Value) -> Condition:
+    def _in(self, left: _Operand) -> Condition:
         self._must_take("(")
         items = [self._like_left(left)]
         while self._takes(","):
             items.append(self._like_left(left))
         self._must_take(")")
-        marks = ", ".join(item.condition.sql for item in items)
-        values = tuple(value for item in items for value in item.condition.values)
-        return Condition(f"{left.condition.sql} IN ({marks})", values)
+        marks = ", ".join(item.sql for item in items)
+        return Condition(f"{left.sql} IN ({marks})", tuple(value for item in items for value in item.values))
 
-    def _between(self, left: _Value) -> Condition:
+    def _between(self, left: _Operand) -> Condition:
         low = self._like_left(left)
         self._must_take("and")
         high = self._like_left(left)
-        values = low.condition.values + high.condition.values
-        return Condition(f"{left.condition.sql} BETWEEN {low.condition.sql} AND {high.condition.sql}", values)
+        return Condition(f"{left.sql} BETWEEN {low.sql} AND {high.sql}", low.values + high.values)
 
-    def _like_left(self, left: _Value) -> _Value:
+    def _like_left(self, left: _Operand) -> _Operand:
         """Read an operand that holds what a column holds."""
-        value = self._operand(left)
-        if value.holds is not left.holds:
-            self._wrong(value.token, f"{shown(left.column)} holds {_HELD[left.holds]}", _HELD[left.holds])
-        return value
+        operand = self._operand(left)
+        if operand.holds is not left.holds:
+            self._wrong(operand.token, f"{shown(left.column)} holds {_HELD[left.holds]}", _HELD[left.holds])
+        return operand
 
-    def _like(self, left: _Value) -> Condition:
+    def _like(self, left: _Operand) -> Condition:
         if left.holds is not str:
             self._wrong(left.token, f"{shown(left.column)} holds no text", "a column of text before like")
-        value = self._like_left(left)
-        return Condition(f"{left.condition.sql} LIKE {value.condition.sql}", value.condition.values)
+        pattern = self._like_left(left)
+        return Condition(f"{left.sql} LIKE {pattern.sql}", pattern.values)
 
-    def _contains(self, left: _Value) -> Condition:
-        assert left.column is not None
-        column = self._columns[left.column]
+    def _contains(self, left: _Operand) -> Condition:
+        column = self._columns[str(left.column)]
         if not isinstance(column, ListColumn):
             self._wrong(left.token, f"{shown(left.column)} holds no lists", "a column of lists before contains")
-        token = self._peek()
-        value = self._operand(None, words=column.kind is str)
-        if value.holds is not (str if column.kind is str else int) or value.column is not None:
-            held = "a text" if column.kind is str else "a number"
-            self._wrong(token, f"{shown(token.text)} is not what the lists hold", held)
-        items = f"SELECT 1 FROM json_each({left.condition.sql}) AS item WHERE item.value = ?"
-        return Condition(f"EXISTS ({items})", value.condition.values)
+        held = str if column.kind is str else int
+        item = self._operand(None, words=held is str)
+        if item.holds is not held or item.column is not None:
+            self._wrong(item.token, f"{shown(item.token.text)} is not what the lists hold", _HELD[held])
+        return Condition(f"EXISTS (SELECT 1 FROM json_each({left.sql}) AS item WHERE item.value = ?)", item.values)
 
-    def _operand(self, left: _Value | None, *, words: bool = False) -> _Value:
+    def _operand(self, left: _Operand | None, *, words: bool = False) -> _Operand:
         """Read a column or a value; a word that names no column is a text where a text is compared with it."""
         token = self._take()
+        word = token.text.lower()
         if token.kind == "number":
-            return _Value(Condition("?", (_number(token.text),)), int, token)
+            return _Operand(token, int, "?", (_number(token.text),))
         if token.kind == "text":
             quote = token.text[0]
-            return _Value(Condition("?", (token.text[1:-1].replace(quote * 2, quote),)), str, token)
+            return _Operand(token, str, "?", (token.text[1:-1].replace(quote * 2, quote),))
         if token.text == "(" and left is not None and left.holds is tuple:
-            return self._list(token)
+            return _Operand(token, tuple, "?", (stored(self._numbers()),))
         if token.kind != "word":
             what = f"{shown(token.text)} stands" if token.text else "it ends"
             self._wrong(token, f"{what} where a value belongs", "a column, a number, or a text in quotes")
-        return self._word(token, words or (left is not None and left.holds is str))
-
-    def _word(self, token: _Token, words: bool) -> _Value:
-        word = token.text.lower()
         if word in ("true", "false"):
-            return _Value(Condition("?", (int(word == "true"),)), int, token)
+            return _Operand(token, int, "?", (int(word == "true"),))
         if word in self._columns:
             column = self._columns[word]
             holds = tuple if isinstance(column, ListColumn) else str if column is str else int
-            return _Value(Condition(f'"{word}"'), holds, token, word)
-        if words and word not in _KEYWORDS:
-            return _Value(Condition("?", (token.text,)), str, token)
+            return _Operand(token, holds, f'"{word}"', column=word)
+        if (words or (left is not None and left.holds is str)) and word not in _KEYWORDS:
+            return _Operand(token, str, "?", (token.text,))
         self._wrong(token, f"there is no column {shown(token.text)}", known(self._columns, word))
 
-    def _list(self, opening: _Token) -> _Value:
+    def _numbers(self) -> tuple[int | float, ...]:
+        """Read numbers parted by commas, and the bracket behind them."""
         numbers: list[int | float] = []
         while not numbers or self._takes(","):
             token = self._take()
@@ -329,7 +299,11 @@ class _Reader:
                 self._wrong(token, f"{shown(token.text)} in a list of numbers", "numbers, as in (4, 2)")
             numbers.append(_number(token.text))
         self._must_take(")")
-        return _Value(Condition("?", (stored(tuple(numbers)),)), tuple, opening)
+        return tuple(numbers)
+
+
+def _negated(condition: Condition) -> Condition:
+    return Condition(f"(NOT {condition.sql})", condition.values)
 
 
 def _together(word: str, parts: list[Condition]) -> Condition:

@@ -6,6 +6,7 @@ A row of an enumeration becomes a row of the atlas; columns that a kind of type 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import lru_cache
 from typing import Any, get_args
 
@@ -51,10 +52,8 @@ def coordinates_of(code: str) -> dict[str, Any]:
 def _realised(code: str) -> Realisation | None:
     """Return a type as a flat sheet, or else in space; None if neither was found."""
     for kind in get_args(Kind):
-        try:
+        with suppress(SynthedraError):
             return realise(mechanism_of_id(code), kind=kind)
-        except SynthedraError:
-            continue
     return None
 
 
@@ -70,17 +69,13 @@ def _folded(realised: Realisation) -> dict[str, Any]:
 
 _REMEMBERED = 4096
 """SC graphs whose reduction is kept in memory: all placements of open edges on one share it."""
-_FEWEST_SIDES = 3
-"""Sides of the links that the first number of ``sides`` counts."""
-
 Values = dict[str, Any]
 
 
 def filled(kind: str, listed: Mapping[str, Any], *, realised: bool) -> Values:
-    """Return the values of a row of an atlas, for a kind of `synth.atlas.columns.KINDS`.
+    """Return the values of a row of an atlas from a row of the enumeration of its kind (or from a string).
 
-    `listed` is a row of the enumeration of that kind (for a string, the string); with `realised`, SCD graphs get
-    coordinates, and are folded.
+    With `realised`, SCD graphs get coordinates, and are folded.
     """
     values = _FILLED[kind](listed)
     if kind == "scd" and realised:
@@ -104,24 +99,20 @@ def _of_chain(row: Mapping[str, Any]) -> Values:
 
 def _of_sc(row: Mapping[str, Any]) -> Values:
     graph = mechanism_of_id(row["code"])
-    left = _ride_alongs(row["code"])
-    forms = {
-        name: _id_or_none(make, graph)
-        for name, make in (
-            ("planar_analogue", planar_analogue),
-            ("spherical_analogue", spherical_analogue),
-            ("general_form", generalised_form),
-        )
+    return {
+        **_common(row),
+        **_ride_alongs(row["code"]),
+        "planar_analogue": _id_or_none(planar_analogue, graph),
+        "spherical_analogue": _id_or_none(spherical_analogue, graph),
+        "general_form": _id_or_none(generalised_form, graph),
     }
-    return {**_common(row), **left, **forms}
 
 
 def _id_or_none(make: Callable[[SCGraph], SCGraph], graph: SCGraph) -> str | None:
     """Return the id of another form of a mechanism; None where there is none, as for one with a spatial loop."""
-    try:
+    with suppress(SynthedraError):
         return map_id(make(graph))
-    except SynthedraError:
-        return None
+    return None
 
 
 def _of_scd(row: Mapping[str, Any]) -> Values:
@@ -129,7 +120,7 @@ def _of_scd(row: Mapping[str, Any]) -> Values:
         **_common(row),
         **_ride_alongs(row["sc"]),
         "all_explicit": row["implicit"] == 0,
-        "max_sides": len(row["sides"]) + _FEWEST_SIDES - 1,
+        "max_sides": len(row["sides"]) + 2,  # the first number counts links of 3 sides
     }
 
 
@@ -177,9 +168,5 @@ def _common(row: Mapping[str, Any]) -> Values:
 
 
 _FILLED: dict[str, Callable[[Mapping[str, Any]], Values]] = {
-    "chain": _of_chain,
-    "sc": _of_sc,
-    "scd": _of_scd,
-    "order": _of_order,
-    "string": _of_string,
-}
+    "chain": _of_chain, "sc": _of_sc, "scd": _of_scd, "order": _of_order, "string": _of_string,
+}  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -11,17 +12,8 @@ import networkx as nx
 
 from graphs.answer.identity import identify
 from graphs.convert.table import Mechanism, graph_of, to_scd
-from graphs.edit.edits import (
-    Edit,
-    add_ride_along,
-    lock_hinge,
-    lock_joint,
-    make_explicit,
-    make_implicit,
-    ride_along,
-)
+from graphs.edit import edits
 from graphs.errors import SynthedraError
-from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed, TableBlock
@@ -107,40 +99,33 @@ def find_type(atlas: Atlas, mechanism: Mechanism | nx.Graph) -> FoundType:
     identity = identify(mechanism)
     codes = [code for code in (identity.drawing, identity.chain) if code is not None]
     named = tuple(entry for code in codes for entry in named_types() if entry.id == code)
-    edits: dict[str, str] = {}
+    leading: dict[str, str] = {}
     for edit in _edits(mechanism) if codes else ():
         edited = identify(edit.graph)
         for code in (edited.drawing, edited.chain)[: 1 if edited.drawing is not None else 2]:
             if code is not None and code not in codes:
-                edits.setdefault(code, edit.what)
-    near = tuple(NearType(edits[row["id"]], row) for row in atlas.ids(list(edits)) if row["id"] in edits)
+                leading.setdefault(code, edit.what)
+    near = tuple(NearType(leading[row["id"]], row) for row in atlas.ids(list(leading)) if row["id"] in leading)
     return FoundType(identity.chain, identity.drawing, tuple(atlas.ids(codes)), named, near)
 
 
-def _edits(mechanism: Mechanism | nx.Graph) -> Iterator[Edit]:
-    """Yield the possible edits of a mechanism."""
+def _edits(mechanism: Mechanism | nx.Graph) -> Iterator[edits.Edit]:
+    """Yield the edits of a mechanism that lead to a type: others break a rule."""
     for edit in _possible_edits(mechanism):
-        try:
+        with suppress(SynthedraError):
             yield edit()
-        except SynthedraError:
-            continue  # there is no such type: the edit breaks a rule
 
 
-def _possible_edits(mechanism: Mechanism | nx.Graph) -> Iterator[Callable[[], Edit]]:
-    graph = _with_sides(mechanism)
+def _possible_edits(mechanism: Mechanism | nx.Graph) -> Iterator[Callable[[], edits.Edit]]:
+    graph = to_scd(mechanism) if isinstance(mechanism, Sheet) else graph_of(mechanism)
     if isinstance(graph, SCDGraph):
         for joint in graph.joints:
-            yield partial(lock_hinge, graph, joint)
-            yield partial(ride_along, graph, joint)
+            yield partial(edits.lock_hinge, graph, joint)
+            yield partial(edits.ride_along, graph, joint)
         for loop in range(len(graph.loops)):
-            yield partial(make_explicit, graph, loop)
-            yield partial(make_implicit, graph, loop)
+            yield partial(edits.make_explicit, graph, loop)
+            yield partial(edits.make_implicit, graph, loop)
         return
     for joint, ends in graph.joints.items():
-        yield partial(lock_joint, graph, joint)
-        yield partial(add_ride_along, graph, *ends)
-
-
-def _with_sides(mechanism: Mechanism | nx.Graph) -> SCGraph:
-    """Return a mechanism with the sides of its links where they are known."""
-    return to_scd(mechanism) if isinstance(mechanism, Sheet) else graph_of(mechanism)
+        yield partial(edits.lock_joint, graph, joint)
+        yield partial(edits.add_ride_along, graph, *ends)

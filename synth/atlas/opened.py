@@ -22,35 +22,31 @@ from enumerate.runner.store_units import COMPLAINTS, quoted, reading
 from graphs.edit.named import known
 from graphs.errors import InvariantError, StoreError, SynthedraError, UnsolvableError, numbered, shown
 from graphs.printing import Block, Printed, TableBlock, plain
-from synth.atlas.columns import COLUMNS, SCHEMA, NamedType, named_types, stored_columns, text_values, value_of
+from synth.atlas.columns import (
+    COLUMNS,
+    RELATIONS,
+    SCHEMA,
+    NamedType,
+    named_types,
+    stored_columns,
+    text_values,
+    value_of,
+)
 from synth.atlas.expression import condition_of
 
+if TYPE_CHECKING:
+    import pandas
+
 __all__ = [
-    "Atlas",
-    "AtlasRows",
-    "Neighbour",
-    "Rows",
-    "TypeReport",
-    "open_atlas",
-    "open_guarded",
-    "report_of",
-    "selected",
+    "Atlas", "AtlasRows", "Neighbour", "Rows", "TypeReport", "open_atlas", "open_guarded", "report_of", "selected",
     "value_text",
-]
+]  # fmt: skip
 
 _READABLE = {"type", "types", "relations", "atlas", "json_each", "json_tree"}
 _ALLOWED = {sqlite3.SQLITE_SELECT, sqlite3.SQLITE_RECURSIVE}
 _REFUSED = {
-    "load_extension",
-    "fts3_tokenizer",
-    "randomblob",
-    "zeroblob",
-    "printf",
-    "format",
-    "trim",
-    "ltrim",
-    "rtrim",
-}
+    "load_extension", "fts3_tokenizer", "randomblob", "zeroblob", "printf", "format", "trim", "ltrim", "rtrim",
+}  # fmt: skip
 """Functions that do more than compute with values, make values of any length, or take long in a step."""
 
 _EXPECTED = "one SELECT on types or relations"
@@ -98,10 +94,10 @@ def _authorized(action: int, first: str | None, second: str | None, *_: str | No
 def selected(
     connection: sqlite3.Connection, statement: str, values: Sequence[Any], *, limit: int, seconds: float
 ) -> Rows:
-    """Return the selection of a statement, up to a limit of rows and of seconds.
+    """Return what a statement selects through a guarded connection, within limits; `values` are for placeholders.
 
-    `values` are for its placeholders, the connection is from `open_guarded`. Raise InvariantError if the statement
-    is no SELECT on the contents of an atlas, with the message of SQLite; UnsolvableError if it takes longer.
+    Raise InvariantError, with the message of SQLite, unless it selects from an atlas; UnsolvableError if it takes
+    longer.
     """
     try:
         with _stopped_after(connection, seconds):
@@ -121,10 +117,9 @@ def selected(
 
 @contextmanager
 def _stopped_after(connection: sqlite3.Connection, seconds: float) -> Iterator[None]:
-    """Interrupt SQLite after some time.
+    """Interrupt SQLite after some time, from another thread, since steps may be long.
 
-    Another thread does so, since steps may be long. The check of the clock between many steps is for a statement
-    that had not begun when the thread interrupted it.
+    The check of the clock between many steps is for a statement that had not begun when it was interrupted.
     """
     end = monotonic() + seconds
     connection.set_progress_handler(lambda: monotonic() > end, _STEPS)
@@ -263,14 +258,7 @@ def _neighbours(connection: sqlite3.Connection, code: str, path: Path) -> tuple[
     return neighbours, every - _MOST_NEIGHBOURS
 
 
-_REVERSED = {
-    "has the chain": "is the chain of",
-    "is a drawing, with open edges, of": "is, without open edges,",
-    "reduces to": "is what is left without ride-alongs of",
-    "has the planar analogue": "is the planar analogue of",
-    "has the spherical analogue": "is the spherical analogue of",
-    "has the general form": "is the general form of",
-}
+_REVERSED = dict(RELATIONS.values())
 
 
 def value_text(value: Any) -> str:
@@ -280,10 +268,6 @@ def value_text(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     return "" if value is None else f"{value:.6g}" if isinstance(value, float) else plain(value, 10_000)
-
-
-if TYPE_CHECKING:
-    import pandas
 
 
 _LIMIT, _SECONDS = 1000, 30.0
@@ -385,52 +369,36 @@ class Atlas:
 
         Raises
         ------
-        ExpressionError
-            If the condition cannot be read.
         InvariantError
-            If there is no such column.
+            If there is no such column, or the condition cannot be read (`ExpressionError`).
         UnsolvableError
             If it takes longer.
         """
-        _check_limits(limit, seconds)
         selection = tuple(map(_column, columns)) or _all_columns()
-        where, values = ("", ())
+        where, values = "", ()
         if condition.strip():
-            where, values = condition_of(condition, stored_columns())
-            where = f" WHERE {where}"
+            sql, values = condition_of(condition, stored_columns())
+            where = f" WHERE {sql}"
         order = "rowid"
         if sort:
             name = _column(sort.removeprefix("-"))
             order = f'"{name}" {"DESC" if sort.startswith("-") else "ASC"} NULLS LAST, rowid'
-        rows = self._selected(
-            f"SELECT {quoted(selection)} FROM type{where} ORDER BY {order} LIMIT ?",
-            (*values, limit + 1),
-            limit,
-            seconds,
-        )
+        statement = f"SELECT {quoted(selection)} FROM type{where} ORDER BY {order} LIMIT ?"
+        rows = self._selected(statement, (*values, limit + 1), limit, seconds)
         return AtlasRows(selection, [self._row(selection, row) for row in rows.rows], rows.more)
 
     def sql(self, statement: str, *, limit: int = _LIMIT, seconds: float = _SECONDS) -> AtlasRows:
         """Return the selection of a statement from ``types`` and ``relations``; values are as they are stored.
 
-        Raises
-        ------
-        InvariantError
-            If it is no SELECT, or SQLite refuses it.
-        UnsolvableError
-            If it takes longer.
+        Raise InvariantError if it is no SELECT, or SQLite refuses it; UnsolvableError if it takes longer.
         """
-        _check_limits(limit, seconds)
         rows = self._selected(statement, (), limit, seconds)
         return AtlasRows(rows.columns, [dict(zip(rows.columns, row, strict=True)) for row in rows.rows], rows.more)
 
     def show(self, code: str) -> TypeReport:
-        """Return all that is known of a type, and of the types it is related to, by its id or name.
+        """Return all that is known of a type, by its id or name, and of the types it is related to.
 
-        Raises
-        ------
-        InvariantError
-            If the atlas holds no such type.
+        Raise InvariantError if the atlas holds no such type.
         """
         with open_guarded(self.path) as connection:
             report = report_of(connection, code, self.path)
@@ -451,19 +419,22 @@ class Atlas:
 
     def ids(self, codes: Sequence[str]) -> list[dict[str, Any]]:
         """Return the rows of the types with some ids, in the order of the ids; of a string, that of its panels."""
-        found = []
+        types: list[dict[str, Any]] = []
         with open_guarded(self.path) as connection:
             for code in dict.fromkeys(codes):
                 for column in ("id", "panels"):
                     statement = f"SELECT {quoted(_all_columns())} FROM type WHERE {column} = ?"
                     rows = selected(connection, statement, (code,), limit=_LIMIT, seconds=_SECONDS)
-                    found += [self._row(_all_columns(), row) for row in rows.rows]
-        return found
+                    types += [self._row(_all_columns(), row) for row in rows.rows]
+        return types
 
     def _row(self, names: Sequence[str], row: Sequence[Any]) -> dict[str, Any]:
         return {name: value_of(self.path, name, value) for name, value in zip(names, row, strict=True)}
 
     def _selected(self, statement: str, values: Sequence[Any], limit: int, seconds: float) -> Rows:
+        if limit < 1 or not seconds > 0:
+            expected = "1 or more rows in more than 0 s"
+            raise InvariantError("query", f"{numbered(limit, 'row')} in {seconds} s", expected)
         with open_guarded(self.path) as connection:
             return selected(connection, statement, values, limit=limit, seconds=seconds)
 
@@ -505,13 +476,6 @@ def open_atlas(path: str | Path) -> Atlas:
         version = f"version {shown(row[0][0])}, of synthedra {plain(row[0][1])}" if row else "no version"
         raise StoreError(f"{place}: is an atlas of {version}; expected version {SCHEMA}; try to build it again")
     return Atlas(place)
-
-
-def _check_limits(limit: int, seconds: float) -> None:
-    if limit < 1 or not seconds > 0:
-        raise InvariantError(
-            "query", f"{numbered(limit, 'row')} in {seconds} s", "1 or more rows in more than 0 s"
-        )
 
 
 def _all_columns() -> tuple[str, ...]:

@@ -6,14 +6,13 @@ writes their files into a new folder, which appears when it is complete.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.job import Column, Job, Progress, Row, Unit
-from enumerate.runner.running import run
+from enumerate.runner.job import Column, Job, Row, Unit
 from enumerate.runner.sinks import FolderSink
 from graphs.errors import FileError, SynthedraError, UnsolvableError, numbered
 from graphs.mechanism.sheet import Sheet
@@ -31,17 +30,8 @@ from synth.viewer.pages import check_built, json_in_html
 from synth.viewer.shown import shown_of
 
 __all__ = [
-    "SEARCHED",
-    "Site",
-    "SiteSink",
-    "TypeFiles",
-    "data_script",
-    "document",
-    "files_of_type",
-    "index_page",
-    "site_of",
-    "write_site",
-]
+    "SEARCHED", "Site", "SiteSink", "data_script", "document", "files_of_type", "index_page", "site_of",
+]  # fmt: skip
 
 _POLICY = (
     "default-src 'none'; script-src 'self' file:; style-src 'self' file: 'unsafe-inline'; "
@@ -131,32 +121,17 @@ _FOLDING = """<main id="page"></main>
 <script src="../page.js"></script>"""
 
 
-@dataclass(frozen=True, slots=True)
-class TypeFiles:
-    """The files of a type: its page (HTML), its picture and its graph (SVG).
+def files_of_type(report: TypeReport, file: str, places: Mapping[str, str]) -> dict[str, str]:
+    """Return the files of a type, path to text: its page, picture and graph, and those of the realised type.
 
-    The picture is for the list, of the crease pattern if there is one. `fold` is the realised type (FOLD),
-    `template` is for printing, cutting out and folding (SVG).
-    """
-
-    page: str
-    picture: str
-    graph: str
-    fold: str | None
-    template: str | None
-
-
-def files_of_type(report: TypeReport, file: str, places: Mapping[str, str]) -> TypeFiles:
-    """Return the files of a type, with a name without extension.
-
-    `places` has the names of the files of each type of the site, by id.
+    `file` is their name without extension; `places` has the names of the files of each type of the site, by id.
+    The picture is for the list: of the crease pattern, if there is one.
     """
     values = report.values
     fold, sheet = values.get("fold_file"), sheet_of_type(values)
     template = None if sheet is None else _template(sheet)
-    title = values.get("name") or values["id"]
     body = _TYPE_BODY.format(
-        title=_text(title),
+        title=_text(values.get("name") or values["id"]),
         file=file,
         names="".join(f"<p>{_text(name.name)}: {_text(name.source)}</p>" for name in report.named),
         links=_links(file, fold, template),
@@ -164,9 +139,17 @@ def files_of_type(report: TypeReport, file: str, places: Mapping[str, str]) -> T
         neighbours=_neighbours(report, places),
         folding="" if sheet is None else _folding(sheet, values["id"]),
     )
-    page = document(title, ["../page.css", "../gallery.css"], body)
     graph = _picture(drawable_of_type(values["kind"], values["id"]))
-    return TypeFiles(page, graph if sheet is None else _picture(sheet), graph, fold, template)
+    files = {
+        f"types/{file}.html": document(
+            values.get("name") or values["id"], ["../page.css", "../gallery.css"], body
+        ),
+        f"pictures/{file}.svg": graph if sheet is None else _picture(sheet),
+        f"pictures/{file}-graph.svg": graph,
+        f"types/{file}.fold": fold,
+        f"types/{file}-template.svg": template,
+    }
+    return {path: text for path, text in files.items() if text is not None}
 
 
 def _picture(drawable: Any) -> str:
@@ -203,9 +186,7 @@ def _neighbours(report: TypeReport, places: Mapping[str, str]) -> str:
 
 
 def _linked(code: str, places: Mapping[str, str]) -> str:
-    if code not in places:
-        return f"{_text(code)}"
-    return f'<a href="{places[code]}.html">{_text(code)}</a>'
+    return f'<a href="{places[code]}.html">{_text(code)}</a>' if code in places else _text(code)
 
 
 def _folding(sheet: Sheet, code: str) -> str:
@@ -266,21 +247,11 @@ class Site:
                 report = report_of(connection, self.ids[number], Path(self.atlas))
                 if report is None:  # its id was read a moment ago
                     raise damaged(Path(self.atlas), "the index", self.ids[number], "an id that it finds")
-                rows += self._rows(self._file(number), files_of_type(report, self._file(number), places))
+                rows += files_of_type(report, self._file(number), places).items()
         return rows
 
     def _file(self, number: int) -> str:
         return f"{number + 1:0{self.digits}d}"
-
-    @staticmethod
-    def _rows(file: str, files: TypeFiles) -> Iterable[Row]:
-        yield f"types/{file}.html", files.page
-        yield f"pictures/{file}.svg", files.picture
-        yield f"pictures/{file}-graph.svg", files.graph
-        if files.fold is not None:
-            yield f"types/{file}.fold", files.fold
-        if files.template is not None:
-            yield f"types/{file}-template.svg", files.template
 
 
 class SiteSink(FolderSink):
@@ -330,24 +301,3 @@ def site_of(atlas: Atlas, condition: str = "", title: str = "") -> tuple[Site, d
     first["index.html"] = index_page(name, origin)
     first["data.js"] = data_script(rows.rows, name, origin, site.digits)
     return site, first
-
-
-def write_site(
-    atlas: Atlas,
-    path: str | Path,
-    condition: str = "",
-    *,
-    title: str = "",
-    workers: int = 1,
-    report: Callable[[Progress], None] | None = None,
-) -> Path:
-    """Write a site of an atlas into a new folder; return its first page.
-
-    It has the types with a condition, by default all; `report` is called with the progress from time to time.
-    Raise FileError if something is at the place, or it cannot be written; UnsolvableError if there are no such
-    types, or too many, or the scripts were not built.
-    """
-    site, first = site_of(atlas, condition, title)
-    job: Job = site
-    run(job, SiteSink(path, first), workers=workers, report=report)
-    return Path(path) / "index.html"

@@ -23,19 +23,7 @@ from synth.atlas.opened import AtlasRows
 from synth.drawing.catalogue import CatalogueEntry, catalogue_pages, drawable_of_type, write_catalogue
 from synth.drawing.scene.writing import PICTURES
 
-__all__ = ["mechanism_file_of_type", "sheet_of_type", "write_rows"]
-
-
-def mechanism_file_of_type(row: Mapping[str, Any]) -> str:
-    """Return the native file of the mechanism of a row with ``kind`` and ``id``.
-
-    Raise InvariantError if there can be no such type, UnsolvableError if it is an order, which has no angles.
-    """
-    kind, code = row["kind"], row["id"]
-    if kind == "order":
-        raise UnsolvableError(f"{shown(code)} is an order without angles, so it has no file")
-    drawable = drawable_of_type(kind, code)
-    return dumps(chain_scd(drawable) if kind == "string" else drawable)
+__all__ = ["sheet_of_type", "write_rows"]
 
 
 def sheet_of_type(values: Mapping[str, Any]) -> Sheet | None:
@@ -114,8 +102,11 @@ class _Listed:
 
     @staticmethod
     def mechanism_text(row: Mapping[str, Any]) -> str:
-        """Return the file of a row."""
-        return mechanism_file_of_type(row)
+        """Return the native file of a row with ``kind`` and ``id``; UnsolvableError if it is an order."""
+        if row["kind"] == "order":
+            raise UnsolvableError(f"{shown(row['id'])} is an order without angles, so it has no file")
+        drawable = drawable_of_type(row["kind"], row["id"])
+        return dumps(chain_scd(drawable) if row["kind"] == "string" else drawable)
 
 
 def _as_text(value: Any) -> str | None:

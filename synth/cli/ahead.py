@@ -13,6 +13,7 @@ from pathlib import Path
 from time import monotonic
 from typing import Any
 
+import synth
 from enumerate.machine_code.folders import writable_base
 from graphs.errors import numbered
 from synth.cli.main import main
@@ -66,21 +67,18 @@ def _deaf_to_interrupts() -> Iterator[None]:
 
 def _run(command: str) -> int:
     before = _compiled()
-    with _silent():
-        main(
-            [*command.split(), *(["--workers", "1"] if command.startswith("enumerate") else [])],
-            standalone_mode=False,
-        )
+    workers = ["--workers", "1"] if command.startswith("enumerate") else []
+    with Path(os.devnull).open("w", encoding="utf-8") as nowhere, redirect_stdout(nowhere):
+        main([*command.split(), *workers], standalone_mode=False)
     return _compiled() - before
 
 
 def _positions() -> int:
     """Compile the search for assembly modes, for which commands need a file."""
-    from synth.assembly.modes import positions
     from synth.patterns.hinged_rings import spherical_ring
 
     before = _compiled()
-    positions(spherical_ring([1.0, 1.2, 0.9, 1.4]), drive={0: 0.1}, circuits=False)
+    synth.positions(spherical_ring([1.0, 1.2, 0.9, 1.4]), drive={0: 0.1}, circuits=False)
     return _compiled() - before
 
 
@@ -91,24 +89,14 @@ def _compiled() -> int:
     return sum(sum(dispatcher.stats.cache_misses.values()) for dispatcher in dispatchers)
 
 
-@contextmanager
-def _silent() -> Iterator[None]:
-    with Path(os.devnull).open("w", encoding="utf-8") as nowhere, redirect_stdout(nowhere):
-        yield
-
-
 def _main() -> None:
     kept = writable_base()
     if kept is None:
         sys.exit("nothing is compiled ahead: no folder to keep it in; try a folder of yours in SYNTHEDRA_CACHE")
-    number = cores()
     begin = monotonic()
+    what = f"Compiling the code of enumerations once, on {numbered(cores(), 'core')}: a minute or two."
     try:
-        print(
-            f"Compiling the code of enumerations once, on {numbered(number, 'core')}: a minute or two. "
-            "All else is ready: wait, or stop this with Ctrl-C.",
-            flush=True,
-        )
+        print(f"{what} All else is ready: wait, or stop this with Ctrl-C.", flush=True)
         new = compile_ahead()
     except KeyboardInterrupt:
         sys.exit("stopped; the rest is compiled at its first use")

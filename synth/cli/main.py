@@ -12,60 +12,66 @@ import traceback
 from contextlib import suppress
 from difflib import get_close_matches
 from importlib import import_module
-from pathlib import Path
 from typing import Any, NoReturn
 
 import click
 
+from graphs.errors import SynthedraError
 from graphs.printing import plain
-from synth.cli.options import FORCE
+from synth.cli import options
 
-__all__ = ["NamedGroup", "completion", "main"]
+__all__ = ["NamedGroup", "main"]
 
 _SECTIONS: dict[str, dict[str, str]] = {
     "Analyse motion": {
-        "mobility": "synth.cli.commands.mobility:mobility",
-        "fold": "synth.cli.commands.motion:fold",
-        "positions": "synth.cli.commands.motion:positions",
-        "explain": "synth.cli.commands.motion:explain",
-        "advise": "synth.cli.commands.motion:advise",
-        "states": "synth.cli.commands.motion:states",
-        "limits": "synth.cli.commands.motion:limits",
+        "mobility": "Report mobility, degrees of freedom and motion branches, with the evidence.",
+        "fold": "Fold a crease pattern with rigid panels; list its folding branches.",
+        "positions": "Find all assembly modes of a spherical or planar linkage at given inputs.",
+        "explain": "Explain why a mechanism moves although counts say that it is rigid.",
+        "advise": "Find joints to lock, or panels to crease, for a number of degrees of freedom.",
+        "states": "Analyse compliant members: mobility in each compliance state, springs, frequencies.",
+        "limits": "Find the joint limits that ride-alongs impose, and the truss they form when held.",
     },
     "Draw and make": {
-        "draw": "synth.cli.commands.drawing:draw",
-        "view": "synth.cli.commands.drawing:view",
-        "template": "synth.cli.commands.drawing:template",
-        "generate": "synth.cli.commands.realise:generate",
-        "realise": "synth.cli.commands.realise:realise",
+        "draw": "Draw a crease pattern, a chain, an SC or SCD graph, or a polyhedron model.",
+        "view": "Make an interactive page of a mechanism for any browser, or open the workbench.",
+        "template": "Write a template at true scale, to cut out and fold.",
+        "generate": "Make known patterns and linkages from their parameters.",
+        "realise": "Give a type coordinates: as a flat sheet, as panels in space, or on a cone.",
     },
     "Edit, convert and identify": {
-        "reduce": "synth.cli.commands.edit:reduce_command",
-        "edit": "synth.cli.commands.edit:edit",
-        "convert": "synth.cli.commands.convert:convert",
-        "reconstruct": "synth.cli.commands.convert:reconstruct",
-        "id": "synth.cli.commands.convert:id_command",
+        "reduce": "Remove ride-alongs and adjunct addenda.",
+        "edit": "Add creases, ride-alongs and loops; change centres; lock joints.",
+        "convert": "Convert between file formats and kinds of mechanism; change centres.",
+        "reconstruct": "Reconstruct the polyhedron model, vertex by vertex.",
+        "id": "Print the canonical ids of a mechanism.",
     },
     "Enumerate": {
-        "enumerate": "synth.cli.commands.enumerate:enumerate_group",
-        "atlas": "synth.cli.commands.atlas:atlas_group",
+        "enumerate": "List or count all mechanisms of a kind.",
+        "atlas": "Build, query, show and find all types up to a size, in one file.",
     },
     "Cones and cylinders": {
-        "cone": "synth.cli.commands.surfaces:cone_group",
-        "cylinder": "synth.cli.commands.surfaces:cylinder_group",
+        "cone": "Map spherical linkages to cones; find to which side links move.",
+        "cylinder": "Map planar linkages to cylinders; find to which side links move.",
     },
     "Guide a body through orientations": {
-        "order": "synth.cli.commands.guidance:order",
-        "dyads": "synth.cli.commands.guidance:dyads",
-        "fourbar": "synth.cli.commands.guidance:fourbar",
-    },
-    "Set up": {
-        "completion": "synth.cli.main:completion",
+        "order": "Check whether a crank about a fixed axis guides a body through orientations in order.",
+        "dyads": "Find the RR dyads that guide a body through orientations.",
+        "fourbar": "Find the four-bars that guide their coupler through orientations.",
     },
 }
-"""Headings of the help to names of subcommands, and where these are."""
-
-_COMMANDS = {name: place for section in _SECTIONS.values() for name, place in section.items()}
+"""Headings of the help to subcommands with their lines in it: it is printed without loading them."""
+_SHORT_HELP = {name: text for commands in _SECTIONS.values() for name, text in commands.items()}
+_FILES = {
+    "motion": ("fold", "positions", "explain", "advise", "states", "limits"),
+    "drawing": ("draw", "view", "template"),
+    "realise": ("generate", "realise"),
+    "edit": ("reduce", "edit"),
+    "convert": ("convert", "reconstruct", "id"),
+    "surfaces": ("cone", "cylinder"),
+    "guidance": ("order", "dyads", "fourbar"),
+}
+"""Files of `synth.cli.commands` that hold several commands; every other command has a file of its name."""
 
 _VERSIONED = ("numpy", "scipy", "networkx", "numba", "shapely")
 """Packages whose versions matter to results."""
@@ -98,29 +104,26 @@ class _LazyGroup(NamedGroup):
     """The group of all subcommands, which are imported when they are looked up."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        return list(_COMMANDS)
+        return list(_SHORT_HELP)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        if cmd_name not in _COMMANDS:
+        if cmd_name not in _SHORT_HELP:
             return None
-        module, name = _COMMANDS[cmd_name].split(":")
-        command = getattr(import_module(module), name)
-        assert isinstance(command, click.Command)
+        file = next((file for file, names in _FILES.items() if cmd_name in names), cmd_name)
+        values = vars(import_module(f"synth.cli.commands.{file}")).values()
+        command = next(value for value in values if isinstance(value, click.Command) and value.name == cmd_name)
+        command.short_help = _SHORT_HELP[cmd_name]
         return command
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the commands under the headings of their sections."""
-        widest = max(map(len, _COMMANDS))
-        room = formatter.width - 6 - widest
-        for heading, names in _SECTIONS.items():
-            commands = ((name, self.get_command(ctx, name)) for name in names)
+        """Write the commands under the headings of their sections, without loading them."""
+        widest = max(map(len, _SHORT_HELP))
+        for heading, commands in _SECTIONS.items():
             with formatter.section(heading):
-                rows = [(f"{name:{widest}}", entry.get_short_help_str(room)) for name, entry in commands if entry]
-                formatter.write_dl(rows)
+                formatter.write_dl([(f"{name:{widest}}", text) for name, text in commands.items()])
 
     def main(self, *args: Any, **options: Any) -> Any:
         """Run a command; end with one line and an exit status if it fails. Help is printed here too."""
-        from graphs.errors import SynthedraError
         from synth.cli.output import ReaderGoneError
 
         try:
@@ -138,8 +141,6 @@ class _LazyGroup(NamedGroup):
             click.echo("stopped", err=True)
             sys.exit(getattr(stop, "status", _INTERRUPTED))
         except Exception as error:
-            from graphs.errors import SynthedraError
-
             if isinstance(error, SynthedraError | click.ClickException | click.exceptions.Exit | click.Abort):
                 raise
             _end_with_fault(error, debug=ctx.params["debug"])
@@ -181,9 +182,7 @@ def _print_version(ctx: click.Context, _parameter: click.Parameter, requested: b
     "--version", is_flag=True, is_eager=True, expose_value=False, callback=_print_version,
     help="Show the versions of synth and of the packages that results depend on, and exit.",
 )  # fmt: skip
-@click.option(
-    "--debug", is_flag=True, help="Print the traceback if the program itself fails (or set SYNTHEDRA_DEBUG=1)."
-)
+@options.flag("--debug", "Print the traceback if the program itself fails (or set SYNTHEDRA_DEBUG=1).")
 def main(debug: bool) -> None:
     """Type synthesis of spherical-system linkages: origami, pop-ups, cartons, conical mechanisms.
 
@@ -197,60 +196,9 @@ def main(debug: bool) -> None:
 
     Exit status: 0, done; 1, the answer is no; 2, bad input or usage, or output that cannot be written; 70, a fault
     of the program, please report it; 128 + n, stopped by signal n (130: Ctrl-C).
-    """
-    del debug  # `_LazyGroup.invoke` reads it
-
-
-_SHELLS = ("bash", "zsh", "fish")
-
-
-@click.command("completion", short_help="Print or install a shell completion script.")
-@click.argument("shell", type=click.Choice(_SHELLS))
-@click.option(
-    "--install", is_flag=True, help="Write the script to the folder where the shell looks for it, for this user."
-)
-@FORCE
-def completion(shell: str, install: bool, force: bool) -> None:
-    """Print or install a script with which a shell completes the names of commands, options and files.
-
-    With --install the script is written to the user's folder of completion scripts, and is active in the next
-    shell.
 
     \b
-    Examples:
-      synth completion bash --install
-      synth completion zsh > _synth
+    Shell completion: add to ~/.bashrc (for zsh and fish: zsh_source, fish_source)
+      eval "$(_SYNTH_COMPLETE=bash_source synth)"
     """
-    from graphs.files.atomic import write_text
-
-    script = _script_for(shell)
-    if not install:
-        click.echo(script)
-        return
-    place = _place_of(shell)
-    place.parent.mkdir(parents=True, exist_ok=True)
-    write_text(place, script, force=force)
-    click.echo(f"written: {place}")
-    if shell == "zsh":
-        click.echo(f"zsh looks there if its .zshrc has: fpath+=({place.parent}); autoload -U compinit; compinit")
-
-
-def _script_for(shell: str) -> str:
-    from click.shell_completion import get_completion_class
-
-    completer = get_completion_class(shell)
-    assert completer is not None, shell
-    completion_of_synth = completer(main, {}, "synth", "_SYNTH_COMPLETE")
-    return completion_of_synth.source_template % completion_of_synth.source_vars()
-
-
-def _place_of(shell: str) -> Path:
-    """Return where a shell looks for scripts of a user: XDG folders; zsh has none of its own, so ~/.zfunc."""
-    home = Path.home()
-    if shell == "bash":
-        shared = Path(os.environ.get("XDG_DATA_HOME") or home / ".local" / "share")
-        return shared / "bash-completion" / "completions" / "synth"
-    if shell == "fish":
-        own = Path(os.environ.get("XDG_CONFIG_HOME") or home / ".config")
-        return own / "fish" / "completions" / "synth.fish"
-    return home / ".zfunc" / "_synth"
+    del debug  # `_LazyGroup.invoke` reads it

@@ -1,10 +1,10 @@
-"""Options that several commands have, types of options, and joints with numbers as they are typed."""
+"""Options and arguments that several commands have, how they are written, and the types of their values."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import degrees, pi, radians
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
@@ -12,35 +12,36 @@ from graphs.limits import LEAST, MOST
 from graphs.printing import plain
 
 if TYPE_CHECKING:
-    from graphs.mechanism.sc import SCGraph
+    from click.shell_completion import CompletionItem
+
+    from graphs.mechanism import SCGraph
     from graphs.mechanism.surfaces import Surface
-    from graphs.types import JointId
+    from graphs.types import JointId, LinkId
 
 __all__ = [
-    "BRANCH",
-    "FORCE",
-    "LENGTH",
-    "LENGTH_OR_NONE",
-    "LOSSY",
-    "LimitsType",
-    "NumberList",
-    "driven_angles",
-    "in_radians",
-    "named_value",
-    "numbers_of_joints",
-    "surface_from_options",
-]
-
-FORCE = click.option(
-    "--force", is_flag=True, help="Overwrite an existing file, but never a folder, symbolic link or device."
-)
-"""The option of every command that writes a file."""
-
-LOSSY = click.option("--lossy", is_flag=True, help="Write even if the output reads back as another type.")
-"""The option of every command that writes a mechanism."""
+    "BRANCH", "FILE", "FILES", "FILE_NAME", "FORCE", "JSON", "LENGTH", "LENGTH_OR_NONE", "LOSSY",
+    "NUMBER_OF_SURFACE", "WORKERS", "LimitsType", "NumberList", "branch", "choice", "driven_angles", "flag",
+    "in_radians", "joint_of", "limits", "link_of", "named_value", "number", "numbers_of_joints", "output",
+    "repeated", "seed", "surface_from_options", "value",
+]  # fmt: skip
 
 _MOST_DIGITS = 9
 """Digits of the number of a branch: nobody lists more, and Python converts no more than some thousands."""
+
+_Command = TypeVar("_Command", bound=Callable[..., Any] | click.Command)
+
+
+class _FileName(click.ParamType):  # type: ignore[type-arg,unused-ignore]
+    """The name of a file, or what stands for one, such as an id: shells complete it as a file."""
+
+    name = "file"
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        """Leave it to the shell to complete the name."""
+        from click.shell_completion import CompletionItem
+
+        del ctx, param
+        return [CompletionItem(incomplete, type="file")]
 
 
 class _LengthType(click.ParamType):  # type: ignore[type-arg,unused-ignore]
@@ -54,13 +55,13 @@ class _LengthType(click.ParamType):  # type: ignore[type-arg,unused-ignore]
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """Return the number."""
         try:
-            number = float(value)
+            length = float(value)
         except ValueError:
             self.fail(f"{plain(str(value), 100)!r} is not a number", param, ctx)
-        if not (LEAST <= number <= MOST or (self._zero and number == 0.0)):
+        if not (LEAST <= length <= MOST or (self._zero and length == 0.0)):
             also = "0, or " if self._zero else ""
-            self.fail(f"{number:g} is out of range; expected {also}{LEAST:g} to {MOST:g}", param, ctx)
-        return number
+            self.fail(f"{length:g} is out of range; expected {also}{LEAST:g} to {MOST:g}", param, ctx)
+        return length
 
 
 class _BranchType(click.ParamType):  # type: ignore[type-arg,unused-ignore]
@@ -84,7 +85,7 @@ class LimitsType(click.ParamType):  # type: ignore[type-arg,unused-ignore]
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return limits."""
-        from enumerate.runner.job import Limits
+        from enumerate.runner import Limits
 
         if isinstance(value, Limits):
             return value
@@ -123,8 +124,83 @@ LENGTH = _LengthType()
 """The type of --size, --scale, --thickness and the like."""
 LENGTH_OR_NONE = _LengthType(zero=True)
 """The type of lengths that may be 0, such as --gap."""
+FILE_NAME = _FileName()
+"""The type of arguments and options that name files."""
+
+
+def value(
+    names: str, metavar: str | None, text: str, *, default: Any = None, **settings: Any
+) -> Callable[[_Command], _Command]:
+    """Return an option of click: its names parted by spaces, the parameter of the command last if it is another.
+
+    A default is shown in the help.
+    """
+    if default is not None:
+        settings = {"default": default, "show_default": True, **settings}
+    return click.option(*names.split(), metavar=metavar, help=text, **settings)
+
+
+def repeated(names: str, metavar: str, text: str, **settings: Any) -> Callable[[_Command], _Command]:
+    """Return an option that may be given several times."""
+    return click.option(*names.split(), metavar=metavar, help=text, multiple=True, **settings)
+
+
+def flag(names: str, text: str, *, default: bool | None = None) -> Callable[[_Command], _Command]:
+    """Return an option without a value; one of two names, ``--this/--that``, has a default."""
+    if "/" in names:
+        return click.option(*names.split(), default=default, show_default=default is not None, help=text)
+    return click.option(*names.split(), is_flag=True, help=text)
+
+
+def number(
+    names: str, metavar: str, text: str, least: int | None = 1, most: int | None = None, **settings: Any
+) -> Callable[[_Command], _Command]:
+    """Return an option for a whole number in a range."""
+    return value(names, metavar, text, type=click.IntRange(least, most), **settings)
+
+
+def limits(names: str, text: str) -> Callable[[_Command], _Command]:
+    """Return an option for a number or a range of numbers."""
+    return value(names, "K", text, type=LimitsType())
+
+
+def choice(names: str, values: Sequence[str], text: str, **settings: Any) -> Callable[[_Command], _Command]:
+    """Return an option whose value is one of some words."""
+    return value(names, settings.pop("metavar", None), text, type=click.Choice(values), **settings)
+
+
+def output(
+    text: str, metavar: str = "OUT", names: str = "-o --output", *, required: bool = False
+) -> Callable[[_Command], _Command]:
+    """Return the option for the file to write."""
+    return value(names, metavar, text, type=FILE_NAME, required=required)
+
+
+def branch(text: str, metavar: str = "K") -> Callable[[_Command], _Command]:
+    """Return the option --branch."""
+    return value("--branch", metavar, text, type=BRANCH)
+
+
 BRANCH = _BranchType()
-"""The type of --branch."""
+"""The type of options for a branch."""
+
+FILE = click.argument("file", metavar="FILE", type=FILE_NAME)
+FILES = click.argument("files", metavar="FILE...", nargs=-1, required=True, type=FILE_NAME)
+FORCE = flag("--force", "Overwrite an existing file, but never a folder, symbolic link or device.")
+"""The option of every command that writes a file."""
+LOSSY = flag("--lossy", "Write even if the output reads back as another type.")
+"""The option of every command that writes a mechanism."""
+JSON = flag("--json as_json", "Print the answer as JSON.")
+WORKERS = number("--workers", "N", "Number of processes. By default one per core.")
+NUMBER_OF_SURFACE = number(
+    "--cone --cylinder cone", "K",
+    "For a linkage that lies on several cones or cylinders: number of the one to take.",
+)  # fmt: skip
+
+
+def seed(text: str) -> Callable[[_Command], _Command]:
+    """Return the option --seed."""
+    return number("--seed", "N", text, 0, default=0)
 
 
 def in_radians(values: Sequence[float]) -> list[float]:
@@ -146,7 +222,7 @@ def surface_from_options(cone_angle: float | None, radius: float | None) -> Surf
     return None if radius is None else Cylinder(radius)
 
 
-def named_value(text: str, option: str, form: str, lengths: Sequence[int] = (1,)) -> tuple[str, list[float]]:
+def named_value(text: str, spelling: str, form: str, lengths: Sequence[int] = (1,)) -> tuple[str, list[float]]:
     """Return a name and the numbers behind the last ``=``, parted by commas, of a word such as ``JOINT=DEGREES``.
 
     Raise click.BadParameter with the form if the number of numbers is not in ``lengths``.
@@ -157,19 +233,31 @@ def named_value(text: str, option: str, form: str, lengths: Sequence[int] = (1,)
     except ValueError:
         values = []
     if not equals or not name or len(values) not in lengths:
-        raise click.BadParameter(f"{plain(text)!r} is not {form}", param_hint=option)
+        raise click.BadParameter(f"{plain(text)!r} is not {form}", param_hint=spelling)
     return name.strip(), values
 
 
-def numbers_of_joints(graph: SCGraph, words: tuple[str, ...], option: str, form: str) -> dict[JointId, float]:
-    """Return the joints and numbers of an option; ``form`` is how they are typed, such as ``JOINT=DEGREES``."""
+def link_of(graph: SCGraph, name: str | None) -> LinkId:
+    """Return the link that a word names; None without a word."""
+    from graphs.edit.named import link_named
+
+    return None if name is None else link_named(graph, name)
+
+
+def joint_of(graph: SCGraph, name: str | None) -> JointId:
+    """Return the joint that a word names: an id, a number, or two links A,B; None without a word."""
     from graphs.edit.named import joint_named
 
-    pairs = (named_value(word, option, form) for word in words)
-    return {joint_named(graph, name): number for name, [number] in pairs}
+    return None if name is None else joint_named(graph, name)
 
 
-def driven_angles(graph: SCGraph, words: tuple[str, ...], option: str = "--drive") -> dict[JointId, float]:
+def numbers_of_joints(graph: SCGraph, words: tuple[str, ...], spelling: str, form: str) -> dict[JointId, float]:
+    """Return the joints and numbers of an option; ``form`` is how they are typed, such as ``JOINT=DEGREES``."""
+    pairs = (named_value(word, spelling, form) for word in words)
+    return {joint_of(graph, name): value for name, [value] in pairs}
+
+
+def driven_angles(graph: SCGraph, words: tuple[str, ...], spelling: str = "--drive") -> dict[JointId, float]:
     """Return the angles of joints, radians, of an option that has them in degrees."""
-    angles = numbers_of_joints(graph, words, option, "JOINT=DEGREES")
+    angles = numbers_of_joints(graph, words, spelling, "JOINT=DEGREES")
     return {joint: radians(angle) for joint, angle in angles.items()}

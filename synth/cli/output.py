@@ -6,7 +6,7 @@ import io
 import json
 import os
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from time import monotonic
@@ -14,34 +14,20 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import click
 
-from graphs.errors import SynthedraError
+from graphs.errors import FileError, InvariantError, SynthedraError
 from graphs.printing import UNWRAPPED, console_for, plain, rich_table as table
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from graphs.files.formats import Entry
-    from graphs.printing import Printed
+    from graphs.printing import Block, Printed
 
 __all__ = [
-    "OutputError",
-    "ReaderGoneError",
-    "about",
-    "check_output",
-    "check_picture",
-    "console",
-    "entries",
-    "guard_output",
-    "plain",
-    "print_answer",
-    "print_json",
-    "print_report",
-    "progress_line",
-    "shortened",
-    "table",
-    "tell_lost",
-    "tell_written",
-]
+    "OutputError", "ReaderGoneError", "about", "check_output", "check_picture", "console", "entries",
+    "guard_output", "plain", "print_answer", "print_json", "print_result", "progress_line", "shortened", "table",
+    "tell_lost", "tell_written",
+]  # fmt: skip
 
 _FIGURES = 12
 """Significant figures of numbers in JSON; rows of enumerations have no more."""
@@ -50,7 +36,10 @@ _PATIENCE = 2.0
 
 
 class _Answer(Protocol):
-    """An answer with a text and JSON keys."""
+    """An answer that is printed, with keys for JSON."""
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and tables that are printed."""
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on."""
@@ -59,8 +48,6 @@ class _Answer(Protocol):
 @contextmanager
 def about(label: str) -> Iterator[None]:
     """Put the name of a file before the errors of its mechanism."""
-    from graphs.errors import FileError, InvariantError
-
     try:
         yield
     except FileError:
@@ -101,19 +88,28 @@ def tell_written(*places: str | Path | None) -> None:
             click.echo(f"written: {plain(str(place), 4096)}")
 
 
-def print_answer(answer: Printed) -> None:
+def print_answer(answer: Printed | _Answer) -> None:
     """Print the lines and tables of an answer."""
     out = console()
     for block in answer.blocks():
         out.print(block)
 
 
-def print_report(file: str, answer: _Answer, *, as_json: bool) -> None:
-    """Print the answer about a file as text, or as JSON with the name of the file."""
+def print_result(
+    answer: _Answer,
+    keys: Mapping[str, Any],
+    *,
+    as_json: bool,
+    written: Sequence[str | Path | None] = (),
+    lost: Sequence[str] = (),
+) -> None:
+    """Print an answer, files that were written, and what they could not hold; or JSON, `keys` before its own."""
     if as_json:
-        print_json({"file": file, **answer.to_json()})
-    else:
-        click.echo(str(answer))
+        print_json({**keys, **answer.to_json()})
+        return
+    print_answer(answer)
+    tell_written(*written)
+    tell_lost(lost)
 
 
 def print_json(value: Any) -> None:
@@ -158,7 +154,6 @@ def progress_line(patience: float = _PATIENCE) -> Iterator[Callable[[str], None]
 
 def entries(files: Sequence[str], failures: list[str], patience: float = _PATIENCE) -> Iterator[Entry]:
     """Yield the mechanisms of files, with progress; the error of a file that cannot be read joins the failures."""
-    from graphs.errors import FileError
     from graphs.files.formats import read_all
     from synth.cli.reading import stated
 

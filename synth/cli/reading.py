@@ -14,29 +14,17 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from graphs.printing import plain
-from synth.cli.options import LENGTH_OR_NONE
+from synth.cli import options
 
 if TYPE_CHECKING:
-    from enumerate.strings.panel_strings import ChainString
-    from graphs.convert.table import Mechanism
+    from enumerate.strings import ChainString
+    from graphs.convert import Mechanism
     from synth.drawing.mechanisms.chains import OrderOnCircle
 
 __all__ = [
-    "COLOUR",
-    "DRAWN",
-    "LAYER",
-    "LOOK",
-    "MODE",
-    "PRECISION",
-    "ROW",
-    "NamedMechanism",
-    "keep_looks",
-    "precise",
-    "precise_sheet",
-    "read",
-    "read_named",
-    "stated",
-]
+    "COLOUR", "DRAWN", "LAYER", "LOOK", "MODE", "PRECISION", "ROW", "NamedMechanism", "keep_looks", "precise",
+    "precise_sheet", "read", "read_named", "stated",
+]  # fmt: skip
 
 _LOOKS, _PRECISION = "synthedra.stated", "synth.precision"
 """Keys under which the values of options are kept with the context."""
@@ -63,17 +51,16 @@ def keep_looks(ctx: click.Context, words: tuple[str, ...]) -> None:
     _keep(ctx, "colours", words)
 
 
-COLOUR = click.option(
-    "--colour", multiple=True, metavar=LOOK, expose_value=False,
-    callback=lambda ctx, _parameter, words: keep_looks(ctx, words),
-    help="For a drawing (.svg, .dxf): assignment of the lines of a colour, a dash pattern or "
-    "both ('V=dashed #000000'). M mountain, V valley, B border, C cut, F flat, U "
-    "unassigned, - leaves them out.",
+COLOUR = options.repeated(
+    "--colour", LOOK,
+    "For a drawing (.svg, .dxf): assignment of lines by their colour, their dash pattern or both, such as "
+    "'V=dashed #000000'. M mountain, V valley, B border, C cut, F flat, U unassigned; - leaves lines out.",
+    expose_value=False, callback=lambda ctx, _parameter, words: keep_looks(ctx, words),
 )  # fmt: skip
-LAYER = click.option(
-    "--layer", multiple=True, metavar="M=NAME,...", expose_value=False,
-    callback=lambda ctx, _parameter, words: _keep(ctx, "layers", words),
-    help="For a drawing (.svg, .dxf): assignment of the lines of a layer or group, by the same letters.",
+LAYER = options.repeated(
+    "--layer", "M=NAME,...",
+    "For a drawing (.svg, .dxf): assignment of lines by their layer or group, with the same letters.",
+    expose_value=False, callback=lambda ctx, _parameter, words: _keep(ctx, "layers", words),
 )  # fmt: skip
 
 
@@ -86,22 +73,18 @@ def _keep_precision(ctx: click.Context, _parameter: click.Parameter, length: flo
     ctx.meta[_PRECISION] = length
 
 
-PRECISION = click.option(
-    "--precision", type=LENGTH_OR_NONE, metavar="LENGTH", expose_value=False,
-    callback=_keep_precision,
-    help="Largest error of a coordinate, in the unit of the file; 0 means exact. By default it "
-    "is estimated from the file.",
+PRECISION = options.value(
+    "--precision", "LENGTH",
+    "Largest error of a coordinate, in the unit of the file; 0 means exact. By default it is estimated from the "
+    "file.", type=options.LENGTH_OR_NONE, expose_value=False, callback=_keep_precision,
 )  # fmt: skip
 """The option of commands that take files with coordinates; `precise` applies it."""
 
-ROW = click.option(
-    "--row", type=click.IntRange(min=1), metavar="N",
-    help="For a store, a list or a folder: number of the row to take, counted from 1.",
-)  # fmt: skip
+ROW = options.number("--row", "N", "For a store, a list or a folder: number of the row to take, counted from 1.")
 """The option of commands that take one mechanism of many."""
 
-MODE = click.option(
-    "--mode", metavar="SD...", help="For an R/- string: its mode, as `synth enumerate strings --modes` lists it."
+MODE = options.value(
+    "--mode", "SD...", "For an R/- string: its mode, as `synth enumerate strings --modes` lists it."
 )
 """The option of commands that take R/- strings."""
 
@@ -124,17 +107,11 @@ def read(file: str, *, warn: bool = True) -> Mechanism:
     return mechanism
 
 
-def _stated_length() -> float | None:
-    """Return the length of --precision, None without it."""
-    length: float | None = click.get_current_context().meta.get(_PRECISION)
-    return length
-
-
 def precise(mechanism: Mechanism) -> Any:
     """Return a mechanism with the precision of --precision: a crease pattern, or the configuration of another."""
     from synth.moving.made import with_precision
 
-    return with_precision(mechanism, _stated_length())
+    return with_precision(mechanism, click.get_current_context().meta.get(_PRECISION))
 
 
 def precise_sheet(mechanism: Any) -> Any:
@@ -142,7 +119,7 @@ def precise_sheet(mechanism: Any) -> Any:
     from graphs.mechanism.precision import stated as with_stated_precision
     from graphs.mechanism.sheet import Sheet
 
-    length = _stated_length()
+    length: float | None = click.get_current_context().meta.get(_PRECISION)
     if length is None:
         return mechanism
     if not isinstance(mechanism, Sheet):
@@ -162,12 +139,8 @@ class NamedMechanism:
 def read_named(argument: str, row: int | None = None, mode: str | None = None) -> NamedMechanism:
     """Return the mechanism that an argument names: a file, an id ``k1:...`` or ``m1:...``, an R/- string.
 
-    With a row, from 1, it is one of a store, a list or a folder. The mode is that of an R/- string; a row of a
-    list of modes has its own. Raise click.UsageError if a row is required and missing, or the other way round;
-    FileError if the file cannot be read, or has no such row.
-
-    >>> read_named("RR-R-RRR").mechanism
-    ChainString(clusters=(2, 1, 3))
+    With a row, from 1, it is one of a store, a list or a folder; a row of a list of modes has its own mode. Raise
+    click.UsageError if a row is required and missing, or the other way round.
     """
     from synth.drawing.catalogue import entry_numbered, is_catalogue
 
@@ -179,7 +152,7 @@ def read_named(argument: str, row: int | None = None, mode: str | None = None) -
     if row is not None:
         raise click.UsageError("--row requires a store, a list or a folder")
     if argument and set(argument) <= set("R-"):  # a file so named has no extension, and would not be read
-        from enumerate.strings.panel_strings import ChainString
+        from enumerate.strings import ChainString
 
         name = f"{argument} {mode}" if mode else argument
         return NamedMechanism(ChainString.parse(argument), name, mode)

@@ -5,69 +5,53 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from functools import wraps
 from time import monotonic
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from graphs.errors import numbered
 from graphs.printing import LONGEST_CELL
-from synth.cli.options import FORCE
+from synth.cli import options
 from synth.cli.output import console, plain, print_json, table, tell_written
 
 if TYPE_CHECKING:
     from enumerate.runner.job import Column, Job, Progress, Row, Sink
 
 __all__ = [
-    "RunOptions",
-    "check_method",
-    "cores",
-    "run_count",
-    "run_resumable",
-    "run_rows",
-    "run_whole",
+    "RunOptions", "TablePrinter", "check_method", "cores", "run_count", "run_resumable", "run_rows", "run_whole",
     "runner_options",
-]
+]  # fmt: skip
 
 _MOST_IN_TABLE = 1000
 _PATIENCE = 1.0
 """Seconds before progress is shown, and between two lines of it."""
 
-F = TypeVar("F", bound=Callable[..., Any])
 
-
+@dataclass(frozen=True)
 class RunOptions:
-    """The values of the options that `runner_options` adds."""
+    """The values of the options that `runner_options` adds; `counting`: rows are counted, or kept, not listed."""
 
-    def __init__(
-        self,
-        output: str | None,
-        workers: int | None,
-        scheduler: str | None,
-        resume: bool,
-        quiet: bool,
-        as_json: bool,
-        force: bool = False,
-        *,
-        counting: bool = False,
-    ) -> None:
-        if resume and force:
+    output: str | None = None
+    workers: int | None = None
+    scheduler: str | None = None
+    resume: bool = False
+    quiet: bool = False
+    as_json: bool = False
+    force: bool = False
+    counting: bool = False
+
+    def __post_init__(self) -> None:
+        if self.resume and self.force:
             raise click.UsageError("--resume and --force exclude each other: continue a store, or replace it")
-        if resume and output is None:
+        if self.resume and self.output is None:
             raise click.UsageError("--resume requires -o FILE.sqlite, the store to continue")
-        if output is not None and counting and not output.lower().endswith(".sqlite"):
+        if self.output is not None and self.counting and not self.output.lower().endswith(".sqlite"):
             raise click.UsageError("--count keeps its counts in a store only; try -o FILE.sqlite, or no -o")
-        if output is not None and as_json and not counting:
+        if self.output is not None and self.as_json and not self.counting:
             raise click.UsageError("-o and --json exclude each other; try one of them")
-        self.output, self.resume, self.quiet, self.as_json = output, resume, quiet, as_json
-        self.force = force
-        self.workers = workers or cores()
-        self.scheduler = scheduler
-
-    @classmethod
-    def taken_from(cls, options: dict[str, Any], *, counting: bool = False) -> RunOptions:
-        """Take the options of the runner out of those of a subcommand, which counts or lists."""
-        names = ("output", "workers", "scheduler", "resume", "quiet", "as_json", "force")
-        return cls(*(options.pop(name) for name in names), counting=counting)
 
     def kept_job(self) -> dict[str, Any] | None:
         """Return the key of the job to continue; None if there is none yet."""
@@ -83,30 +67,37 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def runner_options(function: F) -> F:
-    """Add the options of the runner to a subcommand."""
-    for option in (
-        click.option("--json", "as_json", is_flag=True, help="Print one JSON document."),
-        click.option("--quiet", is_flag=True, help="Show neither progress nor the names of written files."),
-        FORCE,
-        click.option("--resume", is_flag=True, help="Continue a stopped run from its .sqlite store."),
-        click.option("--scheduler", metavar="ADDRESS", help="Work on a Dask cluster, such as tcp://host:8786."),
-        click.option(
-            "--workers",
-            type=click.IntRange(min=1),
-            metavar="N",
-            help="Number of processes. By default one per core.",
-        ),
-        click.option(
-            "-o",
-            "--output",
-            metavar="FILE",
-            help="Write .jsonl, .csv, .sqlite, .parquet, .g6 (chains only), or a folder of mechanisms; "
-            "counts go to .sqlite.",
-        ),
-    ):
-        function = option(function)
-    return function
+_OUTPUT = options.output(
+    "Write .jsonl, .csv, .sqlite, .parquet, .g6 (chains only), or a folder of mechanisms; counts go to .sqlite.",
+    "FILE",
+)
+_OPTIONS = (
+    options.WORKERS,
+    options.value("--scheduler", "ADDRESS", "Work on a Dask cluster, such as tcp://host:8786."),
+    options.flag("--resume", "Continue a stopped run from its .sqlite store."),
+    options.FORCE,
+    options.flag("--quiet", "Show neither progress nor the names of written files."),
+    options.JSON,
+)
+
+
+def runner_options(
+    command: Callable[..., None], *, counting: bool = False, output: Callable[..., Any] = _OUTPUT
+) -> Callable[..., None]:
+    """Add the options of the runner to a subcommand, which takes them as one `RunOptions`, ``running``.
+
+    Its output is a store only if `counting`, or with --count.
+    """
+
+    @wraps(command)
+    def run_command(**values: Any) -> None:
+        names = [field.name for field in fields(RunOptions) if field.name in values]
+        settings = {name: values.pop(name) for name in names}
+        command(running=RunOptions(**settings, counting=values.get("only_count", counting)), **values)
+
+    for each in reversed((output, *_OPTIONS)):
+        run_command = each(run_command)
+    return run_command
 
 
 def check_method(method: str | None, only_count: bool) -> None:
@@ -115,80 +106,79 @@ def check_method(method: str | None, only_count: bool) -> None:
         raise click.UsageError("--method requires --count")
 
 
-def run_count(job: Job, options: RunOptions) -> None:
+def run_count(job: Job, running: RunOptions) -> None:
     """Run a job that counts, print the number, and keep the counts in the output, if there is one."""
     from enumerate.runner.sinks import CountSink
     from enumerate.runner.store import SqliteSink
 
-    meter = _Meter.of(options, counting=True)
+    meter = _Meter.of(running, counting=True)
     store = None
-    if options.output is not None:
+    if running.output is not None:
         store = SqliteSink(
-            options.output, resume=options.resume, force=options.force, tell=meter.tell, looking=meter.look
+            running.output, resume=running.resume, force=running.force, tell=meter.tell, looking=meter.look
         )
     sink = CountSink(store)
-    _run(job, sink, options, meter)
-    if options.as_json:
+    _run(job, sink, running, meter)
+    if running.as_json:
         sizes = sink.by("contracted_links")
         print_json({"count": sink.total, **({"by_size": sizes} if sizes else {})})
     else:
         click.echo(sink.total)
 
 
-def run_rows(job: Job, options: RunOptions, wrapped: Callable[[Sink], Sink] = lambda sink: sink) -> None:
-    """Run a job and send its rows to a file, a JSON list or a table, by the options.
+def run_rows(job: Job, running: RunOptions, wrapped: Callable[[Sink], Sink] = lambda sink: sink) -> None:
+    """Run a job and send its rows to a file, a JSON list or a table, by the running.
 
     ``wrapped`` wraps the sink in another that handles the rows before it.
     """
     from enumerate.runner.sinks import RowSink, sink_for
-    from graphs.errors import numbered
 
-    meter = _Meter.of(options)
-    if options.output is not None:
+    meter = _Meter.of(running)
+    if running.output is not None:
         sink = sink_for(
-            options.output, resume=options.resume, force=options.force, tell=meter.tell, looking=meter.look
+            running.output, resume=running.resume, force=running.force, tell=meter.tell, looking=meter.look
         )
-        progress = _run(job, wrapped(sink), options, meter)
-        if not options.quiet:
-            click.echo(numbered(progress.rows, "new row" if options.resume else "row"))
-            tell_written(options.output)
+        progress = _run(job, wrapped(sink), running, meter)
+        if not running.quiet:
+            click.echo(numbered(progress.rows, "new row" if running.resume else "row"))
+            tell_written(running.output)
         return
-    if options.as_json:
+    if running.as_json:
         objects: list[dict[str, Any]] = []
 
         def keep(names: tuple[str, ...], rows: list[Row]) -> None:
             objects.extend(dict(zip(names, row, strict=True)) for row in rows)
 
-        _run(job, wrapped(RowSink(keep)), options, meter)
+        _run(job, wrapped(RowSink(keep)), running, meter)
         print_json(objects)
         return
-    printer = _Printer(job.columns)
-    _run(job, wrapped(RowSink(printer.take)), options, meter)
+    printer = TablePrinter(job.columns)
+    _run(job, wrapped(RowSink(printer.take)), running, meter)
     printer.finish()
 
 
-def run_resumable(job: Job, sink_of: Callable[..., Sink], options: RunOptions) -> None:
+def run_resumable(job: Job, sink_of: Callable[..., Sink], running: RunOptions) -> None:
     """Run a job into a sink that keeps finished units: ``sink_of`` takes functions for messages and progress."""
-    meter = _Meter.of(options)
-    _run(job, sink_of(tell=meter.tell, looking=meter.look), options, meter, stored=True)
+    meter = _Meter.of(running)
+    _run(job, sink_of(tell=meter.tell, looking=meter.look), running, meter, stored=True)
 
 
-def run_whole(job: Job, sink: Sink, options: RunOptions) -> None:
+def run_whole(job: Job, sink: Sink, running: RunOptions) -> None:
     """Run a job into a sink that is written whole or not at all."""
-    _run(job, sink, options, _Meter.of(options))
+    _run(job, sink, running, _Meter.of(running))
 
 
-def _run(job: Job, sink: Sink, options: RunOptions, meter: _Meter, *, stored: bool = False) -> Progress:
+def _run(job: Job, sink: Sink, running: RunOptions, meter: _Meter, *, stored: bool = False) -> Progress:
     from enumerate.runner.running import run
     from enumerate.runner.stopping import Interrupted
 
     try:
-        if options.output is not None or meter.counting:  # else rows may be printed on the same line
+        if running.output is not None or meter.counting:  # else rows may be printed on the same line
             meter.begin()
-        return run(job, sink, workers=options.workers, scheduler=options.scheduler, report=meter.show)
+        return run(job, sink, workers=running.workers or cores(), scheduler=running.scheduler, report=meter.show)
     except Interrupted as stop:
         meter.clear()
-        stored = stored or (options.output is not None and options.output.lower().endswith(".sqlite"))
+        stored = stored or (running.output is not None and running.output.lower().endswith(".sqlite"))
         click.echo("stopped; go on with --resume" if stored else "stopped; nothing was written", err=True)
         sys.exit(stop.status)
     finally:
@@ -204,9 +194,9 @@ class _Meter:
         self._looked: tuple[float, float] | None = None  # time and part when the check of a store began
 
     @classmethod
-    def of(cls, options: RunOptions, *, counting: bool = False) -> _Meter:
+    def of(cls, running: RunOptions, *, counting: bool = False) -> _Meter:
         """Return a meter, silent with --quiet or without a terminal."""
-        return cls(options.quiet or not sys.stderr.isatty(), counting=counting)
+        return cls(running.quiet or not sys.stderr.isatty(), counting=counting)
 
     def begin(self) -> None:
         """Show the line before any progress: large jobs take minutes to list their units."""
@@ -261,7 +251,7 @@ def _time(seconds: float) -> str:
     return f"{hours} h {minutes} min" if hours else f"{minutes} min {rest} s" if minutes else f"{rest} s"
 
 
-class _Printer:
+class TablePrinter:
     """Prints a table, or lines with tabs if there are too many rows for one; leaves out columns of files."""
 
     def __init__(self, columns: Mapping[str, Column]) -> None:

@@ -4,26 +4,22 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
 
 import click
 
-from graphs.errors import numbered
-from synth.cli.options import FORCE
-from synth.cli.output import about, check_output, console, entries, plain, print_answer, print_json, tell_written
+import synth.atlas
+from graphs.errors import UnsolvableError, numbered
+from graphs.printing import TableBlock
+from synth.cli import options, output as out
 from synth.cli.runner import RunOptions, run_resumable, run_whole, runner_options
-
-if TYPE_CHECKING:
-    from synth.atlas.opened import AtlasRows
 
 __all__ = ["atlas_group"]
 
 
-_JSON = click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
-_ATLAS = click.argument("atlas", metavar="ATLAS.sqlite")
+_ATLAS = click.argument("atlas", metavar="ATLAS.sqlite", type=options.FILE_NAME)
 
 
-@click.group("atlas", short_help="Build, query, show and find all types up to a size, in one file.")
+@click.group("atlas")
 def atlas_group() -> None:
     """Build an atlas of types, and query it.
 
@@ -36,96 +32,71 @@ def atlas_group() -> None:
     """
 
 
-@atlas_group.command()
-@click.option(
-    "--max-links", type=int, default=8, show_default=True, metavar="N",
-    help="Largest number of links of SC and SCD graphs.",
-)  # fmt: skip
-@click.option(
-    "--dof", "dofs", type=int, multiple=True, default=(1,), metavar="M",
-    help="Degrees of freedom, 1 by default; may be repeated.",
-)  # fmt: skip
-@click.option(
-    "--max-degree", type=int, default=4, show_default=True, metavar="D", help="Largest number of sides of a link."
+@atlas_group.command(short_help="Build an atlas in one file.")
+@options.value("--max-links", "N", "Largest number of links of SC and SCD graphs.", default=8, type=int)
+@options.repeated("--dof dofs", "M", "Degrees of freedom, 1 by default; may be repeated.", default=(1,), type=int)
+@options.value("--max-degree", "D", "Largest number of sides of a link.", default=4, type=int)
+@options.value(
+    "--chain-links", "N", "Largest number of links of chains. By default that of --max-links.", type=int
 )
-@click.option(
-    "--chain-links", type=int, metavar="N",
-    help="Largest number of links of chains. By default that of --max-links.",
-)  # fmt: skip
-@click.option(
-    "--creases", type=int, default=6, show_default=True, metavar="N",
-    help="Largest number of creases of R/- strings; 0 leaves strings out.",
-)  # fmt: skip
-@click.option(
-    "--orders-of", multiple=True, default=("watt", "stephenson"), show_default=True, metavar="CHAIN",
-    help="Chain (a name or an id k1:...) whose joints are placed round a cone in every order; "
-    "none leaves conical orders out. May be repeated.",
-)  # fmt: skip
-@click.option(
-    "--spatial", type=int, default=0, show_default=True, metavar="S",
-    help="Include hybrids of 1 to S spatial loops.",
-)  # fmt: skip
-@click.option("--infinite", is_flag=True, help="Include centres at infinity.")
-@click.option(
-    "--realise/--no-realise", "realised", default=True, show_default=True, help="Realise the types, and fold them."
+@options.value(
+    "--creases", "N", "Largest number of creases of R/- strings; 0 leaves strings out.", default=6, type=int
 )
-@runner_options
-def build(**options: Any) -> None:
+@options.repeated(
+    "--orders-of", "CHAIN",
+    "Chain (a name or an id k1:...) whose joints are placed round a cone in every order; none leaves conical "
+    "orders out. May be repeated.", default=("watt", "stephenson"), show_default=True)  # fmt: skip
+@options.value("--spatial", "S", "Include hybrids of 1 to S spatial loops.", default=0, type=int)
+@options.flag("--infinite", "Include centres at infinity.")
+@options.flag("--realise/--no-realise realised", "Realise the types, and fold them.", default=True)
+@partial(runner_options, counting=True, output=options.output("Atlas to write.", "FILE.sqlite"))
+def build(
+    max_links: int, dofs: tuple[int, ...], max_degree: int, chain_links: int | None, creases: int,
+    orders_of: tuple[str, ...], spatial: int, infinite: bool, realised: bool, running: RunOptions,
+) -> None:  # fmt: skip
     """Build an atlas of chains, SC and SCD graphs, strings and conical orders, with their properties, in one file.
 
     Continue a stopped build with --resume. For the columns, see `synth atlas query ATLAS.sqlite --columns help`.
     """
-    from synth.atlas.building import AtlasJob, AtlasPlan, AtlasSink
-    from synth.atlas.opened import open_atlas
+    from synth.atlas.building import AtlasJob, AtlasSink
 
-    running = RunOptions.taken_from(options, counting=True)
     if running.output is None:
         raise click.UsageError("an atlas requires -o FILE.sqlite")
-    orders = tuple(name for name in options.pop("orders_of") if name != "none")
-    plan = AtlasPlan(orders_of=orders, **options)
+    orders = tuple(name for name in orders_of if name != "none")
+    plan = synth.atlas.AtlasPlan(
+        max_links, dofs, max_degree, chain_links, creases, orders, spatial, infinite, realised
+    )
     sink = partial(AtlasSink, running.output, plan.command, resume=running.resume, force=running.force)
     run_resumable(AtlasJob(plan), sink, running)
-    summary = open_atlas(str(running.output)).about()
+    summary = synth.atlas.open_atlas(str(running.output)).about()
     if running.as_json:
-        print_json({"output": running.output, **summary})
+        out.print_json({"output": running.output, **summary})
         return
     for kind, number in summary["types"].items():
         click.echo(f"{number:>9}  {kind}")
-    tell_written(running.output)
+    out.tell_written(running.output)
 
 
 @atlas_group.command()
 @_ATLAS
 @click.argument("condition", required=False, default="")
-@click.option("--sql", "statement", metavar="SELECT", help="SQL statement to use instead of a condition.")
-@click.option("--columns", metavar="A,B,...", help="Columns to show; `help` lists all of them.")
-@click.option(
-    "--sort", default="", metavar="[-]COLUMN", help="Sort by a column; a leading - sorts in descending order."
+@options.value("--sql statement", "SELECT", "SQL statement to use instead of a condition.")
+@options.value("--columns", "A,B,...", "Columns to show; `help` lists all of them.")
+@options.value(
+    "--sort", "[-]COLUMN", "Sort by a column; a leading - sorts in descending order.",
+    default="", show_default=False,
+)  # fmt: skip
+@options.number("--limit", "N", "Largest number of rows.", default=1000)
+@options.value(
+    "--seconds", "SECONDS", "Time limit in seconds.", default=30.0, type=click.FloatRange(min=0, min_open=True)
 )
-@click.option(
-    "--limit", type=click.IntRange(min=1), default=1000, show_default=True, metavar="N",
-    help="Largest number of rows.",
-)  # fmt: skip
-@click.option(
-    "--seconds", type=click.FloatRange(min=0, min_open=True), metavar="SECONDS", default=30.0, show_default=True,
-    help="Time limit in seconds.",
-)  # fmt: skip
-@click.option(
-    "-o", "--output", metavar="OUT",
-    help="Write .csv, .json, .jsonl, .parquet, a picture (.svg, .png, .pdf), or a folder of mechanisms.",
-)  # fmt: skip
-@FORCE
-@_JSON
+@options.output("Write .csv, .json, .jsonl, .parquet, a picture (.svg, .png, .pdf), or a folder of mechanisms.")
+@options.FORCE
+@options.JSON
 def query(
-    atlas: str,
-    condition: str,
-    statement: str | None,
-    columns: str | None,
-    output: str | None,
-    force: bool,
-    as_json: bool,
-    **search: Any,
-) -> None:
+    atlas: str, condition: str, statement: str | None, columns: str | None, output: str | None, force: bool,
+    as_json: bool, sort: str, limit: int, seconds: float,
+) -> None:  # fmt: skip
     """List the types that fulfil a condition.
 
     \b
@@ -136,125 +107,92 @@ def query(
       loop_sizes contains 5 and not (symmetry = 1)
       kind in ('sc', 'scd') and ride_alongs is known
     """
-    from synth.atlas.opened import open_atlas
-
     if columns == "help":
-        _print_columns()
+        meanings = [(name, " ".join(column.kinds), column.says) for name, column in synth.atlas.COLUMNS.items()]
+        out.console().print(TableBlock(("column", "kinds", "meaning"), meanings))
         return
-    if statement is not None and (condition or columns or search["sort"]):
+    if statement is not None and (condition or columns or sort):
         raise click.UsageError("--sql excludes a condition, --columns and --sort")
     if output is not None and as_json:
         raise click.UsageError("-o and --json exclude each other; try one of them")
-    check_output(output if output is None or Path(output).suffix else None, force=force)
-    opened = open_atlas(atlas)
+    out.check_output(output if output is None or Path(output).suffix else None, force=force)
+    opened = synth.atlas.open_atlas(atlas)
     if statement is not None:
-        rows = opened.sql(statement, limit=search["limit"], seconds=search["seconds"])
+        rows = opened.sql(statement, limit=limit, seconds=seconds)
     else:
         names = [name.strip() for name in columns.split(",")] if columns else []
-        rows = opened.query(condition, columns=names, **search)
+        rows = opened.query(condition, columns=names, sort=sort, limit=limit, seconds=seconds)
     if output is not None:
-        _write(rows, output, force)
+        from synth.atlas.written import write_rows
+
+        out.tell_written(*write_rows(rows, output, force=force))
     elif as_json:
-        print_json(rows.to_json())
+        out.print_json(rows.to_json())
     else:
-        _print(rows)
+        out.console().print(rows.blocks()[0])
     if rows.more:
         click.echo(f"more than {numbered(len(rows), 'row')}; try a larger --limit", err=True)
-
-
-def _print(rows: AtlasRows) -> None:
-    out = console()
-    for block in rows.blocks()[:1]:
-        out.print(block)
-
-
-def _print_columns() -> None:
-    from graphs.printing import TableBlock
-    from synth.atlas.columns import COLUMNS
-
-    rows = [(name, " ".join(column.kinds), column.says) for name, column in COLUMNS.items()]
-    console().print(TableBlock(("column", "kinds", "meaning"), rows))
-
-
-def _write(rows: AtlasRows, output: str, force: bool) -> None:
-    from synth.atlas.written import write_rows
-
-    tell_written(*write_rows(rows, output, force=force))
 
 
 @atlas_group.command()
 @_ATLAS
 @click.argument("type_id", metavar="ID")
-@click.option("-o", "--output", metavar="FILE.fold", help="Write the realised type to this file.")
-@FORCE
-@_JSON
+@options.output("Write the realised type to this file.", "FILE.fold")
+@options.FORCE
+@options.JSON
 def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: bool) -> None:
     """Show the properties of a type, given its id or its name, and the types related to it."""
-    from synth.atlas.opened import open_atlas
-
-    check_output(output, force=force)
-    report = open_atlas(atlas).show(type_id)
+    out.check_output(output, force=force)
+    report = synth.atlas.open_atlas(atlas).show(type_id)
     if output is not None:
-        from graphs.errors import UnsolvableError
         from graphs.files.atomic import write_text
         from synth.atlas.written import sheet_of_type
 
         text = report.values.get("fold_file")
         if text is None:
-            raise UnsolvableError(f"{plain(type_id)}: the atlas has no coordinates of this type")
+            raise UnsolvableError(f"{out.plain(type_id)}: the atlas has no coordinates of this type")
         sheet_of_type(report.values)  # raises an error for a damaged file, which is not written
         write_text(Path(output), text, force=force)
-    if as_json:
-        print_json(report.to_json())
-        return
-    print_answer(report)
-    tell_written(output)
+    out.print_result(report, {}, as_json=as_json, written=[output])
 
 
-@atlas_group.command()
+@atlas_group.command(short_help="Write a site, with one page per type.")
 @_ATLAS
 @click.argument("condition", required=False, default="")
-@click.option("-o", "--output", "folder", required=True, metavar="FOLDER", help="New folder to write the site to.")
-@click.option("--title", default="", help="Title of the site.")
-@click.option(
-    "--workers", type=click.IntRange(min=1), metavar="N", help="Number of processes. By default one per core."
-)
-@click.option("--quiet", is_flag=True, help="Show no progress.")
+@options.output("New folder to write the site to.", "FOLDER", "-o --output folder", required=True)
+@options.value("--title", None, "Title of the site.", default="", show_default=False)
+@options.WORKERS
+@options.flag("--quiet", "Show no progress.")
 def page(atlas: str, condition: str, folder: str, title: str, workers: int | None, quiet: bool) -> None:
     """Write a site to search, filter and sort types, with one page per type: its drawing, and a model that folds.
 
     The site needs no server and no network: open index.html. CONDITION is that of `synth atlas query`.
     """
-    from synth.atlas.opened import open_atlas
     from synth.atlas.site_pages import SiteSink, site_of
 
-    site, first = site_of(open_atlas(atlas), condition, title)
-    running = RunOptions(folder, workers, None, False, quiet, False)
-    run_whole(site, SiteSink(folder, first), running)
-    tell_written(Path(folder) / "index.html")
+    site, first = site_of(synth.atlas.open_atlas(atlas), condition, title)
+    run_whole(site, SiteSink(folder, first), RunOptions(folder, workers, quiet=quiet))
+    out.tell_written(Path(folder) / "index.html")
 
 
 @atlas_group.command()
 @_ATLAS
-@click.argument("files", metavar="FILE...", nargs=-1, required=True)
-@_JSON
+@options.FILES
+@options.JSON
 def find(atlas: str, files: tuple[str, ...], as_json: bool) -> None:
     """Find the types of mechanisms in the atlas, and the types one edit away."""
-    from synth.atlas.finding import find_type
-    from synth.atlas.opened import open_atlas
-
-    opened = open_atlas(atlas)
+    opened = synth.atlas.open_atlas(atlas)
     failures: list[str] = []
     answers = []
-    for entry in entries(files, failures):
-        with about(entry.label):
-            answer = find_type(opened, entry.mechanism)
+    for entry in out.entries(files, failures):
+        with out.about(entry.label):
+            answer = synth.atlas.find_type(opened, entry.mechanism)
         answers.append({"file": entry.label, **answer.to_json()})
         if not as_json:
-            click.echo(plain(entry.label, 4096))
-            print_answer(answer)
+            click.echo(out.plain(entry.label, 4096))
+            out.print_answer(answer)
     if as_json:
-        print_json(answers)
+        out.print_json(answers)
     for failure in failures:
         click.echo(failure, err=True)
     if failures:

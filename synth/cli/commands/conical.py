@@ -3,115 +3,63 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
-from synth.cli.options import LimitsType, surface_from_options
+import graphs.convert
+import graphs.files
+import synth.candidates
+import synth.conformed
+from graphs.errors import FileError
+from synth.cli import options
 from synth.cli.output import about, plain
 from synth.cli.runner import RunOptions, check_method, run_count, run_rows, runner_options
 
 if TYPE_CHECKING:
-    from enumerate.runner.job import Sink
-    from graphs.mechanism.sc import SCGraph
+    from enumerate.runner import Limits, Sink
     from graphs.types import LinkId
-    from synth.candidates.job import CandidateJob, Filter
 
 __all__ = ["conical"]
 
 
-_LIMITS = {
-    "open_loops": "open_loops",
-    "layers": "layers",
-    "symmetry": "symmetry",
-    "grashof": "grashof_loops",
-    "rank": "rank",
-    "half_turns": "half_turn_steps",
-}
-"""Option to the column that it limits."""
 _LINKAGE = ("one-way", "both-ways", "by-angles", "not-known")
 
 
 @click.command(short_help="List or count the ways a chain can lie on one cone.")
-@click.option(
-    "--chain", "name", required=True, metavar="CHAIN",
-    help="Chain: a name such as watt or stephenson, an id k1:..., or a FILE.",
-)  # fmt: skip
-@click.option(
-    "--ground", metavar="LINK", help="Fixed link: an id; all, for one row per distinct ground link; or none."
+@options.value(
+    "--chain name", "CHAIN", "Chain: a name such as watt or stephenson, an id k1:..., or a FILE.", required=True
 )
-@click.option(
-    "--slots", type=click.IntRange(min=3, max=720), metavar="K",
-    help="Place the joints on K equal slots round the cone.",
-)  # fmt: skip
-@click.option(
-    "--opposites", is_flag=True, help="Tell apart the orders of the joints and of the points opposite to them."
+@options.value("--ground", "LINK", "Fixed link: an id; all, for one row per distinct ground link; or none.")
+@options.number("--slots", "K", "Place the joints on K equal slots round the cone.", 3, most=720)
+@options.flag("--opposites", "Tell apart the orders of the joints and of the points opposite to them.")
+@options.number("--sample samples", "N", "Number of random sets of angles per order.")
+@options.seed("Random seed for --sample.")
+@options.value("--lambda cone_angle", "DEGREES", "Cone angle, for link angles and Grashof classes.", type=float)
+@options.value(
+    "--radius", "R", "Radius of a cylinder instead of a cone, for link lengths and Grashof classes.", type=float
 )
-@click.option(
-    "--sample", "samples", type=click.IntRange(min=1), metavar="N",
-    help="Number of random sets of angles per order.",
-)  # fmt: skip
-@click.option(
-    "--seed", type=click.IntRange(min=0), metavar="N", default=0, show_default=True,
-    help="Random seed for --sample.",
-)  # fmt: skip
-@click.option(
-    "--lambda", "cone_angle", type=float, metavar="DEGREES",
-    help="Cone angle, for link angles and Grashof classes.",
-)  # fmt: skip
-@click.option(
-    "--radius", type=float, metavar="R",
-    help="Radius of a cylinder instead of a cone, for link lengths and Grashof classes.",
-)  # fmt: skip
-@click.option(
-    "--linkage", type=click.Choice(_LINKAGE), help="Directions in which all moving links can go together."
-)
-@click.option(
-    "--open", "open_loops", type=LimitsType(), metavar="K",
-    help="Number of open loops, as a number or range: 2, 1..2 or 2..",
-)  # fmt: skip
-@click.option(
-    "--layers", type=LimitsType(), metavar="K", help="Smallest number of layers, as a number or range: 2 or ..3."
-)
-@click.option(
-    "--symmetry", type=LimitsType(), metavar="K", help="Number of symmetries, as a number or range: 1 or 2.."
-)
-@click.option(
-    "--grashof", type=LimitsType(), metavar="K",
-    help="Number of four-bar loops that are Grashof, as a number or range.",
-)  # fmt: skip
-@click.option(
-    "--rank", type=LimitsType(), metavar="K",
-    help="Rank of the closure equations at the conformed position, as a number or range.",
-)  # fmt: skip
-@click.option("--singular/--regular", default=None, help="List only candidates with, or without, rank deficiency.")
-@click.option(
-    "--half-turns", type=LimitsType(), metavar="K",
-    help="Number of steps of exactly 180 degrees, as a number or range.",
-)  # fmt: skip
-@click.option("--sort", metavar="[-]COLUMN", help="Sort by a column; a leading - sorts in descending order.")
-@click.option(
-    "--pictures", metavar="FOLDER", help="Draw each candidate, as a circle and on its cone, to a new folder."
-)
-@click.option("--formulas", is_flag=True, help="Print only the outward rate of each joint, as a formula.")
-@click.option("--count", "only_count", is_flag=True, help="Print only the number; without filters, by formula.")
-@click.option(
-    "--method", type=click.Choice(["burnside", "orbits"]),
-    help="Counting method for --count; both give the same number.",
-)  # fmt: skip
+@options.choice("--linkage", _LINKAGE, "Directions in which all moving links can go together.")
+@options.limits("--open open_loops", "Number of open loops, as a number or range: 2, 1..2 or 2..")
+@options.limits("--layers", "Smallest number of layers, as a number or range: 2 or ..3.")
+@options.limits("--symmetry", "Number of symmetries, as a number or range: 1 or 2..")
+@options.limits("--grashof", "Number of four-bar loops that are Grashof, as a number or range.")
+@options.limits("--rank", "Rank of the closure equations at the conformed position, as a number or range.")
+@options.flag("--singular/--regular", "List only candidates with, or without, rank deficiency.")
+@options.limits("--half-turns", "Number of steps of exactly 180 degrees, as a number or range.")
+@options.value("--sort", "[-]COLUMN", "Sort by a column; a leading - sorts in descending order.")
+@options.output("Draw each candidate, as a circle and on its cone, to a new folder.", "FOLDER", "--pictures")
+@options.flag("--formulas", "Print only the outward rate of each joint, as a formula.")
+@options.flag("--count only_count", "Print only the number; without filters, by formula.")
+@options.choice("--method", ("burnside", "orbits"), "Counting method for --count; both give the same number.")
 @runner_options
 def conical(
-    name: str,
-    ground: str | None,
-    only_count: bool,
-    method: str | None,
-    formulas: bool,
-    sort: str | None,
-    pictures: str | None,
-    cone_angle: float | None,
-    radius: float | None,
-    **rest: Any,
-) -> None:
+    name: str, ground: str | None, slots: int | None, opposites: bool, samples: int | None, seed: int,
+    cone_angle: float | None, radius: float | None, linkage: str | None, open_loops: Limits | None,
+    layers: Limits | None, symmetry: Limits | None, grashof: Limits | None, rank: Limits | None,
+    singular: bool | None, half_turns: Limits | None, sort: str | None, pictures: str | None, formulas: bool,
+    only_count: bool, method: str | None, running: RunOptions,
+) -> None:  # fmt: skip
     """List or count all conical candidates of a chain: all joint axes are ruling lines of a cone or cylinder.
 
     The candidates are the cyclic orders of the joints; orders that a rotation, a reflection or a symmetry of the
@@ -133,8 +81,11 @@ def conical(
     """
     from graphs.files.atomic import check_new_folder
 
-    options = RunOptions.taken_from(rest, counting=only_count)
-    _check_usage(options, only_count, method, sort, pictures)
+    check_method(method, only_count)
+    if only_count and (sort is not None or pictures is not None):
+        raise click.UsageError("--count excludes --sort and --pictures: it lists no candidates")
+    if running.resume and (sort is not None or pictures is not None):
+        raise click.UsageError("--resume excludes --sort and --pictures, which require all rows at once")
     if pictures is not None:
         check_new_folder(Path(pictures))
     chain = _chain(name)
@@ -142,103 +93,78 @@ def conical(
     if formulas:
         _print_formulas(chain, grounds)
         return
-    from synth.candidates.job import CandidateCountJob, CandidateJob
-
-    filters = _filters(rest)
-    job = CandidateJob(
-        chain, grounds, rest["slots"], rest["opposites"], rest["samples"], rest["seed"],
-        surface_from_options(cone_angle, radius), filters,
-    )  # fmt: skip
+    ranges = {
+        "open_loops": open_loops, "layers": layers, "symmetry": symmetry, "grashof_loops": grashof, "rank": rank,
+        "half_turn_steps": half_turns,
+    }  # fmt: skip
+    filters = [
+        synth.candidates.Filter(column, least=each.least, most=each.most)
+        for column, each in ranges.items()
+        if each
+    ]
+    if singular is not None:
+        filters.append(synth.candidates.Filter("singular", singular))
+    if linkage is not None:
+        filters.append(synth.candidates.Filter("linkage", linkage.replace("-", " ")))
+    surface = options.surface_from_options(cone_angle, radius)
+    job = synth.candidates.CandidateJob(chain, grounds, slots, opposites, samples, seed, surface, tuple(filters))
     if not only_count:
-        run_rows(job, options, lambda sink: _around(sink, job, sort, pictures))
-    elif filters or rest["samples"] is not None:
+        run_rows(job, running, lambda sink: _around(sink, job, sort, pictures))
+    elif filters or samples is not None:
         if method is not None:
             raise click.UsageError("--method counts all candidates, without filters and --sample")
-        run_count(CandidateCountJob(job), options)
+        run_count(synth.candidates.CandidateCountJob(job), running)
     else:
         from enumerate.conical.query import ConicalCountJob
 
-        run_count(ConicalCountJob(job.query, method or "burnside"), options)
+        run_count(ConicalCountJob(job.query, method or "burnside"), running)
 
 
-def _check_usage(
-    options: RunOptions, only_count: bool, method: str | None, sort: str | None, pictures: str | None
-) -> None:
-    check_method(method, only_count)
-    if only_count and (sort is not None or pictures is not None):
-        raise click.UsageError("--count excludes --sort and --pictures: it lists no candidates")
-    if options.resume and (sort is not None or pictures is not None):
-        raise click.UsageError("--resume excludes --sort and --pictures, which require all rows at once")
-
-
-def _chain(name: str) -> SCGraph:
+def _chain(name: str) -> synth.SCGraph:
     """Return the chain of a name, an id or a file."""
     from enumerate.chains.names import chain_named, chain_names
-    from graphs.convert.link_joint import sc_from_link_joint_graph
     from graphs.convert.table import graph_of
-    from graphs.errors import FileError
-    from graphs.files.formats import is_id, read
+    from graphs.files.formats import is_id
 
     known = chain_names()
     code = chain_named(name) if name.lower() in known else name
     if not is_id(code) and not Path(code).exists() and not Path(code).suffix:
         raise FileError(name, "", "neither a chain nor a file", f"{' '.join(known)}, an id k1:..., or a file")
     with about(name):
-        sc = graph_of(read(code))
-        return sc if sc.loops else sc_from_link_joint_graph(sc)
+        sc = graph_of(graphs.files.read(code))
+        return sc if sc.loops else graphs.convert.sc_from_link_joint_graph(sc)
 
 
-def _grounds(chain: SCGraph, ground: str | None) -> tuple[LinkId | None, ...]:
+def _grounds(chain: synth.SCGraph, ground: str | None) -> tuple[LinkId | None, ...]:
     """Return the fixed links of --ground; without it that of the chain."""
     from enumerate.conical.query import links_apart
-    from graphs.edit.named import link_named
 
     if ground is None:
         return (chain.ground,)
     if ground == "none":
         return (None,)
-    return tuple(links_apart(chain.joints)) if ground == "all" else (link_named(chain, ground),)
+    return tuple(links_apart(chain.joints)) if ground == "all" else (options.link_of(chain, ground),)
 
 
-def _filters(rest: dict[str, Any]) -> tuple[Filter, ...]:
-    from synth.candidates.job import Filter
-
-    filters = [
-        Filter(column, least=rest[option].least, most=rest[option].most)
-        for option, column in _LIMITS.items()
-        if rest[option] is not None
-    ]
-    if rest["singular"] is not None:
-        filters.append(Filter("singular", rest["singular"]))
-    if rest["linkage"] is not None:
-        filters.append(Filter("linkage", rest["linkage"].replace("-", " ")))
-    return tuple(filters)
-
-
-def _around(sink: Sink, job: CandidateJob, sort: str | None, pictures: str | None) -> Sink:
+def _around(sink: Sink, job: synth.candidates.CandidateJob, sort: str | None, pictures: str | None) -> Sink:
     """Sort the rows before they go to the sink, and draw them."""
     if pictures is not None:
-        from synth.candidates.pictures import PictureSink
-
-        sink = PictureSink(sink, job, Path(pictures))
+        sink = synth.candidates.PictureSink(sink, job, Path(pictures))
     if sort is not None:
-        from enumerate.runner.sinks import SortedSink
+        from enumerate.runner import SortedSink
 
         sink = SortedSink(sink, sort)
     return sink
 
 
-def _print_formulas(chain: SCGraph, grounds: tuple[LinkId | None, ...]) -> None:
-    from synth.conformed.outward import outward_rates
-    from synth.conformed.rates import ConformedChain
-
+def _print_formulas(chain: synth.SCGraph, grounds: tuple[LinkId | None, ...]) -> None:
     click.echo("[a b c] = 4 sin((b - a) / 2) sin((c - b) / 2) sin((c - a) / 2); joints stand for their azimuths.")
     click.echo("A link can go one way if all its joints have one sign and lie on half the circle.")
     for ground in grounds:
         if ground is None:
             raise click.UsageError("--formulas requires --ground LINK, or --ground all")
-        conformed = ConformedChain.of(chain, ground)
+        conformed = synth.conformed.ConformedChain.of(chain, ground)
         click.echo(f"link {plain(ground)} fixed, joint: outward rate, to one common scale")
-        for joint, rates in zip(conformed.joints, outward_rates(conformed), strict=True):
+        for joint, rates in zip(conformed.joints, synth.conformed.outward_rates(conformed), strict=True):
             if rates:
                 click.echo(f"  {plain(joint)}: {plain(rates[0].text(conformed.joints), 2000)}")

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from synth.cli.options import FORCE, LENGTH, LENGTH_OR_NONE, LOSSY
-from synth.cli.output import about, check_output, plain, print_answer, print_json, tell_lost, tell_written
+import synth
+from graphs.errors import UnsolvableError
+from synth.cli import options
+from synth.cli.output import about, check_output, plain, print_json, print_result, tell_lost
 from synth.cli.reading import DRAWN, read
 
 if TYPE_CHECKING:
-    from graphs.convert.table import Mechanism
-    from graphs.mechanism.surfaces import SurfaceLinkage
+    from graphs.convert import Mechanism
+    from graphs.mechanism import SurfaceLinkage
 
 __all__ = ["convert", "id_command", "reconstruct"]
 
@@ -22,50 +23,49 @@ __all__ = ["convert", "id_command", "reconstruct"]
 _SOLIDS = (".stl", ".3mf", ".gltf")
 
 
-@click.command(short_help="Convert between file formats and kinds of mechanism; change centres.")
-@click.argument("source", metavar="IN")
-@click.argument("target", metavar="OUT")
+class _SolidOptions(NamedTuple):
+    """The options of files of solids; None where they are not given."""
+
+    thickness: float | None
+    gap: float | None
+    scale: float | None
+    size: float | None
+    cone: int | None
+
+
+@click.command()
+@click.argument("source", metavar="IN", type=options.FILE_NAME)
+@click.argument("target", metavar="OUT", type=options.FILE_NAME)
 @DRAWN
-@click.option(
-    "--to", "kind", type=click.Choice(["sc", "scd", "polyhedron", "vertex-edge", "sheet", "solids", "joints"]),
-    help="Kind of mechanism to convert to first. By default the kind that IN holds.",
+@options.choice(
+    "--to kind", ("sc", "scd", "polyhedron", "vertex-edge", "sheet", "solids", "joints"),
+    "Kind of mechanism to convert to first. By default the kind that IN holds.",
 )  # fmt: skip
-@click.option(
-    "--form", type=click.Choice(["planar", "spherical", "general"]),
-    help="Change the centres: planar analogue, spherical analogue, or most general form.",
+@options.choice(
+    "--form", ("planar", "spherical", "general"),
+    "Change the centres: planar analogue, spherical analogue, or most general form.",
 )  # fmt: skip
-@click.option(
-    "--table", type=click.Choice(["axes", "vertices"]),
-    help="Table for a .csv file: joint axes or vertices, in every frame.",
+@options.choice("--table", ("axes", "vertices"), "Table for a .csv file: joint axes or vertices, in every frame.")
+@options.value("--thickness", "MM", "Thickness of panels as solids.  [default: 1]", type=options.LENGTH)
+@options.value(
+    "--gap", "MM", "Gap between solids at a hinge.  [default: twice the thickness]", type=options.LENGTH_OR_NONE
+)
+@options.value(
+    "--scale", None, "For solids: millimetres per unit of the coordinates.  [default: 1]", type=options.LENGTH
+)
+@options.value(
+    "--size", "MM", "For solids: longest side; for a linkage on a cone or cylinder, length of the ruling lines.",
+    type=options.LENGTH,
 )  # fmt: skip
-@click.option("--thickness", type=LENGTH, metavar="MM", help="Thickness of panels as solids.  [default: 1]")
-@click.option(
-    "--gap", type=LENGTH_OR_NONE, metavar="MM",
-    help="Gap between solids at a hinge.  [default: twice the thickness]",
-)  # fmt: skip
-@click.option("--scale", type=LENGTH, help="For solids: millimetres per unit of the coordinates.  [default: 1]")
-@click.option(
-    "--size", type=LENGTH, metavar="MM",
-    help="For solids: longest side; for a linkage on a cone or cylinder, length of the ruling lines.",
-)  # fmt: skip
-@click.option(
-    "--cone", "--cylinder", "cone", type=click.IntRange(min=1), metavar="K",
-    help="For a linkage that lies on several cones or cylinders: number of the one to take.",
-)  # fmt: skip
-@FORCE
-@LOSSY
-@click.option("--json", "as_json", is_flag=True, help="Print the conversion and its notes as JSON.")
+@options.NUMBER_OF_SURFACE
+@options.FORCE
+@options.LOSSY
+@options.flag("--json as_json", "Print the conversion and its notes as JSON.")
 def convert(
-    source: str,
-    target: str,
-    kind: str | None,
-    form: str | None,
-    table: str | None,
-    force: bool,
-    lossy: bool,
-    as_json: bool,
-    **solid: float | None,
-) -> None:
+    source: str, target: str, kind: str | None, form: str | None, table: str | None, force: bool, lossy: bool,
+    as_json: bool, thickness: float | None, gap: float | None, scale: float | None, size: float | None,
+    cone: int | None,
+) -> None:  # fmt: skip
     """Convert a mechanism from one file format to another; the extensions name the formats.
 
     \b
@@ -100,21 +100,25 @@ def convert(
       synth convert stewart.json creases.json --to solids
       synth convert creases.json platform.json --to joints
     """
-    from graphs.answer.conversion import convert as converted
-    from graphs.files.formats import write_converted
-
     check_output(target, force=force)
     if (Path(target).suffix.lower() == ".csv") != (table is not None):
         raise click.UsageError("--table and an output .csv require each other")
+    solid = _SolidOptions(thickness, gap, scale, size, cone)
     of_solids = _is_of_solids(target, solid)
     original = read(source)
     with about(source):
-        mechanism = converted(original, kind, form=form)
+        mechanism = synth.convert(original, kind, form=form)
         if table is not None:
-            lost = _write_table(mechanism, target, table, force=force)
+            from graphs.files.atomic import write_text
+            from synth.moving import table_text
+
+            text, lost = table_text(mechanism, table)
+            write_text(Path(target), text, force=force)
         elif of_solids:
             lost = _write_solids(mechanism, target, solid, force=force)
         else:
+            from graphs.files.formats import write_converted
+
             made_of = original if kind == "sheet" and form is None else None  # a sheet holds less than others
             lost = write_converted(mechanism, target, made_of, lossy=lossy, force=force)
     if as_json:
@@ -124,65 +128,52 @@ def convert(
     tell_lost(lost)
 
 
-def _write_table(mechanism: Mechanism, target: str, table: str, *, force: bool) -> tuple[str, ...]:
-    from graphs.files.atomic import write_text
-    from synth.moving.motion import table_text
-
-    text, lost = table_text(mechanism, table)
-    write_text(Path(target), text, force=force)
-    return lost
-
-
-def _is_of_solids(target: str, solid: Mapping[str, float | None]) -> bool:
+def _is_of_solids(target: str, solid: _SolidOptions) -> bool:
     """Check whether a file is written as solids, and refuse options of solids for any other."""
     suffix = Path(target).suffix.lower()
-    options = [f"--{name}" for name, value in solid.items() if value is not None]
-    if options and suffix not in (*_SOLIDS, ".obj"):
-        raise click.UsageError(f"{', '.join(options)}: for solids only ({', '.join(_SOLIDS)} and .obj)")
-    return suffix in _SOLIDS or bool(options)
+    spelled = [f"--{name}" for name, value in solid._asdict().items() if value is not None]
+    if spelled and suffix not in (*_SOLIDS, ".obj"):
+        raise click.UsageError(f"{', '.join(spelled)}: for solids only ({', '.join(_SOLIDS)} and .obj)")
+    return suffix in _SOLIDS or bool(spelled)
 
 
-def _write_solids(
-    mechanism: Mechanism, target: str, solid: Mapping[str, float | None], *, force: bool
-) -> tuple[str, ...]:
-    from graphs.errors import UnsolvableError
-    from graphs.mechanism.surfaces import SurfaceLinkage
+def _write_solids(mechanism: Mechanism, target: str, solid: _SolidOptions, *, force: bool) -> tuple[str, ...]:
     from synth.moving.made import sheet_of
     from synth.templates.solids import THICKNESS, write_solids
 
-    thickness = THICKNESS if solid["thickness"] is None else solid["thickness"]
-    if isinstance(mechanism, SurfaceLinkage):
+    thickness = THICKNESS if solid.thickness is None else solid.thickness
+    if isinstance(mechanism, synth.SurfaceLinkage):
         return _write_on_surface(mechanism, target, thickness, solid, force=force)
     sheet = sheet_of(mechanism)
     if sheet is None:
         raise UnsolvableError(f"solids require panels, and {mechanism!r} has none")
     return write_solids(
-        sheet, target, thickness=thickness, gap=solid["gap"], scale=solid["scale"], size=solid["size"], force=force
+        sheet, target, thickness=thickness, gap=solid.gap, scale=solid.scale, size=solid.size, force=force
     )
 
 
 def _write_on_surface(
-    linkage: SurfaceLinkage, target: str, thickness: float, solid: Mapping[str, float | None], *, force: bool
+    linkage: SurfaceLinkage, target: str, thickness: float, solid: _SolidOptions, *, force: bool
 ) -> tuple[str, ...]:
     from synth.templates.on_surface import Dimensions, surface_of
     from synth.templates.solids import write_linkage_on_surface
     from synth.templates.template import linkage_on_a_surface
 
-    if solid["scale"] is not None:
+    if solid.scale is not None:
         raise click.UsageError("--scale is for panels; try --size, the length of the ruling lines")
-    chosen = linkage_on_a_surface(linkage, number=None if solid["cone"] is None else int(solid["cone"]))
-    sizes = Dimensions(thickness=thickness, **({} if solid["size"] is None else {"size": solid["size"]}))
-    gap = 2 * thickness if solid["gap"] is None else solid["gap"]
+    chosen = linkage_on_a_surface(linkage, number=solid.cone)
+    sizes = Dimensions(thickness=thickness, **({} if solid.size is None else {"size": solid.size}))
+    gap = 2 * thickness if solid.gap is None else solid.gap
     return write_linkage_on_surface(chosen, surface_of(chosen), target, dimensions=sizes, gap=gap, force=force)
 
 
-@click.command(short_help="Reconstruct the polyhedron model, vertex by vertex.")
-@click.argument("file", metavar="FILE")
+@click.command()
+@options.FILE
 @DRAWN
-@click.option("-o", "--output", metavar="OUT", help="Write the model to this file (.json or .fold).")
-@FORCE
-@LOSSY
-@click.option("--json", "as_json", is_flag=True, help="Print the vertices and the counts as JSON.")
+@options.output("Write the model to this file (.json or .fold).")
+@options.FORCE
+@options.LOSSY
+@options.flag("--json as_json", "Print the vertices and the counts as JSON.")
 def reconstruct(file: str, output: str | None, force: bool, lossy: bool, as_json: bool) -> None:
     """Reconstruct the polyhedron model of a mechanism, vertex by vertex.
 
@@ -193,27 +184,19 @@ def reconstruct(file: str, output: str | None, force: bool, lossy: bool, as_json
     Example:
       synth reconstruct data/wiener/six-bar.json -o model.json
     """
-    from graphs.answer.reconstruction import reconstruct as reconstructed
-    from graphs.files.formats import write
-
     check_output(output, force=force)
     mechanism = read(file)
     with about(file):
-        reconstruction = reconstructed(mechanism)
-        lost = () if output is None else write(reconstruction.model, output, force=force, lossy=lossy)
-    if as_json:
-        print_json({"file": file, "output": output, "lost": list(lost), **reconstruction.to_json()})
-        return
-    print_answer(reconstruction)
-    if output is not None:
-        tell_written(output)
-        tell_lost(lost)
+        reconstruction = synth.reconstruct(mechanism)
+        lost = () if output is None else synth.write(reconstruction.model, output, force=force, lossy=lossy)
+    keys = {"file": file, "output": output, "lost": list(lost)}
+    print_result(reconstruction, keys, as_json=as_json, written=[output], lost=lost)
 
 
-@click.command("id", short_help="Print the canonical ids of a mechanism.")
-@click.argument("file", metavar="FILE")
+@click.command("id")
+@options.FILE
 @DRAWN
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@options.JSON
 def id_command(file: str, as_json: bool) -> None:
     """Print the canonical ids of a mechanism: equal for mechanisms of one type, different for all others.
 
@@ -226,12 +209,7 @@ def id_command(file: str, as_json: bool) -> None:
       synth id data/wiener/six-bar.json
       synth id k1:Cr
     """
-    from graphs.answer.identity import identify
-
     mechanism = read(file)
     with about(file):
-        identity = identify(mechanism)
-    if as_json:
-        print_json(identity.to_json())
-        return
-    print_answer(identity)
+        identity = synth.identify(mechanism)
+    print_result(identity, {}, as_json=as_json)

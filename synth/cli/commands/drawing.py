@@ -2,39 +2,30 @@
 
 from __future__ import annotations
 
-import sys
 import webbrowser
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
-from time import monotonic
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import click
 
-from synth.cli.options import BRANCH, FORCE, LENGTH, LENGTH_OR_NONE, LimitsType, surface_from_options
-from synth.cli.output import about, check_output, check_picture, plain, print_json, tell_written
-from synth.cli.reading import (
-    DRAWN,
-    LAYER,
-    LOOK,
-    MODE,
-    PRECISION,
-    ROW,
-    NamedMechanism,
-    keep_looks,
-    precise_sheet,
-    read,
-    read_named,
-)
+import synth.drawing
+import synth.guidance
+import synth.templates
+import synth.viewer
+from graphs.errors import InvariantError
+from graphs.files.outputs import check_writable, unknown_extension
+from synth.cli import options, reading
+from synth.cli.output import about, check_output, check_picture, plain, print_json, progress_line, tell_written
+from synth.cli.reading import DRAWN, MODE, PRECISION, NamedMechanism, precise_sheet, read, read_named
 
 if TYPE_CHECKING:
-    from enumerate.runner.job import Limits
+    from enumerate.runner import Limits
     from synth.drawing.catalogue import CatalogueEntry
-    from synth.drawing.mechanisms.pictures import Drawable
-    from synth.templates.template import Template
-    from synth.viewer.shown import Shown
+    from synth.realisation.realised import Kind as RealisedKind
+    from synth.templates.hinges import HingeKind
 
 __all__ = ["draw", "template", "view"]
 
@@ -43,14 +34,12 @@ _KINDS = (
     "pattern", "marks", "repairs", "folded", "chain", "graph", "model", "solids", "cone", "cylinder", "circle",
     "sphere",
 )  # fmt: skip
-_PATIENCE = 2.0
-"""Seconds between two reports of the progress of a catalogue."""
 _COLOURS = ("letters", "verdict", "branch", "centres", "none")
 
 
 def _colouring(ctx: click.Context, _parameter: click.Parameter, words: tuple[str, ...]) -> str:
     """Return the colouring; pairs with a look are kept for the drawing that is read."""
-    keep_looks(ctx, tuple(word for word in words if "=" in word))
+    reading.keep_looks(ctx, tuple(word for word in words if "=" in word))
     names = [word for word in words if "=" not in word]
     for name in names:
         if name not in _COLOURS:
@@ -58,41 +47,38 @@ def _colouring(ctx: click.Context, _parameter: click.Parameter, words: tuple[str
     return names[-1] if names else "letters"
 
 
-@click.command(short_help="Draw a crease pattern, a chain, an SC or SCD graph, or a polyhedron model.")
-@click.argument("file", metavar="FILE")
-@click.option("-o", "--output", required=True, metavar="OUT", help="Picture to write: .svg, .png or .pdf.")
-@click.option(
-    "--as", "kind", type=click.Choice(_KINDS), metavar="KIND",
-    help="Kind of picture. By default the one that suits the file.",
-)  # fmt: skip
-@click.option(
-    "--colour", multiple=True, metavar="WHAT|" + LOOK, callback=_colouring,
-    help="Colouring of a crease pattern: letters (the assignment in the file; the default), verdict (mobile and "
+@click.command()
+@options.FILE
+@options.output("Picture to write: .svg, .png or .pdf.", required=True)
+@options.choice("--as kind", _KINDS, "Kind of picture. By default the one that suits the file.", metavar="KIND")
+@options.repeated(
+    "--colour", "WHAT|" + reading.LOOK,
+    "Colouring of a crease pattern: letters (the assignment in the file; the default), verdict (mobile and "
     "immobile creases), branch (initial rates of a branch), centres (classes of centres) or none. With M=..., for "
-    "a drawing (.svg, .dxf): assignment of the lines of a colour, a dash pattern or both "
-    "('V=dashed #000000'); - leaves them out.",
+    "a drawing (.svg, .dxf): assignment of lines by their colour, their dash pattern or both, such as "
+    "'V=dashed #000000'; - leaves lines out.", callback=_colouring,
 )  # fmt: skip
-@LAYER
-@click.option(
-    "--branch", type=BRANCH, metavar="K",
-    help="Branch to show with --colour branch or --as marks, by its number or its signs.",
+@reading.LAYER
+@options.branch("Branch to show with --colour branch or --as marks, by its number or its signs.")
+@options.flag("--graph", "Draw the SC graph on top of a crease pattern.")
+@options.flag("--numbers/--no-numbers", "Label links and joints with their numbers.", default=True)
+@options.choice("--paper", ("light", "dark"), "Background of the picture.", default="light")
+@options.repeated(
+    "--where", "COLUMN=VALUE",
+    "For a catalogue: draw only rows with this number (2, 2..4, 2..) or text in a column; may be repeated."
 )  # fmt: skip
-@click.option("--graph", is_flag=True, help="Draw the SC graph on top of a crease pattern.")
-@click.option(
-    "--numbers/--no-numbers", default=True, show_default=True, help="Label links and joints with their numbers."
-)
-@click.option(
-    "--paper", type=click.Choice(["light", "dark"]), default="light", show_default=True,
-    help="Background of the picture.",
-)  # fmt: skip
-@click.option(
-    "--where", multiple=True, metavar="COLUMN=VALUE",
-    help="For a catalogue: draw only rows with this number (2, 2..4, 2..) or text in a column; "
-    "may be repeated.",
-)  # fmt: skip
-@FORCE
+@options.FORCE
 def draw(
-    file: str, output: str, kind: str | None, paper: str, where: tuple[str, ...], force: bool, **look: Any
+    file: str,
+    output: str,
+    kind: str | None,
+    colour: str,
+    branch: int | str | None,
+    graph: bool,
+    numbers: bool,
+    paper: str,
+    where: tuple[str, ...],
+    force: bool,
 ) -> None:
     """Draw the mechanism of a file or an id, or a catalogue of all mechanisms in a store, a list or a folder.
 
@@ -125,24 +111,13 @@ def draw(
         return
     if where:
         raise click.UsageError("--where requires a catalogue: a store, rows, a graph6 file or a folder")
-    from synth.drawing.mechanisms import pictures
-
-    drawable = _read(file)
-    with about(file):
-        scene = pictures.draw(drawable, kind, **look)
-    scene.save(output, paper=paper, force=force)
-    tell_written(output)
-
-
-def _read(file: str) -> Drawable:
-    """Return the mechanism or the orientations of a file."""
     from graphs.files.native import holds_orientations
 
-    if not holds_orientations(file):
-        return read(file)
-    from synth.guidance.orientations import read_orientations
-
-    return read_orientations(file)
+    drawable = synth.guidance.read_orientations(file) if holds_orientations(file) else read(file)
+    with about(file):
+        scene = synth.draw(drawable, kind, colour=colour, branch=branch, graph=graph, numbers=numbers)
+    scene.save(output, paper=paper, force=force)
+    tell_written(output)
 
 
 def _draw_catalogue(
@@ -161,15 +136,11 @@ def _draw_catalogue(
 
 
 def _counted(entries: Iterator[CatalogueEntry]) -> Iterator[CatalogueEntry]:
-    """Yield entries; a terminal shows their number every few seconds."""
-    number, shown = 0, monotonic()
-    for number, entry in enumerate(entries, start=1):
-        if sys.stderr.isatty() and monotonic() - shown > _PATIENCE:
-            click.echo(f"\r{number} drawn", nl=False, err=True)
-            shown = monotonic()
-        yield entry
-    if sys.stderr.isatty():
-        click.echo(f"\r{number} drawn", err=True)
+    """Yield entries; a terminal shows their number."""
+    with progress_line() as show:
+        for number, entry in enumerate(entries, start=1):
+            show(f"{number} drawn")
+            yield entry
 
 
 def _condition(text: str) -> tuple[str, Limits | str]:
@@ -178,19 +149,17 @@ def _condition(text: str) -> tuple[str, Limits | str]:
     if not equals or not column:
         raise click.BadParameter(f"{plain(text)!r} is not COLUMN=VALUE", param_hint="--where")
     try:
-        limits: Limits = LimitsType().convert(value, None, None)
+        limits: Limits = options.LimitsType().convert(value, None, None)
     except click.BadParameter:
         return column, value
     return column, limits
 
 
-@click.command(short_help="Make an interactive page of a mechanism for any browser, or open the workbench.")
-@click.argument("files", metavar="FILE...", nargs=-1)
+@click.command()
+@click.argument("files", metavar="FILE...", nargs=-1, type=options.FILE_NAME)
 @DRAWN
-@click.option(
-    "-o", "--output", metavar="OUT", help="Page to write: .html. By default a workbench opens in the browser."
-)
-@FORCE
+@options.output("Page to write: .html. By default a workbench opens in the browser.")
+@options.FORCE
 @PRECISION
 def view(files: tuple[str, ...], output: str | None, force: bool) -> None:
     """Make an interactive page of mechanisms: one file that opens in any browser, without a network.
@@ -214,46 +183,31 @@ def view(files: tuple[str, ...], output: str | None, force: bool) -> None:
     from synth.viewer.pages import check_built
 
     if output is not None:
-        _check_page(output, force=force)
-    elif not _can_serve():
+        if Path(output).suffix.lower() not in (".html", ".htm"):
+            raise unknown_extension(output, [".html"])
+        check_output(output, force=force)
+    elif not all(find_spec(name) is not None for name in ("starlette", "uvicorn")):
         raise click.UsageError(
             "the workbench requires pip install 'synthedra[view]'; a page without it requires -o page.html"
         )
     check_built()
-    mechanisms = [_shown(file) for file in files]
+    mechanisms: list[synth.viewer.Shown] = []
+    for file in files:
+        mechanism = read(file)
+        with about(file):
+            mechanisms.append(synth.viewer.shown_of(precise_sheet(mechanism), Path(file).name))
     if output is None:
         _serve(mechanisms, [Path(file).read_bytes() if Path(file).is_file() else None for file in files])
         return
     if not mechanisms:
         raise click.UsageError("a page requires at least one FILE")
     from graphs.files.atomic import write_text
-    from synth.viewer.pages import page
 
-    write_text(Path(output), page(mechanisms), force=force)
+    write_text(Path(output), synth.viewer.page(mechanisms), force=force)
     tell_written(output)
 
 
-def _check_page(output: str, *, force: bool) -> None:
-    from graphs.files.outputs import unknown_extension
-
-    if Path(output).suffix.lower() not in (".html", ".htm"):
-        raise unknown_extension(output, [".html"])
-    check_output(output, force=force)
-
-
-def _shown(file: str) -> Shown:
-    from synth.viewer.shown import shown_of
-
-    mechanism = read(file)
-    with about(file):
-        return shown_of(precise_sheet(mechanism), Path(file).name)
-
-
-def _can_serve() -> bool:
-    return all(find_spec(name) is not None for name in ("starlette", "uvicorn"))
-
-
-def _serve(mechanisms: list[Shown], sources: list[bytes | None]) -> None:
+def _serve(mechanisms: list[synth.viewer.Shown], sources: list[bytes | None]) -> None:
     from synth.viewer.workbench.app import serve
 
     def opened(address: str) -> None:
@@ -263,80 +217,80 @@ def _serve(mechanisms: list[Shown], sources: list[bytes | None]) -> None:
     serve(mechanisms, sources, opened)
 
 
-_OF_PANELS = {"scale": None, "tabs": 8.0, "slots": False, "hinge_kind": "fold", "hinge_width": None}
-_OF_SURFACES = {"cone_angle": None, "cone": None, "radius": None, "thickness": None}
-"""Options of one kind of mechanism, with their defaults."""
+class _Look(NamedTuple):
+    """The options of a template, with their defaults; some are for panels, others for linkages on surfaces."""
+
+    scale: float | None = None
+    size: float | None = None
+    tabs: float = 8.0
+    slots: bool = False
+    hinge_kind: HingeKind | Literal["fold"] = "fold"
+    hinge_width: float | None = None
+    cone_angle: float | None = None
+    cone: int | None = None
+    radius: float | None = None
+    thickness: float | None = None
+
+    def refuse(self, names: Sequence[str], required: str) -> None:
+        """Refuse options that belong to another kind of mechanism."""
+        spelled = {"cone_angle": "--lambda", "hinge_kind": "--hinges", "hinge_width": "--hinge-width"}
+        refused = [name for name in names if getattr(self, name) != self._field_defaults[name]]
+        if refused:
+            listed = ", ".join(spelled.get(name, f"--{name}") for name in refused)
+            raise click.UsageError(f"{listed}: for {required} only")
+
+
+_OF_PANELS = ("scale", "tabs", "slots", "hinge_kind", "hinge_width")
+_OF_SURFACES = ("cone_angle", "cone", "radius", "thickness")
 _REALISED = 150.0
 """Millimetres of the longer side of a type that is realised: its coordinates have no size of their own."""
-_SPELT = {"cone_angle": "--lambda", "hinge_kind": "--hinges", "hinge_width": "--hinge-width"}
 
 
-@click.command(short_help="Write a template at true scale, to cut out and fold.")
-@click.argument("file", metavar="FILE")
+@click.command()
+@options.FILE
 @DRAWN
-@click.option("-o", "--output", required=True, metavar="OUT", help="Template to write: .pdf, .svg or .dxf.")
-@ROW
+@options.output("Template to write: .pdf, .svg or .dxf.", required=True)
+@reading.ROW
 @MODE
-@click.option(
-    "--as", "kind", type=click.Choice(["sheet", "space"]),
-    help="Kind of realisation, for a type without coordinates.  [default: sheet]",
-)  # fmt: skip
-@click.option(
-    "--page", "page", metavar="PAPER", default="A4", show_default=True,
-    help="Paper size: A4, A3, Letter, or WIDTHxHEIGHT in mm.",
-)  # fmt: skip
-@click.option(
-    "--scale", type=LENGTH, help="Millimetres per unit of the coordinates.  [default: the file's unit, or 1]"
+@options.choice(
+    "--as kind", ("sheet", "space"), "Kind of realisation, for a type without coordinates.  [default: sheet]"
 )
-@click.option(
-    "--size", type=LENGTH, metavar="MM",
-    help="Longer side of the template; on a cone or cylinder, length of the ruling lines.",
+@options.value("--page page", "PAPER", "Paper size: A4, A3, Letter, or WIDTHxHEIGHT in mm.", default="A4")
+@options.value(
+    "--scale", None, "Millimetres per unit of the coordinates.  [default: the file's unit, or 1]",
+    type=options.LENGTH,
 )  # fmt: skip
-@click.option(
-    "--tabs", type=LENGTH_OR_NONE, default=8.0, show_default=True, metavar="MM",
-    help="Depth of the tabs; 0 leaves them out.",
+@options.value(
+    "--size", "MM", "Longer side of the template; on a cone or cylinder, length of the ruling lines.",
+    type=options.LENGTH,
 )  # fmt: skip
-@click.option("--slots", is_flag=True, help="Join tabs through slots, without glue.")
-@click.option(
-    "--hinges",
-    "hinge_kind",
-    type=click.Choice(["fold", "offset", "living", "gap"]),
-    default="fold",
-    show_default=True,
-    help="Hinges in thick material: offset (two folds per crease), living (rows of cuts) or "
-    "gap (panels apart). Each requires --hinge-width.",
+@options.value("--tabs", "MM", "Depth of the tabs; 0 leaves them out.", default=8.0, type=options.LENGTH_OR_NONE)
+@options.flag("--slots", "Join tabs through slots, without glue.")
+@options.choice(
+    "--hinges hinge_kind", ("fold", "offset", "living", "gap"),
+    "Hinges in thick material: offset (two folds per crease), living (rows of cuts) or gap (panels apart). Each "
+    "requires --hinge-width.", default="fold",
+)  # fmt: skip
+@options.value("--hinge-width", "MM", "Width of offset, living or gap hinges.", type=options.LENGTH)
+@options.value("--lambda cone_angle", "DEGREES", "For a linkage on a cone: cone angle.", type=float)
+@options.NUMBER_OF_SURFACE
+@options.value(
+    "--radius", "MM", "Radius of the cylinder.  [default: that of the linkage, in mm]", type=options.LENGTH
 )
-@click.option("--hinge-width", type=LENGTH, metavar="MM", help="Width of offset, living or gap hinges.")
-@click.option("--lambda", "cone_angle", type=float, metavar="DEGREES", help="For a linkage on a cone: cone angle.")
-@click.option(
-    "--cone", "--cylinder", "cone", type=click.IntRange(min=1), metavar="K",
-    help="For a linkage that lies on several cones or cylinders: number of the one to take.",
+@options.value(
+    "--thickness", "MM", "For a linkage on a cone or cylinder: thickness of the material.  [default: 0.3]",
+    type=options.LENGTH,
 )  # fmt: skip
-@click.option(
-    "--radius", type=LENGTH, metavar="MM", help="Radius of the cylinder.  [default: that of the linkage, in mm]"
-)
-@click.option(
-    "--thickness", type=LENGTH, metavar="MM",
-    help="For a linkage on a cone or cylinder: thickness of the material.  [default: 0.3]",
-)  # fmt: skip
-@click.option(
-    "--note/--no-note", default=True, show_default=True, help="Add assembly instructions, with a picture."
-)
-@FORCE
-@click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@options.flag("--note/--no-note", "Add assembly instructions, with a picture.", default=True)
+@options.FORCE
+@options.JSON
 @PRECISION
 def template(
-    file: str,
-    output: str,
-    row: int | None,
-    mode: str | None,
-    kind: Any,
-    page: str,
-    note: bool,
-    force: bool,
-    as_json: bool,
-    **look: Any,
-) -> None:
+    file: str, output: str, row: int | None, mode: str | None, kind: RealisedKind | None, page: str,
+    scale: float | None, size: float | None, tabs: float, slots: bool, hinge_kind: HingeKind | Literal["fold"],
+    hinge_width: float | None, cone_angle: float | None, cone: int | None, radius: float | None,
+    thickness: float | None, note: bool, force: bool, as_json: bool,
+) -> None:  # fmt: skip
     """Write a template of panels at true scale, to cut out and fold.
 
     FILE is a file, an id m1:... or k1:..., an R/- string, or a store, a list or a folder of types, of which --row
@@ -362,33 +316,31 @@ def template(
       synth template data/surfaces/fig11-stephenson.json --size 120 -o stephenson.pdf
       synth template types.sqlite --row 7 --size 150 -o seventh.svg
     """
-    from graphs.errors import InvariantError
-    from graphs.files.outputs import check_writable
-    from graphs.mechanism.surfaces import SurfaceLinkage
     from synth.drawing.mechanisms.chains import OrderOnCircle
-    from synth.templates.pages import paper_named
-    from synth.templates.writing import TEMPLATES, write_template
+    from synth.templates.writing import TEMPLATES
 
     try:
-        paper = paper_named(page)
+        paper = synth.templates.paper_named(page)
     except InvariantError as error:
         raise click.BadParameter(str(error), param_hint="--page") from None
     check_writable(output, TEMPLATES, force=force)
+    is_dxf = output.lower().endswith(".dxf")
     source = read_named(file, row, mode)
     source = replace(source, mechanism=precise_sheet(source.mechanism))
-    on_surface = isinstance(source.mechanism, SurfaceLinkage | OrderOnCircle)
-    _refuse(look, _OF_PANELS if on_surface else _OF_SURFACES, "panels" if on_surface else "a linkage on a surface")
+    on_surface = isinstance(source.mechanism, synth.SurfaceLinkage | OrderOnCircle)
+    look = _Look(scale, size, tabs, slots, hinge_kind, hinge_width, cone_angle, cone, radius, thickness)
+    look.refuse(*((_OF_PANELS, "panels") if on_surface else (_OF_SURFACES, "a linkage on a surface")))
     notes: list[str] = []
     with about(source.name):
         if on_surface:
             pieces = _of_surface(source, kind, look)
         else:
-            pieces, notes = _of_panels(source, kind, look, note=note and not _is_dxf(output))
+            pieces, notes = _of_panels(source, kind, look, note=note and not is_dxf)
     if not note:
         pieces = replace(pieces, steps=())
-    elif _is_dxf(output):
+    elif is_dxf:
         notes.append("not written: the assembly instructions, with a picture (a .pdf or .svg has them)")
-    places = write_template(pieces, output, paper=paper, force=force)
+    places = synth.templates.write_template(pieces, output, paper=paper, force=force)
     if as_json:
         print_json({"file": file, "output": list(map(str, places)), **pieces.to_json()})
     else:
@@ -397,41 +349,39 @@ def template(
         click.echo(line, err=True)
 
 
-def _refuse(look: Mapping[str, Any], defaults: Mapping[str, Any], required: str) -> None:
-    """Refuse options that belong to another kind of mechanism."""
-    refused = [_SPELT.get(name, f"--{name}") for name, default in defaults.items() if look[name] != default]
-    if refused:
-        raise click.UsageError(f"{', '.join(refused)}: for {required} only")
-
-
 def _of_panels(
-    source: NamedMechanism, kind: Any, look: Mapping[str, Any], *, note: bool
-) -> tuple[Template, list[str]]:
+    source: NamedMechanism, kind: RealisedKind | None, look: _Look, *, note: bool
+) -> tuple[synth.templates.Template, list[str]]:
     """Return the template of panels, and notes to print."""
     from synth.templates.hinges import Hinges
-    from synth.templates.template import panels_of_mechanism, pictured, template_of, unit_of
+    from synth.templates.template import unit_of
 
-    if (look["hinge_kind"] == "fold") != (look["hinge_width"] is None):
+    hinges = None
+    if look.hinge_kind != "fold" and look.hinge_width is not None:
+        hinges = Hinges(look.hinge_kind, look.hinge_width)
+    elif look.hinge_kind != "fold" or look.hinge_width is not None:
         raise click.UsageError("--hinges offset, living or gap and --hinge-width require each other")
-    hinges = None if look["hinge_width"] is None else Hinges(look["hinge_kind"], look["hinge_width"])
     mechanism: Any = source.mechanism
-    sheet, realised = panels_of_mechanism(mechanism, kind=kind, mode=source.mode)
-    options = {name: look[name] for name in ("scale", "size", "tabs", "slots")}
+    sheet, realised = synth.templates.panels_of_mechanism(mechanism, kind=kind, mode=source.mode)
+    size = look.size
     notes = [f"{realised}, as by `synth realise`"] if realised else []
-    if look["scale"] is None and look["size"] is None and realised:
-        options["size"] = _REALISED
+    if look.scale is None and look.size is None and realised:
+        size = _REALISED
         notes.append(f"a type has no size: its longer side is {_REALISED:g} mm; --size changes it")
-    elif look["scale"] is None and look["size"] is None and unit_of(sheet) is None:
+    elif look.scale is None and look.size is None and unit_of(sheet) is None:
         notes.append("the file names no unit: a unit of the coordinates is 1 mm")
-    pieces = template_of(sheet, title=sheet.title or Path(source.name).name, hinges=hinges, **options)
+    pieces = synth.templates.template_of(
+        sheet, scale=look.scale, size=size, tabs=look.tabs, slots=look.slots, hinges=hinges,
+        title=sheet.title or Path(source.name).name,
+    )  # fmt: skip
     notes += [f"not shown: {', '.join(pieces.not_shown)}"] if pieces.not_shown else []
     if note:
-        pieces, reason = pictured(pieces, sheet)
+        pieces, reason = synth.templates.pictured(pieces, sheet)
         notes += [f"no picture of the folded sheet: {plain(reason, 1000)}"] if reason else []
     return pieces, notes
 
 
-def _of_surface(source: NamedMechanism, kind: Any, look: Mapping[str, Any]) -> Template:
+def _of_surface(source: NamedMechanism, kind: RealisedKind | None, look: _Look) -> synth.templates.Template:
     """Return the template of a linkage on a cone or a cylinder."""
     from synth.templates.on_surface import Dimensions, surface_of, template_on_surface
     from synth.templates.template import linkage_on_a_surface
@@ -439,12 +389,8 @@ def _of_surface(source: NamedMechanism, kind: Any, look: Mapping[str, Any]) -> T
     if source.mode is not None or kind is not None:
         raise click.UsageError("--mode and --as are for types without coordinates, not a linkage on a surface")
     mechanism: Any = source.mechanism
-    cone = surface_from_options(look["cone_angle"], None)
-    linkage = linkage_on_a_surface(mechanism, surface=cone, number=look["cone"])
-    sizes = {name: look[name] for name in ("size", "thickness") if look[name] is not None}
-    surface = surface_of(linkage, look["radius"])
+    cone = options.surface_from_options(look.cone_angle, None)
+    linkage = linkage_on_a_surface(mechanism, surface=cone, number=look.cone)
+    sizes = {name: getattr(look, name) for name in ("size", "thickness") if getattr(look, name) is not None}
+    surface = surface_of(linkage, look.radius)
     return template_on_surface(linkage, surface, Dimensions(**sizes), Path(source.name).name)
-
-
-def _is_dxf(output: str) -> bool:
-    return output.lower().endswith(".dxf")

@@ -5,35 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
 
 import click
 
-from graphs import creasing, edit as editing, mechanism as mechanisms
+import graphs.convert
+import graphs.edit
+import graphs.reduce
+import synth.folding
+from graphs import creasing
 from graphs.errors import UnsolvableError, numbered
-from synth.cli.options import BRANCH, FORCE, LOSSY
-from synth.cli.output import (
-    about,
-    check_output,
-    console,
-    plain,
-    print_answer,
-    print_json,
-    table,
-    tell_lost,
-    tell_written,
-)
+from synth.cli import options, output as out
 from synth.cli.reading import DRAWN, read
-
-if TYPE_CHECKING:
-    from graphs.creasing.edits import SheetEdit
-    from graphs.edit.edits import Edit
-    from graphs.mechanism.sc import SCGraph
-    from graphs.mechanism.sheet import Sheet
-    from graphs.reduce.assur import AssurReduction
-    from graphs.reduce.ride_alongs import Reduction
-
-__all__ = ["edit", "reduce_command"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,8 +29,8 @@ class EditOption:
     name: str
     takes: str
     help: str
-    of_graph: Callable[[SCGraph, str], Edit] | None = None
-    of_sheet: Callable[[Sheet, Sequence[str]], Iterator[SheetEdit]] | None = None
+    of_graph: Callable[[synth.SCGraph, str], graphs.edit.Edit] | None = None
+    of_sheet: Callable[[synth.Sheet, Sequence[str]], Iterator[creasing.SheetEdit]] | None = None
 
     @property
     def key(self) -> str:
@@ -56,65 +38,67 @@ class EditOption:
         return self.name.removeprefix("--").replace("-", "_")
 
 
-def _crease_graph(sc: SCGraph, text: str) -> Edit:
+def _crease_graph(sc: synth.SCGraph, text: str) -> graphs.edit.Edit:
     name, _, rest = text.partition(":")
-    link, words = editing.link_named(sc, name), [word.strip() for word in rest.split(",") if word.strip()]
-    if not isinstance(sc, mechanisms.SCDGraph):
-        return editing.add_crease(sc, link, [editing.joint_named(sc, word) for word in words])
+    link, words = options.link_of(sc, name), [word.strip() for word in rest.split(",") if word.strip()]
+    if not isinstance(sc, synth.SCDGraph):
+        return graphs.edit.add_crease(sc, link, [options.joint_of(sc, word) for word in words])
     if len(words) not in (1, 2):
-        wrong = f"{plain(text)!r} is not LINK:VERTEX or LINK:VERTEX,VERTEX"
+        wrong = f"{out.plain(text)!r} is not LINK:VERTEX or LINK:VERTEX,VERTEX"
         raise click.BadParameter(wrong, param_hint="--add-crease")
-    return editing.crease_link(sc, link, *(_whole(word, "--add-crease") for word in words))
+    return graphs.edit.crease_link(sc, link, *(_whole(word, "--add-crease") for word in words))
 
 
-def _add_loop(sc: SCGraph, text: str, *, option: str, centre: str) -> Edit:
+def _add_loop(sc: synth.SCGraph, text: str, *, option: str, centre: str) -> graphs.edit.Edit:
     chain, _, rest = text.partition(":")
     a, b, k = _parts(chain, 3, option)
-    through = [editing.joint_named(sc, word.strip()) for word in rest.split(",") if word.strip()]
-    bare = sc.sc_graph() if isinstance(sc, mechanisms.SCDGraph) else sc
-    ends = editing.link_named(sc, a), editing.link_named(sc, b)
-    return editing.add_loop(bare, *ends, _whole(k, option), centre=centre, through=through or None)
+    through = [options.joint_of(sc, word.strip()) for word in rest.split(",") if word.strip()]
+    bare = sc.sc_graph() if isinstance(sc, synth.SCDGraph) else sc
+    ends = options.link_of(sc, a), options.link_of(sc, b)
+    return graphs.edit.add_loop(bare, *ends, _whole(k, option), centre=centre, through=through or None)
 
 
-def _add_ride_along(sc: SCGraph, text: str) -> Edit:
-    a, b = (editing.link_named(sc, word) for word in _parts(text, 2, "--add-ride-along"))
-    if isinstance(sc, mechanisms.SCDGraph) and sc.has_edge(a, b):
-        return editing.ride_along(sc, next(iter(sc[a][b])))
-    return editing.add_ride_along(sc, a, b)
+def _add_ride_along(sc: synth.SCGraph, text: str) -> graphs.edit.Edit:
+    a, b = (options.link_of(sc, word) for word in _parts(text, 2, "--add-ride-along"))
+    if isinstance(sc, synth.SCDGraph) and sc.has_edge(a, b):
+        return graphs.edit.ride_along(sc, next(iter(sc[a][b])))
+    return graphs.edit.add_ride_along(sc, a, b)
 
 
-def _change_centre(sc: SCGraph, text: str, *, option: str) -> Edit:
-    if not isinstance(sc, mechanisms.SCDGraph):
+def _change_centre(sc: synth.SCGraph, text: str, *, option: str) -> graphs.edit.Edit:
+    if not isinstance(sc, synth.SCDGraph):
         raise UnsolvableError(f"{option} requires an SCD graph, which has the sides of the links")
-    change = editing.make_implicit if option == "--implicit" else editing.make_explicit
+    change = graphs.edit.make_implicit if option == "--implicit" else graphs.edit.make_explicit
     return change(sc, _whole(text, option))
 
 
-def _lock_graph(sc: SCGraph, text: str) -> Edit:
-    joint = editing.joint_named(sc, text)
-    return editing.lock_hinge(sc, joint) if isinstance(sc, mechanisms.SCDGraph) else editing.lock_joint(sc, joint)
+def _lock_graph(sc: synth.SCGraph, text: str) -> graphs.edit.Edit:
+    joint = options.joint_of(sc, text)
+    return (
+        graphs.edit.lock_hinge(sc, joint) if isinstance(sc, synth.SCDGraph) else graphs.edit.lock_joint(sc, joint)
+    )
 
 
-def _lock_sheet(sheet: Sheet, names: Sequence[str]) -> Iterator[SheetEdit]:
+def _lock_sheet(sheet: synth.Sheet, names: Sequence[str]) -> Iterator[creasing.SheetEdit]:
     for name in names:
         edit = creasing.lock_crease(sheet, creasing.joint_of_sheet_named(sheet, name))
         sheet = edit.sheet
         yield edit
 
 
-def _crease_sheet(sheet: Sheet, texts: Sequence[str]) -> Iterator[SheetEdit]:
+def _crease_sheet(sheet: synth.Sheet, texts: Sequence[str]) -> Iterator[creasing.SheetEdit]:
     for text in texts:
         ends = text.split(":")
         if len(ends) != 2:
-            wrong = f"{plain(text)!r} is not A:B, two vertices or points X,Y of the pattern"
+            wrong = f"{out.plain(text)!r} is not A:B, two vertices or points X,Y of the pattern"
             raise click.BadParameter(wrong, param_hint="--add-crease")
         edit = creasing.crease_sheet(sheet, _end(ends[0].strip()), _end(ends[1].strip()))
         sheet = edit.sheet
         yield edit
 
 
-def _remove_creases(sheet: Sheet, names: Sequence[str]) -> Iterator[SheetEdit]:
-    """Yield the edits that remove creases. Edges move up after each, so all are found first, and known by ends."""
+def _remove_creases(sheet: synth.Sheet, names: Sequence[str]) -> Iterator[creasing.SheetEdit]:
+    """Yield the edits that remove creases, all found before by their ends: edges are renumbered after each edit."""
     from graphs.mechanism.sheet import with_all_edges
 
     edges = with_all_edges(sheet).edges
@@ -135,21 +119,23 @@ def _end(word: str) -> int | tuple[float, ...]:
     except ValueError:
         point = ()
     if len(point) not in (2, 3) or not all(abs(x) < 1e12 for x in point):
-        raise click.BadParameter(f"{plain(word)!r} is neither a vertex nor a point X,Y", param_hint="--add-crease")
+        raise click.BadParameter(
+            f"{out.plain(word)!r} is neither a vertex nor a point X,Y", param_hint="--add-crease"
+        )
     return point
 
 
 def _parts(text: str, number: int, option: str) -> list[str]:
     parts = [part.strip() for part in text.split(",")]
     if len(parts) != number:
-        wrong = f"{plain(text)!r} has {numbered(len(parts), 'part')}; expected {number}"
+        wrong = f"{out.plain(text)!r} has {numbered(len(parts), 'part')}; expected {number}"
         raise click.BadParameter(wrong, param_hint=option)
     return parts
 
 
 def _whole(word: str, option: str) -> int:
     if not word.isascii() or not word.isdigit() or len(word) > 6:
-        raise click.BadParameter(f"{plain(word)!r} is not a number", param_hint=option)
+        raise click.BadParameter(f"{out.plain(word)!r} is not a number", param_hint=option)
     return int(word)
 
 
@@ -209,33 +195,27 @@ EDITS = (
 def _with_edit_options(command: Callable[..., None]) -> Callable[..., None]:
     """Give the command an option for each edit, which may be repeated."""
     for option in reversed(EDITS):
-        command = click.option(option.name, multiple=True, metavar=option.takes, help=option.help)(command)
+        command = options.repeated(option.name, option.takes, option.help)(command)
     return command
 
 
-@click.command(short_help="Add creases, ride-alongs and loops; change centres; lock joints.")
-@click.argument("file", metavar="FILE")
+@click.command()
+@options.FILE
 @DRAWN
 @_with_edit_options
-@click.option(
-    "--assign-branch", type=BRANCH, metavar="K",
-    help="For a pattern: assign the mountains and valleys of a folding branch, by its number "
-    "or signs, as `synth fold --branches` lists them. Creases that are immobile on it "
-    "become flat (F).",
+@options.value(
+    "--assign-branch", "K",
+    "For a pattern: assign the mountains and valleys of a folding branch, by its number or signs, as `synth "
+    "fold --branches` lists them. Creases that are immobile on it become flat (F).", type=options.BRANCH,
 )  # fmt: skip
-@click.option("-o", "--output", metavar="OUT", help="Write the result to this file.")
-@FORCE
-@LOSSY
-@click.option("--json", "as_json", is_flag=True, help="Print the edits as JSON.")
+@options.output("Write the result to this file.")
+@options.FORCE
+@options.LOSSY
+@options.flag("--json as_json", "Print the edits as JSON.")
 def edit(
-    file: str,
-    assign_branch: int | str | None,
-    output: str | None,
-    force: bool,
-    lossy: bool,
-    as_json: bool,
+    file: str, assign_branch: int | str | None, output: str | None, force: bool, lossy: bool, as_json: bool,
     **words: tuple[str, ...],
-) -> None:
+) -> None:  # fmt: skip
     """Edit a mechanism. Each edit predicts its change of mobility (Wiener, Eqs. 5 to 7); the count confirms it.
 
     Options may be repeated; the edits are made in the order of the list below, but creases of a pattern are locked
@@ -249,20 +229,20 @@ def edit(
 
     \b
     Examples:
-      synth edit data/patterns/bird-base.fold --lock 3 --add-crease 0:2 -o edited.fold
+      synth edit data/patterns/bird-base.fold --lock 3 --add-crease 5:2 -o edited.fold
       synth edit data/patterns/bird-base.fold --assign-branch 1 -o marked.fold
       synth edit data/wiener/six-bar.json --add-ride-along 0,1 --lock 3 -o edited.json
       synth edit data/wiener/six-bar.json --add-spatial-loop 0,2,4:1,2 -o ten-bar.json
     """
     from graphs.convert.table import graph_of
-    from graphs.files.formats import write
-    from graphs.mechanism.sheet import Sheet
 
-    check_output(output, force=force)
+    out.check_output(output, force=force)
     mechanism = read(file)
-    with about(file):
-        edits: list[Edit] | list[SheetEdit]
-        if isinstance(mechanism, Sheet) and not any(words[each.key] for each in EDITS if each.of_sheet is None):
+    with out.about(file):
+        edits: list[graphs.edit.Edit] | list[creasing.SheetEdit]
+        if isinstance(mechanism, synth.Sheet) and not any(
+            words[each.key] for each in EDITS if each.of_sheet is None
+        ):
             edits = list(_edits_of_sheet(mechanism, words, assign_branch))
         elif words["remove_crease"] or assign_branch is not None:
             option = "--remove-crease" if words["remove_crease"] else "--assign-branch"
@@ -272,24 +252,23 @@ def edit(
         if not edits:
             raise click.UsageError("no edit; try --add-ride-along A,B or another")
         last = edits[-1]
-        result = last.graph if isinstance(last, editing.Edit) else last.sheet
-        lost = () if output is None else write(result, output, force=force, lossy=lossy)
+        result = last.graph if isinstance(last, graphs.edit.Edit) else last.sheet
+        lost = () if output is None else synth.write(result, output, force=force, lossy=lossy)
     if as_json:
-        print_json(
+        out.print_json(
             {"file": file, "output": output, "lost": list(lost), "edits": [each.to_json() for each in edits]}
         )
         return
-    rows = table("edit", "by", "dM predicted", "counted", "M", numbers=["dM predicted", "counted", "M"])
+    rows = out.table("edit", "by", "dM predicted", "counted", "M", numbers=["dM predicted", "counted", "M"])
     for each in edits:
         mobilities = (each.predicted, each.counted, each.to_json()["mobility"])
-        rows.add_row(plain(each.what), each.equation, *map(plain, mobilities))
-    console().print(rows)
-    if output is not None:
-        tell_written(output)
-        tell_lost(lost)
+        rows.add_row(out.plain(each.what), each.equation, *map(out.plain, mobilities))
+    out.console().print(rows)
+    out.tell_written(output)
+    out.tell_lost(lost)
 
 
-def _edits_of_graph(sc: SCGraph, words: dict[str, tuple[str, ...]]) -> Iterator[Edit]:
+def _edits_of_graph(sc: synth.SCGraph, words: dict[str, tuple[str, ...]]) -> Iterator[graphs.edit.Edit]:
     """Yield the edits of a graph in the order of the options, each made to the last result."""
     for option in EDITS:
         for text in words[option.key]:
@@ -300,13 +279,11 @@ def _edits_of_graph(sc: SCGraph, words: dict[str, tuple[str, ...]]) -> Iterator[
 
 
 def _edits_of_sheet(
-    sheet: Sheet, words: dict[str, tuple[str, ...]], branch: int | str | None
-) -> Iterator[SheetEdit]:
+    sheet: synth.Sheet, words: dict[str, tuple[str, ...]], branch: int | str | None
+) -> Iterator[creasing.SheetEdit]:
     """Yield the edits of a pattern: assigned as a branch, locked, creased, uncreased, each to the last result."""
     if branch is not None:
-        from synth.folding.motion import assign_branch
-
-        edit = assign_branch(sheet, branch)
+        edit = synth.folding.assign_branch(sheet, branch)
         sheet = edit.sheet
         yield edit
     for option in sorted(EDITS, key=lambda option: option.name != "--lock"):
@@ -315,40 +292,22 @@ def _edits_of_sheet(
             yield edit
 
 
-@click.command("reduce", short_help="Remove ride-alongs and adjunct addenda.")
-@click.argument("file", metavar="FILE")
+@click.command("reduce")
+@options.FILE
 @DRAWN
-@click.option("-o", "--output", metavar="OUT", help="Write the reduced mechanism to this file.")
-@click.option(
-    "--rule", type=click.Choice(["ride-along", "dyad", "assur"]), default="ride-along", show_default=True,
-    help="Rule of reduction.",
-)  # fmt: skip
-@click.option("--fully", is_flag=True, help="Reduce a block even if no loop of it is left.")
-@click.option(
-    "--keep", multiple=True, metavar="LINK",
-    help="Link that must not be removed, such as an input link; may be repeated.",
-)  # fmt: skip
-@click.option(
-    "--ground", metavar="LINK", help="Fixed link, for --rule assur. By default the one that the file names."
-)
-@click.option(
-    "--input", "inputs", multiple=True, metavar="JOINT", help="Input joint, for --rule assur; may be repeated."
-)
-@FORCE
-@LOSSY
-@click.option("--json", "as_json", is_flag=True, help="Print counts and steps as JSON.")
+@options.output("Write the reduced mechanism to this file.")
+@options.choice("--rule", ("ride-along", "dyad", "assur"), "Rule of reduction.", default="ride-along")
+@options.flag("--fully", "Reduce a block even if no loop of it is left.")
+@options.repeated("--keep", "LINK", "Link that must not be removed, such as an input link; may be repeated.")
+@options.value("--ground", "LINK", "Fixed link, for --rule assur. By default the one that the file names.")
+@options.repeated("--input inputs", "JOINT", "Input joint, for --rule assur; may be repeated.")
+@options.FORCE
+@options.LOSSY
+@options.flag("--json as_json", "Print counts and steps as JSON.")
 def reduce_command(
-    file: str,
-    output: str | None,
-    rule: str,
-    fully: bool,
-    keep: tuple[str, ...],
-    ground: str | None,
-    inputs: tuple[str, ...],
-    force: bool,
-    lossy: bool,
-    as_json: bool,
-) -> None:
+    file: str, output: str | None, rule: str, fully: bool, keep: tuple[str, ...], ground: str | None,
+    inputs: tuple[str, ...], force: bool, lossy: bool, as_json: bool,
+) -> None:  # fmt: skip
     """Remove the ride-alongs of a mechanism one by one, until none is left. The mobility does not change.
 
     A ride-along is two binary links u, v on two adjacent links a, b, all four about one centre. Chains of them,
@@ -362,33 +321,22 @@ def reduce_command(
       synth reduce data/wiener/fortune-teller.json -o eight-bar.json
       synth reduce data/wiener/stephenson.json --rule assur --ground 0 --input 0
     """
-    from graphs.convert.table import to_sc
-    from graphs.files.formats import write
-    from graphs.reduce.ride_alongs import reduce
-
     if (rule != "assur") and (ground is not None or inputs):
         raise click.UsageError("--ground and --input require --rule assur")
-    check_output(output, force=force)
-    with about(file):
-        sc = to_sc(read(file))
+    out.check_output(output, force=force)
+    with out.about(file):
+        sc = graphs.convert.to_sc(read(file))
         if rule == "assur":
-            reduction: Reduction | AssurReduction = _assur(sc, ground, inputs)
+            reduction: graphs.reduce.Reduction | graphs.reduce.AssurReduction = _assur(sc, ground, inputs)
         else:
-            reduction = reduce(sc, rule=rule, fully=fully, keep=[editing.link_named(sc, name) for name in keep])
-        lost = () if output is None else write(reduction.graph, output, force=force, lossy=lossy)
-    if as_json:
-        print_json({"file": file, "output": output, "lost": list(lost), **reduction.to_json()})
-        return
-    print_answer(reduction)
-    if output is not None:
-        tell_written(output)
-        tell_lost(lost)
+            reduction = synth.reduce(sc, rule=rule, fully=fully, keep=[options.link_of(sc, name) for name in keep])
+        lost = () if output is None else synth.write(reduction.graph, output, force=force, lossy=lossy)
+    keys = {"file": file, "output": output, "lost": list(lost)}
+    out.print_result(reduction, keys, as_json=as_json, written=[output], lost=lost)
 
 
-def _assur(sc: SCGraph, ground: str | None, inputs: tuple[str, ...]) -> AssurReduction:
-    from graphs.reduce.assur import reduce_assur
-
-    fixed = sc.ground if ground is None else editing.link_named(sc, ground)
+def _assur(sc: synth.SCGraph, ground: str | None, inputs: tuple[str, ...]) -> graphs.reduce.AssurReduction:
+    fixed = sc.ground if ground is None else options.link_of(sc, ground)
     if fixed is None or not inputs:
         raise click.UsageError("--rule assur requires --ground LINK, and an --input JOINT per degree of freedom")
-    return reduce_assur(sc, fixed, [editing.joint_named(sc, name) for name in inputs])
+    return graphs.reduce.reduce_assur(sc, fixed, [options.joint_of(sc, name) for name in inputs])

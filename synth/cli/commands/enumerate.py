@@ -3,25 +3,33 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
-from itertools import chain, islice
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+import graphs.files
+import synth
+from synth.cli import options
 from synth.cli.commands.conical import conical
-from synth.cli.options import FORCE, LimitsType
-from synth.cli.output import about, console, plain, print_json, table, tell_written
-from synth.cli.runner import RunOptions, check_method, run_count, run_rows, runner_options
+from synth.cli.output import about, plain, print_json, tell_written
+from synth.cli.runner import RunOptions, TablePrinter, check_method, run_count, run_rows, runner_options
 
 if TYPE_CHECKING:
-    from enumerate.runner.job import Limits
+    from enumerate.runner import Limits
     from enumerate.scd.query import Mechanisms
+    from enumerate.strings import ChainString
 
 __all__ = ["enumerate_group"]
 
 
-_MOST_IN_TABLE = 1000
+_COLUMNS: dict[str, type] = {
+    "creases": int, "string": str, "joints": str, "distance": str, "dof": int, "modes": int, "mode": str,
+    "comment": str,
+}  # fmt: skip
+"""Columns of the table of R/- strings; ``mode`` with --modes only."""
 
 
 def _limit(_context: click.Context, _parameter: click.Parameter, value: str) -> int | None:
@@ -34,36 +42,22 @@ def _limit(_context: click.Context, _parameter: click.Parameter, value: str) -> 
 
 
 @click.command(short_help="List or count R/- strings: chains of panels between two bodies.")
-@click.option("--dof", type=click.IntRange(min=1), metavar="N", help="Number of creases.")
-@click.option(
-    "--max-dof", type=click.IntRange(min=1), metavar="N", help="Largest number of creases. By default 6."
-)
-@click.option(
-    "--modes", is_flag=True, help="List one row per mode: vertices on the same side (S) or on a diagonal (D)."
-)
-@click.option(
-    "--max-panels", default="2", callback=_limit, metavar="K", show_default=True,
-    help="Largest number of panels; none for no limit.",
+@options.number("--dof", "N", "Number of creases.")
+@options.number("--max-dof", "N", "Largest number of creases. By default 6.")
+@options.flag("--modes", "List one row per mode: vertices on the same side (S) or on a diagonal (D).")
+@options.value("--max-panels", "K", "Largest number of panels; none for no limit.", default="2", callback=_limit)
+@options.value(
+    "--max-cluster", "K", "Largest number of creases that meet in one point; none for no limit.",
+    default="3", callback=_limit,
 )  # fmt: skip
-@click.option(
-    "--max-cluster", default="3", callback=_limit, metavar="K", show_default=True,
-    help="Largest number of creases that meet in one point; none for no limit.",
-)  # fmt: skip
-@click.option("--count", "only_count", is_flag=True, help="Print only the number, by generating functions.")
-@click.option("-o", "--output", metavar="FILE.jsonl", help="Write one JSON object per line.")
-@FORCE
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON list.")
+@options.flag("--count only_count", "Print only the number, by generating functions.")
+@options.output("Write one JSON object per line.", "FILE.jsonl")
+@options.FORCE
+@options.flag("--json as_json", "Print a JSON list.")
 def strings(
-    dof: int | None,
-    max_dof: int | None,
-    modes: bool,
-    max_panels: int | None,
-    max_cluster: int | None,
-    only_count: bool,
-    output: str | None,
-    force: bool,
-    as_json: bool,
-) -> None:
+    dof: int | None, max_dof: int | None, modes: bool, max_panels: int | None, max_cluster: int | None,
+    only_count: bool, output: str | None, force: bool, as_json: bool,
+) -> None:  # fmt: skip
     """List or count the R/- strings: open chains of panels, with their joint chains (Wiener, Table 8).
 
     R is a crease; creases written together meet in one point; - is a rectangular panel. With --modes each string
@@ -75,76 +69,55 @@ def strings(
       synth enumerate strings --dof 6 --modes
       synth enumerate strings --dof 30 --max-panels none --count
     """
-    from enumerate.strings.panel_strings import count_strings
+    from enumerate import strings as panels
 
     if dof is not None and max_dof is not None:
         raise click.UsageError("--dof and --max-dof exclude each other; try one of them")
     numbers = [dof] if dof is not None else list(range(1, (max_dof or 6) + 1))
     limits = {"max_panels": max_panels, "max_cluster": max_cluster}
+    every = (string for creases in numbers for string in panels.strings(creases, **limits))
     if only_count:
-        number = _count_modes(numbers, limits) if modes else sum(count_strings(n, **limits) for n in numbers)
-        if as_json:
-            print_json({"count": number})
+        if modes:
+            count = sum(string.count_modes() for string in every)
         else:
-            click.echo(number)
+            count = sum(panels.count_strings(creases, **limits) for creases in numbers)
+        if as_json:
+            print_json({"count": count})
+        else:
+            click.echo(count)
         return
-    rows = _rows(numbers, limits, modes)
+    rows = _rows(every, modes)
     if output is not None:
-        _write(output, rows, force)
+        from graphs.files.atomic import write_chunks
+        from graphs.files.outputs import unknown_extension
+
+        if not output.endswith(".jsonl"):
+            raise unknown_extension(output, [".jsonl"])
+        write_chunks(Path(output), (json.dumps(row) + "\n" for row in rows), force=force)
         tell_written(output)
     elif as_json:
         print_json(list(rows))
     else:
-        _print(rows, modes)
+        columns = {name: kind for name, kind in _COLUMNS.items() if modes or name != "mode"}
+        printer = TablePrinter(columns)
+        for row in rows:
+            printer.take((), [tuple(row[name] for name in columns)])
+        printer.finish()
 
 
-def _count_modes(numbers: list[int], limits: dict[str, int | None]) -> int:
-    from enumerate.strings.panel_strings import strings as listed
-
-    return sum(string.count_modes() for n in numbers for string in listed(n, **limits))
-
-
-def _rows(numbers: list[int], limits: dict[str, int | None], modes: bool) -> Iterator[dict[str, Any]]:
-    from enumerate.strings.panel_strings import strings as listed
-
-    for n in numbers:
-        for string in listed(n, **limits):
-            row = {
-                "creases": string.creases,
-                "string": string.text,
-                "joints": string.mechanism,
-                "distance": string.distance,
-                "dof": string.dof,
-                "modes": string.count_modes(),
-                "comment": string.comment,
-            }
-            yield from ({**row, "mode": mode} for mode in string.modes()) if modes else [row]
-
-
-def _write(output: str, rows: Iterator[dict[str, Any]], force: bool) -> None:
-    from pathlib import Path
-
-    from graphs.files.atomic import write_chunks
-    from graphs.files.outputs import unknown_extension
-
-    if not output.endswith(".jsonl"):
-        raise unknown_extension(output, [".jsonl"])
-    write_chunks(Path(output), (json.dumps(row) + "\n" for row in rows), force=force)
-
-
-def _print(rows: Iterator[dict[str, Any]], modes: bool) -> None:
-    """Print a table, or lines with tabs if there are too many rows for one."""
-    columns = ["creases", "string", "joints", "distance", "dof", "modes", *(["mode"] if modes else []), "comment"]
-    first = list(islice(rows, _MOST_IN_TABLE + 1))
-    if len(first) > _MOST_IN_TABLE:
-        click.echo("\t".join(columns))
-        for row in chain(first, rows):
-            click.echo("\t".join(str(row[column]) for column in columns))
-        return
-    shown = table(*columns, numbers=["creases", "dof", "modes"])
-    for row in first:
-        shown.add_row(*(plain(row[column], 200) if row[column] != "" else "" for column in columns))
-    console().print(shown)
+def _rows(every: Iterator[ChainString], modes: bool) -> Iterator[dict[str, Any]]:
+    """Yield a row for each string, or for each of its modes."""
+    for string in every:
+        row = {
+            "creases": string.creases,
+            "string": string.text,
+            "joints": string.mechanism,
+            "distance": string.distance,
+            "dof": string.dof,
+            "modes": string.count_modes(),
+            "comment": string.comment,
+        }
+        yield from ({**row, "mode": mode} for mode in string.modes()) if modes else [row]
 
 
 def _assortment(_context: click.Context, _parameter: click.Parameter, value: str | None) -> tuple[int, ...] | None:
@@ -159,59 +132,40 @@ def _assortment(_context: click.Context, _parameter: click.Parameter, value: str
     return tuple(map(int, parts))
 
 
-_LINKS = click.option("--links", type=click.IntRange(min=4), required=True, metavar="N", help="Number of links.")
-_DOF = click.option("--dof", type=click.IntRange(min=1), required=True, metavar="M", help="Degrees of freedom.")
-_ASSORTMENT = click.option(
-    "--assortment", callback=_assortment, metavar="4,2", help="Numbers of binary, ternary, ... links."
+_LINKS = options.number("--links", "N", "Number of links.", 4, required=True)
+_DOF = options.number("--dof", "M", "Degrees of freedom.", required=True)
+_ASSORTMENT = options.value("--assortment", "4,2", "Numbers of binary, ternary, ... links.", callback=_assortment)
+_LONGEST_STRING = options.limits(
+    "--longest-string", "Length of the longest row of binary links, as a number or range: 2, 1..2, 2.. or ..3."
 )
-_LONGEST_STRING = click.option(
-    "--longest-string", type=LimitsType(), metavar="K",
-    help="Length of the longest row of binary links, as a number or range: 2, 1..2, 2.. or ..3.",
-)  # fmt: skip
-_SPATIAL = click.option(
-    "--spatial", type=click.IntRange(min=0), default=0, metavar="S",
-    help="Number of spatial loops, 0 by default; with more, the results are hybrids.",
-)  # fmt: skip
-_INFINITE = click.option("--infinite", is_flag=True, help="Include centres at infinity (planar loops).")
-_COUNT = click.option("--count", "only_count", is_flag=True, help="Print only the number, by the fastest method.")
+_SPATIAL = options.number(
+    "--spatial", "S", "Number of spatial loops; with one or more, the results are hybrids.", 0, default=0
+)
+_INFINITE = options.flag("--infinite", "Include centres at infinity (planar loops).")
+_COUNT = options.flag("--count only_count", "Print only the number, by the fastest method.")
 
 
-def _method_option(*methods: str) -> Callable[..., Any]:
-    """Return the option that chooses a counting method; the first is the default."""
-    return click.option(
-        "--method", type=click.Choice(methods), help="Counting method for --count; both give the same number."
-    )
+_method = partial(options.choice, "--method", text="Counting method for --count; both give the same number.")
 
 
 @click.command(short_help="List or count kinematic chains without rigid sub-chains.")
 @_LINKS
 @_DOF
-@click.option(
-    "--fractionated", is_flag=True, help="Include fractionated chains, which one link or one joint cuts in two."
-)
-@click.option("--inversions", is_flag=True, help="List kinematic inversions: one row per distinct ground link.")
-@click.option(
-    "--inputs", is_flag=True, help="List one row per distinct choice of a ground link and M input joints."
-)
+@options.flag("--fractionated", "Include fractionated chains, which one link or one joint cuts in two.")
+@options.flag("--inversions", "List kinematic inversions: one row per distinct ground link.")
+@options.flag("--inputs", "List one row per distinct choice of a ground link and M input joints.")
 @_ASSORTMENT
-@click.option("--planar/--nonplanar", default=None, help="List only planar, or only nonplanar, chains.")
+@options.flag("--planar/--nonplanar", "List only planar, or only nonplanar, chains.")
 @_LONGEST_STRING
-@click.option(
-    "--symmetry", type=LimitsType(), metavar="K",
-    help="Number of automorphisms, as a number or range: 1, 2.. or 2..8.",
-)  # fmt: skip
+@options.limits("--symmetry", "Number of automorphisms, as a number or range: 1, 2.. or 2..8.")
 @_COUNT
-@_method_option("orbits", "burnside")
+@_method(("orbits", "burnside"))
 @runner_options
 def chains(
-    links: int,
-    dof: int,
-    only_count: bool,
-    method: str | None,
-    longest_string: Limits | None,
-    symmetry: Limits | None,
-    **rest: Any,
-) -> None:
+    links: int, dof: int, fractionated: bool, inversions: bool, inputs: bool, assortment: tuple[int, ...] | None,
+    planar: bool | None, longest_string: Limits | None, symmetry: Limits | None, only_count: bool,
+    method: str | None, running: RunOptions,
+) -> None:  # fmt: skip
     """List or count all kinematic chains of N links and M degrees of freedom.
 
     Chains are link-joint graphs with single joints in which no part is rigid; isomorphic chains are listed once.
@@ -226,21 +180,21 @@ def chains(
       synth enumerate chains --links 16 --dof 1 -o chains.sqlite --resume
       synth enumerate chains --links 18 --dof 1 --count -o counted.sqlite --resume
     """
-    options = RunOptions.taken_from(rest, counting=only_count)
     check_method(method, only_count)
     from enumerate.chains.jobs import ChainJob, count_job
     from enumerate.chains.query import ChainQuery
     from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE
 
     query = ChainQuery(
-        links, dof, **rest, longest_string=longest_string or ANY_NUMBER, symmetry=symmetry or ONE_OR_MORE
-    )
+        links, dof, fractionated=fractionated, inversions=inversions, inputs=inputs, assortment=assortment,
+        planar=planar, longest_string=longest_string or ANY_NUMBER, symmetry=symmetry or ONE_OR_MORE,
+    )  # fmt: skip
     _say_if_odd(links, dof)
     if only_count:
-        run_count(count_job(query, method or "orbits", options.kept_job()), options)
+        run_count(count_job(query, method or "orbits", running.kept_job()), running)
     else:
-        graph6 = options.output is not None and options.output.lower().endswith(".g6")
-        run_rows(ChainJob(query, bare=graph6 and not (query.inversions or query.inputs)), options)
+        graph6 = running.output is not None and running.output.lower().endswith(".g6")
+        run_rows(ChainJob(query, bare=graph6 and not (query.inversions or query.inputs)), running)
 
 
 def _say_if_odd(links: int, dof: int, spatial: int = 0) -> None:
@@ -255,40 +209,22 @@ def _say_if_odd(links: int, dof: int, spatial: int = 0) -> None:
 @click.command(short_help="List or count SC graphs: planar chains drawn on the sphere, with centres.")
 @_LINKS
 @_DOF
-@click.option(
-    "--centres", type=LimitsType(), metavar="K",
-    help="Number of distinct centres, as a number or range: 2, 1..2 or 2..",
-)  # fmt: skip
+@options.limits("--centres", "Number of distinct centres, as a number or range: 2, 1..2 or 2..")
 @_SPATIAL
 @_INFINITE
-@click.option(
-    "--symmetry", type=LimitsType(), metavar="K",
-    help="Number of symmetries, as a number or range: 1, 2.. or 2..4.",
-)  # fmt: skip
+@options.limits("--symmetry", "Number of symmetries, as a number or range: 1, 2.. or 2..4.")
 @_ASSORTMENT
 @_LONGEST_STRING
-@click.option(
-    "--per-chain", is_flag=True, help="List one row per chain: its most general form, with the most centres."
-)
-@click.option(
-    "--embeddings", is_flag=True,
-    help="With --count, count embeddings in the sphere, without a choice of the outer face.",
-)  # fmt: skip
+@options.flag("--per-chain", "List one row per chain: its most general form, with the most centres.")
+@options.flag("--embeddings", "With --count, count embeddings in the sphere, without a choice of the outer face.")
 @_COUNT
-@_method_option("orbits", "burnside")
+@_method(("orbits", "burnside"))
 @runner_options
 def sc(
-    links: int,
-    dof: int,
-    only_count: bool,
-    per_chain: bool,
-    embeddings: bool,
-    method: str | None,
-    centres: Limits | None,
-    symmetry: Limits | None,
-    longest_string: Limits | None,
-    **rest: Any,
-) -> None:
+    links: int, dof: int, centres: Limits | None, spatial: int, infinite: bool, symmetry: Limits | None,
+    assortment: tuple[int, ...] | None, longest_string: Limits | None, per_chain: bool, embeddings: bool,
+    only_count: bool, method: str | None, running: RunOptions,
+) -> None:  # fmt: skip
     """List or count all SC graphs of N links and M degrees of freedom.
 
     An SC graph is a planar kinematic chain drawn on the sphere, with one outer face; each other face is a loop
@@ -305,7 +241,6 @@ def sc(
       synth enumerate sc --links 9 --dof 1 --spatial 1 -o hybrids
       synth enumerate sc --links 12 --dof 1 -o sc.sqlite
     """
-    options = RunOptions.taken_from(rest, counting=only_count)
     if not only_count and (method is not None or embeddings):
         raise click.UsageError("--method and --embeddings require --count")
     from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE
@@ -313,55 +248,38 @@ def sc(
     from enumerate.sc.query import SCQuery
 
     query = SCQuery(
-        links,
-        dof,
-        **rest,
-        centres=centres or ANY_NUMBER,
-        symmetry=symmetry or ONE_OR_MORE,
-        longest_string=longest_string or ANY_NUMBER,
-    )
-    _say_if_odd(links, dof, query.spatial)
+        links, dof, spatial=spatial, infinite=infinite, assortment=assortment, centres=centres or ANY_NUMBER,
+        symmetry=symmetry or ONE_OR_MORE, longest_string=longest_string or ANY_NUMBER,
+    )  # fmt: skip
+    _say_if_odd(links, dof, spatial)
     if only_count and per_chain:
         raise click.UsageError("--count counts SC graphs; try `synth enumerate chains --planar --count`")
     if only_count:
-        run_count(sc_count_job(query, method or "orbits", outside=not embeddings), options)
+        run_count(sc_count_job(query, method or "orbits", outside=not embeddings), running)
     else:
-        run_rows(FormJob(query) if per_chain else SCJob(query), options)
+        run_rows(FormJob(query) if per_chain else SCJob(query), running)
 
 
 @click.command(short_help="List or count SCD graphs: mechanisms with all sides of their links.")
-@click.option("--links", type=click.IntRange(min=2), metavar="N", help="Number of links.")
-@click.option(
-    "--dof", type=click.IntRange(min=1), metavar="M", help="Degrees of freedom; N - 1 gives open chains."
+@options.number("--links", "N", "Number of links.", 2)
+@options.number("--dof", "M", "Degrees of freedom; N - 1 gives open chains.")
+@options.value(
+    "--of file", "FILE", "File of an SC or SCD graph: list only its SCD graphs.", type=options.FILE_NAME
 )
-@click.option("--of", "file", metavar="FILE", help="File of an SC or SCD graph: list only its SCD graphs.")
-@click.option(
-    "--max-degree", type=click.IntRange(min=3), required=True, metavar="D",
-    help="Largest number of sides of a link.",
-)  # fmt: skip
+@options.number("--max-degree", "D", "Largest number of sides of a link.", 3, required=True)
 @_SPATIAL
 @_INFINITE
-@click.option("--all-explicit", "sheets", is_flag=True, help="List only single sheets without holes.")
-@click.option("--symmetric", is_flag=True, help="List only SCD graphs with a symmetry.")
-@click.option(
-    "--vertices", type=LimitsType(), metavar="K",
-    help="Number of vertices of the polyhedron model, as a number or range: 8, 6..8 or ..8.",
-)  # fmt: skip
+@options.flag("--all-explicit sheets", "List only single sheets without holes.")
+@options.flag("--symmetric", "List only SCD graphs with a symmetry.")
+@options.limits("--vertices", "Number of vertices of the polyhedron model, as a number or range: 8, 6..8 or ..8.")
 @_COUNT
-@_method_option("burnside", "orbits")
+@_method(("burnside", "orbits"))
 @runner_options
 def scd(
-    links: int | None,
-    dof: int | None,
-    file: str | None,
-    max_degree: int,
-    spatial: int,
-    infinite: bool,
-    vertices: Limits | None,
-    only_count: bool,
-    method: str | None,
-    **rest: Any,
-) -> None:
+    links: int | None, dof: int | None, file: str | None, max_degree: int, spatial: int, infinite: bool,
+    sheets: bool, symmetric: bool, vertices: Limits | None, only_count: bool, method: str | None,
+    running: RunOptions,
+) -> None:  # fmt: skip
     """List or count all SCD graphs of N links and M degrees of freedom.
 
     An SCD graph is an SC graph with all sides of its links: joints and open edges (Wiener, 3.4). The list has all
@@ -376,50 +294,44 @@ def scd(
       synth enumerate scd --of data/wiener/watt.json --max-degree 4 --all-explicit
       synth enumerate scd --links 10 --dof 1 --max-degree 4 -o scd.sqlite
     """
-    options = RunOptions.taken_from(rest, counting=only_count)
     check_method(method, only_count)
     from enumerate.runner.job import ANY_NUMBER
-    from enumerate.scd.jobs import SCDJob, scd_count_job
+    from enumerate.scd.jobs import SCDJob, all_mechanisms, mechanism_of, scd_count_job
 
-    filters = {**rest, "vertices": vertices or ANY_NUMBER}
+    filters: dict[str, Any] = {"sheets": sheets, "symmetric": symmetric, "vertices": vertices or ANY_NUMBER}
     mechanisms: Mechanisms
     if file is not None:
         if links is not None or dof is not None or spatial or infinite:
             raise click.UsageError("--of excludes --links, --dof, --spatial and --infinite")
-        mechanisms = _of_file(file, max_degree, filters)
+        graph = _graph(file)
+        with about(file):
+            mechanisms = mechanism_of(graph, max_degree, **filters)
     elif links is None or dof is None:
         raise click.UsageError("expected --links and --dof, or --of FILE")
     else:
-        from enumerate.scd.jobs import all_mechanisms
-
         mechanisms = all_mechanisms(links, dof, max_degree, spatial=spatial, infinite=infinite, **filters)
         if not mechanisms.tree:
             _say_if_odd(links, dof, spatial)
     if only_count:
-        run_count(scd_count_job(mechanisms, method), options)
+        run_count(scd_count_job(mechanisms, method), running)
     else:
-        run_rows(SCDJob(mechanisms), options)
+        run_rows(SCDJob(mechanisms), running)
 
 
-def _of_file(file: str, max_degree: int, filters: dict[str, Any]) -> Mechanisms:
-    from enumerate.scd.jobs import mechanism_of
+def _graph(file: str) -> synth.SCGraph:
     from graphs.convert.table import graph_of
-    from graphs.files.formats import read
 
-    mechanism = read(file)
+    mechanism = graphs.files.read(file)
     with about(file):
-        return mechanism_of(graph_of(mechanism), max_degree, **filters)
+        return graph_of(mechanism)
 
 
 @click.command(short_help="List all ways to add a loop to a mechanism.")
-@click.option("--of", "file", required=True, metavar="FILE", help="File of the mechanism.")
-@click.option(
-    "--delta-dof", type=click.IntRange(min=-2), default=0, show_default=True, metavar="K",
-    help="Change of mobility.",
-)  # fmt: skip
-@click.option("--count", "only_count", is_flag=True, help="Print only the number.")
+@options.value("--of file", "FILE", "File of the mechanism.", required=True, type=options.FILE_NAME)
+@options.number("--delta-dof", "K", "Change of mobility.", -2, default=0)
+@options.flag("--count only_count", "Print only the number.")
 @runner_options
-def addenda(file: str, delta_dof: int, only_count: bool, **rest: Any) -> None:
+def addenda(file: str, delta_dof: int, only_count: bool, running: RunOptions) -> None:
     """List all ways to add a ride-along, an RR dyad, a spherical or a spatial loop to a mechanism (Wiener, 4.2).
 
     A chain of K + 2 new links (K + 5 in a spatial loop) is added between two links, so that the mobility changes
@@ -431,21 +343,18 @@ def addenda(file: str, delta_dof: int, only_count: bool, **rest: Any) -> None:
       synth enumerate addenda --of data/wiener/watt.json
       synth enumerate addenda --of data/wiener/watt.json --delta-dof 1 -o addenda
     """
-    options = RunOptions.taken_from(rest, counting=only_count)
     from enumerate.addenda import AddendumJob, addendum_count_job
-    from graphs.convert.table import graph_of
-    from graphs.files.formats import read
 
-    mechanism = read(file)
+    graph = _graph(file)
     with about(file):
-        job = AddendumJob(graph_of(mechanism), delta_dof)
+        job = AddendumJob(graph, delta_dof)
     if only_count:
-        run_count(addendum_count_job(job), options)
+        run_count(addendum_count_job(job), running)
     else:
-        run_rows(job, options)
+        run_rows(job, running)
 
 
-@click.group("enumerate", short_help="List or count all mechanisms of a kind.")
+@click.group("enumerate")
 def enumerate_group() -> None:
     """List or count all mechanisms of a kind.
 

@@ -3,209 +3,149 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Sequence
+from functools import partial
+from math import degrees
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from graphs.errors import numbered
-from synth.cli.options import FORCE, NumberList
-from synth.cli.output import (
-    about,
-    check_output,
-    check_picture,
-    console,
-    plain,
-    print_answer,
-    print_json,
-    table,
-    tell_written,
-)
+import synth.drawing
+import synth.guidance
+from graphs.errors import UnsolvableError, numbered
+from synth.cli import options
+from synth.cli.output import about, check_output, check_picture, console, plain, print_json, print_result, table
 
 if TYPE_CHECKING:
-    from graphs.types import Floats
-    from synth.guidance.dyads import Dyad
-    from synth.guidance.fourbars import GuidedFourBar
     from synth.guidance.order import Direction
-    from synth.guidance.orientations import Orientations
-    from synth.guidance.synthesis import GuidingDyads
 
 __all__ = ["dyads", "fourbar", "order"]
 
 
-_AXIS = NumberList(axis=True)
+_AXIS = options.NumberList(axis=True)
 
-_ORIENTATIONS = click.option(
-    "--orientations", "file", required=True, metavar="FILE",
-    help="File of three or more orientations (docs/native-json.md).",
+_ORIENTATIONS = options.value(
+    "--orientations file", "FILE", "File of three or more orientations (docs/native-json.md).", required=True,
+    type=options.FILE_NAME,
 )  # fmt: skip
 
 
-@click.command(short_help="Check whether a crank about a fixed axis guides a body through orientations in order.")
+@click.command()
 @_ORIENTATIONS
-@click.option(
-    "--axis", required=True, type=_AXIS, metavar="X,Y,Z",
-    help="Direction of the fixed axis G of the dyad, of any length.",
-)  # fmt: skip
-@click.option(
-    "--direction", type=click.Choice(["ccw", "cw"]), default="ccw", show_default=True,
-    help="Direction in which the crank turns, seen from the tip of the axis.",
-)  # fmt: skip
-@click.option(
-    "-o", "--picture", metavar="OUT", help="Draw the sphere and the hoop to this file (.svg, .png or .pdf)."
+@options.value(
+    "--axis", "X,Y,Z", "Direction of the fixed axis G of the dyad, of any length.", required=True, type=_AXIS
 )
-@FORCE
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+@options.choice(
+    "--direction", ("ccw", "cw"), "Direction in which the crank turns, seen from the tip of the axis.",
+    default="ccw",
+)  # fmt: skip
+@options.output("Draw the sphere and the hoop to this file (.svg, .png or .pdf).", "OUT", "-o --picture")
+@options.FORCE
+@options.JSON
 def order(
-    file: str,
-    axis: tuple[float, float, float],
-    direction: Direction,
-    picture: str | None,
-    force: bool,
+    file: str, axis: tuple[float, float, float], direction: Direction, picture: str | None, force: bool,
     as_json: bool,
-) -> None:
+) -> None:  # fmt: skip
     """Check whether a crank guides a body through orientations in order (Tipparthi and Larochelle 2011).
 
-    The hoop, half a great circle through the ends of the axis, turns from S12 by 180 degrees; the order in which
-    it crosses the relative axes Sij decides. Inequalities and the crank angles of the best-fitting dyad check the
-    result. Exit status 1: the order is not kept.
+    The hoop, half a great circle through the ends of the axis, turns by 180 degrees from S12; the order in which
+    it crosses the axes Sij, of the rotation from orientation i to orientation j, decides. Inequalities and the
+    crank angles of the best-fitting dyad check the result. Exit status 1: the order is not kept.
 
     \b
     Example:
       synth order --orientations data/orientations/tipparthi.json --axis -0.349,-0.144,0.926 --direction cw
     """
-    from synth.guidance.order import analyse_order
-    from synth.guidance.orientations import read_orientations
-
     check_picture(picture, force=force)
-    orientations = read_orientations(file)
+    orientations = synth.guidance.read_orientations(file)
     with about(file):
-        analysis = analyse_order(orientations, axis, direction)
+        analysis = synth.guidance.analyse_order(orientations, axis, direction)
     if picture is not None:
-        from synth.drawing.sphere import draw_hoop
-
-        draw_hoop(orientations, axis, analysis.hoop).save(picture, force=force)
-    if as_json:
-        print_json({"file": file, "axis": list(axis), **analysis.to_json()})
-    else:
-        print_answer(analysis)
-        tell_written(picture)
+        synth.drawing.draw_hoop(orientations, axis, analysis.hoop).save(picture, force=force)
+    print_result(analysis, {"file": file, "axis": list(axis)}, as_json=as_json, written=[picture])
     if not analysis.in_order:
         sys.exit(1)
 
 
-_Command = TypeVar("_Command", bound=Callable[..., Any])
-
-_AXES = click.option(
-    "--axis", "axes", type=_AXIS, multiple=True, metavar="X,Y,Z",
-    help="Direction of a fixed axis, required for three orientations; may be repeated.",
+_AXES = options.repeated(
+    "--axis axes", "X,Y,Z", "Direction of a fixed axis, required for three orientations; may be repeated.",
+    type=_AXIS,
 )  # fmt: skip
 
 
-def _samples_option(most: int) -> Callable[[_Command], _Command]:
-    """Return the option for how many dyads to take from the curves of four orientations."""
-    return click.option(
-        "--samples", type=click.IntRange(8, most), default=36, show_default=True, metavar="N",
-        help="Number of dyads on each curve, for four orientations.",
-    )  # fmt: skip
+_samples = partial(
+    options.number, "--samples", "N", "Number of dyads on each curve, for four orientations.", 8, default=36
+)
 
 
-@click.command(short_help="Find the RR dyads that guide a body through orientations.")
+@click.command()
 @_ORIENTATIONS
 @_AXES
-@_samples_option(100_000)
-@click.option(
-    "-o", "--picture", metavar="OUT",
-    help="Draw a map of the sphere, coloured by order, to this file (.svg, .png or .pdf).",
-)  # fmt: skip
-@FORCE
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+@_samples(most=100_000)
+@options.output(
+    "Draw a map of the sphere, coloured by order, to this file (.svg, .png or .pdf).", "OUT", "-o --picture"
+)
+@options.FORCE
+@options.JSON
 def dyads(
-    file: str,
-    axes: tuple[tuple[float, float, float], ...],
-    samples: int,
-    picture: str | None,
-    force: bool,
+    file: str, axes: tuple[tuple[float, float, float], ...], samples: int, picture: str | None, force: bool,
     as_json: bool,
-) -> None:
+) -> None:  # fmt: skip
     """Find the RR dyads, fixed axis G and moving axis W, that guide a body through orientations.
 
     For three orientations every fixed axis has a dyad, so --axis is required. For four there are curves of dyads,
     which are sampled. For five there are up to six dyads, and all are found. For more orientations the
-    best-fitting dyads are found. W is in the frame of the body. The residual is the largest |G . (Mi - M1) W|.
+    best-fitting dyads are found. W is in the frame of the body. The residual is the largest |G . (Mi - M1) W|,
+    Mi being the matrix of orientation i.
 
     \b
     Example:
       synth dyads --orientations data/orientations/tipparthi.json
     """
-    from synth.guidance.orientations import read_orientations
-
     check_picture(picture, force=force)
-    orientations = read_orientations(file)
+    orientations = synth.guidance.read_orientations(file)
     with about(file):
         guiding = _guiding_dyads(orientations, axes, samples)
         if picture is not None:
             _drawn(orientations, guiding.dyads).save(picture, force=force)
-    if as_json:
-        print_json({"file": file, **guiding.to_json()})
-        return
-    print_answer(guiding)
-    tell_written(picture)
+    print_result(guiding, {"file": file}, as_json=as_json, written=[picture])
 
 
 def _guiding_dyads(
-    orientations: Orientations, axes: tuple[tuple[float, float, float], ...], samples: int
-) -> GuidingDyads:
+    orientations: synth.guidance.Orientations, axes: tuple[tuple[float, float, float], ...], samples: int
+) -> synth.guidance.GuidingDyads:
     """Return the dyads of orientations; refuse an --axis for other than three, or its absence for three."""
-    from synth.guidance.synthesis import guiding_dyads
-
     if axes and len(orientations) != 3:
         raise click.UsageError(f"--axis requires three orientations, got {len(orientations)}")
     if not axes and len(orientations) == 3:
         raise click.UsageError("three orientations require --axis X,Y,Z: every fixed axis has a dyad")
-    return guiding_dyads(orientations, axes, samples)
+    return synth.guidance.guiding_dyads(orientations, axes, samples)
 
 
-def _drawn(orientations: Orientations, guiding: tuple[Dyad, ...]) -> Any:
+def _drawn(orientations: synth.guidance.Orientations, guiding: tuple[synth.guidance.Dyad, ...]) -> Any:
     """Return the map of orders, with the dyads, or with the curve of fixed axes for four orientations."""
-    from synth.drawing.sphere import draw_map
-
     if len(orientations) == 4:
-        from synth.guidance.dyads import centre_axes
-
-        return draw_map(orientations, (), centre_axes(orientations, 720))
-    return draw_map(orientations, guiding)
+        return synth.drawing.draw_map(orientations, (), synth.guidance.centre_axes(orientations, 720))
+    return synth.drawing.draw_map(orientations, guiding)
 
 
-@click.command(short_help="Find the four-bars that guide their coupler through orientations.")
+@click.command()
 @_ORIENTATIONS
 @_AXES
-@_samples_option(200)
-@click.option(
-    "--best", type=click.IntRange(min=1), default=12, show_default=True, metavar="K",
-    help="Largest number of four-bars to list.",
-)  # fmt: skip
-@click.option("--usable", is_flag=True, help="List only four-bars without defects.")
-@click.option("--cones", is_flag=True, help="Map each four-bar listed to cones.")
-@click.option(
-    "--motion", metavar="OUT.json", help="Write the motion of the best four-bar without defects, as orientations."
+@_samples(most=200)
+@options.number("--best", "K", "Largest number of four-bars to list.", default=12)
+@options.flag("--usable", "List only four-bars without defects.")
+@options.flag("--cones", "Map each four-bar listed to cones.")
+@options.output("Write the motion of the best four-bar without defects, as orientations.", "OUT.json", "--motion")
+@options.number(
+    "--steps", "N", "Number of steps of the motion between two orientations.", most=100_000, default=20
 )
-@click.option("--steps", type=click.IntRange(1, 100_000), default=20, show_default=True, metavar="N",
-              help="Number of steps of the motion between two orientations.")  # fmt: skip
-@FORCE
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+@options.FORCE
+@options.JSON
 def fourbar(
-    file: str,
-    axes: tuple[tuple[float, float, float], ...],
-    samples: int,
-    best: int,
-    usable: bool,
-    cones: bool,
-    motion: str | None,
-    steps: int,
-    force: bool,
-    as_json: bool,
-) -> None:
+    file: str, axes: tuple[tuple[float, float, float], ...], samples: int, best: int, usable: bool, cones: bool,
+    motion: str | None, steps: int, force: bool, as_json: bool,
+) -> None:  # fmt: skip
     """Find the four-bars that guide their coupler through orientations, and rank them.
 
     Each pair of dyads is listed twice, with either dyad as the driver. A circuit defect: the orientations cannot
@@ -219,19 +159,18 @@ def fourbar(
       synth fourbar --orientations data/orientations/tipparthi.json --best 5
       synth fourbar --orientations data/orientations/crank-rocker.json --usable --cones --motion motion.json
     """
-    from synth.guidance.fourbars import four_bars
-    from synth.guidance.orientations import read_orientations, write_orientations
-
     check_output(motion, force=force)
-    orientations = read_orientations(file)
+    orientations = synth.guidance.read_orientations(file)
     with about(file):
-        ranked = four_bars(orientations, _guiding_dyads(orientations, axes, samples).dyads)
+        ranked = synth.guidance.four_bars(orientations, _guiding_dyads(orientations, axes, samples).dyads)
     good = [four_bar for four_bar in ranked if not four_bar.defects]
     frames = None
     if motion is not None:
         with about(file):
-            quaternions = _motion(orientations, good, steps)
-            write_orientations(quaternions, motion, force=force)
+            if not good:
+                raise UnsolvableError("--motion requires a four-bar without defects, and there is none")
+            quaternions = synth.guidance.motion_of(orientations, good[0], steps).quaternions
+            synth.guidance.write_orientations(quaternions, motion, force=force)
             frames = len(quaternions)
     listed = (good if usable else ranked)[:best]
     if as_json:
@@ -257,28 +196,16 @@ def fourbar(
         out.print(f"written: {plain(motion, 4096)} ({frames} orientations)")
 
 
-def _motion(orientations: Orientations, good: list[GuidedFourBar], steps: int) -> Floats:
-    """Return the motion of the best four-bar, as quaternions."""
-    from graphs.errors import UnsolvableError
-    from synth.guidance.fourbars import motion_of
-
-    if not good:
-        raise UnsolvableError("--motion requires a four-bar without defects, and there is none")
-    return motion_of(orientations, good[0], steps).quaternions
-
-
-def _cones_json(four_bar: GuidedFourBar) -> dict[str, Any]:
+def _cones_json(four_bar: synth.guidance.GuidedFourBar) -> dict[str, Any]:
     """Return every cone, and interval of cones, on which a four-bar can lie."""
-    from synth.guidance.fourbars import conical_forms
-
-    forms = conical_forms(four_bar)
+    forms = synth.guidance.conical_forms(four_bar)
     return {
         "cones": [cone for form in forms for cone in form.cones_json()],
         "families": [family for form in forms for family in form.families_json()],
     }
 
 
-def _table_of_cones(listed: Sequence[GuidedFourBar]) -> Any:
+def _table_of_cones(listed: Sequence[synth.guidance.GuidedFourBar]) -> Any:
     rows = table("row", "ground driver coupler follower", "cone angle", "circuit", numbers=["row", "cone angle"])
     for number, four_bar in enumerate(listed, start=1):
         forms = _cones_json(four_bar)
@@ -292,9 +219,7 @@ def _table_of_cones(listed: Sequence[GuidedFourBar]) -> Any:
     return rows
 
 
-def _table(listed: Sequence[GuidedFourBar]) -> Any:
-    from math import degrees
-
+def _table(listed: Sequence[synth.guidance.GuidedFourBar]) -> Any:
     from synth.guidance.order import direction_words
 
     rows = table(

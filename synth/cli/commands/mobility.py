@@ -11,13 +11,15 @@ from typing import TYPE_CHECKING
 
 import click
 
+import synth.verdict
+from graphs.errors import FileError, numbered
+from synth.cli import options
 from synth.cli.output import about, console, entries, plain, print_json, table
 from synth.cli.reading import DRAWN, PRECISION, precise
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from synth.verdict.judged import JudgedMobility
 
 __all__ = ["mobility"]
 
@@ -25,57 +27,39 @@ __all__ = ["mobility"]
 _LONGEST_PATH = 4096
 
 
-@click.command(short_help="Report mobility, degrees of freedom and motion branches, with the evidence.")
-@click.argument("files", nargs=-1, required=True, metavar="FILE...")
+@click.command()
+@options.FILES
 @DRAWN
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON list, one object per mechanism.")
-@click.option(
-    "--exact/--no-exact", default=None,
-    help="Compute the exact generic rank. By default it is computed unless the mechanism is large.",
+@options.flag("--json as_json", "Print a JSON list, one object per mechanism.")
+@options.flag(
+    "--exact/--no-exact",
+    "Compute the exact generic rank. By default it is computed unless the mechanism is large.",
 )  # fmt: skip
-@click.option("--hinge-flat", is_flag=True, help="Treat the flat (F) edges of a crease pattern as hinges too.")
-@click.option(
-    "--pose", type=click.IntRange(min=0), metavar="FRAME",
-    help="Analyse this frame of a FOLD file; 0 is the key frame.",
-)  # fmt: skip
-@click.option(
-    "--no-geometry", is_flag=True,
-    help="Treat every loop round a hole or cut as spatial, even if its axes meet in a point.",
-)  # fmt: skip
-@click.option(
-    "--no-pose", is_flag=True,
-    help="Leave out the infinitesimal degrees of freedom at the configuration of the file.",
-)  # fmt: skip
-@click.option(
-    "--motion/--no-motion", "look_for_motion", default=None,
-    help="Search for finite motions from the configuration of the file. By default the search "
-    "is made unless the mechanism is large.",
+@options.flag("--hinge-flat", "Treat the flat (F) edges of a crease pattern as hinges too.")
+@options.number("--pose", "FRAME", "Analyse this frame of a FOLD file; 0 is the key frame.", 0)
+@options.flag(
+    "--no-geometry", "Treat every loop round a hole or cut as spatial, even if its axes meet in a point."
+)
+@options.flag("--no-pose", "Leave out the infinitesimal degrees of freedom at the configuration of the file.")
+@options.flag(
+    "--motion/--no-motion look_for_motion",
+    "Search for finite motions from the configuration of the file. By default the search is made unless the "
+    "mechanism is large.",
 )  # fmt: skip
 @PRECISION
-@click.option(
-    "--more", is_flag=True,
-    help="Search for motion branches with a hundred times the usual allowance, and list all of them.",
-)  # fmt: skip
-@click.option(
-    "--verbose", is_flag=True, help="List all equations of mobility, with the reason why each applies or does not."
+@options.flag(
+    "--more", "Search for motion branches with a hundred times the usual allowance, and list all of them."
 )
+@options.flag("--verbose", "List all equations of mobility, with the reason why each applies or does not.")
 def mobility(
-    files: tuple[str, ...],
-    as_json: bool,
-    exact: bool | None,
-    hinge_flat: bool,
-    pose: int | None,
-    no_pose: bool,
-    no_geometry: bool,
-    look_for_motion: bool | None,
-    more: bool,
-    verbose: bool,
-) -> None:
+    files: tuple[str, ...], as_json: bool, exact: bool | None, hinge_flat: bool, pose: int | None, no_pose: bool,
+    no_geometry: bool, look_for_motion: bool | None, more: bool, verbose: bool,
+) -> None:  # fmt: skip
     """Report how a mechanism moves: its degrees of freedom, its motion branches, and the evidence.
 
-    FILE is an SC graph, an SCD graph, a polyhedron model or a vertex-edge graph (.json), a crease pattern (.fold,
-    .svg, .dxf, .cp, .opx, .obj), or a bare link-joint graph (.g6, .s6, .graphml, .edges, .csv). One file gives a
-    full report, several give a table.
+    FILE holds an SC graph, an SCD graph, a polyhedron model or a vertex-edge graph (.json), a crease pattern
+    (.fold, .svg, .dxf, .cp, .opx, .obj), or a bare link-joint graph (.g6, .s6, .graphml, .edges, .csv). One file
+    gives a full report, several give a table.
 
     The verdict comes first: whether a crease pattern is rigid-foldable from its configuration, with how many
     degrees of freedom, and which creases are immobile; for a type without coordinates, what a generic realisation
@@ -87,37 +71,34 @@ def mobility(
       synth mobility data/wiener/fortune-teller.json
       synth mobility data/patterns/bird-base.fold
     """
-    from graphs.errors import FileError
-    from synth.verdict.judged import mobility as mobility_of, mobility_of_type
-
     if no_pose and pose is not None:
         raise click.UsageError("--pose and --no-pose exclude each other")
     failures: list[str] = []
-    answers: list[tuple[str, JudgedMobility]] = []
+    answers: list[tuple[str, synth.verdict.JudgedMobility]] = []
     with _no_collection():
         for entry in entries(files, failures):
             try:
                 with about(entry.label):
                     mechanism, geometry = precise(entry.mechanism), not no_geometry
                     if no_pose:
-                        answer = mobility_of_type(mechanism, exact=exact, hinge_flat=hinge_flat, geometry=geometry)
-                    else:
-                        answer = mobility_of(
-                            mechanism,
-                            exact=exact,
-                            hinge_flat=hinge_flat,
-                            pose=pose,
-                            geometry=geometry,
-                            motion=look_for_motion,
-                            more=more,
+                        answer = synth.verdict.mobility_of_type(
+                            mechanism, exact=exact, hinge_flat=hinge_flat, geometry=geometry
                         )
+                    else:
+                        answer = synth.mobility(
+                            mechanism, exact=exact, hinge_flat=hinge_flat, pose=pose, geometry=geometry,
+                            motion=look_for_motion, more=more,
+                        )  # fmt: skip
                     answers.append((entry.label, answer))
             except FileError as error:
                 failures.append(str(error))
     if as_json:
         print_json([{"file": label, **answer.to_json()} for label, answer in answers])
     elif len(answers) == 1 and not failures:
-        _print_answer(*answers[0], verbose=verbose)
+        [(label, answer)] = answers
+        console().print(plain(label, _LONGEST_PATH), style="bold")
+        for block in answer.blocks(verbose=verbose):
+            console().print(block)
     elif answers:
         _print_table(console(), sorted(answers, key=lambda item: _in_number_order(item[0])), len(failures))
     for line in failures:
@@ -141,23 +122,10 @@ def _in_number_order(label: str) -> list[str | int]:
     return [int(part) if part.isdecimal() else part for part in re.split(r"([0-9]+)", label)]
 
 
-def _print_answer(label: str, answer: JudgedMobility, *, verbose: bool) -> None:
-    out = console()
-    out.print(plain(label, _LONGEST_PATH), style="bold")
-    for block in answer.blocks(verbose=verbose):
-        out.print(block)
-
-
-def _print_table(out: Console, answers: list[tuple[str, JudgedMobility]], failed: int) -> None:
+def _print_table(out: Console, answers: list[tuple[str, synth.verdict.JudgedMobility]], failed: int) -> None:
     """Print one line per mechanism, with totals; of one file alone all notes are printed."""
-    from graphs.errors import numbered
-
-    rows = table(
-        "file",
-        "class",
-        *(numbers := ("DOF", "N", "J", "L", "centres", "M", "exact", "pose", "notes")),
-        numbers=numbers,
-    )
+    numbers = ("DOF", "N", "J", "L", "centres", "M", "exact", "pose", "notes")
+    rows = table("file", "class", *numbers, numbers=numbers)
     common = set.intersection(*(set(answer.warnings) for _, answer in answers))
     for label, answer in answers:
         notes = len(answer.repairs) + len(set(answer.warnings) - common)

@@ -8,70 +8,47 @@ from typing import TYPE_CHECKING
 
 import click
 
-from synth.cli.options import BRANCH, FORCE, LENGTH, driven_angles, named_value, numbers_of_joints
-from synth.cli.output import about, console, plain, print_json, print_report, progress_line, table, tell_written
+import synth.compliance
+import synth.moving
+from graphs.errors import UnsolvableError
+from synth.cli import options
+from synth.cli.output import about, console, plain, print_json, print_result, progress_line, table, tell_written
 from synth.cli.reading import DRAWN, PRECISION, precise, read
 
 if TYPE_CHECKING:
-    from graphs.convert.table import Mechanism
-    from graphs.mechanism.sc import SCGraph
+    from graphs.convert import Mechanism
     from graphs.types import LinkId
-    from synth.compliance.compliance_states import DrivenJoint
-    from synth.compliance.springs import Mass, Masses
 
 __all__ = ["advise", "explain", "fold", "limits", "positions", "states"]
 
 
-@click.command(short_help="Fold a crease pattern with rigid panels; list its folding branches.")
-@click.argument("file", metavar="FILE")
+@click.command()
+@options.FILE
 @DRAWN
-@click.option(
-    "--drive", multiple=True, metavar="JOINT=DEGREES", help="Fold a crease to this angle; may be repeated."
+@options.repeated("--drive", "JOINT=DEGREES", "Fold a crease to this angle; may be repeated.")
+@options.repeated("--along", "JOINT=RATE", "Initial joint rates; the motion keeps their direction if it can.")
+@options.repeated(
+    "--point points", "LINK=X,Y[,Z]",
+    "Print the position of this point of a link in each frame (a coupler curve); may be repeated."
+)  # fmt: skip
+@options.flag(
+    "--all whole",
+    "Fold all creases together, with one degree of freedom. This is the default without --drive and --along.",
 )
-@click.option(
-    "--along", multiple=True, metavar="JOINT=RATE",
-    help="Initial joint rates; the motion keeps their direction if it can.",
-)  # fmt: skip
-@click.option(
-    "--point", "points", multiple=True, metavar="LINK=X,Y[,Z]",
-    help="Print where this point of a link is in each frame (a coupler curve); may be repeated.",
-)  # fmt: skip
-@click.option(
-    "--all", "whole", is_flag=True,
-    help="Fold all creases together, with one degree of freedom. This is the default without --drive and --along.",
-)  # fmt: skip
-@click.option(
-    "--branch", type=BRANCH, metavar="K",
-    help="Folding branch from a flat state, by its number or its signs; --branches lists them.",
-)  # fmt: skip
-@click.option("--branches", "listed", is_flag=True, help="List the motion branches from this configuration.")
-@click.option(
-    "--frames", type=click.IntRange(1, 10_000), metavar="N", default=20, show_default=True,
-    help="Number of frames after the first.",
-)  # fmt: skip
-@click.option("--collisions", is_flag=True, help="Stop the motion before panels pass through each other.")
-@click.option(
-    "-o", "--output", metavar="OUT",
-    help="Write the motion: .fold with frames, a series of .obj files, a .gif, or a strip of "
-    "pictures (.png, .svg).",
-)  # fmt: skip
-@FORCE
-@click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@options.branch("Folding branch from a flat state, by its number or its signs; --branches lists them.")
+@options.flag("--branches listed", "List the motion branches from this configuration.")
+@options.number("--frames", "N", "Number of frames after the first.", most=10_000, default=20)
+@options.flag("--collisions", "Stop the motion before panels pass through each other.")
+@options.output(
+    "Write the motion: .fold with frames, a series of .obj files, a .gif, or a strip of pictures (.png, .svg)."
+)
+@options.FORCE
+@options.JSON
 @PRECISION
 def fold(
-    file: str,
-    drive: tuple[str, ...],
-    along: tuple[str, ...],
-    whole: bool,
-    branch: int | str | None,
-    listed: bool,
-    frames: int,
-    points: tuple[str, ...],
-    collisions: bool,
-    output: str | None,
-    force: bool,
-    as_json: bool,
-) -> None:
+    file: str, drive: tuple[str, ...], along: tuple[str, ...], whole: bool, branch: int | str | None, listed: bool,
+    frames: int, points: tuple[str, ...], collisions: bool, output: str | None, force: bool, as_json: bool,
+) -> None:  # fmt: skip
     """Fold a crease pattern, or move another linkage, with rigid panels and closed loops.
 
     Fold angles are in degrees, valleys positive; the loop-closure residual is below 1e-12 in every frame. A flat
@@ -92,8 +69,6 @@ def fold(
       synth fold data/linkages/sarrus.json --frames 11 -o rising.svg
     """
     from synth.drawing.space.poses import check_motion_file, write_motion
-    from synth.moving.made import configuration_of
-    from synth.moving.motion import move
 
     if sum(map(bool, (whole, drive, along))) > 1:
         raise click.UsageError("--drive, --along and --all exclude each other; try one of them")
@@ -102,18 +77,14 @@ def fold(
     mechanism = read(file, warn=False)
     with about(file):
         mechanism = precise(mechanism)
-        at = configuration_of(mechanism)
+        at = synth.moving.configuration_of(mechanism)
         graph = at.linkage.graph
         with progress_line() as show:
-            motion = move(
-                at,
-                drive=driven_angles(graph, drive),
-                along=numbers_of_joints(graph, along, "--along", "JOINT=RATE"),
-                branch=branch,
-                frames=frames,
-                collisions=collisions,
-                report=lambda made: show(f"{made} of {frames + 1} frames"),
-            )
+            motion = synth.move(
+                at, drive=options.driven_angles(graph, drive),
+                along=options.numbers_of_joints(graph, along, "--along", "JOINT=RATE"), branch=branch,
+                frames=frames, collisions=collisions, report=lambda n: show(f"{n} of {frames + 1} frames"),
+            )  # fmt: skip
         curves = {text: motion.path_of(*_point(graph, text)).tolist() for text in points}
         written = [] if output is None else write_motion(motion, output, force=force)
     if as_json:
@@ -135,27 +106,24 @@ def fold(
     tell_written(*written)
 
 
-def _point(graph: SCGraph, text: str) -> tuple[LinkId, list[float]]:
+def _point(graph: synth.SCGraph, text: str) -> tuple[LinkId, list[float]]:
     """Return a link and the coordinates of a point, as they were typed."""
-    from graphs.edit.named import link_named
-
-    name, place = named_value(text, "--point", "LINK=X,Y or LINK=X,Y,Z", (2, 3))
-    return link_named(graph, name), place
+    name, place = options.named_value(text, "--point", "LINK=X,Y or LINK=X,Y,Z", (2, 3))
+    return options.link_of(graph, name), place
 
 
-@click.command(short_help="Find all assembly modes of a spherical or planar linkage at given inputs.")
-@click.argument("file", metavar="FILE")
+@click.command()
+@options.FILE
 @DRAWN
-@click.option(
-    "--drive", multiple=True, metavar="JOINT=DEGREES",
-    help="Angle of a driven joint in degrees, or length of a prismatic one; once for each degree of freedom.",
+@options.repeated(
+    "--drive", "JOINT=DEGREES",
+    "Angle of a driven joint in degrees, or length of a prismatic one; once for each degree of freedom."
 )  # fmt: skip
-@click.option(
-    "--circuits/--no-circuits", default=True, show_default=True,
-    help="Sort the assembly modes by circuit and branch of the circuit.",
-)  # fmt: skip
-@click.option("--seed", type=click.IntRange(0), metavar="N", default=0, show_default=True, help="Random seed.")
-@click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@options.flag(
+    "--circuits/--no-circuits", "Sort the assembly modes by circuit and branch of the circuit.", default=True
+)
+@options.seed("Random seed.")
+@options.JSON
 @PRECISION
 def positions(file: str, drive: tuple[str, ...], circuits: bool, seed: int, as_json: bool) -> None:
     """Find all assembly modes of a linkage of spherical and planar loops at given inputs.
@@ -173,25 +141,22 @@ def positions(file: str, drive: tuple[str, ...], circuits: bool, seed: int, as_j
 
     Exit status 1: the linkage has no assembly mode at these inputs, or not all were found.
     """
-    from synth.assembly.modes import positions as assembly_modes
-    from synth.moving.made import configuration_of
-
     mechanism = read(file)
     with about(file):
-        at = configuration_of(precise(mechanism), slides=True)
+        at = synth.moving.configuration_of(precise(mechanism), slides=True)
         slides = {joint for place, joint in enumerate(at.joints) if place in at.linkage.slides}
-        values = numbers_of_joints(at.linkage.graph, drive, "--drive", "JOINT=DEGREES")
+        values = options.numbers_of_joints(at.linkage.graph, drive, "--drive", "JOINT=DEGREES")
         inputs = {joint: value if joint in slides else radians(value) for joint, value in values.items()}
-        modes = assembly_modes(at, drive=inputs, circuits=circuits, seed=seed)
-    print_report(file, modes, as_json=as_json)
+        modes = synth.positions(at, drive=inputs, circuits=circuits, seed=seed)
+    print_result(modes, {"file": file}, as_json=as_json)
     if not modes.positions or not modes.exhaustive:
         sys.exit(1)
 
 
-@click.command(short_help="Explain why a mechanism moves although counts say that it is rigid.")
-@click.argument("file", metavar="FILE")
+@click.command()
+@options.FILE
 @DRAWN
-@click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@options.JSON
 @PRECISION
 def explain(file: str, as_json: bool) -> None:
     """Find the redundant closure equations, the geometry that causes them, and the axis errors they tolerate.
@@ -206,65 +171,39 @@ def explain(file: str, as_json: bool) -> None:
       synth generate miura --rows 4 --columns 4 --fold 60 -o miura.fold
       synth explain miura.fold
     """
-    from synth.overconstraint.explanation import explain as explained
-
     mechanism = read(file)
     with about(file):
-        explanation = explained(precise(mechanism))
-    print_report(file, explanation, as_json=as_json)
+        explanation = synth.explain(precise(mechanism))
+    print_result(explanation, {"file": file}, as_json=as_json)
 
 
-@click.command(short_help="Find joints to lock, or panels to crease, for a number of degrees of freedom.")
-@click.argument("file", metavar="FILE")
+@click.command()
+@options.FILE
 @DRAWN
-@click.option(
-    "--freedoms", type=click.IntRange(0), required=True, metavar="K", help="Number of degrees of freedom to reach."
+@options.number("--freedoms", "K", "Number of degrees of freedom to reach.", 0, required=True)
+@options.branch(
+    "Folding branch from a flat state, by its number or its signs; `synth fold --branches` lists them.", "B"
 )
-@click.option(
-    "--branch", type=BRANCH, metavar="B",
-    help="Folding branch from a flat state, by its number or its signs; `synth fold --branches` lists them.",
+@options.repeated("--weight", "JOINT=W", "Cost of locking a joint, 1 by default; may be repeated.")
+@options.repeated("--protect-joint", "JOINT", "Joint that must not be locked; may be repeated.")
+@options.repeated(
+    "--protect-link", "LINK",
+    "Link whose joints must not be locked, and which must not be creased; may be repeated."
 )  # fmt: skip
-@click.option(
-    "--weight", multiple=True, metavar="JOINT=W", help="Cost of locking a joint, 1 by default; may be repeated."
+@options.flag(
+    "--flaps/--no-flaps",
+    "Lock the joints of flaps too, and allow diagonals that cut off a corner as a flap.",
+    default=True,
 )
-@click.option(
-    "--protect-joint", multiple=True, metavar="JOINT", help="Joint that must not be locked; may be repeated."
-)
-@click.option(
-    "--protect-link", multiple=True, metavar="LINK",
-    help="Link whose joints must not be locked, and which must not be creased; may be repeated.",
-)  # fmt: skip
-@click.option(
-    "--flaps/--no-flaps", default=True, show_default=True,
-    help="Lock the joints of flaps too, and allow diagonals that cut off a corner as a flap.",
-)  # fmt: skip
-@click.option(
-    "--limit", type=click.IntRange(1, 10_000), metavar="N", default=20, show_default=True,
-    help="Largest number of sets to list.",
-)  # fmt: skip
-@click.option(
-    "--size", type=click.IntRange(1), metavar="N",
-    help="Largest number of diagonals in a set. By default K - M + 1.",
-)  # fmt: skip
-@click.option(
-    "--leave-out", is_flag=True,
-    help="For a flat sheet: also report its degrees of freedom without the locked creases.",
-)  # fmt: skip
-@click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@options.number("--limit", "N", "Largest number of sets to list.", most=10_000, default=20)
+@options.number("--size", "N", "Largest number of diagonals in a set. By default K - M + 1.")
+@options.flag("--leave-out", "For a flat sheet: also report its degrees of freedom without the locked creases.")
+@options.JSON
 @PRECISION
 def advise(
-    file: str,
-    freedoms: int,
-    branch: int | str | None,
-    weight: tuple[str, ...],
-    protect_joint: tuple[str, ...],
-    protect_link: tuple[str, ...],
-    flaps: bool,
-    limit: int,
-    size: int | None,
-    leave_out: bool,
-    as_json: bool,
-) -> None:
+    file: str, freedoms: int, branch: int | str | None, weight: tuple[str, ...], protect_joint: tuple[str, ...],
+    protect_link: tuple[str, ...], flaps: bool, limit: int, size: int | None, leave_out: bool, as_json: bool,
+) -> None:  # fmt: skip
     """Find joints to lock, or panels to crease along diagonals, so that K degrees of freedom are left.
 
     To lower M degrees of freedom to K, M - K joints have to be locked: all such sets are listed, cheapest first.
@@ -281,72 +220,55 @@ def advise(
 
     Exit status 1: no set of diagonals was found.
     """
-    from graphs.convert.duality import mechanism_of_sheet
-    from graphs.edit.named import joint_named, link_named
-    from synth.advice.advice import advise as advised
-    from synth.moving.made import configuration_of, sheet_of
+    from graphs.convert import mechanism_of_sheet
+    from synth.moving.made import sheet_of
 
     mechanism = read(file)
     with about(file):
         mechanism = precise(mechanism)
         sheet = sheet_of(mechanism)
-        graph = configuration_of(mechanism).linkage.graph if sheet is None else mechanism_of_sheet(sheet).sc
-        advice = advised(
-            mechanism,
-            freedoms,
-            branch=branch,
-            weights=numbers_of_joints(graph, weight, "--weight", "JOINT=W"),
-            joints=[joint_named(graph, name) for name in protect_joint],
-            links=[link_named(graph, name) for name in protect_link],
-            flaps=flaps,
-            limit=limit,
-            size=size,
-            leave_out=leave_out,
+        graph = (
+            synth.moving.configuration_of(mechanism).linkage.graph
+            if sheet is None
+            else mechanism_of_sheet(sheet).sc
         )
-    print_report(file, advice, as_json=as_json)
+        advice = synth.advise(
+            mechanism, freedoms, branch=branch,
+            weights=options.numbers_of_joints(graph, weight, "--weight", "JOINT=W"),
+            joints=[options.joint_of(graph, name) for name in protect_joint],
+            links=[options.link_of(graph, name) for name in protect_link],
+            flaps=flaps, limit=limit, size=size, leave_out=leave_out,
+        )  # fmt: skip
+    print_result(advice, {"file": file}, as_json=as_json)
     if advice.wanted > advice.freedoms and not advice.creases:
         sys.exit(1)
 
 
-@click.command(short_help="Analyse compliant members: mobility in each compliance state, springs, frequencies.")
-@click.argument("file", metavar="FILE")
+@click.command()
+@options.FILE
 @DRAWN
-@click.option("--joint", "joints", multiple=True, metavar="JOINT", help="Compliant joint; may be repeated.")
-@click.option("--link", "links", multiple=True, metavar="LINK", help="Compliant link; may be repeated.")
-@click.option(
-    "--stiffness", multiple=True, metavar="JOINT=K",
-    help="Stiffness of a torsion spring at a joint, as moment per radian; the joint is "
-    "compliant. May be repeated.",
+@options.repeated("--joint joints", "JOINT", "Compliant joint; may be repeated.")
+@options.repeated("--link links", "LINK", "Compliant link; may be repeated.")
+@options.repeated(
+    "--stiffness", "JOINT=K",
+    "Stiffness of a torsion spring at a joint, as moment per radian; the joint is compliant. May be repeated."
 )  # fmt: skip
-@click.option(
-    "--rest", multiple=True, metavar="JOINT=DEGREES",
-    help="Rest angle of a spring. By default the angle in the file. May be repeated.",
-)  # fmt: skip
-@click.option("--moment", multiple=True, metavar="JOINT=M", help="Constant moment at a joint; may be repeated.")
-@click.option("--drive", metavar="JOINT=DEGREES", help="Joint and final angle of the load path.")
-@click.option(
-    "--frames", type=click.IntRange(1, 10_000), metavar="N", default=20, show_default=True,
-    help="Number of configurations on the path after the first.",
-)  # fmt: skip
-@click.option("--mass", multiple=True, metavar="LINK=M@X,Y,Z", help="Point mass on a link; may be repeated.")
-@click.option("--density", type=LENGTH, metavar="D", help="For a sheet: mass per unit area of its panels.")
-@click.option("--ground", metavar="LINK", help="Fixed link, for frequencies.")
-@click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@options.repeated(
+    "--rest", "JOINT=DEGREES", "Rest angle of a spring. By default the angle in the file. May be repeated."
+)
+@options.repeated("--moment", "JOINT=M", "Constant moment at a joint; may be repeated.")
+@options.value("--drive", "JOINT=DEGREES", "Joint and final angle of the load path.")
+@options.number("--frames", "N", "Number of configurations on the path after the first.", most=10_000, default=20)
+@options.repeated("--mass", "LINK=M@X,Y,Z", "Point mass on a link; may be repeated.")
+@options.value("--density", "D", "For a sheet: mass per unit area of its panels.", type=options.LENGTH)
+@options.value("--ground", "LINK", "Fixed link, for frequencies.")
+@options.JSON
 @PRECISION
 def states(
-    file: str,
-    joints: tuple[str, ...],
-    links: tuple[str, ...],
-    stiffness: tuple[str, ...],
-    rest: tuple[str, ...],
-    moment: tuple[str, ...],
-    drive: str | None,
-    frames: int,
-    mass: tuple[str, ...],
-    density: float | None,
-    ground: str | None,
-    as_json: bool,
-) -> None:
+    file: str, joints: tuple[str, ...], links: tuple[str, ...], stiffness: tuple[str, ...], rest: tuple[str, ...],
+    moment: tuple[str, ...], drive: str | None, frames: int, mass: tuple[str, ...], density: float | None,
+    ground: str | None, as_json: bool,
+) -> None:  # fmt: skip
     """Check whether a mechanism moves with its compliant members at rest, and with some of them active.
 
     A member at rest is rigid, an active one is released. With springs, the answer has their equilibrium, the
@@ -360,47 +282,34 @@ def states(
       synth states four-bar.json --joint 0 --joint 2
       synth states four-bar.json --stiffness 1=2 --drive 0=40 --frames 8
     """
-    from graphs.edit.named import joint_named, link_named
-    from synth.compliance.compliance_states import states as stated
-    from synth.compliance.springs import Springs
-    from synth.moving.made import configuration_of
-
     mechanism = read(file)
     with about(file):
         mechanism = precise(mechanism)
-        graph = configuration_of(mechanism).linkage.graph
-        springs = Springs(
-            numbers_of_joints(graph, stiffness, "--stiffness", "JOINT=K"),
-            driven_angles(graph, rest, "--rest"),
-            numbers_of_joints(graph, moment, "--moment", "JOINT=M"),
+        graph = synth.moving.configuration_of(mechanism).linkage.graph
+        springs = synth.compliance.Springs(
+            options.numbers_of_joints(graph, stiffness, "--stiffness", "JOINT=K"),
+            options.driven_angles(graph, rest, "--rest"),
+            options.numbers_of_joints(graph, moment, "--moment", "JOINT=M"),
         )
-        report = stated(
+        load_path = None
+        if drive is not None:
+            [(joint, angle)] = options.driven_angles(graph, (drive,)).items()
+            load_path = synth.compliance.DrivenJoint(joint, angle, frames)
+        report = synth.states(
             mechanism,
-            joints=[joint_named(graph, name) for name in joints],
-            links=[link_named(graph, name) for name in links],
+            joints=[options.joint_of(graph, name) for name in joints],
+            links=[options.link_of(graph, name) for name in links],
             springs=springs if stiffness or rest or moment else None,
-            drive=_drive(graph, drive, frames),
+            drive=load_path,
             masses=_masses(mechanism, graph, mass, density, ground),
         )
-    print_report(file, report, as_json=as_json)
-
-
-def _drive(graph: SCGraph, word: str | None, frames: int) -> DrivenJoint | None:
-    from synth.compliance.compliance_states import DrivenJoint
-
-    if word is None:
-        return None
-    [(joint, angle)] = driven_angles(graph, (word,)).items()
-    return DrivenJoint(joint, angle, frames)
+    print_result(report, {"file": file}, as_json=as_json)
 
 
 def _masses(
-    mechanism: Mechanism, graph: SCGraph, words: tuple[str, ...], density: float | None, ground: str | None
-) -> Masses | None:
+    mechanism: Mechanism, graph: synth.SCGraph, words: tuple[str, ...], density: float | None, ground: str | None
+) -> synth.compliance.Masses | None:
     """Return the masses of the options --mass, --density and --ground."""
-    from graphs.edit.named import link_named
-    from graphs.errors import UnsolvableError
-    from synth.compliance.springs import Masses, sheet_masses
     from synth.moving.made import sheet_of
 
     if not words and density is None:
@@ -412,15 +321,12 @@ def _masses(
         sheet = sheet_of(mechanism)
         if sheet is None:
             raise UnsolvableError("--density requires panels, and the mechanism has none; try --mass")
-        points += sheet_masses(sheet, density)
-    return Masses(tuple(points), None if ground is None else link_named(graph, ground))
+        points += synth.compliance.sheet_masses(sheet, density)
+    return synth.compliance.Masses(tuple(points), options.link_of(graph, ground))
 
 
-def _mass(graph: SCGraph, word: str) -> Mass:
+def _mass(graph: synth.SCGraph, word: str) -> synth.compliance.Mass:
     """Return the point mass of a word ``LINK=M@X,Y,Z``."""
-    from graphs.edit.named import link_named
-    from synth.compliance.springs import Mass
-
     link, _, rest = word.rpartition("=")
     value, _, place = rest.partition("@")
     try:
@@ -429,17 +335,16 @@ def _mass(graph: SCGraph, word: str) -> Mass:
         link = ""
     if not link:
         raise click.BadParameter(f"{plain(word)!r} is not LINK=M@X,Y,Z", param_hint="--mass")
-    return Mass(link_named(graph, link.strip()), weight, (x, y, z))
+    return synth.compliance.Mass(options.link_of(graph, link.strip()), weight, (x, y, z))
 
 
-@click.command(short_help="Find the joint limits that ride-alongs impose, and the truss they form when held.")
-@click.argument("file", metavar="FILE")
+@click.command()
+@options.FILE
 @DRAWN
-@click.option(
-    "--keep", multiple=True, metavar="LINK",
-    help="Link that belongs to the mechanism proper, not to a ride-along; may be repeated.",
-)  # fmt: skip
-@click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@options.repeated(
+    "--keep", "LINK", "Link that belongs to the mechanism proper, not to a ride-along; may be repeated."
+)
+@options.JSON
 @PRECISION
 def limits(file: str, keep: tuple[str, ...], as_json: bool) -> None:
     """Find the joint limits that ride-alongs impose, and the mobility while one is held straight.
@@ -453,13 +358,9 @@ def limits(file: str, keep: tuple[str, ...], as_json: bool) -> None:
       synth generate deployable-cylinder --pleats 3 -o cylinder.fold
       synth limits cylinder.fold
     """
-    from graphs.edit.named import link_named
-    from synth.compliance.joint_limits import limits as limits_of
-    from synth.moving.made import configuration_of
-
     mechanism = read(file)
     with about(file):
         mechanism = precise(mechanism)
-        graph = configuration_of(mechanism).linkage.graph
-        joint_limits = limits_of(mechanism, keep=[link_named(graph, name) for name in keep])
-    print_report(file, joint_limits, as_json=as_json)
+        graph = synth.moving.configuration_of(mechanism).linkage.graph
+        joint_limits = synth.compliance.limits(mechanism, keep=[options.link_of(graph, name) for name in keep])
+    print_result(joint_limits, {"file": file}, as_json=as_json)

@@ -10,30 +10,19 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+import synth.patterns
+from graphs.errors import FileError, numbered
+from synth.cli import options, output as out
 from synth.cli.main import NamedGroup
-from synth.cli.options import FORCE, LENGTH
-from synth.cli.output import (
-    about,
-    check_output,
-    console,
-    plain,
-    print_answer,
-    print_json,
-    table,
-    tell_lost,
-    tell_written,
-)
 from synth.cli.reading import MODE, read_named
 from synth.cli.runner import RunOptions, run_resumable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from enumerate.runner.job import Sink
-    from graphs.convert.table import Mechanism
-    from synth.patterns.generator import Generator, Parameter
-    from synth.realisation.on_cone import ConeRealisation
-    from synth.realisation.realised import Realisation
+    from enumerate.runner import Sink
+    from graphs.convert import Mechanism
+    from synth.realisation import ConeRealisation, Realisation
 
 __all__ = ["generate", "realise"]
 
@@ -42,23 +31,19 @@ class _Generators(NamedGroup):
     """A command for each generator; the generators are imported when one is looked up."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        from synth.patterns.catalogue import GENERATORS
-
-        return list(GENERATORS)
+        return list(synth.patterns.GENERATORS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        from synth.patterns.catalogue import GENERATORS
-
-        return _command(GENERATORS[cmd_name]) if cmd_name in GENERATORS else None
+        generator = synth.patterns.GENERATORS.get(cmd_name)
+        return None if generator is None else _command(generator)
 
 
 @click.group(
     cls=_Generators,
     invoke_without_command=True,
-    short_help="Make known patterns and linkages from their parameters.",
 )
-@click.option("--list", "listed", is_flag=True, help="List all generators with their parameters and sources.")
-@click.option("--json", "as_json", is_flag=True, help="Print the list as JSON.")
+@options.flag("--list listed", "List all generators with their parameters and sources.")
+@options.flag("--json as_json", "Print the list as JSON.")
 @click.pass_context
 def generate(ctx: click.Context, listed: bool, as_json: bool) -> None:
     """Make a known pattern or linkage: miura, waterbomb, bennett, kaleidocycle, box-pop-up and others.
@@ -77,20 +62,19 @@ def generate(ctx: click.Context, listed: bool, as_json: bool) -> None:
     if not listed and not as_json:
         click.echo(ctx.get_help())
         return
-    from synth.patterns.catalogue import GENERATORS
-
+    generators = synth.patterns.GENERATORS.values()
     if as_json:
-        print_json([_described(generator) for generator in GENERATORS.values()])
+        out.print_json([_described(generator) for generator in generators])
         return
-    rows = table("name", "what", "parameters", "source")
-    for generator in GENERATORS.values():
+    rows = out.table("name", "what", "parameters", "source")
+    for generator in generators:
         names = " ".join(parameter.name for parameter in generator.parameters)
         parameters = f"{names}; {generator.relations}" if generator.relations else names
         rows.add_row(generator.name, generator.title, parameters, generator.source)
-    console().print(rows)
+    out.console().print(rows)
 
 
-def _described(generator: Generator) -> dict[str, Any]:
+def _described(generator: synth.patterns.Generator) -> dict[str, Any]:
     return {
         "name": generator.name,
         "title": generator.title,
@@ -110,76 +94,59 @@ def _described(generator: Generator) -> dict[str, Any]:
     }
 
 
-def _command(generator: Generator) -> click.Command:
+def _command(generator: synth.patterns.Generator) -> click.Command:
     """Return the command of one generator, an option for each of its parameters."""
-    options: list[click.Parameter] = [
-        click.Option(
-            [f"--{parameter.name}"],
-            type=int if parameter.unit == "count" else float,
-            metavar={"count": "N", "length": "LENGTH", "angle": "DEGREES"}[parameter.unit],
-            help=f"{parameter.meaning[0].upper()}{parameter.meaning[1:]}, "
-            f"from {parameter.told(parameter.least)} to {parameter.told(parameter.most)}."
-            f"  [default: {parameter.told(parameter.default)}]",
-        )
-        for parameter in generator.parameters
-    ]
-    if generator.foldable:
-        options.append(
-            click.Option(
-                ["--fold"],
-                type=float,
-                metavar="DEGREES",
-                help="Fold the crease that moves most to this angle; equivalent creases fold alike if they can.",
-            )
-        )
-    written = ".fold, .obj or another format" if generator.foldable else ".json, or .fold if it has panels"
-    options.append(click.Option(["-o", "--output"], metavar="OUT", help=f"File to write: {written}."))
-    options.append(click.Option(["--json", "as_json"], is_flag=True, help="Print the answer as JSON."))
 
-    def run(fold: float | None = None, output: str | None = None, **options: Any) -> None:
-        _run(generator, fold, output, **options)
+    def run(
+        fold: float | None = None,
+        *,
+        output: str | None,
+        force: bool,
+        as_json: bool,
+        **parameters: float | None,
+    ) -> None:
+        out.check_output(output, force=force)
+        values = {
+            name: radians(value) if units[name] == "angle" else value
+            for name, value in parameters.items()
+            if value is not None
+        }
+        with out.about(generator.name):
+            generated = synth.generate(generator.name, fold=None if fold is None else radians(fold), **values)
+        lost = () if output is None else synth.write(generated.mechanism, output, force=force)
+        if as_json:
+            out.print_json({**generated.to_json(), "output": output})
+            return
+        click.echo(str(generated))
+        out.tell_lost(lost)
+        out.tell_written(output)
 
+    units = {parameter.name: parameter.unit for parameter in generator.parameters}
     relations = f" Limits on parameters: {generator.relations}." if generator.relations else ""
     text = (
         f"{generator.title}.\n\n"
         f"Condition for its degrees of freedom: {generator.conditions}.{relations} Source: {generator.source}."
     )
-    return FORCE(
-        click.Command(generator.name, params=options, callback=run, help=text, short_help=f"{generator.title}.")
-    )
+    command = click.Command(generator.name, callback=run, help=text, short_help=f"{generator.title}.")
+    for parameter in generator.parameters:
+        metavar = {"count": "N", "length": "LENGTH", "angle": "DEGREES"}[parameter.unit]
+        meaning = (
+            f"{parameter.meaning[0].upper()}{parameter.meaning[1:]}, from {parameter.told(parameter.least)} to "
+            f"{parameter.told(parameter.most)}.  [default: {parameter.told(parameter.default)}]"
+        )
+        kind = int if parameter.unit == "count" else float
+        options.value(f"--{parameter.name}", metavar, meaning, type=kind)(command)
+    written = ".json, or .fold if it has panels"
+    if generator.foldable:
+        written = ".fold, .obj or another format"
+        meaning = "Fold the crease that moves most to this angle; equivalent creases fold alike if they can."
+        options.value("--fold", "DEGREES", meaning, type=float)(command)
+    for option in (options.output(f"File to write: {written}."), options.JSON, options.FORCE):
+        option(command)
+    return command
 
 
-def _run(
-    generator: Generator,
-    fold: float | None,
-    output: str | None,
-    *,
-    force: bool,
-    as_json: bool,
-    **parameters: float | None,
-) -> None:
-    from graphs.files.formats import write
-    from synth.patterns.generated import generate as generate_by_name
-
-    check_output(output, force=force)
-    angles = {parameter.name for parameter in generator.parameters if parameter.unit == "angle"}
-    values = {
-        name: radians(value) if name in angles else value
-        for name, value in parameters.items()
-        if value is not None
-    }
-    with about(generator.name):
-        generated = generate_by_name(generator.name, fold=None if fold is None else radians(fold), **values)
-    lost = () if output is None else write(generated.mechanism, output, force=force)
-    if as_json:
-        print_json({**generated.to_json(), "output": output})
-        return
-    click.echo(str(generated))
-    tell_lost(lost)
-    tell_written(output)
-
-
-def _in_degrees(parameter: Parameter, value: float) -> float:
+def _in_degrees(parameter: synth.patterns.Parameter, value: float) -> float:
     """Return a value of a parameter, an angle in degrees."""
     return round(degrees(value), 9) if parameter.unit == "angle" else value
 
@@ -188,75 +155,45 @@ _FIGURES = 12
 """Decimals of coordinates, in units of the size: later ones differ among processors."""
 
 
-@click.command(short_help="Give a type coordinates: as a flat sheet, as panels in space, or on a cone.")
-@click.argument("file", metavar="FILE")
-@click.option(
-    "--as", "kind", type=click.Choice(["sheet", "space", "cone"]), default="sheet", show_default=True,
-    help="Kind of realisation.",
+@click.command()
+@options.FILE
+@options.choice("--as kind", ("sheet", "space", "cone"), "Kind of realisation.", default="sheet")
+@options.value(
+    "--size", None, "Longer side of the bounding box of the panels, in any unit.  [default: 1]",
+    type=options.LENGTH,
 )  # fmt: skip
-@click.option(
-    "--size", type=LENGTH, help="Longer side of the bounding box of the panels, in any unit.  [default: 1]"
-)
-@click.option(
-    "--lambda", "cone_angle", type=float, metavar="DEGREES",
-    help="For --as cone: cone angle, from the plane across its axis.  [default: 30]",
+@options.value(
+    "--lambda cone_angle", "DEGREES", "For --as cone: cone angle, from the plane across its axis.  [default: 30]",
+    type=float,
 )  # fmt: skip
-@click.option(
-    "--seed", type=click.IntRange(min=0), metavar="N", default=0, show_default=True,
-    help="Random seed; another seed gives other coordinates.",
+@options.seed("Random seed; another seed gives other coordinates.")
+@options.number("--tries", "N", "Largest number of drawings to try.", most=10_000, default=12)
+@options.flag(
+    "--flat-foldable",
+    "For a sheet: make it flat-foldable; alternate sector angles round each vertex sum to 180 degrees.",
 )  # fmt: skip
-@click.option(
-    "--tries", type=click.IntRange(1, 10_000), metavar="N", default=12, show_default=True,
-    help="Largest number of drawings to try.",
-)  # fmt: skip
-@click.option(
-    "--flat-foldable", is_flag=True,
-    help="For a sheet: make it flat-foldable; alternate sector angles round each vertex sum to 180 degrees.",
-)  # fmt: skip
-@click.option("--symmetric", is_flag=True, help="For a sheet: draw it with symmetries of the type.")
+@options.flag("--symmetric", "For a sheet: draw it with symmetries of the type.")
 @MODE
-@click.option(
-    "--freedoms", type=click.IntRange(min=1), metavar="K",
-    help="Find a realisation of special geometry with K degrees of freedom, where a generic one has fewer.",
+@options.number(
+    "--freedoms", "K",
+    "Find a realisation of special geometry with K degrees of freedom, where a generic one has fewer.",
 )  # fmt: skip
-@click.option("--geometry", metavar="TEXT", help="With --freedoms: try only families with TEXT in their name.")
-@click.option("--every", is_flag=True, help="With --freedoms: try every family, not only until one moves.")
-@click.option("--some-joints", is_flag=True, help="With --freedoms: joints may stay immobile.")
-@click.option("--mark", metavar="OUT.json", help="With --freedoms: write the type with a mark of what was found.")
-@click.option(
-    "-o", "--output", metavar="OUT",
-    help="Write the realisation: .fold, .obj or .svg; .json on a cone; a folder or .sqlite for many types.",
-)  # fmt: skip
-@click.option(
-    "--workers", type=click.IntRange(min=1), metavar="N",
-    help="For many types: number of processes. By default one per core.",
-)  # fmt: skip
-@click.option("--resume", is_flag=True, help="For many types: continue a run that was stopped.")
-@click.option("--quiet", is_flag=True, help="For many types: show no progress.")
-@FORCE
-@click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@options.value("--geometry", "TEXT", "With --freedoms: try only families with TEXT in their name.")
+@options.flag("--every", "With --freedoms: try every family, not only until one moves.")
+@options.flag("--some-joints", "With --freedoms: allow joints to stay immobile.")
+@options.output("With --freedoms: write the type, marked with the geometry that was found.", "OUT.json", "--mark")
+@options.output("Write the realisation: .fold, .obj or .svg; .json on a cone; a folder or .sqlite for many types.")
+@options.number("--workers", "N", "For many types: number of processes. By default one per core.")
+@options.flag("--resume", "For many types: continue a run that was stopped.")
+@options.flag("--quiet", "For many types: show no progress.")
+@options.FORCE
+@options.JSON
 def realise(
-    file: str,
-    kind: str,
-    size: float | None,
-    cone_angle: float | None,
-    seed: int,
-    tries: int,
-    flat_foldable: bool,
-    symmetric: bool,
-    mode: str | None,
-    freedoms: int | None,
-    geometry: str | None,
-    every: bool,
-    some_joints: bool,
-    mark: str | None,
-    output: str | None,
-    workers: int | None,
-    resume: bool,
-    quiet: bool,
-    force: bool,
+    file: str, kind: str, size: float | None, cone_angle: float | None, seed: int, tries: int, flat_foldable: bool,
+    symmetric: bool, mode: str | None, freedoms: int | None, geometry: str | None, every: bool, some_joints: bool,
+    mark: str | None, output: str | None, workers: int | None, resume: bool, quiet: bool, force: bool,
     as_json: bool,
-) -> None:
+) -> None:  # fmt: skip
     """Give a type coordinates. FILE is a file, an id m1:... or k1:..., or an R/- string.
 
     For a store or an atlas (.sqlite), rows (.jsonl), a graph6 file or a folder, every type is realised: OUT is a
@@ -268,11 +205,11 @@ def realise(
     folding branch on which every crease turns; its mountains and valleys are those of that branch. It can be made
     flat-foldable and symmetric.
 
-    With --freedoms the type is searched for members that move although counts say they are rigid: flat sheets with
-    flat-foldable vertices whose ratios agree, straight lines, parallel creases or symmetries; axes in space that
-    are symmetric, parallel or meet in groups, equal links, poses along a motion that close (--as space: axes
-    alone). Each is followed by a finite motion in which all joints move. The answer lists what was tried, found or
-    not; the first member is written, a sheet as .fold, axes as .json. Exit status 1: none was found.
+    With --freedoms, search for realisations of the type that move although counts say it is rigid: flat sheets
+    with flat-foldable vertices whose ratios agree, straight lines, parallel creases or symmetries; axes in space
+    that are symmetric, parallel or meet in groups, equal links, poses along a motion that close (--as space: axes
+    alone). A finite motion in which all joints move confirms each of them. The answer lists all families that were
+    tried; the first realisation that moves is written, a sheet as .fold, axes as .json. Exit status 1: none moves.
 
     A type with one centre can lie on a cone, with all its axes on ruling lines; the output is a file for `synth
     cone`.
@@ -287,8 +224,6 @@ def realise(
       synth realise k1:Cr --freedoms 1 --as space
       synth realise data/linkages/bennett.json --freedoms 1 -o bennett.json --mark type.json
     """
-    from graphs.errors import FileError
-    from graphs.files.formats import write
     from synth.drawing.catalogue import is_catalogue
 
     if freedoms is not None:
@@ -300,45 +235,35 @@ def realise(
         return
     many, on_cone = is_catalogue(file), kind == "cone"
     _refuse(
-        (
-            geometry is not None or every or some_joints or mark is not None,
-            "--geometry, --every, --some-joints and --mark require --freedoms",
-        ),
+        (geometry is not None or every or some_joints or mark is not None,
+         "--geometry, --every, --some-joints and --mark require --freedoms"),
         (on_cone and size is not None, "--size is for panels: a linkage on a cone has angles only"),
         (not on_cone and cone_angle is not None, "--lambda requires --as cone"),
         (kind != "sheet" and (flat_foldable or symmetric), "--flat-foldable and --symmetric require --as sheet"),
-        (
-            mode and (on_cone or many),
-            "--mode requires one R/- string as panels; rows of a list have modes of their own",
-        ),
+        (mode and (on_cone or many),
+         "--mode requires one R/- string as panels; rows of a list have modes of their own"),
         (many and on_cone, "--as cone requires one type, not a store, a list or a folder"),
-        (
-            not many and (workers or resume),
-            "--workers and --resume require many types: a store, a list or a folder",
-        ),
-    )
-    options = {"kind": kind, "size": 1.0 if size is None else size, "seed": seed, "tries": tries}
-    options |= {"flat_foldable": True} if flat_foldable else {}
-    options |= {"symmetric": True} if symmetric else {}
+        (not many and (workers or resume),
+         "--workers and --resume require many types: a store, a list or a folder"),
+    )  # fmt: skip
+    settings = {"kind": kind, "size": 1.0 if size is None else size, "seed": seed, "tries": tries}
+    settings |= {"flat_foldable": True} if flat_foldable else {}
+    settings |= {"symmetric": True} if symmetric else {}
     if many:
-        running = RunOptions(output, workers, None, resume, quiet, as_json=False, force=force)
-        _realise_many(file, running, options, as_json=as_json)
+        running = RunOptions(output, workers, resume=resume, quiet=quiet, force=force)
+        _realise_many(file, running, settings, as_json=as_json)
         return
-    check_output(output, force=force)
+    out.check_output(output, force=force)
     if on_cone and output is not None and not output.lower().endswith(".json"):
         raise FileError(output, "", "a linkage on a cone cannot be written to it", "a name that ends in .json")
-    with about(file):
+    with out.about(file):
         if on_cone:
             realisation, mechanism = _on_cone(file, cone_angle, seed, tries)
         else:
-            realisation, mechanism = _as_panels(file, mode, options)
+            realisation, mechanism = _as_panels(file, mode, settings)
     if output is not None:
-        write(mechanism, output, force=force)
-    if as_json:
-        print_json({"file": file, "output": output, **realisation.to_json()})
-        return
-    print_answer(realisation)
-    tell_written(output)
+        synth.write(mechanism, output, force=force)
+    out.print_result(realisation, {"file": file, "output": output}, as_json=as_json, written=[output])
 
 
 def _refuse(*rules: tuple[object, str]) -> None:
@@ -351,60 +276,57 @@ def _refuse(*rules: tuple[object, str]) -> None:
 def _on_cone(
     file: str, cone_angle: float | None, seed: int, tries: int
 ) -> tuple[ConeRealisation | Realisation, Mechanism]:
-    from enumerate.strings.panel_strings import ChainString
-    from graphs.errors import FileError
-    from synth.realisation.on_cone import CONE_ANGLE, realise_on_cone
+    from enumerate.strings import ChainString
+    from synth.realisation.on_cone import CONE_ANGLE
 
     mechanism: Any = read_named(file).mechanism
     if isinstance(mechanism, ChainString):
         raise FileError(file, "", "an R/- string has no loop", "a linkage whose axes meet in one centre")
     angle = CONE_ANGLE if cone_angle is None else radians(cone_angle)
-    realisation = realise_on_cone(mechanism, cone_angle=angle, seed=seed, tries=tries)
+    realisation = synth.realise_on_cone(mechanism, cone_angle=angle, seed=seed, tries=tries)
     return realisation, realisation.linkage
 
 
 def _as_panels(
-    file: str, mode: str | None, options: dict[str, Any]
+    file: str, mode: str | None, settings: dict[str, Any]
 ) -> tuple[ConeRealisation | Realisation, Mechanism]:
     from synth.patterns.panels import rounded
-    from synth.realisation.realised import realise as realised
 
     mechanism: Any = read_named(file).mechanism
-    panels = realised(mechanism, mode=mode, **options)
-    return panels, rounded(panels.sheet, _FIGURES - ceil(log10(options["size"])))
+    panels = synth.realise(mechanism, mode=mode, **settings)
+    return panels, rounded(panels.sheet, _FIGURES - ceil(log10(settings["size"])))
 
 
-def _realise_many(source: str, running: RunOptions, options: dict[str, Any], *, as_json: bool) -> None:
+def _realise_many(source: str, running: RunOptions, settings: dict[str, Any], *, as_json: bool) -> None:
     """Realise the types of a store, a list or a folder, and print the results.
 
-    The output of `running` is a folder, or a store (.sqlite), which holds the files in its rows; the options are
-    those of `synth.realisation.realise`.
+    The output of `running` is a folder, or a store (.sqlite), which holds the files in its rows; the settings are
+    the parameters of `synth.realisation.realise`.
     """
+    from enumerate.runner import read_rows
     from enumerate.runner.job import row_as_dict
-    from enumerate.runner.store import read_rows
-    from graphs.errors import numbered
     from synth.realisation.many import COLUMNS, RealisationJob, summary_of
 
-    job = RealisationJob(source, tuple(sorted(options.items())))
+    job = RealisationJob(source, tuple(sorted(settings.items())))
     sink, store = _sink_of(running)
     run_resumable(job, sink, running)
     summary = summary_of(row_as_dict(COLUMNS, row) for row in read_rows(store))
     if as_json:
-        print_json({"file": source, "output": running.output, "left_out": job.failures, **summary})
+        out.print_json({"file": source, "output": running.output, "left_out": job.failures, **summary})
         return
     for row in summary["types"]:
         if row["outcome"] != "realised":
-            click.echo(f"{row['number']}  {plain(row['name'])}: {plain(row['reason'], 4096)}")
+            click.echo(f"{row['number']}  {out.plain(row['name'])}: {out.plain(row['reason'], 4096)}")
     for failure in job.failures:
-        click.echo(f"left out: {plain(failure, 4096)}", err=True)
+        click.echo(f"left out: {out.plain(failure, 4096)}", err=True)
     counts = "{realised} realised, {not_found} not found, {refused} refused".format(**summary)
     click.echo(f"{numbered(len(summary['types']), 'type')}: {counts}")
-    tell_written(*dict.fromkeys((str(running.output), str(store))))
+    out.tell_written(*dict.fromkeys((str(running.output), str(store))))
 
 
 def _sink_of(running: RunOptions) -> tuple[Callable[..., Sink], Path]:
     """Return a function that makes the sink, and the path of the store."""
-    from enumerate.runner.store import SqliteSink
+    from enumerate.runner import SqliteSink
     from synth.realisation.many import RealisationFolder, store_beside
 
     if running.output is None:
@@ -426,27 +348,21 @@ def _search_special_geometry(
 
     The search has the options of `synth.realise`.
     """
-    from graphs.files.formats import write
     from synth.drawing.catalogue import is_catalogue
-    from synth.realisation.realised import realise as realised
 
     if is_catalogue(file):
         raise click.UsageError("--freedoms requires one type, not a store, a list or a folder")
     for path in (output, mark):
-        check_output(path, force=force)
-    with about(file):
+        out.check_output(path, force=force)
+    with out.about(file):
         mechanism: Any = read_named(file).mechanism
-        answer = realised(mechanism, **search)
+        answer = synth.realise(mechanism, **search)
     if not answer.members:
         output = mark = None
     if output is not None:
-        write(answer.members[0].mechanism, output, force=force)
+        synth.write(answer.members[0].mechanism, output, force=force)
     if mark is not None:
-        write(answer.type_with_mark, mark, force=force)
-    if as_json:
-        print_json({"file": file, "output": output, **answer.to_json()})
-    else:
-        print_answer(answer)
-        tell_written(output, mark)
+        synth.write(answer.type_with_mark, mark, force=force)
+    out.print_result(answer, {"file": file, "output": output}, as_json=as_json, written=[output, mark])
     if not answer.members:
         sys.exit(1)

@@ -9,13 +9,14 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from sites import write_site
 
 import synth.atlas.site_pages as writing
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.formats import read
 from synth.atlas.building import AtlasPlan, build_atlas
 from synth.atlas.opened import Atlas, open_atlas
-from synth.atlas.site_pages import SEARCHED, data_script, index_page, site_of, write_site
+from synth.atlas.site_pages import SEARCHED, data_script, index_page, site_of
 
 HOSTILE = "</script><script>document.title='taken'</script><img src=x onerror=alert(1)>"
 

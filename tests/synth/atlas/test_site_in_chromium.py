@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from sites import write_site
 
 from synth.atlas.building import AtlasPlan, build_atlas
 from synth.atlas.opened import open_atlas
-from synth.atlas.site_pages import SEARCHED, data_script, write_site
+from synth.atlas.site_pages import SEARCHED, data_script
 from synth.viewer.building import BUILT
 
 pytestmark = pytest.mark.web

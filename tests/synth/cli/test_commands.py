@@ -20,7 +20,7 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from synth.cli.main import main
 
-WITHOUT_JSON = ("enumerate", "cone", "cylinder", "atlas", "realise", "template", "draw", "view", "completion")
+WITHOUT_JSON = ("enumerate", "cone", "cylinder", "atlas", "realise", "template", "draw", "view")
 """Groups, whose commands have it, and what only writes files."""
 
 
@@ -133,7 +133,6 @@ def test_shell_completion_knows_the_commands():
         "order",
         "dyads",
         "fourbar",
-        "completion",
     }
 
 

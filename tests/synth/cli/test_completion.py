@@ -1,4 +1,4 @@
-"""Completion by the shell: the script is printed, or written where the shell looks; bash completes with it."""
+"""Completion by the shell, which click offers: commands, options, and the names of files."""
 
 import os
 import shutil
@@ -6,35 +6,47 @@ import subprocess
 import sys
 from pathlib import Path
 
+import click
 import pytest
 
-from tests.support.commands import run
+from synth.cli.main import main
 
 SYNTH = Path(sys.executable).parent / "synth"
+FILES = {
+    "FILE",
+    "FILE...",
+    "[FILE]",
+    "FILE.jsonl",
+    "FILE.fold",
+    "IN",
+    "OUT",
+    "OUT.json",
+    "PICTURE",
+    "ATLAS.sqlite",
+}
 
 
-@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_the_script_is_printed_and_installed(shell, tmp_path, monkeypatch):
-    for name in ("XDG_DATA_HOME", "XDG_CONFIG_HOME"):
-        monkeypatch.delenv(name, raising=False)
-    monkeypatch.setenv("HOME", str(tmp_path))
-    script = run("completion", shell).stdout
-    assert "_SYNTH_COMPLETE" in script
-    told = run("completion", shell, "--install").stdout.splitlines()[0]
-    place = Path(told.removeprefix("written: "))
-    assert place.is_relative_to(tmp_path)
-    assert place.read_text(encoding="utf-8").strip() == script.strip()
-    assert "exists already" in run("completion", shell, "--install", code=2).output
-    run("completion", shell, "--install", "--force")
+def parameters(command, context):
+    yield from command.params
+    if isinstance(command, click.Group):
+        for name in command.list_commands(context):
+            yield from parameters(command.get_command(context, name), context)
+
+
+def test_arguments_and_options_that_name_files_are_completed_as_files():
+    context = click.Context(main)
+    named = [parameter for parameter in parameters(main, context) if parameter.metavar in FILES]
+    assert len(named) > 60
+    for parameter in named:
+        assert [item.type for item in parameter.shell_complete(context, "da")] == ["file"], parameter
 
 
 @pytest.mark.skipif(
     not shutil.which("bash") or not SYNTH.exists(), reason="bash, and synth as a program, are needed"
 )
-def test_bash_completes_options(tmp_path):
-    (tmp_path / "synth.bash").write_text(run("completion", "bash").stdout, encoding="utf-8")
+def test_bash_completes_options():
     lines = [
-        f"source {tmp_path / 'synth.bash'}",
+        'eval "$(_SYNTH_COMPLETE=bash_source synth)"',
         "COMP_WORDS=(synth enumerate chains --do) COMP_CWORD=3",
         "_synth_completion synth",
         'echo "${COMPREPLY[@]}"',

@@ -1,0 +1,16 @@
+"""A site of an atlas, written in this process."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from enumerate.runner.running import run
+from synth.atlas.opened import Atlas
+from synth.atlas.site_pages import SiteSink, site_of
+
+
+def write_site(atlas: Atlas, path: Path, title: str = "") -> Path:
+    """Write a site into a new folder; return its first page."""
+    site, first = site_of(atlas, title=title)
+    run(site, SiteSink(path, first))
+    return path / "index.html"
