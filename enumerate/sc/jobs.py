@@ -270,13 +270,9 @@ class SCCountJob(QueryCount[SCQuery]):
 
     def work(self, payload: tuple[int, Bytes]) -> list[Row]:
         """Return the number of SC graphs of a unit."""
-        query, low = self.query, self.query.longest_string.least
+        (n, codes), query = payload, self.query
         count = count_drawn_by_burnside if self.method == "burnside" else count_drawn
-
-        def number(most: int) -> int:
-            return int(count(payload[1], payload[0], query.links, most, self.outside))
-
-        return [(number(query.chains.most) - (number(low - 1) if low > 0 else 0),)]
+        return [(query.chains.number_within(lambda most: count(codes, n, query.links, most, self.outside)),)]
 
 
 def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True) -> SCCountJob | RowCount:
