@@ -305,7 +305,7 @@ class _ConnectedCountJob(QueryCount[ChainQuery]):
 def count_job(
     query: ChainQuery, method: str, kept: Mapping[str, Any] | None = None
 ) -> CountJob | RowCount | _ConnectedCountJob:
-    """Return the job that counts the chains of a query.
+    """Return the job that counts the chains of a query: its rows are numbers to be added.
 
     Parameters
     ----------
@@ -313,11 +313,6 @@ def count_job(
     method : {"orbits", "burnside"}
     kept : mapping, optional
         The key of a job to be resumed: the units are as large as it says, where there is a choice.
-
-    Returns
-    -------
-    Counting
-        A job whose rows are numbers to be added.
 
     Raises
     ------

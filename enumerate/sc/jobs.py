@@ -276,7 +276,7 @@ class SCCountJob(QueryCount[SCQuery]):
 
 
 def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True) -> SCCountJob | RowCount:
-    """Return the job that counts the SC graphs of a query.
+    """Return the job that counts the SC graphs of a query: its rows are numbers to be added.
 
     Parameters
     ----------
@@ -284,11 +284,6 @@ def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True
     method : {"orbits", "burnside"}, optional
     outside : bool, optional
         Whether an outer face is chosen; else embeddings in the sphere are counted.
-
-    Returns
-    -------
-    Counting
-        A job whose rows are numbers to be added.
 
     Raises
     ------

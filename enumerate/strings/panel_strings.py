@@ -249,7 +249,7 @@ def joint_chain(text: str) -> ChainString:
 def strings(
     creases: int, *, max_panels: int | None = MAX_PANELS, max_cluster: int | None = MAX_CLUSTER
 ) -> Iterator[ChainString]:
-    """Yield the strings of so many creases, each once, in the order of Table 8: by panels, then by clusters.
+    """Yield the strings of so many creases, canonical, each once, by panels, then by clusters, as in Table 8.
 
     Parameters
     ----------
@@ -257,11 +257,6 @@ def strings(
         Number of R, 1 or more.
     max_panels, max_cluster : int or None, optional
         At most so many panels, and creases in a cluster; None for no limit. The defaults are those of Table 8.
-
-    Yields
-    ------
-    ChainString
-        In canonical form.
 
     Raises
     ------
@@ -363,11 +358,6 @@ def chain_sc(chain: ChainString) -> SCGraph:
     Parameters
     ----------
     chain : ChainString
-
-    Returns
-    -------
-    SCGraph
-        An open chain, without loops.
 
     Examples
     --------
