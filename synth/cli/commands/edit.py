@@ -98,7 +98,7 @@ def _crease_sheet(sheet: synth.Sheet, texts: Sequence[str]) -> Iterator[creasing
 
 
 def _remove_creases(sheet: synth.Sheet, names: Sequence[str]) -> Iterator[creasing.SheetEdit]:
-    """Yield the edits that remove creases, all found before by their ends: edges are renumbered after each edit."""
+    """Yield the edits that remove creases, all found before by their ends: edges are renumbered after each."""
     from graphs.mechanism.sheet import with_all_edges
 
     edges = with_all_edges(sheet).edges
