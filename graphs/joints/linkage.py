@@ -52,7 +52,7 @@ class JointKind(Enum):
     @property
     def freedoms(self) -> int:
         """The degrees of freedom of one link against the other."""
-        return _FREEDOMS[self]
+        return {"R": 1, "P": 1, "U": 2, "C": 2, "S": 3, "E": 3}[self.value]
 
     @property
     def axes(self) -> int:
@@ -70,14 +70,6 @@ class JointKind(Enum):
         return self.name.lower()
 
 
-_FREEDOMS = {
-    JointKind.REVOLUTE: 1,
-    JointKind.PRISMATIC: 1,
-    JointKind.UNIVERSAL: 2,
-    JointKind.CYLINDRICAL: 2,
-    JointKind.SPHERICAL: 3,
-    JointKind.PLANAR: 3,
-}
 _OTHER_WORDS = {"hinge": "R", "slider": "P", "cardan": "U", "hooke": "U", "ball": "S"}
 
 
@@ -242,11 +234,12 @@ def _walked(
 
 def _check_in_loop(loop: Loop, joint: JointId, kind: JointKind) -> None:
     """Raise InvariantError for a joint that loops with such a centre cannot have."""
-    suits = kind.planar if loop.centre is Centre.INFINITE else kind is JointKind.REVOLUTE
+    if loop.centre is Centre.INFINITE:
+        suits, where, expected = kind.planar, "is planar", "a revolute, a slide or a planar joint"
+    else:
+        suits, where, expected = kind is JointKind.REVOLUTE, "has a finite centre", "a revolute"
     if loop.has_centre and not suits:
-        where = "is planar" if loop.centre is Centre.INFINITE else "has a finite centre"
         wrong = f"joint {shown(joint)} of {loop.label}, which {where}, is {kind.word}"
-        expected = "a revolute, a slide or a planar joint" if loop.centre is Centre.INFINITE else "a revolute"
         raise InvariantError("kinds", wrong, expected, ("joints", joint))
 
 

@@ -72,9 +72,10 @@ def revolutes_of(linkage: JointedLinkage, seed: int = 0) -> HingedSolids:
         elif kind is JointKind.SPHERICAL:
             mechanism.add(joint, [_about_a_point(points[joint], shared.get(joint))])
         else:
-            mechanism.add(
-                joint, _rows(kind, whole.places[joint], size), along=_turned_along(kind, whole.places[joint])
-            )
+            place = whole.places[joint]
+            # A cylindrical joint has a revolute along its slide.
+            along = (points[joint], unit(place.axes[0])) if kind is JointKind.CYLINDRICAL else None
+            mechanism.add(joint, _rows(kind, place, size), along=along)
     old = whole.chain
     loops, closing = (
         [loop for loop in some if loop.has_centre and set(loop.joints) <= mechanism.joints.keys()]
@@ -138,11 +139,6 @@ def _rows(kind: JointKind, place: JointPlace, size: float) -> list[Row]:
         [(point - step + size * out, turn), (point + 2 * size * out, turn), (point + step + size * out, turn)]
         for turn, out in ((x, y), (y, x))
     ]
-
-
-def _turned_along(kind: JointKind, place: JointPlace) -> Line | None:
-    """Return the revolute that a cylindrical joint has along its slide."""
-    return (np.array(place.point), unit(place.axes[0])) if kind is JointKind.CYLINDRICAL else None
 
 
 def _knee(one: Floats, other: Floats, normal: Floats, size: float) -> Line:
@@ -384,16 +380,13 @@ class _Recognition:
     def _well_begun(self, leg: Leg) -> Leg:
         """Return a ring of binary links from between two chains on; other rows as they are."""
         first = leg.links[0]
-        if first == self._chain.ground or self._degree(first) != 2:
+        if first == self._chain.ground or sum(first in ends for ends in self._joints.values()) != 2:
             return leg
         for shift in range(len(leg.joints)):
             joints, links = leg.joints[shift:] + leg.joints[:shift], leg.links[shift:-1] + leg.links[: shift + 1]
             if self._parts(joints[-1], joints[0]):
                 return Leg(joints, links)
         return leg
-
-    def _degree(self, link: LinkId) -> int:
-        return sum(link in ends for ends in self._joints.values())
 
     def _parts(self, one: JointId, other: JointId) -> bool:
         """Return whether two joints belong to different chains: their axes neither meet nor are parallel."""
