@@ -104,11 +104,7 @@ def oriented_panels(panels: Mapping[Any, Panel]) -> dict[LinkId, Panel]:
     ----------
     panels : mapping of link id to sequence of vertices
         The vertices round each panel, one way or the other. The first panel of each piece stays as it is.
-
-    Raises
-    ------
-    InvariantError
-        If a panel repeats a vertex, a side belongs to three panels, or the surface has one side only.
+        InvariantError if a side belongs to three panels, or the surface has one side only.
 
     Examples
     --------

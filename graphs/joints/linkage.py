@@ -137,17 +137,11 @@ class JointedLinkage:
     kinds : mapping of joint id to JointKind, or its letter or word
         Joints that are left out are revolutes.
     places : mapping of joint id to JointPlace, optional
-        Of all joints, or of none: then it is a type, and stands for its generic realisations.
-
-    Raises
-    ------
-    InvariantError
-        If a joint is not known, has no place where others have, or a place does not suit its kind.
+        Of all joints, or of none: then it is a type, and stands for its generic realisations. InvariantError if a
+        place does not suit the kind of its joint.
 
     Examples
     --------
-    A leg with a universal, a prismatic and a spherical joint:
-
     >>> leg = SCGraph(4, {"u": (0, 1), "p": (1, 2), "s": (2, 3)})
     >>> JointedLinkage(leg, {"u": JointKind.UNIVERSAL, "p": "P", "s": "spherical"})
     <JointedLinkage: 4 links, 3 joints: P S U, a type>

@@ -94,9 +94,8 @@ def _normal(linkage: JointedLinkage, knee: Knee, parallel: float) -> Floats | No
 def placed(linkage: JointedLinkage, seed: int = 0) -> JointedLinkage:
     """Return a linkage with places for its joints: its own, or random ones if it has none.
 
-    Axes of loops with a centre meet there; those of a planar loop are parallel, and slides are across them.
-    A prismatic joint between two binary links, with joints beyond them that can turn about parallel axes across
-    it, gets such axes: the usual way to build it, and three parallel revolutes do its work.
+    Axes of loops with a centre meet there; those of a planar loop are parallel, and slides are across them. Where
+    joints beside a slide can turn about parallel axes across it, they do: three parallel revolutes do its work.
 
     Parameters
     ----------

@@ -39,8 +39,8 @@ Row = list[Line]
 def revolutes_of(linkage: JointedLinkage, seed: int = 0) -> HingedSolids:
     """Return the mechanism of revolutes that stands for a linkage with joints of all kinds.
 
-    A joint that is one revolute keeps its id; of others the revolutes are called by its id, a colon and a number,
-    and so are the links between them.
+    The revolutes of a joint, and the links between them, are called by its id, a colon and a number; one by its
+    id.
 
     Parameters
     ----------
@@ -51,12 +51,9 @@ def revolutes_of(linkage: JointedLinkage, seed: int = 0) -> HingedSolids:
 
     Examples
     --------
-    A leg of a platform: RR-R-RRR, neighbours sharing axes.
-
     >>> leg = SCGraph(4, {"u": (0, 1), "p": (1, 2), "s": (2, 3)})
-    >>> kinds = {"u": JointKind.UNIVERSAL, "p": JointKind.PRISMATIC, "s": JointKind.SPHERICAL}
-    >>> list(revolutes_of(JointedLinkage(leg, kinds)).axes)
-    ['u:1', 'u:2', 'p', 's:1', 's:2', 's:3']
+    >>> list(revolutes_of(JointedLinkage(leg, {"u": JointKind.UNIVERSAL, "p": JointKind.PRISMATIC})).axes)
+    ['u:1', 'u:2', 'p', 's']
     """
     whole = placed(linkage, seed)
     mechanism = _RevoluteMechanism(whole)
@@ -166,11 +163,10 @@ _FLAT = 1e-3
 def recognised(solids: HingedSolids) -> JointedLinkage:
     """Return a mechanism of revolutes with its chains of joints recognised as the joints that they stand for.
 
-    Joints of loops with a centre are revolutes. The others are searched in this order: two knees side by
-    side between two links, across each other, are a slide (Sarrus), and with a revolute along it a cylindrical
-    joint; other knees are slides between the joints beside them; of axes in a row three through a point are a
-    spherical joint, two that cross at a right angle a universal one, three that are parallel a planar one. Links
-    that go into a joint have no other joints, and are not the ground.
+    Joints of loops with a centre are revolutes. The others are searched in this order: two knees side by side
+    between two links, across each other, are a slide (Sarrus), and with a revolute along it a cylindrical joint;
+    other knees are slides between the joints beside them; of axes in a row three through a point are a spherical
+    joint, two that cross at a right angle a universal one, three that are parallel a planar one.
 
     Parameters
     ----------

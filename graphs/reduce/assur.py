@@ -108,17 +108,10 @@ def assur_groups(sc: SCGraph, ground: LinkId, inputs: Iterable[JointId]) -> tupl
     Parameters
     ----------
     sc : SCGraph
-        All loops about one centre, finite or infinite.
+        All loops about one centre, finite or infinite; else UnsolvableError.
     ground : link id
     inputs : iterable of joint ids
-        As many as there are freedoms.
-
-    Raises
-    ------
-    InvariantError
-        If there is no such link or joint.
-    UnsolvableError
-        If the loops do not have one centre, or these inputs do not drive the mechanism.
+        As many as there are freedoms; UnsolvableError if they do not drive the mechanism.
 
     Examples
     --------
