@@ -390,8 +390,8 @@ def make_explicit(scd: SCDGraph, loop: int) -> Edit:
     ----------
     scd : SCDGraph
     loop : int
-        Index of the loop. InvariantError if there is no such loop, its centre is not implicit, or the result breaks
-        a rule (links of fewer than three sides, two explicit centres in a class).
+        Index of the loop. InvariantError if there is none, its centre is not implicit, or the result breaks a
+        rule (links of fewer than three sides, two explicit centres in a class).
 
     Examples
     --------
