@@ -1,8 +1,10 @@
 """Crease patterns as DXF: lines by the names of their layers, or else by their colours.
 
 A file is pairs of lines, a group code and a value: *DXF Reference*, Autodesk. A pair with the code 0 begins a
-record; records are in sections. Only text is read. Written is DXF R12 (AC1009), the form that every program takes,
-with CONTINUOUS lines: machines cut along dashes dash by dash. R12 states no unit; the remark does.
+record; records are in sections. Only text is read. It is not read by ezdxf, which refuses polylines without
+subclass markers and tables without heads, and mends broken files without a word. Written is DXF R12 (AC1009), the
+form that every program takes, with CONTINUOUS lines: machines cut along dashes dash by dash. R12 states no unit;
+the remark does.
 """
 
 from __future__ import annotations
