@@ -172,7 +172,7 @@ class JointedLinkage:
         return freedoms - 3 * len(self.chain.centred_loops) - 6 * self.chain.spatial_loops
 
     @property
-    def told_kinds(self) -> str:
+    def kinds_in_words(self) -> str:
         """The numbers of joints of each kind, in words."""
         numbers = Counter(self.kinds.values())
         return ", ".join(f"{numbers[kind]} {kind.word}" for kind in JointKind if numbers[kind])

@@ -296,7 +296,7 @@ class _Recognition:
         return 1
 
     def _bent(self) -> list[_BentRow]:
-        found = []
+        rows = []
         for leg in self._legs():
             for place in range(len(leg.joints) - 2):
                 joints = leg.joints[place : place + 3]
@@ -312,8 +312,8 @@ class _Recognition:
                 if abs(arms[0] - arms[1]) <= self._near < length and min(arms) > self._near:
                     a, b, c, d = leg.links[place : place + 4]
                     x, y, z = joints
-                    found.append(_BentRow((x, y, z), (a, b, c, d), normal, (other - one) / length))
-        return found
+                    rows.append(_BentRow((x, y, z), (a, b, c, d), normal, (other - one) / length))
+        return rows
 
     def _is_parallel(self, joints: Sequence[JointId]) -> bool:
         first = self._axes[joints[0]][0]
