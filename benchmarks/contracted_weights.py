@@ -4,7 +4,7 @@
 
 writes benchmarks/results/contracted_weights-LOOPS.json: for each number of links how many graphs are listed
 (`enumerate.contracted.graphs`, as counts of chains list them), the sum of their weights, and what it is in closed
-form (`enumerate.contracted.graphs`), which looks at no graph. Both methods that count chains take it that
+form (`tests/support/weights_of_graphs.py`), which looks at no graph. Both methods that count chains take it that
 these graphs are all there are, each once, and that their symmetries are known; chains of 20 links have nine loops.
 Ends with status 1 where the sums differ.
 """
@@ -19,7 +19,10 @@ from fractions import Fraction
 from pathlib import Path
 from time import process_time
 
-from enumerate.contracted.graphs import streamed_graphs, total_weights, weight_of
+from enumerate.contracted.graphs import streamed_graphs
+
+sys.path.append(str(Path(__file__).parents[1] / "tests" / "support"))
+from weights_of_graphs import total_weights, weight_of
 
 RESULTS = Path(__file__).parent / "results"
 

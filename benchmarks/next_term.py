@@ -111,7 +111,7 @@ def counted(sample: Sample, links: int, wanted: int, dice: np.random.Generator) 
 
 def by_orbits(n: int, links: int, codes: Bytes) -> int:
     """Return the number of chains of some graphs."""
-    return count_by_orbits(codes, n, links, MOST)
+    return count_by_orbits(codes, n, links, MOST, False)
 
 
 def by_burnside(n: int, links: int, codes: Bytes) -> int:

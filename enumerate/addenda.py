@@ -22,7 +22,9 @@ from itertools import combinations
 from typing import Any
 
 import networkx as nx
+import numpy as np
 
+from enumerate.contracted.binary_links import orbits_of
 from enumerate.runner.job import Column, ListColumn, Row, RowCount, Unit, batches
 from enumerate.runner.running import rows_of
 from graphs.convert.table import graph_of
@@ -160,18 +162,14 @@ class AddendumJob:
 
     def pairs(self) -> list[tuple[LinkId, LinkId]]:
         """Return one pair of links of each orbit under the symmetries of the mechanism."""
-        orbits = nx.utils.UnionFind(frozenset(pair) for pair in combinations(self.mechanism.nodes, 2))
-        for moved in symmetries_of_links(self.mechanism):
-            for a, b in combinations(self.mechanism.nodes, 2):
-                orbits.union(frozenset((a, b)), frozenset((moved[a], moved[b])))
-        seen: set[Any] = set()
-        pairs = []
-        for a, b in combinations(self.mechanism.nodes, 2):
-            root = orbits[frozenset((a, b))]
-            if root not in seen:
-                seen.add(root)
-                pairs.append((a, b))
-        return pairs
+        pairs = list(combinations(self.mechanism.nodes, 2))
+        number = {frozenset(pair): i for i, pair in enumerate(pairs)}
+        moves = [
+            [number[frozenset((moved[a], moved[b]))] for a, b in pairs]
+            for moved in symmetries_of_links(self.mechanism)
+        ]
+        least = orbits_of(np.array([range(len(pairs)), *moves], np.int64))
+        return [pair for i, pair in enumerate(pairs) if least[i] == i]
 
     def units(self) -> list[Unit]:
         """Units of some pairs of links each."""

@@ -16,7 +16,14 @@ from drawings.together import above, beside, said
 from enumerate.chains.names import chain_named, name_of
 from enumerate.chains.rows import chain_ids
 from enumerate.conical.query import ConicalQuery, conical_orders, count_conical_orders
-from enumerate.contracted.binary_links import EVERY, frame_of, joints_of_all, no_prefix, placements_of
+from enumerate.contracted.binary_links import (
+    EVERY,
+    PlacementRange,
+    frame_of,
+    joints_of_all,
+    list_placements,
+    no_prefix,
+)
 from enumerate.contracted.graphs import contracted_graphs
 from enumerate.scd.jobs import scd_graphs_of
 from graphs.errors import numbered
@@ -40,9 +47,9 @@ _MOST = 255
 def chains() -> Scene:
     """Six links: the contracted graph of two loops, binary links placed on its joints, the chains."""
     [(links, codes)] = contracted_graphs(2)
-    placed, _ = placements_of(codes[0], links, _SIX_BAR, _MOST, EVERY, no_prefix())
-    ends, *_ = frame_of(codes[0], links)
-    joints = joints_of_all(ends, links, placed)
+    frame = frame_of(codes[0], links)
+    placed, _ = list_placements(frame, PlacementRange(_SIX_BAR, _MOST, EVERY), no_prefix())
+    joints = joints_of_all(frame, placed)
     rows = []
     for numbers, pairs, code in zip(placed.tolist(), joints.tolist(), chain_ids(_SIX_BAR, joints)[0], strict=True):
         chain = cropped(chain_scene(SCGraph(_SIX_BAR, pairs), look=_PLAIN, box=(130, 110), caption=None))
@@ -51,7 +58,7 @@ def chains() -> Scene:
             arrow(),
             said(chain, _named(code)),
         ]
-    theta = said(_strands([0] * len(ends)), "contracted graph", "of two loops")
+    theta = said(_strands([0] * len(frame.ends)), "contracted graph", "of two loops")
     return beside(theta, arrow("4 binary", "links"), in_rows(rows, 3, gap=12.0))
 
 

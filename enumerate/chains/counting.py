@@ -13,34 +13,26 @@ import numpy as np
 
 from enumerate.contracted.binary_links import (
     EVERY,
+    Frame,
     PlacementRange,
     Units,
     conditions,
     frame_of,
     no_prefix,
     place,
-    rigid_sets,
 )
-from enumerate.contracted.graphs import decode
 from enumerate.contracted.left_in_place import Cycles, count_left_in_place, cycles_of
 from enumerate.contracted.orbits import count_orbits, count_with_a_link
 from enumerate.contracted.states import order_of_classes
 from enumerate.kernel.compiled import compiled, number_of_orbits
 from graphs.types import Bytes, Ints
 
-__all__ = [
-    "count_by_burnside",
-    "count_by_orbits",
-    "count_fixed",
-    "count_in",
-    "count_inversions_by_orbits",
-    "count_of_graph",
-]
+__all__ = ["count_by_burnside", "count_by_orbits", "count_fixed", "count_in", "count_of_graph"]
 
 
 @compiled
-def count_by_orbits(codes: Bytes, n: int, links: int, most: int) -> int:
-    """Return the number of chains that come from some contracted graphs, one of each orbit of placements.
+def count_by_orbits(codes: Bytes, n: int, links: int, most: int, inversions: bool) -> int:
+    """Return the number of chains, or of inversions, from some contracted graphs, one of each orbit of placements.
 
     Parameters
     ----------
@@ -52,23 +44,16 @@ def count_by_orbits(codes: Bytes, n: int, links: int, most: int) -> int:
         Number of links N of the chains.
     most : int
         The longest string of binary links to allow.
+    inversions : bool
+        Count pairs of a chain and a link of it, up to isomorphism.
     """
     total = 0
     for c in range(len(codes)):
-        ends, first, moved, _ = frame_of(codes[c], n)
-        sets, needs = rigid_sets(decode(codes[c], n), n)
-        total += count_orbits(ends, first, moved, sets, needs, links - n, most)
-    return total
-
-
-@compiled
-def count_inversions_by_orbits(codes: Bytes, n: int, links: int, most: int) -> int:
-    """Return the number of pairs of a chain and a link of it, up to isomorphism. Parameters: `count_by_orbits`."""
-    total = 0
-    for c in range(len(codes)):
-        ends, first, moved, automorphisms = frame_of(codes[c], n)
-        sets, needs = rigid_sets(decode(codes[c], n), n)
-        total += count_with_a_link(ends, first, moved, automorphisms, sets, needs, links - n, most)
+        frame = frame_of(codes[c], n)
+        if inversions:
+            total += count_with_a_link(frame, links - n, most)
+        else:
+            total += count_orbits(frame, links - n, most)
     return total
 
 
@@ -78,41 +63,32 @@ def count_of_graph(code: Bytes, n: int, links: int, most: int, only: int, prefix
 
     `only`: placements with this number W of bound units only, or `EVERY`; `prefix`: where the first units lie.
     """
-    ends, first, moved, _ = frame_of(code, n)
-    sets, needs = rigid_sets(decode(code, n), n)
-    return count_in(ends, first, moved, sets, needs, n, PlacementRange(links, most, only), prefix)
+    return count_in(frame_of(code, n), PlacementRange(links, most, only), prefix)
 
 
 @compiled
-def count_in(
-    ends: Bytes, first: Ints, moved: Bytes, sets: Ints, needs: Ints, n: int, wanted: PlacementRange, prefix: Ints
-) -> int:
-    """Return the number of placements on joints with given symmetries.
-
-    Joints, first parallel ones, and permutations of the joints are those of `enumerate.contracted.binary_links`,
-    sets and needs those that its `rigid_sets` returns.
-    """
-    total, links = 0, wanted.links
+def count_in(frame: Frame, wanted: PlacementRange, prefix: Ints) -> int:
+    """Return the number of placements with a prefix, the joints of the first units."""
+    units, m = wanted.links - frame.links, len(frame.ends)
     if wanted.only == EVERY and len(prefix) == 0:
-        return count_orbits(ends, first, moved, sets, needs, links - n, wanted.most)
-    nothing, nowhere = np.zeros((0, len(ends)), np.uint8), no_prefix()
-    cost = np.ones(len(ends), np.int64)
-    for bound in range(max(needs[-1], 0), min(links - n, 2 * len(ends)) + 1):
+        return count_orbits(frame, units, wanted.most)
+    nothing, nowhere = np.zeros((0, m), np.uint8), no_prefix()
+    cost = np.ones(m, np.int64)
+    total = 0
+    for bound in range(max(frame.needs[-1], 0), min(units, 2 * m) + 1):
         if wanted.only in (EVERY, bound):
-            room, weight = conditions(ends, sets, needs, bound)
-            units = Units(bound, links - n - bound, wanted.most)
-            total += place(room, weight, cost, first, units, moved, prefix, nothing, nowhere)
+            room, weight = conditions(frame.ends, frame.sets, frame.needs, bound)
+            left = Units(bound, units - bound, wanted.most)
+            total += place(room, weight, cost, frame.first, left, frame.moved, prefix, nothing, nowhere)
     return total
 
 
 @compiled
-def count_fixed(
-    moved: Bytes, ends: Bytes, first: Ints, sets: Ints, needs: Ints, n: int, links: int, most: int
-) -> int:
+def count_fixed(frame: Frame, moved: Bytes, links: int, most: int) -> int:
     """Return the number of placements that a permutation of the joints leaves as they are."""
-    order = order_of_classes(ends, first, moved.reshape(1, -1), sets)
-    cycles = cycles_of(moved, np.arange(n).astype(np.uint8), ends, first, order, sets)
-    return _in_place(cycles, needs, links - n, most)[0]
+    order = order_of_classes(frame, moved.reshape(1, -1))
+    cycles = cycles_of(frame, moved, np.arange(frame.links).astype(np.uint8), order)
+    return _in_place(cycles, frame.needs, links - frame.links, most)[0]
 
 
 @compiled
@@ -128,28 +104,26 @@ def _in_place(cycles: Cycles, needs: Ints, units: int, most: int) -> tuple[int, 
 
 @compiled
 def count_by_burnside(codes: Bytes, n: int, links: int, most: int, inversions: bool) -> int:
-    """Return the number of chains, or of inversions, that come from some contracted graphs, by Burnside's lemma.
+    """Return what `count_by_orbits` does, by Burnside's lemma.
 
     Parameters
     ----------
-    codes, n, links, most
+    codes, n, links, most, inversions
         As for `count_by_orbits`.
-    inversions : bool
-        Count pairs of a chain and a link of it, up to isomorphism.
     """
     total = 0
     for c in range(len(codes)):
-        ends, first, moved, automorphisms = frame_of(codes[c], n)
-        sets, needs = rigid_sets(decode(codes[c], n), n)
-        order = order_of_classes(ends, first, moved[:1], sets)
+        frame = frame_of(codes[c], n)
+        automorphisms = frame.automorphisms
+        order = order_of_classes(frame, frame.moved[:1])
         fixed = 0
-        for a in range(len(moved)):
-            cycles = cycles_of(moved[a], automorphisms[a], ends, first, order, sets)
-            placements, still = _in_place(cycles, needs, links - n, most)
+        for a in range(len(automorphisms)):
+            cycles = cycles_of(frame, frame.moved[a], automorphisms[a], order)
+            placements, still = _in_place(cycles, frame.needs, links - n, most)
             fixed += placements
             if inversions:
                 fixed += still - placements
                 for v in range(n):
                     fixed += placements * (automorphisms[a, v] == v)
-        total += number_of_orbits(fixed, len(moved))
+        total += number_of_orbits(fixed, len(automorphisms))
     return total

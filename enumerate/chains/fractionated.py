@@ -1,21 +1,17 @@
 """Fractionated chains: blocks that share single links, and bridge joints; listed, and counted by cycle indices.
 
-A connected chain without rigid sub-chains is a tree of blocks: chains that nothing cuts, with N_i links and
-M_i >= 1 freedoms each, and single joints between two links (N_i = 2, M_i = 1), which no leaf of the tree is. Links
-- 1 and freedoms add up over the blocks. Chains made of different blocks differ, so the blocks are chosen first;
-then they are put together in all ways, block after block, forms that correspond kept once. Only the forms of one
-choice of blocks are held at a time.
-
-For the number, a chain is rooted at a link: that link with a set of blocks hung on it, each other link of a block
-again a rooted chain (Robinson 1970). With Z the sum of y^M Z(B) over all blocks B, Z' its derivative by p_1 and
-p_k read as R(x^k, y^k),
+A connected chain without rigid sub-chains is a tree of blocks: chains that nothing cuts, with N_i links and M_i >=
+1 freedoms each, and single joints between two links (N_i = 2, M_i = 1), which no leaf of the tree is. Links - 1
+and freedoms add up over the blocks. To list them, the blocks are chosen first; then they are put together in all
+ways, forms that correspond kept once. For the number, a chain is rooted at a link: that link with a set of blocks
+hung on it, each other link of a block again a rooted chain (Robinson 1970). With Z the sum of y^M Z(B) over all
+blocks B, Z' its derivative by p_1 and p_k read as R(x^k, y^k),
 
     R = x exp( sum over k of Z'[R](x^k, y^k) / k ),
 
-x marking links and y freedoms; a bridge joint takes part with y (R - x), since no leaf of the tree is one. The
-dissymmetry theorem (chains = rooted at a link + rooted at a block - rooted at a block and one of its links) takes
-the roots away. The cycle index of the blocks comes from placements fixed by each automorphism: nothing is listed
-and compared. Theory: docs/theory/chains.md.
+x marking links and y freedoms; a bridge joint takes part with y (R - x). The dissymmetry theorem (chains = rooted
+at a link + rooted at a block - rooted at a block and one of its links) takes the roots away. The cycle index of
+the blocks comes from placements fixed by each automorphism. Theory: docs/theory/chains.md.
 
 Source: R. W. Robinson, *Enumeration of non-separable graphs*, J. Combin. Theory 9 (1970); Bergeron, Labelle and
 Leroux, *Combinatorial Species and Tree-like Structures* (1998), section 4.1.
@@ -26,17 +22,18 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
-from functools import reduce
+from functools import cache, reduce
 from itertools import combinations_with_replacement, groupby, product
 from math import factorial
 
 import numpy as np
+import numpy.typing as npt
 
-from enumerate.contracted.binary_links import Units, conditions, frame_of, place, rigid_sets
-from enumerate.contracted.graphs import contracted_graphs, decode
+from enumerate.contracted.binary_links import Frame, Units, conditions, frame_of, no_prefix, orbits_of, place
+from enumerate.contracted.graphs import contracted_graphs
 from enumerate.kernel.compiled import cycles
 from graphs.identity.chains import automorphisms_of
-from graphs.types import Bytes, Ints
+from graphs.types import Bytes
 
 __all__ = ["Block", "block_choices", "count_connected", "glued", "shapes"]
 
@@ -145,19 +142,9 @@ def _representatives(block: Block) -> list[int]:
     """Return one link of each orbit under the automorphisms."""
     links, joints = block
     _, generators, _ = automorphisms_of(links, joints)
-    seen: set[int] = set()
-    chosen = []
-    for link in range(links):
-        if link in seen:
-            continue
-        chosen.append(link)
-        stack = [link]
-        while stack:
-            here = stack.pop()
-            if here not in seen:
-                seen.add(here)
-                stack += [generator[here] for generator in generators]
-    return chosen
+    moves = np.array([range(links), *generators], np.int64)
+    representatives: list[int] = np.flatnonzero(orbits_of(moves) == moves[0]).tolist()
+    return representatives
 
 
 def _loose_ends(links: int, joints: Joints) -> int:
@@ -172,8 +159,8 @@ def _loose_ends(links: int, joints: Joints) -> int:
 Monomial = tuple[tuple[int, int], ...]
 """Lengths of cycles of links, with how many there are of each."""
 
-Series = dict[tuple[int, int], Fraction]
-"""Numbers of links and of freedoms to a coefficient."""
+Series = npt.NDArray[np.object_]
+"""Coefficients, exact, by numbers of links and of freedoms; what lies beyond is cut off."""
 
 
 def count_connected(links: int, dof: int) -> int:
@@ -195,27 +182,20 @@ def count_connected(links: int, dof: int) -> int:
         for n in range(m + 3, links + 1, 2)
         if links - n >= dof - m and n - m <= links - dof  # the other blocks have M_i <= N_i - 1
     }
-    limits = links, dof
     derivative = {size: _derivative(index) for size, index in blocks.items()}
-    link: Series = {(1, 0): Fraction(1)}
-    rooted, last = link, None
-    while rooted != last:
+    shape = links + 1, dof + 1
+    link, bridge = _term(shape, 1, 0), _term(shape, 0, 1)
+    rooted, last = link, link * 0
+    while (rooted != last).any():
         last = rooted
-        planted = _sum([_at(_substituted(derivative, rooted, limits), 0, 0), _at(_minus(rooted, link), 0, 1)])
-        rooted = _product(link, _exponential(_cut(planted, limits), limits), limits)
-    away = _minus(rooted, link)
-    bridge: Series = {(0, 1): Fraction(1)}
-    at_link = _minus(away, _product(_product(link, bridge, limits), away, limits))
-    squares = {(2 * n, 2 * m): value for (n, m), value in away.items()}
-    pairs = _scaled(_sum([_product(away, away, limits), squares]), Fraction(1, 2))
-    at_block = _sum([_substituted(blocks, rooted, limits), _product(bridge, pairs, limits)])
-    at_both = _sum(
-        [
-            _product(rooted, _substituted(derivative, rooted, limits), limits),
-            _product(bridge, _product(away, away, limits), limits),
-        ]
-    )
-    total = _minus(_sum([at_link, at_block]), at_both).get(limits, Fraction(0))
+        planted = _substituted(derivative, rooted) + _product(bridge, rooted - link)
+        rooted = _product(link, _exponential(planted))
+    away = rooted - link
+    at_link = away - _product(_product(link, bridge), away)
+    pairs = (_product(away, away) + _raised(away, 2)) / 2
+    at_block = _substituted(blocks, rooted) + _product(bridge, pairs)
+    at_both = _product(rooted, _substituted(derivative, rooted)) + _product(bridge, _product(away, away))
+    total: Fraction = (at_link + at_block - at_both)[links, dof]
     assert total.denominator == 1
     return total.numerator
 
@@ -245,13 +225,12 @@ def block_cycle_index(links: int, dof: int) -> dict[Monomial, Fraction]:
 
 def _index_of_graph(code: Bytes, n: int, links: int) -> Iterator[tuple[Monomial, Fraction]]:
     """Yield the terms of the cycle index of the chains of a contracted graph."""
-    ends, first, moved, automorphisms = frame_of(code, n)
-    sets, needs = rigid_sets(decode(code, n), n)
-    for move, automorphism in zip(moved, automorphisms, strict=True):
+    frame = frame_of(code, n)
+    for move, automorphism in zip(frame.moved, frame.automorphisms, strict=True):
         base = Counter(map(len, cycles(automorphism.tolist())))
-        classes = list(_class_cycles(ends, first, move, automorphism))
+        classes = list(_class_cycles(frame, move, automorphism))
         for types in product(*(list(_partitions(len(cycle[0]))) for cycle, _ in classes)):
-            share = Fraction(1, len(moved))
+            share = Fraction(1, len(frame.moved))
             joints, turned = [], []  # of each cycle of strings: its joints, and whether it comes back turned round
             for (cycle, flips), parts in zip(classes, types, strict=True):
                 share /= _centraliser(parts)
@@ -260,7 +239,7 @@ def _index_of_graph(code: Bytes, n: int, links: int) -> Iterator[tuple[Monomial,
                     joints.append([e for step in cycle for e in step[start : start + part]])
                     turned.append(flips and part % 2 == 1)
                     start += part
-            for x in _placements(ends, sets, needs, joints, links - n):
+            for x in _placements(frame, joints, links - n):
                 lengths = base.copy()
                 for value, string, turns in zip(x, joints, turned, strict=True):
                     lengths[len(string)] += value % 2 if turns else value
@@ -268,12 +247,11 @@ def _index_of_graph(code: Bytes, n: int, links: int) -> Iterator[tuple[Monomial,
                 yield _monomial(lengths), share
 
 
-def _class_cycles(
-    ends: Bytes, first: Ints, move: Bytes, automorphism: Bytes
-) -> Iterator[tuple[list[list[int]], bool]]:
+def _class_cycles(frame: Frame, move: Bytes, automorphism: Bytes) -> Iterator[tuple[list[list[int]], bool]]:
     """Yield the cycles of classes of parallel joints, and whether a class comes back with its ends exchanged."""
+    ends = frame.ends
     members: dict[int, list[int]] = defaultdict(list)
-    for e, start in enumerate(first.tolist()):
+    for e, start in enumerate(frame.first.tolist()):
         members[start].append(e)
     left = set(members)
     while left:
@@ -286,17 +264,17 @@ def _class_cycles(
         yield cycle, end != int(ends[start, 0])
 
 
-def _placements(ends: Bytes, sets: Ints, needs: Ints, joints: list[list[int]], units: int) -> Iterator[list[int]]:
+def _placements(frame: Frame, joints: list[list[int]], units: int) -> Iterator[list[int]]:
     """Yield the placements in which the joints of each cycle hold equally many binary links."""
     cost = np.array([len(cycle) for cycle in joints], np.int64)
     alone, identity = np.arange(len(cost)), np.arange(len(cost), dtype=np.uint8)[None]
-    for bound in range(max(int(needs[-1]), 0), min(units, 2 * len(ends)) + 1):
-        room, weight = conditions(ends, sets, needs, bound)
+    for bound in range(max(int(frame.needs[-1]), 0), min(units, 2 * len(frame.ends)) + 1):
+        room, weight = conditions(frame.ends, frame.sets, frame.needs, bound)
         shares = np.array([weight[cycle].sum(axis=0) for cycle in joints], np.uint64).reshape(
             len(joints), len(room)
         )
         left = Units(bound, units - bound, units)
-        problem = room, shares, cost, alone, left, identity, np.zeros(0, np.int64)
+        problem = room, shares, cost, alone, left, identity, no_prefix()
         count = place(*problem, np.zeros((0, len(cost)), np.uint8), np.zeros(0, np.int64))
         if count:
             x = np.zeros((count, len(cost)), np.uint8)
@@ -336,76 +314,51 @@ def _derivative(index: dict[Monomial, Fraction]) -> dict[Monomial, Fraction]:
     return derivative
 
 
-def _substituted(
-    blocks: dict[tuple[int, int], dict[Monomial, Fraction]], rooted: Series, limits: tuple[int, int]
-) -> Series:
+def _substituted(blocks: dict[tuple[int, int], dict[Monomial, Fraction]], rooted: Series) -> Series:
     """Return the sum over the blocks of y^M times the cycle index with p_k read as R(x^k, y^k)."""
-    powers: dict[tuple[int, int], Series] = {}
 
+    @cache
     def power(length: int, count: int) -> Series:
-        if (length, count) not in powers:
-            if count == 1:
-                raised = {(length * n, length * m): value for (n, m), value in rooted.items()}
-                powers[length, 1] = _cut(raised, limits)
-            else:
-                powers[length, count] = _product(power(length, count - 1), power(length, 1), limits)
-        return powers[length, count]
+        raised = _raised(rooted, length)
+        return raised if count == 1 else _product(power(length, count - 1), raised)
 
-    total: dict[tuple[int, int], Fraction] = defaultdict(Fraction)
+    total: Series = _term(rooted.shape) * 0
     for (_, dof), index in blocks.items():
         for monomial, value in index.items():
-            factors = [power(length, count) for length, count in monomial]
-            result = reduce(lambda a, b: _product(a, b, limits), factors, {(0, dof): value})
-            for key, coefficient in result.items():
-                total[key] += coefficient
-    return dict(total)
+            total += value * reduce(_product, (power(*part) for part in monomial), _term(rooted.shape, 0, dof))
+    return total
 
 
-def _exponential(series: Series, limits: tuple[int, int]) -> Series:
+def _term(shape: tuple[int, ...], links: int = 0, dof: int = 0) -> Series:
+    """Return the series x^links y^dof; zero if it is cut off."""
+    series = np.full(shape, Fraction(0))
+    series[links : links + 1, dof : dof + 1] = Fraction(1)
+    return series
+
+
+def _product(a: Series, b: Series) -> Series:
+    total: Series = a * 0
+    for n, m in np.argwhere(a):
+        total[n:, m:] += a[n, m] * b[: len(b) - n, : b.shape[1] - m]
+    return total
+
+
+def _raised(series: Series, k: int) -> Series:
+    """Return a series in x and y read in x^k and y^k."""
+    raised: Series = series * 0
+    links, dof = raised[::k, ::k].shape
+    raised[::k, ::k] = series[:links, :dof]
+    return raised
+
+
+def _exponential(series: Series) -> Series:
     """Return exp(sum over k of series(x^k, y^k) / k)."""
-    total: dict[tuple[int, int], Fraction] = defaultdict(Fraction)
-    for k in range(1, max(limits) + 1):
-        for (n, m), value in series.items():
-            total[k * n, k * m] += value / k
-    exponent = _cut(dict(total), limits)
-    result: Series = {(0, 0): Fraction(1)}
-    term, k = result, 0
-    while term:
+    exponent = sum(_raised(series, k) / k for k in range(1, max(series.shape)))
+    result: Series = _term(series.shape)
+    term = result
+    k = 0
+    while term.any():
         k += 1
-        term = _scaled(_product(term, exponent, limits), Fraction(1, k))
-        result = _sum([result, term])
+        term = _product(term, exponent) / k
+        result = result + term
     return result
-
-
-def _product(a: Series, b: Series, limits: tuple[int, int]) -> Series:
-    total: dict[tuple[int, int], Fraction] = defaultdict(Fraction)
-    for (n, m), value in a.items():
-        for (i, j), other in b.items():
-            if n + i <= limits[0] and m + j <= limits[1]:
-                total[n + i, m + j] += value * other
-    return dict(total)
-
-
-def _sum(parts: Sequence[Series]) -> Series:
-    total: dict[tuple[int, int], Fraction] = defaultdict(Fraction)
-    for part in parts:
-        for key, value in part.items():
-            total[key] += value
-    return {key: value for key, value in total.items() if value}
-
-
-def _minus(a: Series, b: Series) -> Series:
-    return _sum([a, _scaled(b, Fraction(-1))])
-
-
-def _scaled(series: Series, factor: Fraction) -> Series:
-    return {key: value * factor for key, value in series.items()}
-
-
-def _at(series: Series, links: int, dof: int) -> Series:
-    """Return a series times x^links y^dof."""
-    return {(n + links, m + dof): value for (n, m), value in series.items()}
-
-
-def _cut(series: Series, limits: tuple[int, int]) -> Series:
-    return {(n, m): value for (n, m), value in series.items() if n <= limits[0] and m <= limits[1]}

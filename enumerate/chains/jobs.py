@@ -23,7 +23,6 @@ import numpy as np
 from enumerate.chains.counting import (
     count_by_burnside,
     count_by_orbits,
-    count_inversions_by_orbits,
     count_of_graph,
 )
 from enumerate.chains.fractionated import Block, block_choices, count_connected, glued, shapes
@@ -283,16 +282,9 @@ class CountJob(QueryCount[ChainQuery]):
         return [(self._number(some, links), links) for links, some in levels]
 
     def _number(self, codes: Bytes, n: int) -> int:
-        low = self.query.longest_string.least
-        total = self._number_to(codes, n, self.query.most)
-        return total - self._number_to(codes, n, low - 1) if low > 0 else total
-
-    def _number_to(self, codes: Bytes, n: int, most: int) -> int:
-        """Return the number of chains of contracted graphs with no string longer than some."""
-        if self.method == "burnside":
-            return count_by_burnside(codes, n, self.query.links, most, self.query.inversions)
-        count = count_inversions_by_orbits if self.query.inversions else count_by_orbits
-        return count(codes, n, self.query.links, most)
+        query = self.query
+        count = count_by_burnside if self.method == "burnside" else count_by_orbits
+        return query.number_within(lambda most: count(codes, n, query.links, most, query.inversions))
 
 
 @dataclass(frozen=True)
@@ -313,7 +305,7 @@ class _ConnectedCountJob(QueryCount[ChainQuery]):
 def count_job(
     query: ChainQuery, method: str, kept: Mapping[str, Any] | None = None
 ) -> CountJob | RowCount | _ConnectedCountJob:
-    """Return the job that counts the chains of a query.
+    """Return the job that counts the chains of a query: its rows are numbers to be added.
 
     Parameters
     ----------
@@ -321,11 +313,6 @@ def count_job(
     method : {"orbits", "burnside"}
     kept : mapping, optional
         The key of a job to be resumed: the units are as large as it says, where there is a choice.
-
-    Returns
-    -------
-    Counting
-        A job whose rows are numbers to be added.
 
     Raises
     ------
@@ -357,7 +344,18 @@ def count_job(
 
 
 class ChainGraph(nx.Graph):
-    """The link-joint graph of a kinematic chain; its graph attributes are the row of `chain_rows`."""
+    """The link-joint graph of a kinematic chain.
+
+    Attributes
+    ----------
+    graph : dict of str to object
+        The row of `chain_rows`.
+
+    Examples
+    --------
+    >>> next(chains(6, 1)).graph["symmetry"]
+    4
+    """
 
 
 def chains(links: int, dof: int, *, workers: int = 1, **options: Unpack[ChainOptions]) -> Iterator[ChainGraph]:

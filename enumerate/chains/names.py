@@ -19,17 +19,12 @@ def _named() -> dict[str, str]:
 
 
 def name_of(chain: str) -> str:
-    """Return the name of the chain with an id, or nothing.
+    """Return the name of the chain with an id; empty if it has none.
 
     Parameters
     ----------
     chain : str
         ``k1:...``
-
-    Returns
-    -------
-    str
-        Empty if the chain has no name.
 
     Examples
     --------
@@ -51,17 +46,12 @@ def chain_names() -> tuple[str, ...]:
 
 
 def chain_named(name: str) -> str:
-    """Return the id of the chain with a name.
+    """Return the id of the chain with a name, ``k1:...``.
 
     Parameters
     ----------
     name : str
         In any case of letters.
-
-    Returns
-    -------
-    str
-        ``k1:...``
 
     Raises
     ------

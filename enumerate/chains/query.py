@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypedDict
 
@@ -119,6 +120,11 @@ class ChainQuery(Query):
             if not self.admits_assortment({2: self.links - n, **degrees}):
                 return False
         return self.planar is None or is_planar(decode(code, n)) == self.planar
+
+    def number_within(self, number_to: Callable[[int], int]) -> int:
+        """Return how many chains have a longest string within the limits, from how many have none longer."""
+        least = self.longest_string.least
+        return number_to(self.most) - (number_to(least - 1) if least > 0 else 0)
 
     def admits(self, longest: int, symmetry: int) -> bool:
         """Tell whether longest string and number of automorphisms are within the limits."""

@@ -21,13 +21,15 @@ import numpy as np
 
 from enumerate.chains.query import ChainQuery, is_planar
 from enumerate.contracted.binary_links import (
+    Frame,
+    PlacementRange,
     frame_of,
     graph6_rows,
     joints_of_all,
     link_symmetries,
+    list_placements,
     orbits_of,
     orbits_of_all,
-    placements_of,
 )
 from enumerate.contracted.graphs import decode
 from enumerate.kernel.bliss_order import MOST_NODES, bliss_orders
@@ -78,38 +80,38 @@ class GraphChains:
     """
 
     code: Bytes
-    n: int
+    frame: Frame
     x: Bytes
     order: Ints
 
     @classmethod
     def of(cls, query: ChainQuery, code: Bytes, n: int, only: int, prefix: Ints) -> GraphChains:
         """List them, or those that begin in one way (`enumerate.chains.counting.count_of_graph`)."""
-        x, order = placements_of(code, n, query.links, query.most, only, prefix)
+        frame = frame_of(code, n)
+        x, order = list_placements(frame, PlacementRange(query.links, query.most, only), prefix)
         kept = query.symmetry.admitted(order)
         if query.longest_string.least > 0:  # the greatest length was seen to when they were placed
             kept &= x.max(axis=1, initial=0) >= query.longest_string.least
-        return cls(code, n, x[kept], order[kept])
+        return cls(code, frame, x[kept], order[kept])
 
     def inversions(self, links: int) -> Ints:
         """Return the orbits of links of each chain: int64[r, links], the least link of the orbit of each."""
-        ends, first, moved, automorphisms = frame_of(self.code, self.n)
-        return orbits_of_all(ends, first, moved, automorphisms, links, self.x)
+        return orbits_of_all(self.frame, links, self.x)
 
 
 def rows_of_graph(query: ChainQuery, chains: GraphChains, bare: bool) -> list[Row]:
     """Return the rows of the chains of a contracted graph."""
     if not len(chains.x):
         return []
-    ends, first, moved, automorphisms = frame_of(chains.code, chains.n)
-    joints = joints_of_all(ends, chains.n, chains.x)
+    joints = joints_of_all(chains.frame, chains.x)
     codes, labels = chain_ids(query.links, joints, chains.order)
     if bare:
         return list(zip(codes, strict=True))
     orbits = chains.inversions(query.links)
-    degrees = Counter(decode(chains.code, chains.n).sum(axis=1).tolist())
-    assortment = assortment_of({**degrees, 2: query.links - chains.n})
-    planar = is_planar(decode(chains.code, chains.n))
+    adjacency = decode(chains.code, chains.frame.links)
+    degrees = Counter(adjacency.sum(axis=1).tolist())
+    assortment = assortment_of({**degrees, 2: query.links - len(adjacency)})
+    planar = is_planar(adjacency)
     counts = (orbits == np.arange(query.links)).sum(axis=1)
     common = map(repeat, (query.links, query.joints, query.dof, query.loops, assortment))
     own = (values.tolist() for values in (chains.x.max(axis=1), chains.order, counts))
@@ -118,7 +120,7 @@ def rows_of_graph(query: ChainQuery, chains: GraphChains, bare: bool) -> list[Ro
         return rows
     choices: list[Row] = []
     for i, row in enumerate(rows):
-        generators = link_symmetries(ends, first, moved, automorphisms, query.links, chains.x[i])
+        generators = link_symmetries(chains.frame, query.links, chains.x[i])
         order = labels[i].tolist()
         renamed = np.empty_like(generators)
         renamed[:, order] = labels[i][generators]

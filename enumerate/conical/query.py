@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Literal
 
-import networkx as nx
 import numpy as np
 
 from enumerate.conical.rounds import Rounds, count_rounds_by_burnside, count_rounds_by_orbits, placements, prefixes
+from enumerate.contracted.binary_links import orbits_of
 from enumerate.runner.job import Column, QueryCount, QueryJob, Row, Unit
 from enumerate.runner.running import total_of, tuples_of
 from graphs.errors import InvariantError, UnsolvableError, shown
@@ -279,14 +279,8 @@ def joint_symmetries(joints: Mapping[JointId, tuple[LinkId, LinkId]], ground: Li
 def links_apart(joints: Mapping[JointId, tuple[LinkId, LinkId]]) -> list[LinkId]:
     """Return one link of each set of links that symmetries exchange: the different ground links of a chain."""
     generators, links, _ = _generators(joints, None)
-    orbits = nx.utils.UnionFind(range(len(links)))
-    for move in generators:
-        for i in range(len(links)):
-            orbits.union(i, move[i])
-    first: dict[int, LinkId] = {}
-    for i, link in enumerate(links):
-        first.setdefault(orbits[i], link)
-    return list(first.values())
+    moves = np.array([range(len(links) + len(joints)), *generators], np.int64)
+    return [link for i, (link, least) in enumerate(zip(links, orbits_of(moves), strict=False)) if least == i]
 
 
 def _generators(

@@ -1,19 +1,11 @@
 """Joints round a circle: placements on equal slots up to turns, mirror images and symmetries; layers.
 
 A placement gives each joint a slot, 0 to K - 1; no two joints may have slots that are equal modulo a number of
-*classes*, which divides K. Three uses:
-
-- K = classes = J: cyclic orders of the joints;
-- K = 2 J, classes J: cyclic orders of the joints and of the points opposite to them; each pair of opposite slots
-  has one joint;
-- K = classes >= J: joints on different slots of a circle.
-
-Of the placements that turns, mirror images and symmetries of the chain exchange one is listed, the one whose row
-is lexicographically least.
-
-*Layers* say how many links must lie over each other. Links are arcs of a circle that the joints cut into gaps; an
-arc is the set of gaps it covers, bit i of a mask for gap i. Links whose arcs share a gap lie in different layers.
-A link may have several arcs to choose from. Theory: docs/theory/conical-candidates.md.
+*classes*, which divides K: J for cyclic orders (K = J) and for those of the joints and of the points opposite to
+them (K = 2 J), K for different slots. Of the placements that turns, mirror images and symmetries of the chain
+exchange the one whose row is lexicographically least is listed. *Layers* say how many links must lie over each
+other: a link is an arc, or one of several, the set of gaps between joints that it covers, bit i for gap i, and
+arcs that share a gap lie in different layers. Theory: docs/theory/conical-candidates.md.
 """
 
 from __future__ import annotations
@@ -31,7 +23,6 @@ from graphs.types import Ints
 
 __all__ = [
     "Rounds",
-    "canonical_row",
     "count_rounds_by_burnside",
     "count_rounds_by_orbits",
     "fewest_layers",
@@ -158,13 +149,7 @@ def placements(rounds: Rounds, symmetries: Ints, prefix: tuple[int, ...] = (0,))
 
 
 def count_rounds_by_orbits(rounds: Rounds, symmetries: Ints, prefix: tuple[int, ...] = (0,)) -> int:
-    """Return how many placements there are, one of each orbit, by comparing each with its images.
-
-    Parameters
-    ----------
-    rounds, symmetries, prefix
-        As for `placements`.
-    """
+    """Return how many `placements` there are, one of each orbit, by comparing each with its images."""
     return int(_listed(symmetries, rounds.slots, rounds.classes, np.array(prefix, np.int64), False)[2])
 
 
@@ -190,39 +175,13 @@ def prefixes(rounds: Rounds, most: int) -> Iterator[tuple[int, ...]]:
     return longer((0,))
 
 
-def canonical_row(row: Ints, symmetries: Ints, slots: int) -> tuple[int, ...]:
-    """Return the least placement of the orbit of a placement.
-
-    >>> canonical_row(np.array([3, 1, 0, 2]), np.array([[0, 1, 2, 3]]), 4)
-    (0, 2, 1, 3)
-    """
-    moved = np.asarray(row)[symmetries]
-    moved = moved - moved[:, :1]
-    images = np.concatenate([moved % slots, -moved % slots])
-    return min(map(tuple, images.tolist()))
-
-
 def count_rounds_by_burnside(rounds: Rounds, symmetries: Ints) -> int:
     """Return how many placements there are, one of each orbit, by Burnside's lemma; none is made.
 
-    Parameters
-    ----------
-    rounds : Rounds
-    symmetries : int64[g, J]
-
-    Notes
-    -----
     A turn or mirror image g of the circle and a symmetry s of the chain fix the placements that take each cycle
     of s to a cycle of g of the same length. On the classes, g has n_l cycles of length l that do not lead from a
     slot to one of its own class, s has m_l: they go together in n_l! / (n_l - m_l)! (f l)^m_l ways, f being the
     slots of a class.
-
-    Examples
-    --------
-    >>> from enumerate.conical.query import joint_symmetries
-    >>> watt = joint_symmetries(dict(enumerate([(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)])))
-    >>> count_rounds_by_burnside(Rounds.orders(7), watt)
-    102
     """
     types = Counter(tuple(sorted(Counter(map(len, cycles(row))).items())) for row in symmetries.tolist())
     fold, total = rounds.slots // rounds.classes, 0

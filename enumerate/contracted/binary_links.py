@@ -5,16 +5,12 @@ sub-chain S (links of the contracted graph, with the joints between them) has mo
 
     sum over the joints of S of min(x_e, 2)  >=  need(S) = 2 |E(S)| - 3 |S| + 4.
 
-With w = min(x, 2) and W the sum of all w this says that at most W - need(S) of the W units lie *outside* S. In
-that form a partial placement that breaks a condition is seen at once: the units are placed one after another, in
-the order of the joints, and every condition is a counter of eight bits, eight counters a machine word, that must
-not fall below zero. What is still to be placed must fit, too: what cannot go inside S any more goes outside. With
-both looks, about every second step of the search is a result. Units beyond the second on a joint (x - w) are free:
-they cost no condition.
-
-One placement of each orbit under the automorphisms is kept: with parallel joints in falling order, the
-lexicographically largest. A chain has the links of its contracted graph first, then the binary links, string after
-string; the links of a string are counted from the end whose number is larger. Theory: docs/theory/chains.md.
+With w = min(x, 2) and W the sum of all w this says that at most W - need(S) of the W units lie *outside* S: so a
+partial placement that breaks a condition is seen at once. Units are placed one after another, every condition is a
+counter of eight bits that must not fall below zero, and what is still to be placed must fit, too. Units beyond the
+second on a joint are free. One placement of each orbit under the automorphisms is kept: with parallel joints in
+falling order, the lexicographically largest. A chain has the links of its contracted graph first, then the binary
+links, string after string, each from the end whose number is larger. Theory: docs/theory/chains.md.
 """
 
 from __future__ import annotations
@@ -26,10 +22,11 @@ import numpy as np
 from enumerate.contracted.graphs import decode
 from enumerate.kernel.compiled import compiled, doubled
 from enumerate.kernel.labelling import canonical_labels
-from graphs.types import Bytes, Ints, Words
+from graphs.types import Bytes, Flags, Ints, Words
 
 __all__ = [
     "EVERY",
+    "Frame",
     "PlacementRange",
     "Units",
     "conditions",
@@ -42,15 +39,33 @@ __all__ = [
     "orbits_of",
     "orbits_of_all",
     "place",
-    "placements_of",
     "rigid_sets",
     "symmetries_fixing",
+    "with_symmetries",
 ]
 
 _GUARD = np.uint64(0x8080808080808080)
 _ONES = np.uint64(0x0101010101010101)
 _LOW = np.uint64(0x7F7F7F7F7F7F7F7F)
 _BYTE = np.uint64(0xFF)
+
+
+class Frame(NamedTuple):
+    """The joints of a contracted graph or map of `links` links, on which binary links are placed.
+
+    `ends`, uint8[m, 2], are the links of each joint; `first`, int64[m], is the first of the joints parallel to it.
+    `moved`, uint8[a, m], is what symmetries do to joints, keeping the order of parallel ones, `automorphisms`,
+    uint8[a, links], what they do to links; the identity comes first. `sets` are the sets of links that could
+    become rigid, as bits, the whole one last, and `needs` what each needs (`rigid_sets`).
+    """
+
+    ends: Bytes
+    first: Ints
+    moved: Bytes
+    automorphisms: Bytes
+    sets: Ints
+    needs: Ints
+    links: int
 
 
 class Units(NamedTuple):
@@ -382,58 +397,67 @@ def symmetries_fixing(x: Ints, symmetries: Bytes | Ints) -> int:
 
 
 @compiled
-def frame_of(code: Bytes, n: int) -> tuple[Bytes, Ints, Bytes, Bytes]:
-    """Return of a contracted graph its joints, first parallel joints, their permutations and automorphisms."""
+def frame_of(code: Bytes, n: int) -> Frame:
+    """Return the frame of a contracted graph with n links."""
     adjacency = decode(code, n)
     _, automorphisms = canonical_labels(adjacency, n)
     ends, first = slots(adjacency, n)
-    return ends, first, permutations(ends, first, automorphisms), automorphisms
+    sets, needs = rigid_sets(adjacency, n)
+    return Frame(ends, first, permutations(ends, first, automorphisms), automorphisms, sets, needs, n)
 
 
 @compiled
-def placements_of(code: Bytes, n: int, links: int, most: int, only: int, prefix: Ints) -> tuple[Bytes, Ints]:
-    """List the placements of binary links on a contracted graph: binary links on each joint, uint8[r, m].
+def with_symmetries(frame: Frame, kept: Flags) -> Frame:
+    """Return a frame with some of its symmetries only."""
+    moved, automorphisms = _rows_kept(frame.moved, kept), _rows_kept(frame.automorphisms, kept)
+    return Frame(frame.ends, frame.first, moved, automorphisms, frame.sets, frame.needs, frame.links)
 
-    With them comes the number of automorphisms of each chain. Arguments are those of
-    `enumerate.chains.counting.count_of_graph`.
+
+@compiled
+def _rows_kept(rows: Bytes, kept: Flags) -> Bytes:
+    """Return some of the rows."""
+    found = np.empty((kept.sum(), rows.shape[1]), np.uint8)
+    used = 0
+    for a in range(len(rows)):
+        if kept[a]:
+            for k in range(rows.shape[1]):
+                found[used, k] = rows[a, k]
+            used += 1
+    return found[:used]
+
+
+@compiled
+def list_placements(frame: Frame, wanted: PlacementRange, prefix: Ints) -> tuple[Bytes, Ints]:
+    """List placements: binary links on each joint, uint8[r, m], and the number of automorphisms of each chain.
+
+    The prefix is the joints of the first units.
     """
-    ends, first, moved, _ = frame_of(code, n)
-    sets, needs = rigid_sets(decode(code, n), n)
-    return list_placements(ends, first, moved, sets, needs, n, PlacementRange(links, most, only), prefix)
-
-
-@compiled
-def list_placements(
-    ends: Bytes, first: Ints, moved: Bytes, sets: Ints, needs: Ints, n: int, wanted: PlacementRange, prefix: Ints
-) -> tuple[Bytes, Ints]:
-    """List the placements on joints with given symmetries, as `placements_of` does for a graph."""
-    m = len(ends)
+    m = len(frame.ends)
     cost = np.ones(m, np.int64)
-    links = wanted.links
-    least, last = max(needs[-1], 0), min(links - n, 2 * m)
+    units = wanted.links - frame.links
     x, order = np.zeros((0, m), np.uint8), no_prefix()
     used = 0
-    for bound in range(least, last + 1):
+    for bound in range(max(frame.needs[-1], 0), min(units, 2 * m) + 1):
         if wanted.only not in (EVERY, bound):
             continue
-        room, weight = conditions(ends, sets, needs, bound)
-        units = Units(bound, links - n - bound, wanted.most)
-        count = place(room, weight, cost, first, units, moved, prefix, x[:0], order[:0])
+        room, weight = conditions(frame.ends, frame.sets, frame.needs, bound)
+        left = Units(bound, units - bound, wanted.most)
+        count = place(room, weight, cost, frame.first, left, frame.moved, prefix, x[:0], order[:0])
         more, fixing = np.zeros((used + count, m), np.uint8), np.zeros(used + count, np.int64)
         for i in range(used):
             fixing[i] = order[i]
             for e in range(m):
                 more[i, e] = x[i, e]
         if count:
-            place(room, weight, cost, first, units, moved, prefix, more[used:], fixing[used:])
+            place(room, weight, cost, frame.first, left, frame.moved, prefix, more[used:], fixing[used:])
         x, order, used = more, fixing, used + count
     for i in range(used):
-        order[i] *= _parallel_swaps(first, x[i])
+        order[i] *= _parallel_swaps(frame.first, x[i])
     return x, order
 
 
 @compiled
-def joints_of_all(ends: Bytes, n: int, x: Bytes) -> Ints:
+def joints_of_all(frame: Frame, x: Bytes) -> Ints:
     """Return the joints of the chains of placements with equally many binary links: int64[r, J, 2]."""
     rows, m = x.shape
     binary = 0
@@ -441,14 +465,14 @@ def joints_of_all(ends: Bytes, n: int, x: Bytes) -> Ints:
         binary += x[0, e]
     joints = np.empty((rows, m + binary, 2), np.int64)
     for r in range(rows):
-        link, k = n, 0
+        link, k = frame.links, 0
         for e in range(m):
-            joints[r, k, 0] = ends[e, 0]
+            joints[r, k, 0] = frame.ends[e, 0]
             for _ in range(x[r, e]):
                 joints[r, k, 1] = joints[r, k + 1, 0] = link
                 link += 1
                 k += 1
-            joints[r, k, 1] = ends[e, 1]
+            joints[r, k, 1] = frame.ends[e, 1]
             k += 1
     return joints
 
@@ -464,13 +488,14 @@ def _parallel_swaps(first: Ints, x: Bytes) -> int:
 
 
 @compiled
-def link_symmetries(ends: Bytes, first: Ints, moved: Bytes, automorphisms: Bytes, links: int, x: Bytes) -> Ints:
+def link_symmetries(frame: Frame, links: int, x: Bytes) -> Ints:
     """Return permutations of the links of a chain that generate its automorphisms: int64[g, links].
 
     Those of the contracted graph that leave the placement as it is, then the exchanges of two neighbouring
     parallel strings of equal length.
     """
-    m, n = len(ends), automorphisms.shape[1]
+    ends, first, moved, automorphisms = frame.ends, frame.first, frame.moved, frame.automorphisms
+    m, n = len(ends), frame.links
     offset = np.empty(m, np.int64)
     offset[0] = n
     for e in range(1, m):
@@ -520,11 +545,11 @@ def orbits_of(generators: Ints) -> Ints:
 
 
 @compiled
-def orbits_of_all(ends: Bytes, first: Ints, moved: Bytes, automorphisms: Bytes, links: int, x: Bytes) -> Ints:
+def orbits_of_all(frame: Frame, links: int, x: Bytes) -> Ints:
     """Return the orbits of links of the chains of placements, as `orbits_of` gives them: int64[r, links]."""
     orbits = np.empty((len(x), links), np.int64)
     for r in range(len(x)):
-        least = orbits_of(link_symmetries(ends, first, moved, automorphisms, links, x[r]))
+        least = orbits_of(link_symmetries(frame, links, x[r]))
         for v in range(links):
             orbits[r, v] = least[v]
     return orbits

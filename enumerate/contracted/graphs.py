@@ -1,34 +1,19 @@
 """Contracted graphs: what is left of a kinematic chain when its binary links are taken out.
 
-A chain with L >= 2 independent loops becomes a 2-connected multigraph without self-joints in which every link has
-three joints or more, still with L loops; n <= 2 (L - 1) links and n + L - 1 joints. The graphs with the most
-links are cubic, and every other one comes from a graph with one link more by contracting a joint:
-any split of the joints of a link into two sets of two or more gives such a graph. So a graph with n links is
-looked for only where it is cheap: joints are contracted that end at a ternary link and whose contraction makes a
-link of the one degree, chosen by the degrees of the result, that can be split in the fewest ways.
-A graph is held as its *code*: the places of its joints in the lower triangle of the canonical matrix, in order, a
-byte each.
-
-Two ways lead from the cubic graphs to the others. *Level by level*, repeated graphs are thrown away: all graphs of
-a size are in memory for that. *Streamed*, a graph is taken from one parent only, which it chooses itself: of the
-ways to split a link that are looked at (`cheapest_degree`), the first by the canonical numbers of links. A
-contraction whose undoing is no image of that one under the graph's automorphisms gives the graph to another
-parent, and is passed over. So the graphs that come from one cubic graph are its own, and those of all cubic
-graphs, in any order, are all there are, each once (McKay, *Isomorph-free exhaustive generation*, J. Algorithms 26,
-1998).
-
-A check: a graph with n links has n! / |Aut| labellings, where |Aut| counts permutations of links and of parallel
-joints. So the sum of the *weights* 1 / |Aut| is a coefficient of a generating function of labelled multigraphs,
-and no graph is looked at. A graph that a list lacks, or has twice, or whose symmetries are wrong, changes the sum.
-Theory: docs/theory/chains.md.
+A chain with L >= 2 loops becomes a 2-connected multigraph without self-joints in which every link has three joints
+or more: n <= 2 (L - 1) links, n + L - 1 joints. Those with the most links are cubic; every other one comes from a
+graph with one link more by contracting a joint, since any split of the joints of a link into two sets of two or
+more gives such a graph. So joints are contracted only at a ternary link, and only where the new link has the one
+degree that can be split in the fewest ways (`cheapest_degree`). A graph is held as its *code*: the places of its
+joints in the lower triangle of the canonical matrix, in order, a byte each. *Level by level*, repeated graphs are
+thrown away, all of a size being in memory. *Streamed*, a graph is taken only from the parent that the first of its
+splits undoes (McKay, *Isomorph-free exhaustive generation*, J. Algorithms 26, 1998), so each comes from one cubic
+graph. Theory: docs/theory/chains.md.
 """
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterator
-from fractions import Fraction
-from math import comb, factorial
 from typing import NamedTuple
 
 import numpy as np
@@ -48,8 +33,6 @@ __all__ = [
     "descendants",
     "graph_key",
     "streamed_graphs",
-    "total_weights",
-    "weight_of",
 ]
 
 MOST_LOOPS = 11
@@ -511,102 +494,3 @@ def _is_first_split(child: Bytes, order: Bytes, symmetries: Bytes, link: int, ha
             if min(p, q) == one and max(p, q) == other:
                 return True
     return False
-
-
-Series = list[list[Fraction]]
-"""Coefficients of x^n y^m: links and joints."""
-
-
-def total_weights(loops: int) -> dict[int, Fraction]:
-    """Return the sum of 1 / |Aut| over the contracted graphs with L >= 2 loops, for each number of links.
-
-    With x for a link and y for a joint, multigraphs without self-joints have the generating function G = sum x^n
-    e^(y n (n - 1) / 2) / n!, connected ones C = log G, 2-connected ones B with B'(x C') = log C' (a connected
-    graph with a root is a set of 2-connected ones at the root, with connected graphs at their other links; Harary
-    and Palmer, Graphical Enumeration, 1973, chapter 1). A 2-connected graph with two loops or more is a contracted
-    one with joints replaced by paths: H(x, y / (1 - x y)) = B(x, y), so H(x, s) = B(x, s / (1 + x s)). Two links
-    with three joints have 12 automorphisms:
-
-    >>> {links: str(weight) for links, weight in total_weights(2).items()}
-    {2: '1/12'}
-    """
-    most = 2 * (loops - 1)
-    blocks = _two_connected(most, most + loops - 1)
-    totals = {}
-    for links in range(most, 1, -1):
-        terms = (
-            (-1) ** paths * comb(links + loops - 2, paths) * blocks[links - paths][links - paths + loops - 1]
-            for paths in range(links - 1)
-        )
-        totals[links] = sum(terms, Fraction(0))
-    return totals
-
-
-def weight_of(codes: Bytes, n: int) -> Fraction:
-    """Return the sum of 1 / |Aut| over contracted graphs of n links, by their codes uint8[k, m]."""
-    orders = Counter(_orders(codes, n).tolist())
-    return sum((Fraction(times, order) for order, times in orders.items()), Fraction(0))
-
-
-@compiled
-def _orders(codes: Bytes, n: int) -> Ints:
-    """Return the number of automorphisms of each graph, those of parallel joints among them."""
-    orders = np.empty(len(codes), np.int64)
-    for c in range(len(codes)):
-        adjacency = decode(codes[c], n)
-        order = len(canonical_labels(adjacency, n)[1])
-        for u in range(n):
-            for v in range(u):
-                for parallel in range(2, adjacency[u, v] + 1):
-                    order *= parallel
-        orders[c] = order
-    return orders
-
-
-def _two_connected(links: int, joints: int) -> Series:
-    """Return the generating function of 2-connected multigraphs without self-joints, up to a size."""
-    every = [
-        [Fraction(comb(n, 2) ** m, factorial(m) * factorial(n)) for m in range(joints + 1)]
-        for n in range(links + 1)
-    ]
-    connected = _logarithm(every)
-    rooted = [[n * value for value in row] for n, row in enumerate(connected)]
-    left = _logarithm(rooted[1:])
-    blocks = [[Fraction(0)] * (joints + 1) for _ in range(links + 1)]
-    power = rooted
-    for k in range(1, links):
-        coefficient = list(left[k])
-        blocks[k + 1] = [value / (k + 1) for value in coefficient]
-        for n in range(k, links):
-            left[n] = [a - b for a, b in zip(left[n], _product(coefficient, power[n]), strict=True)]
-        power = [_sum_of_products(power, rooted, n, joints) for n in range(links + 1)]
-    return blocks
-
-
-def _logarithm(series: Series) -> Series:
-    """Return the logarithm of a series that begins with 1: n l_n = n a_n - sum k l_k a_(n - k)."""
-    logarithm = [[Fraction(0)] * len(series[0])]
-    for n in range(1, len(series)):
-        row = [n * value for value in series[n]]
-        for k in range(1, n):
-            term = _product(logarithm[k], series[n - k])
-            row = [value - k * other for value, other in zip(row, term, strict=True)]
-        logarithm.append([value / n for value in row])
-    return logarithm
-
-
-def _sum_of_products(one: Series, other: Series, n: int, joints: int) -> list[Fraction]:
-    total = [Fraction(0)] * (joints + 1)
-    for k in range(1, n):
-        total = [a + b for a, b in zip(total, _product(one[k], other[n - k]), strict=True)]
-    return total
-
-
-def _product(one: list[Fraction], other: list[Fraction]) -> list[Fraction]:
-    """Return the product of two polynomials in y, cut off where they are."""
-    product = [Fraction(0)] * len(one)
-    for i, a in enumerate(one):
-        if a:
-            for j in range(len(one) - i):
-                product[i + j] += a * other[j]
-    return product

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from enumerate.contracted.binary_links import Frame
 from enumerate.kernel.compiled import compiled, doubled, slot_of
 from graphs.types import Bytes, Ints
 
@@ -40,13 +41,13 @@ class Cycles(NamedTuple):
 
 
 @compiled
-def cycles_of(moved: Bytes, automorphism: Bytes, ends: Bytes, first: Ints, order: Ints, sets: Ints) -> Cycles:
+def cycles_of(frame: Frame, moved: Bytes, automorphism: Bytes, order: Ints) -> Cycles:
     """Return the cycles of a permutation `moved` of joints, which keeps the order of parallel joints.
 
-    `automorphism` is what it does to the links; ends and first joints are those of
-    `enumerate.contracted.binary_links.slots`, sets those of its `rigid_sets`, the whole last. The order is that of
-    first joints of classes of parallel ones, as they are filled.
+    `automorphism` is what it does to the links. The order is that of first joints of classes of parallel ones, as
+    they are filled.
     """
+    ends, first, sets = frame.ends, frame.first, frame.sets
     m = len(ends)
     cost, start, still = np.zeros(m, np.int64), np.zeros(m, np.int64), np.zeros(m, np.int64)
     outside = np.zeros((m, len(sets) - 1), np.int64)

@@ -17,7 +17,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from enumerate.contracted.binary_links import rigid_sets
+from enumerate.contracted.binary_links import Frame, rigid_sets
 from enumerate.contracted.graphs import Growth, cheapest_degree
 from enumerate.kernel.compiled import compiled, empty_set, insert
 from enumerate.kernel.maps import END, JOINT, canonical_map, decode_map, faces_of, from_turns, symmetries_of_map
@@ -35,7 +35,6 @@ __all__ = [
     "outer_frame",
     "plane_trees",
     "ring",
-    "sets_of",
 ]
 
 MOST_MAP_LOOPS = 9
@@ -132,10 +131,7 @@ def _theta() -> Bytes:
     """Return the code of two links with three joints."""
     vertex = np.array([0, 1, 0, 1, 0, 1])
     code, _, _ = _canonical(from_turns(np.array([2, 5, 4, 1, 0, 3])), vertex)
-    codes = np.zeros((1, len(code)), np.uint8)
-    for k in range(len(code)):
-        codes[0, k] = code[k]
-    return codes
+    return code.reshape(1, -1)
 
 
 @compiled
@@ -261,11 +257,11 @@ def outer_faces(code: Bytes) -> Ints:
 
 
 @compiled
-def outer_frame(code: Bytes, outer: int) -> tuple[Bytes, Bytes, Ints]:
-    """Return of a contracted map the links of its joints, and its symmetries that keep a face, the identity first.
+def outer_frame(code: Bytes, n: int, outer: int) -> tuple[Frame, Ints]:
+    """Return the frame of a contracted map, and where its symmetries take each face: int64[s, F].
 
-    Symmetries are where they take each joint, uint8[s, m], and each face, int64[s, F]; all of them if the face is
-    -1.
+    They keep the outer face, unless that is -1. No two joints count as parallel; what symmetries do to links is
+    left out.
     """
     turn, vertex, _ = decode_map(code)
     face, count = faces_of(turn)
@@ -285,13 +281,9 @@ def outer_frame(code: Bytes, outer: int) -> tuple[Bytes, Bytes, Ints]:
         for e in range(m):
             moved[kept, e] = darts[a, 2 * e] >> 1
         kept += 1
-    return ends, moved[:kept], faces[:kept]
-
-
-@compiled
-def sets_of(code: Bytes, n: int) -> tuple[Ints, Ints]:
-    """Return the sets of links that could become rigid, and what each needs, as `rigid_sets` does."""
-    return rigid_sets(joint_matrix(code, n), n)
+    sets, needs = rigid_sets(joint_matrix(code, n), n)
+    nothing = np.zeros((0, n), np.uint8)
+    return Frame(ends, np.arange(m), moved[:kept], nothing, sets, needs, n), faces[:kept]
 
 
 @compiled

@@ -2,23 +2,17 @@
 
 Of each orbit the lexicographically largest placement is meant. Classes of joints are filled orbit after orbit:
 when one is full, a symmetry has left it as it is, or made it smaller and says nothing more, or larger, which ends
-the branch. So all that matters of the past is which symmetries have left it as it is, beside what the sets of
-links still need: placements that agree in both are one state (`enumerate.contracted.states`). Only inside an orbit
-are placements made, and of a graph without symmetries none is.
-
-Inversions are placements with a link chosen: one of the contracted graph, or one of a string. Of links that
-symmetries take to each other one is looked at, and then only the symmetries count that leave it where it is, or
-its class of parallel joints. Where there are none but the identity, a link of the graph is chosen with every
-placement, and those of strings are added up while placements are. Where there are some, a link of the graph leaves
-placements with fewer symmetries, and a string that is chosen from leaves them on the other joints: what it holds
-is taken off the needs. Nothing is shared with the count of inversions by Burnside's lemma. Theory:
-docs/theory/chains.md.
+the branch. So placements for which the same symmetries are left, and sets of links need the same, are one state
+(`enumerate.contracted.states`); only inside an orbit are placements made. Inversions are placements with a link
+chosen, one of each orbit of links, counted under the symmetries that leave it where it is; a string that is chosen
+from is taken off the needs. Nothing is shared with the count by Burnside's lemma. Theory: docs/theory/chains.md.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from enumerate.contracted.binary_links import Frame, with_symmetries
 from enumerate.contracted.states import (
     GROUP,
     GROUPS,
@@ -42,17 +36,12 @@ __all__ = ["count_orbits", "count_with_a_link"]
 
 
 @compiled
-def count_orbits(ends: Bytes, first: Ints, moved: Bytes, sets: Ints, needs: Ints, units: int, most: int) -> int:
-    """Return the number of placements of binary links on joints with given symmetries, one of each orbit.
-
-    Joints, first parallel ones, and permutations of the joints, which keep the order of parallel ones, are those
-    of `enumerate.contracted.binary_links`, sets and needs those of its `rigid_sets`. There are `units` binary
-    links, no more than `most` on a joint.
-    """
-    order = order_of_classes(ends, first, moved, sets)
-    classes = classes_in_order(ends, first, order, sets, needs, units, most)
+def count_orbits(frame: Frame, units: int, most: int) -> int:
+    """Return the number of placements of so many binary links, at most `most` on a joint, one of each orbit."""
+    order = order_of_classes(frame, frame.moved)
+    classes = classes_in_order(frame, order, units, most)
     strings = strings_of_classes(classes.size.max(), units, most)
-    images = _images(classes, moved)
+    images = _images(classes, frame.moved)
     groups = np.zeros((2, (len(images) + 63) // 64), np.uint64)  # sets of symmetries: 0 is empty, 1 has all
     for a in range(len(images)):
         groups[1, a // 64] |= np.uint64(1) << np.uint64(a % 64)
@@ -211,60 +200,36 @@ _NONE = np.uint64(0)
 
 
 @compiled
-def count_with_a_link(
-    ends: Bytes, first: Ints, moved: Bytes, automorphisms: Bytes, sets: Ints, needs: Ints, units: int, most: int
-) -> int:
-    """Return the number of placements of binary links (`units`) with a link chosen, one of each orbit.
-
-    Joints, first parallel ones, and what automorphisms do to joints and to links are those of
-    `enumerate.contracted.binary_links.frame_of`, sets and needs those of
-    `enumerate.contracted.binary_links.rigid_sets`. No joint holds more than `most`.
-    """
+def count_with_a_link(frame: Frame, units: int, most: int) -> int:
+    """Return the number of placements with a link chosen, one of each orbit. Arguments: `count_orbits`."""
     total = alone = 0
-    for v in range(automorphisms.shape[1]):
-        if automorphisms[:, v].min() == v:  # the first of its orbit
-            still = automorphisms[:, v] == v
+    for v in range(frame.links):
+        if frame.automorphisms[:, v].min() == v:  # the first of its orbit
+            still = frame.automorphisms[:, v] == v
             if still.sum() == 1:
                 alone += 1
             else:
-                total += count_orbits(ends, first, _those(moved, still), sets, needs, units, most)
-    free = np.zeros(len(ends), np.bool_)  # classes that no symmetry leaves as they are
-    for e in range(len(ends)):
-        if first[e] == e and moved[:, e].min() == e:
-            still = moved[:, e] == e
+                total += count_orbits(with_symmetries(frame, still), units, most)
+    free = np.zeros(len(frame.ends), np.bool_)  # classes that no symmetry leaves as they are
+    for e in range(len(free)):
+        if frame.first[e] == e and frame.moved[:, e].min() == e:
+            still = frame.moved[:, e] == e
             if still.sum() == 1:
                 free[e] = True
             else:
-                of_class = _those(moved, still), _those(automorphisms, still)
-                total += _with_a_string(ends, first, *of_class, e, sets, needs, units, most)
-    placements, chosen = _without_symmetries(ends, first, free, sets, needs, units, most)
+                total += _with_a_string(with_symmetries(frame, still), e, units, most)
+    placements, chosen = _without_symmetries(frame, free, units, most)
     return total + alone * placements + chosen
 
 
 @compiled
-def _those(rows: Bytes, kept: Flags) -> Bytes:
-    """Return some of the rows."""
-    found = np.empty((kept.sum(), rows.shape[1]), np.uint8)
-    used = 0
-    for a in range(len(rows)):
-        if kept[a]:
-            for k in range(rows.shape[1]):
-                found[used, k] = rows[a, k]
-            used += 1
-    return found
-
-
-@compiled
-def _without_symmetries(
-    ends: Bytes, first: Ints, chosen_from: Flags, sets: Ints, needs: Ints, units: int, most: int
-) -> tuple[int, int]:
+def _without_symmetries(frame: Frame, chosen_from: Flags, units: int, most: int) -> tuple[int, int]:
     """Return the number of all placements, and of all links that can be chosen in some classes of all of them.
 
     `chosen_from`, bool[m], is set at the first joint of those classes.
     """
-    identity = np.arange(len(ends)).astype(np.uint8).reshape(1, -1)
-    order = order_of_classes(ends, first, identity, sets)
-    classes = classes_in_order(ends, first, order, sets, needs, units, most)
+    order = order_of_classes(frame, frame.moved[:1])
+    classes = classes_in_order(frame, order, units, most)
     start, ways = strings_of_classes(classes.size.max(), units, most)
     passed_by = ways.copy()
     for way in range(len(ways)):
@@ -277,50 +242,37 @@ def _without_symmetries(
 
 
 @compiled
-def _with_a_string(
-    ends: Bytes,
-    first: Ints,
-    moved: Bytes,
-    automorphisms: Bytes,
-    e: int,
-    sets: Ints,
-    needs: Ints,
-    units: int,
-    most: int,
-) -> int:
+def _with_a_string(frame: Frame, e: int, units: int, most: int) -> int:
     """Return the number of placements with a link chosen from a string of one class, one of each orbit.
 
     Symmetries that exchange the ends of the class turn the string round. Its middle link stays, so it is chosen
     with placements up to all symmetries; of the others one half is exchanged with the other, so those of one half
-    are chosen, up to the symmetries that turn nothing. Permutations `moved` and `automorphisms` are those of the
-    symmetries that leave the class, with first joint e, where it is.
+    are chosen, up to the symmetries that turn nothing. The symmetries of the frame are those that leave the class,
+    with first joint e, where it is.
     """
-    turning = automorphisms[:, ends[e, 0]] != ends[e, 0]
+    turning = frame.automorphisms[:, frame.ends[e, 0]] != frame.ends[e, 0]
     turned = turning.any()
     last = e
-    while last + 1 < len(ends) and first[last + 1] == e:
+    while last + 1 < len(frame.ends) and frame.first[last + 1] == e:
         last += 1
-    others, alike, images = _without_joint(ends, first, moved, last)
-    straight = _those(images, ~turning)
     total = 0
     for length in range(1, min(most, units) + 1):
-        left = needs.copy()
-        for i in range(len(sets)):
-            left[i] -= min(length, 2) * lies_in(ends, e, sets[i])
+        needs = frame.needs.copy()
+        for i in range(len(needs)):
+            needs[i] -= min(length, 2) * lies_in(frame.ends, e, frame.sets[i])
+        others = _without_joint(frame, last, needs)
         choices = length // 2 if turned else length  # of two links that are exchanged one
         if choices:
-            total += choices * count_orbits(others, alike, straight, sets, left, units - length, most)
+            total += choices * count_orbits(with_symmetries(others, ~turning), units - length, most)
         if turned and length % 2:
-            total += count_orbits(others, alike, images, sets, left, units - length, most)
+            total += count_orbits(others, units - length, most)
     return total
 
 
 @compiled
-def _without_joint(ends: Bytes, first: Ints, moved: Bytes, joint: int) -> tuple[Bytes, Ints, Bytes]:
-    """Return ends, first parallel joints and permutations of the other joints; none moves this one.
-
-    The joint is the last of its class.
-    """
+def _without_joint(frame: Frame, joint: int, needs: Ints) -> Frame:
+    """Return a frame without a joint that no symmetry moves, the last of its class, and with other needs."""
+    ends, first, moved = frame.ends, frame.first, frame.moved
     m = len(ends)
     others, alike = np.empty((m - 1, 2), np.uint8), np.empty(m - 1, np.int64)
     images = np.empty((len(moved), m - 1), np.uint8)
@@ -330,4 +282,4 @@ def _without_joint(ends: Bytes, first: Ints, moved: Bytes, joint: int) -> tuple[
         alike[e] = first[old] - (first[old] > joint)
         for a in range(len(moved)):
             images[a, e] = moved[a, old] - (moved[a, old] > joint)
-    return others, alike, images
+    return Frame(others, alike, images, frame.automorphisms, frame.sets, needs, frame.links)

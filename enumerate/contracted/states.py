@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from enumerate.contracted.binary_links import Frame
 from enumerate.kernel.compiled import compiled, doubled
 from graphs.types import Bytes, Ints, Words
 
@@ -65,13 +66,15 @@ class Classes(NamedTuple):
 
 
 @compiled
-def order_of_classes(ends: Bytes, first: Ints, moved: Bytes, sets: Ints) -> Ints:
+def order_of_classes(frame: Frame, moved: Bytes) -> Ints:
     """Return the first joint of each class, in the order in which classes are filled.
 
-    Those that symmetries take to each other follow each other. Else those come next that begin few sets and end
-    many: what a set needs is then looked after for a short while only, and more placements come to one state.
+    Those that symmetries, `moved`, take to each other follow each other. Else those come next that begin few sets
+    and end many: what a set needs is then looked after for a short while only, and more placements come to one
+    state.
     """
-    joint = np.flatnonzero(first == np.arange(len(first)))
+    ends, sets = frame.ends, frame.sets
+    joint = np.flatnonzero(frame.first == np.arange(len(ends)))
     orbit = joint.copy()
     member = np.zeros((len(joint), len(sets)), np.bool_)
     left = np.zeros(len(sets), np.int64)
@@ -109,14 +112,12 @@ def lies_in(ends: Bytes, joint: int, links: int) -> np.int64:
 
 
 @compiled
-def classes_in_order(
-    ends: Bytes, first: Ints, order: Ints, sets: Ints, needs: Ints, units: int, most: int
-) -> Classes:
+def classes_in_order(frame: Frame, order: Ints, units: int, most: int) -> Classes:
     """Return the classes in an order of first joints, with the sets that constrain so many binary links (`units`).
 
-    Ends and first joints are those of `enumerate.contracted.binary_links.slots`, sets and needs those of its
-    `rigid_sets`; no joint holds more than `most`.
+    No joint holds more than `most`.
     """
+    ends, first, sets, needs = frame.ends, frame.first, frame.sets, frame.needs
     count, each = len(order), min(most, 2)
     size, rest = np.zeros(count, np.int64), np.zeros(count + 1, np.int64)
     for c in range(count - 1, -1, -1):
@@ -225,19 +226,10 @@ _MIX = np.uint64(0x9E3779B97F4A7C15)
 class StateTable(NamedTuple):
     """A table of states, and for each number of filled classes the list of its states.
 
-    Attributes
-    ----------
-    slots : int64[s]
-        Hash table of rows.
-    words : uint64[r, k + 1]
-        Of a state, filled classes and units left, then what sets need.
-    number : int64[r, 2]
-        Number of placements of each, and of links chosen in all of them; the second means something only where no
-        symmetries are compared.
-    following : int64[r]
-        The next state with as many filled classes.
-    begin : int64[c + 2]
-        The first one of each list; last, how many rows are in use.
+    `slots`, int64[s], is a hash table of rows. `words`, uint64[r, k + 1], are filled classes and units left of a
+    state, then what sets need; `number`, int64[r, 2], its placements, and the links chosen in all of them, which
+    mean something only where no symmetries are compared; `following`, int64[r], the next state with as many filled
+    classes. `begin`, int64[c + 2], is the first one of each list; last, how many rows are in use.
     """
 
     slots: Ints

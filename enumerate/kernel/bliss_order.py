@@ -1,15 +1,11 @@
 """Canonical numbers of simple graphs as bliss gives them, without its search, compiled.
 
-bliss refines colours, gives one vertex of a cell a colour of its own, refines again, and so on, until every vertex
-has its own: a leaf. Of all leaves it takes the best. Where each cell that was split is one orbit of the symmetries
-that are left, all leaves are images of each other and *any* leaf is as good. That is so exactly if the lengths of
-the cells that were split multiply to the number of automorphisms, which whoever places binary links knows
-already. So one path is followed here, no leaves are compared, and no automorphisms looked for; of a graph whose
-numbers do not come that way nothing is said, and bliss itself has to be asked.
-
-The order of the cells is bliss's own: what is refined by which cell first, how a cell is split, and which cell is
-split next (the first with most neighbour cells, component after component). A cell is a set of vertices, one bit
-each; its place is the number of vertices in the cells before it. Theory: docs/theory/chains.md.
+bliss refines colours, gives one vertex of a cell a colour of its own, refines again, and so on, and of all leaves
+takes the best (`graphs.identity.leaves`). Where each cell that was split is one orbit of the symmetries that are
+left, any leaf is as good; that is so exactly if the lengths of these cells multiply to the number of
+automorphisms, which whoever places binary links knows. So one path is followed here; a graph whose numbers do not
+come that way is left to bliss. The order of the cells is bliss's own. A cell is a set of vertices, one bit each;
+its place is the number of vertices in the cells before it. Theory: docs/theory/chains.md.
 
 Source: Junttila and Kaski, *Engineering an efficient canonical labeling tool for large and sparse graphs*, ALENEX
 2007; *Conflict propagation and component recursion for canonical labeling*, TAPAS 2011.

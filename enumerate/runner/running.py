@@ -166,11 +166,6 @@ def rows_of(job: Job, *, workers: int = 1) -> Iterator[dict[str, Any]]:
     workers : int
         Local processes; 1 works in this one. They end with the last row, or when the generator is closed.
 
-    Yields
-    ------
-    dict of str to object
-        Column to value.
-
     Raises
     ------
     StoreError

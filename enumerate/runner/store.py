@@ -257,11 +257,6 @@ def read_rows(path: str | Path) -> Iterator[Row]:
     path : str or Path
         A ``.sqlite`` store; of one that is growing, the units that are there.
 
-    Yields
-    ------
-    tuple
-        A row.
-
     Raises
     ------
     StoreError

@@ -270,17 +270,13 @@ class SCCountJob(QueryCount[SCQuery]):
 
     def work(self, payload: tuple[int, Bytes]) -> list[Row]:
         """Return the number of SC graphs of a unit."""
-        query, low = self.query, self.query.longest_string.least
+        (n, codes), query = payload, self.query
         count = count_drawn_by_burnside if self.method == "burnside" else count_drawn
-
-        def number(most: int) -> int:
-            return int(count(payload[1], payload[0], query.links, most, self.outside))
-
-        return [(number(query.chains.most) - (number(low - 1) if low > 0 else 0),)]
+        return [(query.chains.number_within(lambda most: count(codes, n, query.links, most, self.outside)),)]
 
 
 def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True) -> SCCountJob | RowCount:
-    """Return the job that counts the SC graphs of a query.
+    """Return the job that counts the SC graphs of a query: its rows are numbers to be added.
 
     Parameters
     ----------
@@ -288,11 +284,6 @@ def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True
     method : {"orbits", "burnside"}, optional
     outside : bool, optional
         Whether an outer face is chosen; else embeddings in the sphere are counted.
-
-    Returns
-    -------
-    Counting
-        A job whose rows are numbers to be added.
 
     Raises
     ------

@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from enumerate.chains.counting import count_fixed, count_in
-from enumerate.contracted.binary_links import EVERY, PlacementRange, list_placements
-from enumerate.contracted.maps import code_of, expanded, outer_faces, outer_frame, ring, sets_of
+from enumerate.contracted.binary_links import EVERY, PlacementRange, list_placements, no_prefix, with_symmetries
+from enumerate.contracted.maps import code_of, expanded, outer_frame, ring
 from enumerate.kernel.centres import (
     FINITE,
     OUTER,
@@ -58,9 +58,8 @@ def count_on_map(code: Bytes, n: int, outer: int, links: int, most: int, only: i
     The map has n links; the outer face is -1 for embeddings in the sphere without one. The other arguments are
     those of `enumerate.chains.counting.count_of_graph`.
     """
-    ends, moved, _ = outer_frame(code, outer)
-    sets, needs = sets_of(code, n)
-    return count_in(ends, np.arange(len(ends)), moved, sets, needs, n, PlacementRange(links, most, only), prefix)
+    frame, _ = outer_frame(code, n, outer)
+    return count_in(frame, PlacementRange(links, most, only), prefix)
 
 
 @compiled
@@ -70,14 +69,15 @@ def count_drawn(codes: Bytes, n: int, links: int, most: int, outside: bool) -> i
     With `outside` an outer face is chosen; else embeddings in the sphere are counted.
     """
     total = 0
-    nowhere = np.zeros(0, np.int64)
+    wanted, nowhere = PlacementRange(links, most, EVERY), no_prefix()
     for c in range(len(codes)):
-        sets, needs = sets_of(codes[c], n)
-        faces = outer_faces(codes[c]) if outside else np.full(1, -1)
-        for k in range(len(faces)):
-            ends, moved, _ = outer_frame(codes[c], faces[k])
-            first = np.arange(len(ends))
-            total += count_in(ends, first, moved, sets, needs, n, PlacementRange(links, most, EVERY), nowhere)
+        frame, faces = outer_frame(codes[c], n, -1)
+        if not outside:
+            total += count_in(frame, wanted, nowhere)
+            continue
+        for f in range(faces.shape[1]):
+            if faces[:, f].min() == f:  # the first of its orbit
+                total += count_in(with_symmetries(frame, faces[:, f] == f), wanted, nowhere)
     return total
 
 
@@ -86,18 +86,15 @@ def count_drawn_by_burnside(codes: Bytes, n: int, links: int, most: int, outside
     """Return what `count_drawn` returns, by Burnside's lemma: no placement is compared with another."""
     total = 0
     for c in range(len(codes)):
-        sets, needs = sets_of(codes[c], n)
-        ends, moved, faces = outer_frame(codes[c], -1)
-        first = np.arange(len(ends))
+        frame, faces = outer_frame(codes[c], n, -1)
         fixed = 0
-        for a in range(len(moved)):
+        for a in range(len(faces)):
             kept = 0
             for f in range(faces.shape[1]):
                 kept += faces[a, f] == f
             if kept or not outside:
-                same = count_fixed(moved[a], ends, first, sets, needs, n, links, most)
-                fixed += same * (kept if outside else 1)
-        total += number_of_orbits(fixed, len(moved))
+                fixed += count_fixed(frame, frame.moved[a], links, most) * (kept if outside else 1)
+        total += number_of_orbits(fixed, len(faces))
     return total
 
 
@@ -117,9 +114,9 @@ def list_drawn(
     uint8[r, m], labels int64[r, F], and numbers of symmetries int64[r].
     """
     if len(code):
-        ends, moved, faces = outer_frame(code, outer)
-        sets, needs = sets_of(code, n)
-        x, order = list_placements(ends, np.arange(len(ends)), moved, sets, needs, n, wanted, prefix)
+        frame, faces = outer_frame(code, n, outer)
+        moved = frame.moved
+        x, order = list_placements(frame, wanted, prefix)
     else:
         links = wanted.links
         x, order = np.zeros((1, 0), np.uint8), np.full(1, 2 * links)

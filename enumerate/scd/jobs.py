@@ -286,7 +286,7 @@ _OPEN = 0
 def scd_graphs(
     links: int, dof: int, max_degree: int, *, workers: int = 1, **options: Unpack[SCDOptions]
 ) -> Iterator[SCDGraph]:
-    """Yield all SCD graphs of N links and M degrees of freedom, in a fixed order.
+    """Yield all SCD graphs of N links and M degrees of freedom, with their `scd_rows` as attributes, in order.
 
     Parameters
     ----------
@@ -299,11 +299,6 @@ def scd_graphs(
     **options
         Other fields of `PlacementQuery` and `SCDQuery`: ``sheets``, ``symmetric``, ``vertices``, ``spatial``,
         ``infinite``.
-
-    Yields
-    ------
-    SCDGraph
-        Graph attributes hold the row of `scd_rows`.
 
     Raises
     ------
@@ -321,7 +316,7 @@ def scd_graphs(
 def scd_graphs_of(
     mechanism: SCGraph, max_degree: int, *, workers: int = 1, **options: Unpack[PlacementOptions]
 ) -> Iterator[SCDGraph]:
-    """Yield all SCD graphs of an SC graph; see `mechanism_of`.
+    """Yield all SCD graphs of an SC graph, with their rows as attributes; see `mechanism_of`.
 
     Parameters
     ----------
@@ -329,11 +324,6 @@ def scd_graphs_of(
         As for `mechanism_of`.
     workers : int
         Processes.
-
-    Yields
-    ------
-    SCDGraph
-        Graph attributes hold the row of `scd_rows`.
 
     Raises
     ------

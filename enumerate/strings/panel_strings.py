@@ -8,7 +8,6 @@ docs/theory/strings.md.
 
 from __future__ import annotations
 
-import random
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -19,6 +18,7 @@ from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.mechanism.drawing import Side
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
+from graphs.rank.realisation import PRIMES, PrimeField, join, null_vectors
 from graphs.types import JointId, LinkId
 
 __all__ = ["ChainString", "chain_sc", "chain_scd", "count_strings", "joint_chain", "string_of_chain", "strings"]
@@ -27,8 +27,6 @@ MAX_PANELS = 2
 """Rectangular panels in the strings of Table 8, at most."""
 MAX_CLUSTER = 3
 """Creases about one point in the strings of Table 8, at most: more of them give no more freedoms."""
-
-_PRIME = 2**61 - 1
 
 
 @dataclass(frozen=True)
@@ -127,14 +125,17 @@ class ChainString:
         >>> [ChainString.parse(text).dof for text in ("RR-R-RRR", "RRR-RRR", "RRRR", "R-R-R-R")]
         [6, 5, 3, 3]
         """
-        rng = random.Random(self.text)
-        rows, first = [], _random_vector(rng)
+        field = PrimeField(PRIMES[0])
+
+        def point(weight: int) -> tuple[int, int, int, int]:  # at infinity, a direction, if the weight is 0
+            return field.random(), field.random(), field.random(), weight
+
+        rows, first = [], point(0)
         for k in self.clusters:
-            point = _random_vector(rng)
-            directions = [first, *(_random_vector(rng) for _ in range(k - 1))]
+            centre, directions = point(1), [first, *(point(0) for _ in range(k - 1))]
             first = directions[-1]
-            rows += [[*u, *_cross(point, u)] for u in directions]
-        return _rank(rows)
+            rows += [[*u, *moment] for u, moment in (join(centre, direction, field) for direction in directions)]
+        return 6 - len(null_vectors(rows, field))
 
     @property
     def mechanism(self) -> str:
@@ -248,7 +249,7 @@ def joint_chain(text: str) -> ChainString:
 def strings(
     creases: int, *, max_panels: int | None = MAX_PANELS, max_cluster: int | None = MAX_CLUSTER
 ) -> Iterator[ChainString]:
-    """Yield the strings of so many creases, each once, in the order of Table 8: by panels, then by clusters.
+    """Yield the strings of so many creases, canonical, each once, by panels, then by clusters, as in Table 8.
 
     Parameters
     ----------
@@ -257,10 +258,10 @@ def strings(
     max_panels, max_cluster : int or None, optional
         At most so many panels, and creases in a cluster; None for no limit. The defaults are those of Table 8.
 
-    Yields
+    Raises
     ------
-    ChainString
-        In canonical form.
+    InvariantError
+        If a number is too small.
 
     Examples
     --------
@@ -284,15 +285,8 @@ def count_strings(
 
     Parameters
     ----------
-    creases : int
-        Number of R, 1 or more.
-    max_panels, max_cluster : int or None, optional
-        At most so many panels, and creases in a cluster; None for no limit. The defaults are those of Table 8.
-
-    Raises
-    ------
-    InvariantError
-        If a number is too small.
+    creases, max_panels, max_cluster
+        As for `strings`.
 
     Examples
     --------
@@ -358,42 +352,12 @@ def _compositions(total: int, parts: int, largest: int) -> Iterator[tuple[int, .
             yield (first, *rest)
 
 
-def _random_vector(rng: random.Random) -> tuple[int, int, int]:
-    return rng.randrange(_PRIME), rng.randrange(_PRIME), rng.randrange(_PRIME)
-
-
-def _cross(a: tuple[int, int, int], b: tuple[int, int, int]) -> tuple[int, int, int]:
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-
-
-def _rank(rows: list[list[int]]) -> int:
-    """Return the rank modulo the prime of a matrix of six columns."""
-    left = [[x % _PRIME for x in row] for row in rows]
-    rank = 0
-    for column in range(6):
-        pivot = next((row for row in left if row[column]), None)
-        if pivot is None:
-            continue
-        left.remove(pivot)
-        inverse = pow(pivot[column], -1, _PRIME)
-        left = [
-            [(x - row[column] * inverse * y) % _PRIME for x, y in zip(row, pivot, strict=True)] for row in left
-        ]
-        rank += 1
-    return rank
-
-
 def chain_sc(chain: ChainString) -> SCGraph:
     """Return the SC graph of a chain between two bodies: links 0 and n, and n - 1 panels between them.
 
     Parameters
     ----------
     chain : ChainString
-
-    Returns
-    -------
-    SCGraph
-        An open chain, without loops.
 
     Examples
     --------

@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conical import FOUR_BAR, crosses, random_link_angles, random_linkages
+from conical_rows import canonical_row
 from golden_numbers import golden_numbers
 from memberships import memberships
 from second_methods import pole_axes
 
 from enumerate.conical.query import Portion
-from enumerate.conical.rounds import canonical_row
 from graphs.count.report import mobility_report
 from graphs.files.formats import read, read_linkage
 from graphs.geometry import rotated

@@ -5,8 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from weights_of_graphs import total_weights, weight_of
 
-from enumerate.contracted.graphs import contracted_graphs, total_weights, weight_of
+from enumerate.contracted.graphs import contracted_graphs
 
 RECORDED = Path(__file__).parents[3] / "benchmarks" / "results" / "contracted_weights-9.json"
 

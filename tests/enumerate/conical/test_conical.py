@@ -7,6 +7,7 @@ from itertools import permutations, product
 import networkx as nx
 import numpy as np
 import pytest
+from conical_rows import canonical_row
 
 from enumerate.chains.jobs import chains
 from enumerate.chains.names import chain_named
@@ -19,7 +20,6 @@ from enumerate.conical.query import (
 )
 from enumerate.conical.rounds import (
     Rounds,
-    canonical_row,
     count_rounds_by_burnside,
     count_rounds_by_orbits,
     fewest_layers,

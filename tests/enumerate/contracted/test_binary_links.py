@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from enumerate.chains.counting import count_by_burnside, count_by_orbits, count_of_graph
-from enumerate.contracted.binary_links import frame_of, orbits_of_all, placements_of
+from enumerate.contracted.binary_links import PlacementRange, frame_of, list_placements, no_prefix, orbits_of_all
 from enumerate.contracted.graphs import contracted_graphs
 from graphs.identity.chains import automorphisms_of, chain_id
 
@@ -42,21 +42,22 @@ def test_against_all_placements(loops, dof):
 
 
 def compare(code, n, links, dof):
-    ends = frame_of(code, n)[0]
+    frame = frame_of(code, n)
+    ends = frame.ends
     expected = set()
     for x in product(range(dof + 2), repeat=len(ends)):
         if sum(x) == links - n:
             made = chain(ends, n, x)
             if can_all_move(made):
                 expected.add(chain_id(made))
-    x, order = placements_of(code, n, links, dof + 1, -1, np.zeros(0, np.int64))
+    x, order = list_placements(frame, PlacementRange(links, dof + 1, -1), no_prefix())
     made = [chain(ends, n, row) for row in x.tolist()]
     ids = [chain_id(graph) for graph in made]
     assert len(set(ids)) == len(ids)
     assert set(ids) == expected
-    assert len(ids) == count_by_orbits(code[None], n, links, dof + 1)
+    assert len(ids) == count_by_orbits(code[None], n, links, dof + 1, False)
     assert len(ids) == count_by_burnside(code[None], n, links, dof + 1, False)
-    orbits = orbits_of_all(*frame_of(code, n), links, x)
+    orbits = orbits_of_all(frame, links, x)
     for graph, size, orbit in zip(made, order.tolist(), orbits, strict=True):
         number = {link: i for i, link in zip(range(links), graph, strict=True)}
         _, generators, true_size = automorphisms_of(links, [(number[a], number[b]) for a, b in graph.edges()])
@@ -76,7 +77,7 @@ def test_limits_and_parts_add_up(most):
     for n, codes in contracted_graphs(5):
         for code in codes[:5]:
             whole = count_of_graph(code, n, links, most, -1, np.zeros(0, np.int64))
-            x, _ = placements_of(code, n, links, most, -1, np.zeros(0, np.int64))
+            x, _ = list_placements(frame_of(code, n), PlacementRange(links, most, -1), no_prefix())
             assert len(x) == whole
             assert x.max(initial=0) <= most
             parts = 0

@@ -8,8 +8,8 @@ import pytest
 from placements import is_moving
 
 from enumerate.chains.counting import count_in
-from enumerate.contracted.binary_links import EVERY, PlacementRange, frame_of, no_prefix, rigid_sets
-from enumerate.contracted.graphs import contracted_graphs, decode
+from enumerate.contracted.binary_links import EVERY, PlacementRange, frame_of, no_prefix
+from enumerate.contracted.graphs import contracted_graphs
 from enumerate.contracted.orbits import count_orbits
 from enumerate.contracted.states import strings_of_classes
 
@@ -31,15 +31,16 @@ def subgroups(moved):
         yield np.array(powers, np.uint8)
 
 
-def largest_ones(ends, first, moved, sets, needs, units, most):
+def largest_ones(frame, units, most):
     """Number of placements that are moving, in falling order on parallel joints, and that no symmetry makes larger."""
     found = 0
+    ends, first = frame.ends, frame.first
     for x in product(range(most + 1), repeat=len(ends)):
         if sum(x) != units or any(first[e] != e and x[e] > x[e - 1] for e in range(len(ends))):
             continue
-        if not is_moving(x, ends, sets, needs):
+        if not is_moving(x, ends, frame.sets, frame.needs):
             continue
-        found += all(tuple(np.array(x)[image]) <= x for image in moved)
+        found += all(tuple(np.array(x)[image]) <= x for image in frame.moved)
     return found
 
 
@@ -50,10 +51,9 @@ def test_of_every_orbit_the_largest(loops, dof):
     links = dof + 2 * loops + 1
     for n, codes in graphs(loops):
         for code in codes:
-            ends, first, moved, _ = frame_of(code, n)
-            sets, needs = rigid_sets(decode(code, n), n)
-            for group in subgroups(moved):
-                problem = ends, first, group, sets, needs, links - n
+            frame = frame_of(code, n)
+            for group in subgroups(frame.moved):
+                problem = frame._replace(moved=group), links - n
                 for most in (1, 2, dof + 1):
                     assert count_orbits(*problem, most) == largest_ones(*problem, most)
 
@@ -66,16 +66,15 @@ def test_counted_as_they_are_listed(loops, dof, step):
     links = dof + 2 * loops + 1
     for n, codes in graphs(loops):
         for code in codes[::step]:
-            ends, first, moved, _ = frame_of(code, n)
-            sets, needs = rigid_sets(decode(code, n), n)
-            for group in subgroups(moved):
-                for alike in (first, np.arange(len(ends))):
-                    problem = ends, alike, group, sets, needs
+            frame = frame_of(code, n)
+            for group in subgroups(frame.moved):
+                for alike in (frame.first, np.arange(len(frame.ends))):
+                    problem = frame._replace(first=alike, moved=group)
                     parts = [
-                        count_in(*problem, n, PlacementRange(links, dof + 1, only), no_prefix())
+                        count_in(problem, PlacementRange(links, dof + 1, only), no_prefix())
                         for only in range(links - n + 1)
                     ]
-                    assert count_in(*problem, n, PlacementRange(links, dof + 1, EVERY), no_prefix()) == sum(parts)
+                    assert count_in(problem, PlacementRange(links, dof + 1, EVERY), no_prefix()) == sum(parts)
 
 
 @pytest.mark.parametrize("most", [0, 1, 2, 3, 6])

@@ -1,15 +1,17 @@
 """Limits of queries: however they are given, they are kept, compared and stored in one way."""
 
 import json
+from dataclasses import fields
+from typing import get_type_hints
 
 import numpy as np
 import pytest
 
-from enumerate.chains.query import ChainQuery
+from enumerate.chains.query import ChainOptions, ChainQuery
 from enumerate.runner.job import Limits
 from enumerate.sc.jobs import count_sc_graphs
-from enumerate.sc.query import SCQuery
-from enumerate.scd.query import PlacementQuery
+from enumerate.sc.query import SCOptions, SCQuery
+from enumerate.scd.query import PlacementOptions, PlacementQuery, SCDOptions, SCDQuery
 from graphs.errors import InvariantError
 
 
@@ -34,6 +36,20 @@ def test_a_query_keeps_limits(given):
 def test_the_smaller_number_comes_first(name, query):
     with pytest.raises(InvariantError, match=f"the range 4 to 2; expected the smaller number first .{name}"):
         query((4, 2))
+
+
+@pytest.mark.parametrize(
+    ("options", "queries"),
+    [
+        (ChainOptions, [ChainQuery]),
+        (SCOptions, [SCQuery]),
+        (PlacementOptions, [PlacementQuery]),
+        (SCDOptions, [SCDQuery, PlacementQuery]),
+    ],
+)
+def test_options_are_the_fields_of_the_query(options, queries):
+    names = {field.name for query in queries for field in fields(query)}
+    assert set(get_type_hints(options)) == names - {"links", "dof", "max_degree", "placements"}
 
 
 def test_numbers_and_arrays_agree():

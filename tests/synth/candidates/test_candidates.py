@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from commands import run
 from conical import STEPHENSON, WATT
+from conical_rows import canonical_row
 from rebuilt import Space, closing_error
 
 from enumerate.chains.jobs import chains
 from enumerate.conical.query import Portion, count_conical_orders, links_apart
-from enumerate.conical.rounds import canonical_row
 from enumerate.runner.job import row_as_dict
 from enumerate.runner.running import run as run_job
 from enumerate.runner.sinks import RowSink
