@@ -115,5 +115,5 @@ def _own_crossing(corners: Floats) -> Floats | None:
     if shapely.Polygon(corners).is_valid:
         return None
     ends = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
-    found = crossings(ends, COLLINEAR * float(np.ptp(corners, axis=0).max()))
-    return found[0] if len(found) else None
+    meetings = crossings(ends, COLLINEAR * float(np.ptp(corners, axis=0).max()))
+    return meetings[0] if len(meetings) else None

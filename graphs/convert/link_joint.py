@@ -45,16 +45,11 @@ def sc_from_link_joint_graph(
     ----------
     graph : nx.Graph or nx.MultiGraph
         Nodes are links and edges joints. Joint ids are the edge keys where these are distinct, else indices.
+        InvariantError for a self-joint, or a block that is not planar and beyond the limit ``basis``.
     centre : Centre, optional
         The centre of every loop.
     closed : bool, optional
         Whether the face left out carries a centre too (a closed surface). Needs a planar graph.
-
-    Raises
-    ------
-    InvariantError
-        For a self-joint, for ``closed`` where a block has no embedding in the sphere, or for a block that is not
-        planar and has more joints than the limit ``basis`` (:mod:`graphs.limits`).
 
     Examples
     --------

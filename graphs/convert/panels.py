@@ -1,8 +1,7 @@
 """Panels by their vertices, as in a mesh or a crease pattern, to an SCD graph, and that to its polyhedron model.
 
-Two panels that share a side are hinged there; an interior vertex is a finite, explicit centre; a hole is a
-spatial loop, or has the centre that places of the panels give it. Source: Wiener 2016, sections 3.4 and 3.4.4,
-Fig. 35. Theory: docs/theory/scd-graphs.md, docs/theory/crease-patterns.md, docs/theory/polyhedron-model.md.
+Two panels that share a side are hinged there; an interior vertex is a finite, explicit centre. Source: Wiener
+2016, sections 3.4 and 3.4.4, Fig. 35. Theory: docs/theory/scd-graphs.md, docs/theory/polyhedron-model.md.
 """
 
 from __future__ import annotations
@@ -104,11 +103,7 @@ def oriented_panels(panels: Mapping[Any, Panel]) -> dict[LinkId, Panel]:
     ----------
     panels : mapping of link id to sequence of vertices
         The vertices round each panel, one way or the other. The first panel of each piece stays as it is.
-
-    Raises
-    ------
-    InvariantError
-        If a panel repeats a vertex, a side belongs to three panels, or the surface has one side only.
+        InvariantError if a side belongs to three panels, or the surface has one side only.
 
     Examples
     --------

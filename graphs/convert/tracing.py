@@ -126,8 +126,8 @@ def _distances(ends: Floats, finest: float, coarsest: float) -> Floats:
     lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     ends = ends[lengths > finest * (1 - _MARGIN)]  # the others are dropped whatever the tolerance
     segments = shapely.linestrings(ends)
-    found, apart = _meeting_points(ends, segments)
-    once = _once(found[apart > finest], finest)
+    meetings, apart = _meeting_points(ends, segments)
+    once = _once(meetings[apart > finest], finest)
     check_work("crossings", len(once), "crossings of lines")
     loose = shapely.points(np.unique(np.concatenate([ends.reshape(-1, 2), once]), axis=0))
     one, two = _pairs(shapely.STRtree(loose), loose, predicate="dwithin", distance=reach)
@@ -144,9 +144,9 @@ def _welded_network(lines: Lines, tolerance: float) -> Network:
     angles = [None if lines.angles is None else lines.angles[i] for i in kept]
     ends = lines.ends[long]
     tree = shapely.STRtree(shapely.linestrings(ends))
-    found = crossings(ends, tolerance)
-    check_work("crossings", len(found), "crossings of lines")
-    loose = np.concatenate([ends.reshape(-1, 2), found])
+    meetings = crossings(ends, tolerance)
+    check_work("crossings", len(meetings), "crossings of lines")
+    loose = np.concatenate([ends.reshape(-1, 2), meetings])
     points, of_point = _welded(loose, tolerance)
     crossed = sorted(set(of_point[2 * len(ends) :].tolist()) - set(of_point[: 2 * len(ends)].tolist()))
     met, twice = list[int](), list[Edge]()
@@ -191,8 +191,8 @@ def _spread(moved: Floats, vertices: npt.NDArray[np.int64]) -> float:
 
 def crossings(ends: Floats, tolerance: float) -> Floats:
     """Return the points where two lines, float[n, 2, 2], cross farther than the tolerance from all four ends."""
-    found, apart = _meeting_points(ends, shapely.linestrings(ends))
-    return _once(found[apart > tolerance], tolerance)
+    meetings, apart = _meeting_points(ends, shapely.linestrings(ends))
+    return _once(meetings[apart > tolerance], tolerance)
 
 
 def _meeting_points(ends: Floats, segments: npt.NDArray[np.object_]) -> tuple[Floats, Floats]:
@@ -205,15 +205,15 @@ def _meeting_points(ends: Floats, segments: npt.NDArray[np.object_]) -> tuple[Fl
     p, r, q, s, area = p[slanted], r[slanted], q[slanted], s[slanted], area[slanted]
     gap = q - p
     t = (gap[:, 0] * s[:, 1] - gap[:, 1] * s[:, 0]) / area
-    found: Floats = p + t[:, None] * r
-    apart: Floats = np.min([np.linalg.norm(found - end, axis=1) for end in (p, p + r, q, q + s)], axis=0)
-    return found, apart
+    meetings: Floats = p + t[:, None] * r
+    apart: Floats = np.min([np.linalg.norm(meetings - end, axis=1) for end in (p, p + r, q, q + s)], axis=0)
+    return meetings, apart
 
 
-def _once(found: Floats, tolerance: float) -> Floats:
+def _once(meetings: Floats, tolerance: float) -> Floats:
     """Leave one of equal crossings."""
-    _, first = np.unique(np.round(found / (tolerance * _SAME)), axis=0, return_index=True)
-    return found[np.sort(first)]
+    _, first = np.unique(np.round(meetings / (tolerance * _SAME)), axis=0, return_index=True)
+    return meetings[np.sort(first)]
 
 
 def _welded(points: Floats, tolerance: float) -> tuple[Floats, npt.NDArray[np.int64]]:
@@ -231,14 +231,14 @@ def _pairs(
     tree: shapely.STRtree, geometry: npt.NDArray[np.object_], **how: Any
 ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
     """Return the pairs (i < k) of a tree's own members that a query finds, in pieces: they may be too many."""
-    found, total = [np.empty((2, 0), dtype=np.int64)], 0
+    pieces, total = [np.empty((2, 0), dtype=np.int64)], 0
     for start in range(0, len(geometry), _PIECE):
         pairs = tree.query(geometry[start : start + _PIECE], **how)
         pairs[0] += start
-        found.append(pairs[:, pairs[0] < pairs[1]])
-        total += found[-1].shape[1]
+        pieces.append(pairs[:, pairs[0] < pairs[1]])
+        total += pieces[-1].shape[1]
         check_work("meetings", total, "or more pairs of lines that meet, or ends that are near each other")
-    one, two = np.concatenate(found, axis=1)
+    one, two = np.concatenate(pieces, axis=1)
     return one, two
 
 

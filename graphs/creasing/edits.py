@@ -104,16 +104,10 @@ def crease_sheet(
     ----------
     sheet : Sheet
     start, end : int or (x, y)
-        Vertices, or points on edges, which get a vertex there. Of a flat sheet the line may cross edges.
+        Vertices, or points on edges, which get a vertex there; else InvariantError. Of a flat sheet the line may
+        cross edges; UnsolvableError if it leaves the sheet, or there are creases all along it.
     letter : {"U", "M", "V"}, optional
         Assignment of the crease. Flat edges along the line become creases, creases stay.
-
-    Raises
-    ------
-    InvariantError
-        If there is no such vertex, no edge at a point, or the letter is no hinge.
-    UnsolvableError
-        If the line leaves the sheet, or there are creases all along it.
 
     Examples
     --------
@@ -135,14 +129,8 @@ def remove_crease(sheet: Sheet, joint: int) -> SheetEdit:
     ----------
     sheet : Sheet
     joint : int
-        Its id, the number of an edge.
-
-    Raises
-    ------
-    InvariantError
-        If there is no such joint.
-    UnsolvableError
-        If the faces meet in other edges too, so that they would not make a simple face.
+        Its id, the number of an edge: InvariantError if it is none; UnsolvableError if the faces meet in other
+        edges too, so that they would not make a simple face.
 
     Examples
     --------
@@ -214,14 +202,7 @@ def take_off_panels(sheet: Sheet, links: Collection[int]) -> SheetEdit:
     ----------
     sheet : Sheet
     links : collection of int
-        Numbers of the panels.
-
-    Raises
-    ------
-    InvariantError
-        If there is no such panel.
-    UnsolvableError
-        If no panel would be left.
+        Numbers of the panels: InvariantError if one is none; UnsolvableError if no panel would be left.
 
     Examples
     --------

@@ -183,12 +183,7 @@ def add_crease(sc: SCGraph, link: LinkId, moved: Collection[JointId]) -> Edit:
     sc : SCGraph
     link : link id
     moved : collection of joint ids
-        The joints of the link that lie beyond the crease; none for a flap.
-
-    Raises
-    ------
-    InvariantError
-        If ``link`` is no link, or a joint to move is not at it.
+        The joints of the link that lie beyond the crease; none for a flap. InvariantError for other joints.
 
     Examples
     --------
@@ -248,13 +243,7 @@ def lock_joint(sc: SCGraph, joint: JointId) -> Edit:
     ----------
     sc : SCGraph
     joint : joint id
-
-    Raises
-    ------
-    InvariantError
-        If there is no such joint.
-    UnsolvableError
-        If other joints join the same two links: they would join the link to itself.
+        InvariantError if it is no joint; UnsolvableError if other joints join the same two links.
 
     Examples
     --------
@@ -401,13 +390,8 @@ def make_explicit(scd: SCDGraph, loop: int) -> Edit:
     ----------
     scd : SCDGraph
     loop : int
-        Index of the loop.
-
-    Raises
-    ------
-    InvariantError
-        If there is no such loop, its centre is not implicit, or the result breaks a rule (links of fewer than
-        three sides, two explicit centres in a class).
+        Index of the loop. InvariantError if there is none, its centre is not implicit, or the result breaks a
+        rule (links of fewer than three sides, two explicit centres in a class).
 
     Examples
     --------
@@ -437,15 +421,9 @@ def ride_along(scd: SCDGraph, joint: JointId, sides: tuple[int, int] = (3, 3)) -
     ----------
     scd : SCDGraph
     joint : joint id
+        UnsolvableError if no end of it has room, with the rule that stands in the way.
     sides : (int, int), optional
-        n and m, the numbers of sides of the new links.
-
-    Raises
-    ------
-    InvariantError
-        If there is no such joint or a new link has fewer than three sides.
-    UnsolvableError
-        If no end of the joint has room, with the rule that stands in the way.
+        n and m, the numbers of sides of the new links; InvariantError if they are fewer than three.
 
     Examples
     --------
@@ -483,13 +461,8 @@ def lock_hinge(scd: SCDGraph, joint: JointId) -> Edit:
     ----------
     scd : SCDGraph
     joint : joint id
-
-    Raises
-    ------
-    InvariantError
-        If there is no such joint, or the result breaks a rule.
-    UnsolvableError
-        If other joints join the same two links, or a loop would pass the new link twice.
+        InvariantError if it is no joint, or the result breaks a rule; UnsolvableError if other joints join the
+        same two links, or a loop would pass the new link twice.
 
     Examples
     --------

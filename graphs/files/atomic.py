@@ -1,9 +1,8 @@
 """Files and folders written whole or not at all: beside their place first, moved there when they are complete.
 
-An existing file is replaced only with ``force``; symbolic links and special files never. Whoever writes holds a
-lock of the system on the unfinished file, which ends with the process however that ends: what can be locked
-belongs to nobody. Unfinished files are named ``.NAME.xxxxxxxx.unfinished``, as no other file is. Where there are
-no such locks, no file is ever taken for left over.
+Whoever writes holds a lock of the system on the unfinished file, which ends with the process however that ends:
+what can be locked belongs to nobody. Unfinished files are named ``.NAME.xxxxxxxx.unfinished``, as no other file
+is. Where there are no such locks, no file is ever taken for left over.
 """
 
 from __future__ import annotations

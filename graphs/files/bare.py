@@ -1,11 +1,8 @@
 """Bare link-joint graphs: graph6 and sparse6 (nauty), GraphML, and edge lists.
 
-GraphML may have the type of each joint (``type`` of its edge), and then is a linkage with joints of all kinds.
-Other such files hold links and joints and no loops. Read, they get the faces of an embedding as loops with finite
-centres; written, loops and centres are lost.
-
-Edge lists are lines ``link link [joint]``, those that networkx writes, and tables of edges (CSV, pandas). GraphML
-and edge lists hold names as text. Read, names are integers if all of them are written as integers are.
+Read, they get the faces of an embedding as loops with finite centres; GraphML with the type of each joint is a
+linkage with joints of all kinds. Edge lists are lines ``link link [joint]``, those that networkx writes, and
+tables of edges (CSV, pandas). Names that are text are integers if all of them are written as integers are.
 """
 
 from __future__ import annotations

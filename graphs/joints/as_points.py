@@ -23,8 +23,8 @@ _BODY = 3
 def points_of(linkage: JointedLinkage) -> PolyhedronModel:
     """Return the vertices and rods of a type, with a remote centre S_{+3} for each loop that has a centre.
 
-    A link with two spherical joints, to two other links, and no others is one rod, as in the source: that it can
-    spin about itself is not seen.
+    A link with two spherical joints, to two other links, and no others is one rod, as in the source: without its
+    spin.
 
     Parameters
     ----------
@@ -32,8 +32,6 @@ def points_of(linkage: JointedLinkage) -> PolyhedronModel:
 
     Examples
     --------
-    Two spherical joints with a link between: a rod, of 5 freedoms without its spin.
-
     >>> from graphs.count.equations import mobility_of_model
     >>> from graphs.mechanism.sc import SCGraph
     >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)])

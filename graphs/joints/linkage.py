@@ -52,7 +52,7 @@ class JointKind(Enum):
     @property
     def freedoms(self) -> int:
         """The degrees of freedom of one link against the other."""
-        return _FREEDOMS[self]
+        return {"R": 1, "P": 1, "U": 2, "C": 2, "S": 3, "E": 3}[self.value]
 
     @property
     def axes(self) -> int:
@@ -70,14 +70,6 @@ class JointKind(Enum):
         return self.name.lower()
 
 
-_FREEDOMS = {
-    JointKind.REVOLUTE: 1,
-    JointKind.PRISMATIC: 1,
-    JointKind.UNIVERSAL: 2,
-    JointKind.CYLINDRICAL: 2,
-    JointKind.SPHERICAL: 3,
-    JointKind.PLANAR: 3,
-}
 _OTHER_WORDS = {"hinge": "R", "slider": "P", "cardan": "U", "hooke": "U", "ball": "S"}
 
 
@@ -150,17 +142,11 @@ class JointedLinkage:
     kinds : mapping of joint id to JointKind, or its letter or word
         Joints that are left out are revolutes.
     places : mapping of joint id to JointPlace, optional
-        Of all joints, or of none: then it is a type, and stands for its generic realisations.
-
-    Raises
-    ------
-    InvariantError
-        If a joint is not known, has no place where others have, or a place does not suit its kind.
+        Of all joints, or of none: then it is a type, and stands for its generic realisations. InvariantError if a
+        place does not suit the kind of its joint.
 
     Examples
     --------
-    A leg with a universal, a prismatic and a spherical joint:
-
     >>> leg = SCGraph(4, {"u": (0, 1), "p": (1, 2), "s": (2, 3)})
     >>> JointedLinkage(leg, {"u": JointKind.UNIVERSAL, "p": "P", "s": "spherical"})
     <JointedLinkage: 4 links, 3 joints: P S U, a type>
@@ -191,7 +177,7 @@ class JointedLinkage:
         return freedoms - 3 * len(self.chain.centred_loops) - 6 * self.chain.spatial_loops
 
     @property
-    def told_kinds(self) -> str:
+    def kinds_in_words(self) -> str:
         """The numbers of joints of each kind, in words."""
         numbers = Counter(self.kinds.values())
         return ", ".join(f"{numbers[kind]} {kind.word}" for kind in JointKind if numbers[kind])
@@ -247,11 +233,12 @@ def _walked(
 
 def _check_in_loop(loop: Loop, joint: JointId, kind: JointKind) -> None:
     """Raise InvariantError for a joint that loops with such a centre cannot have."""
-    suits = kind.planar if loop.centre is Centre.INFINITE else kind is JointKind.REVOLUTE
+    if loop.centre is Centre.INFINITE:
+        suits, where, expected = kind.planar, "is planar", "a revolute, a slide or a planar joint"
+    else:
+        suits, where, expected = kind is JointKind.REVOLUTE, "has a finite centre", "a revolute"
     if loop.has_centre and not suits:
-        where = "is planar" if loop.centre is Centre.INFINITE else "has a finite centre"
         wrong = f"joint {shown(joint)} of {loop.label}, which {where}, is {kind.word}"
-        expected = "a revolute, a slide or a planar joint" if loop.centre is Centre.INFINITE else "a revolute"
         raise InvariantError("kinds", wrong, expected, ("joints", joint))
 
 

@@ -6,7 +6,7 @@ against the other in all ways of a plane, as a slide between two parallel axes d
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,11 +43,6 @@ class Knee:
     ends: tuple[KneeEnd, KneeEnd]
 
 
-def knees_of_type(linkage: JointedLinkage) -> list[Knee]:
-    """Return the slides that knees can stand for with suitable axes; each joint serves one of them."""
-    return list(_taken_once(_possible(linkage)))
-
-
 def placed_knees(linkage: JointedLinkage) -> list[tuple[Knee, Floats]]:
     """Return the slides of a linkage with places that knees can stand for, each with the direction of its axes."""
     points = np.array([place.point for place in linkage.places.values()])
@@ -55,7 +50,7 @@ def placed_knees(linkage: JointedLinkage) -> list[tuple[Knee, Floats]]:
     parallel = Tolerances.of(precision_of_axes(points, axes).size).parallel
     normals = ((knee, _normal(linkage, knee, parallel)) for knee in _possible(linkage))
     fitting = {knee: normal for knee, normal in normals if normal is not None}
-    return [(knee, fitting[knee]) for knee in _taken_once(iter(fitting))]
+    return [(knee, fitting[knee]) for knee in _taken_once(fitting)]
 
 
 def _possible(linkage: JointedLinkage) -> Iterator[Knee]:
@@ -75,7 +70,8 @@ def _end(linkage: JointedLinkage, joint: JointId, beside: object) -> KneeEnd:
     return KneeEnd(joint, place, axis)
 
 
-def _taken_once(knees: Iterator[Knee]) -> Iterator[Knee]:
+def _taken_once(knees: Iterable[Knee]) -> Iterator[Knee]:
+    """Yield knees of which each joint serves one."""
     serving: set[JointId] = set()
     for knee in knees:
         joints = {end.joint for end in knee.ends}
@@ -98,9 +94,8 @@ def _normal(linkage: JointedLinkage, knee: Knee, parallel: float) -> Floats | No
 def placed(linkage: JointedLinkage, seed: int = 0) -> JointedLinkage:
     """Return a linkage with places for its joints: its own, or random ones if it has none.
 
-    Axes of loops with a centre meet there; those of a planar loop are parallel, and slides are across them.
-    A prismatic joint between two binary links, with joints beyond them that can turn about parallel axes across
-    it, gets such axes: the usual way to build it, and three parallel revolutes do its work.
+    Axes of loops with a centre meet there; those of a planar loop are parallel, and slides are across them. Where
+    joints beside a slide can turn about parallel axes across it, they do: three parallel revolutes do its work.
 
     Parameters
     ----------
@@ -121,7 +116,7 @@ def placed(linkage: JointedLinkage, seed: int = 0) -> JointedLinkage:
     points: dict[JointId, Floats] = {joint: random.normal(size=3) for joint in linkage.kinds}
     axes = {joint: _axes(kind, random) for joint, kind in linkage.kinds.items()}
     _turn_to_centres(linkage, points, axes, random)
-    for knee in knees_of_type(linkage):
+    for knee in _taken_once(_possible(linkage)):
         _turned(knee, linkage, points, axes)
     places = {
         joint: JointPlace(plain_vector(points[joint]), tuple(map(plain_vector, axes[joint]))) for joint in points

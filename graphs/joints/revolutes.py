@@ -39,8 +39,8 @@ Row = list[Line]
 def revolutes_of(linkage: JointedLinkage, seed: int = 0) -> HingedSolids:
     """Return the mechanism of revolutes that stands for a linkage with joints of all kinds.
 
-    A joint that is one revolute keeps its id; of others the revolutes are called by its id, a colon and a number,
-    and so are the links between them.
+    The revolutes of a joint, and the links between them, are called by its id, a colon and a number; one by its
+    id.
 
     Parameters
     ----------
@@ -51,12 +51,9 @@ def revolutes_of(linkage: JointedLinkage, seed: int = 0) -> HingedSolids:
 
     Examples
     --------
-    A leg of a platform: RR-R-RRR, neighbours sharing axes.
-
     >>> leg = SCGraph(4, {"u": (0, 1), "p": (1, 2), "s": (2, 3)})
-    >>> kinds = {"u": JointKind.UNIVERSAL, "p": JointKind.PRISMATIC, "s": JointKind.SPHERICAL}
-    >>> list(revolutes_of(JointedLinkage(leg, kinds)).axes)
-    ['u:1', 'u:2', 'p', 's:1', 's:2', 's:3']
+    >>> list(revolutes_of(JointedLinkage(leg, {"u": JointKind.UNIVERSAL, "p": JointKind.PRISMATIC})).axes)
+    ['u:1', 'u:2', 'p', 's']
     """
     whole = placed(linkage, seed)
     mechanism = _RevoluteMechanism(whole)
@@ -72,9 +69,10 @@ def revolutes_of(linkage: JointedLinkage, seed: int = 0) -> HingedSolids:
         elif kind is JointKind.SPHERICAL:
             mechanism.add(joint, [_about_a_point(points[joint], shared.get(joint))])
         else:
-            mechanism.add(
-                joint, _rows(kind, whole.places[joint], size), along=_turned_along(kind, whole.places[joint])
-            )
+            place = whole.places[joint]
+            # A cylindrical joint has a revolute along its slide.
+            along = (points[joint], unit(place.axes[0])) if kind is JointKind.CYLINDRICAL else None
+            mechanism.add(joint, _rows(kind, place, size), along=along)
     old = whole.chain
     loops, closing = (
         [loop for loop in some if loop.has_centre and set(loop.joints) <= mechanism.joints.keys()]
@@ -140,11 +138,6 @@ def _rows(kind: JointKind, place: JointPlace, size: float) -> list[Row]:
     ]
 
 
-def _turned_along(kind: JointKind, place: JointPlace) -> Line | None:
-    """Return the revolute that a cylindrical joint has along its slide."""
-    return (np.array(place.point), unit(place.axes[0])) if kind is JointKind.CYLINDRICAL else None
-
-
 def _knee(one: Floats, other: Floats, normal: Floats, size: float) -> Line:
     """Return the middle axis of a knee between parallel axes through two points."""
     step = across(other - one, normal)
@@ -170,11 +163,10 @@ _FLAT = 1e-3
 def recognised(solids: HingedSolids) -> JointedLinkage:
     """Return a mechanism of revolutes with its chains of joints recognised as the joints that they stand for.
 
-    Joints of loops with a centre are revolutes. The others are searched in this order: two knees side by
-    side between two links, across each other, are a slide (Sarrus), and with a revolute along it a cylindrical
-    joint; other knees are slides between the joints beside them; of axes in a row three through a point are a
-    spherical joint, two that cross at a right angle a universal one, three that are parallel a planar one. Links
-    that go into a joint have no other joints, and are not the ground.
+    Joints of loops with a centre are revolutes. The others are searched in this order: two knees side by side
+    between two links, across each other, are a slide (Sarrus), and with a revolute along it a cylindrical joint;
+    other knees are slides between the joints beside them; of axes in a row three through a point are a spherical
+    joint, two that cross at a right angle a universal one, three that are parallel a planar one.
 
     Parameters
     ----------
@@ -304,7 +296,7 @@ class _Recognition:
         return 1
 
     def _bent(self) -> list[_BentRow]:
-        found = []
+        rows = []
         for leg in self._legs():
             for place in range(len(leg.joints) - 2):
                 joints = leg.joints[place : place + 3]
@@ -320,8 +312,8 @@ class _Recognition:
                 if abs(arms[0] - arms[1]) <= self._near < length and min(arms) > self._near:
                     a, b, c, d = leg.links[place : place + 4]
                     x, y, z = joints
-                    found.append(_BentRow((x, y, z), (a, b, c, d), normal, (other - one) / length))
-        return found
+                    rows.append(_BentRow((x, y, z), (a, b, c, d), normal, (other - one) / length))
+        return rows
 
     def _is_parallel(self, joints: Sequence[JointId]) -> bool:
         first = self._axes[joints[0]][0]
@@ -384,16 +376,13 @@ class _Recognition:
     def _well_begun(self, leg: Leg) -> Leg:
         """Return a ring of binary links from between two chains on; other rows as they are."""
         first = leg.links[0]
-        if first == self._chain.ground or self._degree(first) != 2:
+        if first == self._chain.ground or sum(first in ends for ends in self._joints.values()) != 2:
             return leg
         for shift in range(len(leg.joints)):
             joints, links = leg.joints[shift:] + leg.joints[:shift], leg.links[shift:-1] + leg.links[: shift + 1]
             if self._parts(joints[-1], joints[0]):
                 return Leg(joints, links)
         return leg
-
-    def _degree(self, link: LinkId) -> int:
-        return sum(link in ends for ends in self._joints.values())
 
     def _parts(self, one: JointId, other: JointId) -> bool:
         """Return whether two joints belong to different chains: their axes neither meet nor are parallel."""

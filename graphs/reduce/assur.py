@@ -1,10 +1,10 @@
 """Assur groups: the smallest sets of links that can be positioned together, one set after the other.
 
-With one link fixed and as many inputs as freedoms, each moving link of a spherical or planar mechanism has three
-freedoms and each joint takes two (an input all three): as many as there are. Every such freedom is assigned to one
-of the two links it ties, so that each link pays for three; a link then depends on the others its freedoms are tied
-to, and the strong components of these dependencies are the Assur groups, whatever the assignment (Dulmage and
-Mendelsohn 1958). Theory: docs/theory/reduction.md.
+Each moving link of a spherical or planar mechanism has three freedoms and each joint takes two (an input all
+three): as many as there are. Every such freedom is assigned to one of the two links it ties, so that each link
+pays for three; a link then depends on the others its freedoms are tied to, and the strong components of these
+dependencies are the Assur groups, whatever the assignment (Dulmage and Mendelsohn 1958). Theory:
+docs/theory/reduction.md.
 """
 
 from __future__ import annotations
@@ -108,17 +108,10 @@ def assur_groups(sc: SCGraph, ground: LinkId, inputs: Iterable[JointId]) -> tupl
     Parameters
     ----------
     sc : SCGraph
-        All loops about one centre, finite or infinite.
+        All loops about one centre, finite or infinite; else UnsolvableError.
     ground : link id
     inputs : iterable of joint ids
-        As many as there are freedoms.
-
-    Raises
-    ------
-    InvariantError
-        If there is no such link or joint.
-    UnsolvableError
-        If the loops do not have one centre, or these inputs do not drive the mechanism.
+        As many as there are freedoms; UnsolvableError if they do not drive the mechanism.
 
     Examples
     --------

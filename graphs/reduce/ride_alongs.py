@@ -51,7 +51,7 @@ class _Choice:
 
 
 def links_of_loops_that_stay(
-    work: WorkingGraph, taken: Sequence[TakenAddendum], protected: Collection[LinkId]
+    work: WorkingGraph, addenda: Sequence[TakenAddendum], protected: Collection[LinkId]
 ) -> frozenset[LinkId]:
     """Return the links of four-bars that should have stayed, if others did; the reduction is then done again.
 
@@ -59,7 +59,7 @@ def links_of_loops_that_stay(
     several shared centres are still equal, canonical labels of the remaining graph decide: that choice has no
     meaning, but does not depend on the order in which links and joints are listed.
     """
-    choices = [_most_general(work, choice) for choice in _choices(work, taken, protected)]
+    choices = [_most_general(work, choice) for choice in _choices(work, addenda, protected)]
     labels = _labels(work, choices, protected) if any(len(choice.classes) > 1 for choice in choices) else {}
     stay: set[LinkId] = set()
     for choice in choices:
@@ -69,13 +69,13 @@ def links_of_loops_that_stay(
     return frozenset(stay)
 
 
-def _choices(work: WorkingGraph, taken: Sequence[TakenAddendum], protected: Collection[LinkId]) -> list[_Choice]:
+def _choices(work: WorkingGraph, addenda: Sequence[TakenAddendum], protected: Collection[LinkId]) -> list[_Choice]:
     """Return the blocks that came down to one four-bar.
 
     A link that is protected or lies in another block cannot go; a four-bar can be the last if it has all of these.
     """
     taken_off: dict[int, list[_FourBar]] = defaultdict(list)
-    for removal, _, onto in taken:
+    for removal, _, onto in addenda:
         four_bar = _FourBar(frozenset((*removal.links, *onto)), work.class_of[removal.dropped])
         taken_off[work.block_of[removal.joints[1]]].append(four_bar)
     choices = []
@@ -328,18 +328,18 @@ def reduce(
         protected.add(sc.ground)
     terms = ReductionTerms(rule, fully, frozenset(protected))
     work = WorkingGraph(sc)
-    taken = take_all(work, terms)
-    if rule == "ride-along" and not fully and (stay := links_of_loops_that_stay(work, taken, terms.protected)):
+    addenda = take_all(work, terms)
+    if rule == "ride-along" and not fully and (stay := links_of_loops_that_stay(work, addenda, terms.protected)):
         work = WorkingGraph(sc)
-        taken = take_all(work, ReductionTerms(rule, fully, terms.protected | stay))
-    return Reduction(sc, work.graph(), rule, _steps(taken), tuple(one.removal for one in taken), work)
+        addenda = take_all(work, ReductionTerms(rule, fully, terms.protected | stay))
+    return Reduction(sc, work.graph(), rule, _steps(addenda), tuple(one.removal for one in addenda), work)
 
 
-def _steps(taken: Sequence[TakenAddendum]) -> tuple[ReductionStep, ...]:
+def _steps(addenda: Sequence[TakenAddendum]) -> tuple[ReductionStep, ...]:
     """Add to each step the one it sits on: the first that takes off one of its two bases."""
-    taker = {link: i for i, one in enumerate(taken) for link in one.removal.links}
+    taker = {link: i for i, one in enumerate(addenda) for link in one.removal.links}
     steps = []
-    for removal, joint, onto in taken:
+    for removal, joint, onto in addenda:
         later = [taker[link] for link in onto if link in taker]
         steps.append(ReductionStep(removal.links, onto, removal.joints, joint, min(later, default=None)))
     return tuple(steps)

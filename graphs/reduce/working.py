@@ -251,11 +251,11 @@ class WorkingGraph:
         for place, index in enumerate(kept):
             if index in self.class_of:
                 members[self.class_of[index]].append(place)
-        taken = {loop.at for loop in loops}
+        used = {loop.at for loop in loops}
         for which, places in members.items():
             if len({new_class[place] for place in places}) > 1:
                 name = next(loops[p].at for p in places) or f"centre {which}"
-                while name in taken and not any(loops[p].at == name for p in places):
+                while name in used and not any(loops[p].at == name for p in places):
                     name += "'"
                 for place in places:
                     loops[place] = replace(loops[place], at=name)
@@ -289,7 +289,7 @@ _Cycle = tuple[JointId, frozenset[JointId]]
 def take_all(work: WorkingGraph, terms: ReductionTerms) -> list[TakenAddendum]:
     """Take addenda off a working graph until none is left; return them in their order."""
     ride_alongs = terms.rule == "ride-along"
-    taken: list[TakenAddendum] = []
+    addenda: list[TakenAddendum] = []
     waiting = dict.fromkeys(reversed(list(work.joints)))
     hard: dict[JointId, None] = {}
     while waiting or hard:
@@ -308,7 +308,7 @@ def take_all(work: WorkingGraph, terms: ReductionTerms) -> list[TakenAddendum]:
             step = _take_dyad(work, path)
         if step is None:
             continue
-        taken.append(step)
+        addenda.append(step)
         eased = hard.keys() & work.loops[step.removal.dropped]
         for joint in eased:
             del hard[joint]
@@ -316,7 +316,7 @@ def take_all(work: WorkingGraph, terms: ReductionTerms) -> list[TakenAddendum]:
         for link in step.onto:
             if work.degree[link] == 2:
                 waiting |= dict.fromkeys(work.joints_at(link))
-    return taken
+    return addenda
 
 
 def _path_that_may_go(work: WorkingGraph, middle: JointId, terms: ReductionTerms) -> Path | None:

@@ -82,7 +82,7 @@ class Generated(Printed):
     def blocks(self) -> list[Block]:
         """Return the lines that are printed."""
         with_values = ", ".join(
-            f"{one.name} {one.told(self.values[one.name])}" for one in self.generator.parameters
+            f"{one.name} {one.in_words(self.values[one.name])}" for one in self.generator.parameters
         )
         lines: list[Block] = [f"{self.generator.title}: {with_values}" if with_values else self.generator.title]
         if self.fold is not None:

@@ -52,16 +52,16 @@ class Parameter:
         """Return a value that is in range, a count as a whole number; InvariantError for others."""
         whole = self.unit != "count" or value == int(value) if isfinite(value) else False
         if not whole or not self.least - DOUBLE.same_point <= value <= self.most + DOUBLE.same_point:
-            raise InvariantError("parameter", f"{self.name} = {self.told(value)}", self.range)
+            raise InvariantError("parameter", f"{self.name} = {self.in_words(value)}", self.range)
         return int(value) if self.unit == "count" else float(value)
 
     @property
     def range(self) -> str:
         """The range in words; angles in degrees."""
         kind = "a whole number" if self.unit == "count" else "a number" if self.unit == "length" else "an angle"
-        return f"{kind} from {self.told(self.least)} to {self.told(self.most)}"
+        return f"{kind} from {self.in_words(self.least)} to {self.in_words(self.most)}"
 
-    def told(self, value: float) -> str:
+    def in_words(self, value: float) -> str:
         """Return a value with its unit, as it is printed."""
         if self.unit == "angle":
             return f"{degrees(value):.6g} degrees"

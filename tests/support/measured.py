@@ -1,11 +1,11 @@
-"""Lines as they stand in written templates, in millimetres: SVG, PDF and DXF read without the project's code."""
+"""Lines as they stand in written templates, in millimetres, read without the project's code; closed meshes."""
 
 from __future__ import annotations
 
 import base64
 import re
 import zlib
-from collections import defaultdict
+from collections import Counter, defaultdict
 from xml.etree import ElementTree
 
 import numpy as np
@@ -68,3 +68,9 @@ def lines_of_dxf(text):
 def lengths(lines):
     """Lengths of lines, in order."""
     return np.sort(np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1))
+
+
+def is_watertight(mesh):
+    """Whether each side of a triangle is a side of one other, the other way round."""
+    sides = Counter(side for a, b, c in mesh.triangles.tolist() for side in ((a, b), (b, c), (c, a)))
+    return all(number == 1 and sides[b, a] == 1 for (a, b), number in sides.items())

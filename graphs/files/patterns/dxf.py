@@ -1,8 +1,10 @@
 """Crease patterns as DXF: lines by the names of their layers, or else by their colours.
 
 A file is pairs of lines, a group code and a value: *DXF Reference*, Autodesk. A pair with the code 0 begins a
-record; records are in sections. Only text is read. Written is DXF R12 (AC1009), the form that every program takes,
-with CONTINUOUS lines: machines cut along dashes dash by dash. R12 states no unit; the remark does.
+record; records are in sections. Only text is read. It is not read by ezdxf, which refuses polylines without
+subclass markers and tables without heads, and mends broken files without a word. Written is DXF R12 (AC1009), the
+form that every program takes, with CONTINUOUS lines: machines cut along dashes dash by dash. R12 states no unit;
+the remark does.
 """
 
 from __future__ import annotations
@@ -231,18 +233,8 @@ def _on_circle(centre: Point, radius: float, start: float, turn: float) -> list[
     return points
 
 
-_FIRST = {
-    1: (255, 0, 0),
-    2: (255, 255, 0),
-    3: (0, 255, 0),
-    4: (0, 255, 255),
-    5: (0, 0, 255),
-    6: (255, 0, 255),
-    7: (0, 0, 0),
-    8: (128, 128, 128),
-    9: (192, 192, 192),
-}
-"""7 is black on white paper."""
+_FIRST = bytes.fromhex("ff0000 ffff00 00ff00 00ffff 0000ff ff00ff 000000 808080 c0c0c0")
+"""Colours 1 to 9; 7 is black on white paper."""
 _GREYS = {250: 51, 251: 91, 252: 132, 253: 173, 254: 214, 255: 255}
 _VALUES = (1.0, 0.65, 0.5, 0.3, 0.15)
 
@@ -250,16 +242,19 @@ _VALUES = (1.0, 0.65, 0.5, 0.3, 0.15)
 @lru_cache(maxsize=300)
 def rgb_of_number(number: int) -> Rgb | None:
     """Return a numbered colour; None if there is none."""
-    if number in _FIRST:
-        return _FIRST[number]
+    if 1 <= number <= 9:
+        red, green, blue = _FIRST[3 * number - 3 : 3 * number]
+        return red, green, blue
     if number in _GREYS:
         return (_GREYS[number],) * 3
     if not 10 <= number < 250:
         return None
     # From 10 on each ten is a hue, 15 degrees from the last; odd numbers are pale.
     hue, shade = divmod(number - 10, 10)
-    red, green, blue = hsv_to_rgb(hue / 24, 0.5 if shade % 2 else 1.0, _VALUES[shade // 2])
-    return round(255 * red), round(255 * green), round(255 * blue)
+    red, green, blue = (
+        round(255 * part) for part in hsv_to_rgb(hue / 24, 1.0 - shade % 2 / 2, _VALUES[shade // 2])
+    )
+    return red, green, blue
 
 
 _LONGEST_WORDS = 250

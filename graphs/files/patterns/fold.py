@@ -34,14 +34,14 @@ _OLD_NAMES = {
 """Names of FOLD 1.0 and of early Origami Simulator to those of today."""
 
 
-def resolved_frame(
-    document: Mapping[str, Any], check: Checker, frame: int | None = None
-) -> tuple[dict[str, Any], list[str]]:
+def _frame(document: Any, check: Checker, frame: int | None = None) -> tuple[dict[str, Any], list[str]]:
     """Return the frame that holds the pattern, and notes on how it was found.
 
     It is the key frame (number 0) if that has edges or faces, else the first frame that does; or the chosen frame.
     """
-    frames = [document]
+    if not isinstance(document, dict):
+        check.fail("", document, "a FOLD document (an object)")
+    frames: list[Mapping[str, Any]] = [document]
     if document.get("file_frames") is not None:
         listed = check.list(document["file_frames"], "file_frames", what="a list of frames")
         for i, item in enumerate(listed):
@@ -204,13 +204,6 @@ def sheet_from_fold(value: Any, path: Path, frame: int | None = None) -> Sheet:
     return _sheet(*_frame(value, check, frame), check)
 
 
-def _frame(document: Any, check: Checker, number: int | None = None) -> tuple[dict[str, Any], list[str]]:
-    """Return a frame of a FOLD document with what it inherits, and notes on how it was found."""
-    if not isinstance(document, dict):
-        check.fail("", document, "a FOLD document (an object)")
-    return resolved_frame(document, check, number)
-
-
 def _left_out(frame: dict[str, Any], title: str) -> tuple[str, ...]:
     """Return the keys of a frame and its file that hold what the sheet, and its title, do not."""
     held = {*_HELD, *_NOTHING_NEW, *(key for key in _TITLES if frame.get(key) == title)}
@@ -257,10 +250,7 @@ def _sheet(value: dict[str, Any], notes: list[str], check: Checker) -> Sheet:
 
 def _traced(sheet: Sheet, check: Checker) -> Sheet:
     """Trace the faces of a pattern without faces; it must be flat."""
-    from graphs.convert.tracing import (
-        MOST,  # tracing loads shapely
-        Lines,
-    )
+    from graphs.convert.tracing import MOST, Lines  # tracing loads shapely
     from graphs.files.patterns.lines import traced_sheet
 
     if not sheet.edges or sheet.coordinates is None:

@@ -1,12 +1,7 @@
 """The legend of a drawing: which lines are mountains, valleys, borders, ..., stated or seen; and those left out.
 
-Statements come first, the most particular before the rest: a layer, dashes of a colour, dashes, a colour.
-Then names of layers and groups, then colours: mountain red, valley blue, border black, cut green, flat (facet)
-yellow, unassigned magenta, as in Origami Simulator. Hues near red and blue count as these, since drawing programs
-have reds and blues of their own; green and yellow count only where they are nearly pure, or a swatch of such a
-program. Of a drawing that has both, and no coloured folds, dash-dot black lines are mountains and dashed ones
-valleys: the notation of Yoshizawa and Randlett. Otherwise black dashes are not understood: house styles that draw
-all in black differ.
+Statements come first, the most particular before the rest: a layer, dashes of a colour, dashes, a colour. Then
+names of layers and groups, then colours as in Origami Simulator, then dashes (docs/files.md).
 """
 
 from __future__ import annotations

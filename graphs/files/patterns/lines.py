@@ -1,9 +1,8 @@
 """Crease patterns that come as lines, traced: ``.cp``, ORIPA's ``.opx``, and the lines of drawings.
 
 A drawing without a border, or with its creases in the colour of borders, would have a mobility, but not that of
-the intended mechanism. So it is refused. A line of ``.cp`` is ``type x1 y1 x2 y2``. ``.opx`` is what Java's
-``XMLEncoder`` writes of a list of ``oripa.OriLineProxy``, properties that are zero left out; the rest is left
-alone.
+the intended mechanism. So it is refused. ``.opx`` is what Java's ``XMLEncoder`` writes of ``oripa.OriLineProxy``,
+without properties that are zero.
 """
 
 from __future__ import annotations

@@ -99,11 +99,11 @@ def _mesh(mesh: Mesh, buffer: _Buffer) -> dict[str, Any]:
 
 def _quaternions(turns: Floats) -> Floats:
     """Return rotations as quaternions, scalar last; each the nearer of the two that follow the pose before."""
-    found: Floats = Rotation.from_matrix(turns.reshape(-1, 3, 3)).as_quat().reshape(*turns.shape[:2], 4)
-    for pose in range(1, len(found)):
-        against = (found[pose] * found[pose - 1]).sum(axis=-1) < 0
-        found[pose, against] *= -1
-    return found
+    quaternions: Floats = Rotation.from_matrix(turns.reshape(-1, 3, 3)).as_quat().reshape(*turns.shape[:2], 4)
+    for pose in range(1, len(quaternions)):
+        against = (quaternions[pose] * quaternions[pose - 1]).sum(axis=-1) < 0
+        quaternions[pose, against] *= -1
+    return quaternions
 
 
 def _animation(quaternions: Floats, shifts: Floats, seconds: float, buffer: _Buffer) -> dict[str, Any]:

@@ -118,8 +118,8 @@ def _command(generator: Generator) -> click.Command:
             type=int if parameter.unit == "count" else float,
             metavar={"count": "N", "length": "LENGTH", "angle": "DEGREES"}[parameter.unit],
             help=f"{parameter.meaning[0].upper()}{parameter.meaning[1:]}, "
-            f"from {parameter.told(parameter.least)} to {parameter.told(parameter.most)}."
-            f"  [default: {parameter.told(parameter.default)}]",
+            f"from {parameter.in_words(parameter.least)} to {parameter.in_words(parameter.most)}."
+            f"  [default: {parameter.in_words(parameter.default)}]",
         )
         for parameter in generator.parameters
     ]

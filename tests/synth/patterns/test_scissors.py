@@ -42,7 +42,7 @@ def test_links_keep_their_lengths_at_all_openings(corners):
 
 def test_the_cube_has_the_links_of_the_paper():
     cube = scissor_polyhedron(CUBE, 0.6)
-    assert (len(cube.chain), cube.told_kinds) == (24, "12 revolute, 32 spherical")
+    assert (len(cube.chain), cube.kinds_in_words) == (24, "12 revolute, 32 spherical")
     pins = [np.linalg.norm(place.point) for joint, place in cube.places.items() if joint.startswith("pin")]
     assert pins == pytest.approx([np.cos(0.6) * sqrt(3.0)] * 12)
 

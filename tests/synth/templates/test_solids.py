@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 import shapely
 from commands import run
+from measured import is_watertight
 
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
-from graphs.files.solids.meshes import is_watertight
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.patterns.generated import generate
 from synth.templates.solids import plates_in_space, plates_of, poses_of, write_solids

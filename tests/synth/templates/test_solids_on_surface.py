@@ -1,12 +1,12 @@
 """Linkages on cones as solids: closed, the right way round, as thick as was asked for, apart."""
 
-from collections import Counter
 from itertools import combinations
 
 import numpy as np
 import pytest
 from commands import run
 from conical import STEPHENSON
+from measured import is_watertight
 
 from graphs.errors import UnsolvableError
 from graphs.mechanism.surfaces import Cone, Cylinder
@@ -23,12 +23,6 @@ def linkages():
     job = CandidateJob(STEPHENSON)
     rows = job.rows()[::34]
     return [layered(OnSurface(STEPHENSON, job.places(row).tolist(), LAMBDA), Cone(LAMBDA), SIZES) for row in rows]
-
-
-def is_watertight(mesh):
-    """Whether each side of a triangle is a side of one other, the other way round."""
-    sides = Counter(side for a, b, c in mesh.triangles.tolist() for side in ((a, b), (b, c), (c, a)))
-    return all(number == 1 and sides[b, a] == 1 for (a, b), number in sides.items())
 
 
 def volume_of(linkage, link, gap):
