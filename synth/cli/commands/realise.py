@@ -131,8 +131,8 @@ def _command(generator: synth.patterns.Generator) -> click.Command:
     for parameter in generator.parameters:
         metavar = {"count": "N", "length": "LENGTH", "angle": "DEGREES"}[parameter.unit]
         meaning = (
-            f"{parameter.meaning[0].upper()}{parameter.meaning[1:]}, from {parameter.in_words(parameter.least)} to "
-            f"{parameter.in_words(parameter.most)}.  [default: {parameter.in_words(parameter.default)}]"
+            f"{parameter.meaning[0].upper()}{parameter.meaning[1:]}, from {parameter.in_words(parameter.least)} "
+            f"to {parameter.in_words(parameter.most)}.  [default: {parameter.in_words(parameter.default)}]"
         )
         kind = int if parameter.unit == "count" else float
         options.value(f"--{parameter.name}", metavar, meaning, type=kind)(command)
