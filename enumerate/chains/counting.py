@@ -27,8 +27,6 @@ from enumerate.contracted.states import order_of_classes
 from enumerate.kernel.compiled import compiled, number_of_orbits
 from graphs.types import Bytes, Ints
 
-__all__ = ["count_by_burnside", "count_by_orbits", "count_fixed", "count_in", "count_of_graph"]
-
 
 @compiled
 def count_by_orbits(codes: Bytes, n: int, links: int, most: int, inversions: bool) -> int:

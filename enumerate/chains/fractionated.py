@@ -35,8 +35,6 @@ from enumerate.kernel.compiled import cycles
 from graphs.identity.chains import automorphisms_of
 from graphs.types import Bytes
 
-__all__ = ["Block", "block_choices", "count_connected", "glued", "shapes"]
-
 Joints = tuple[tuple[int, int], ...]
 Block = tuple[int, Joints]
 """Number of links, and joints between links 0, 1, ..."""

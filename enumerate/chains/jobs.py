@@ -46,17 +46,6 @@ from graphs.errors import UnsolvableError
 from graphs.identity.chains import chain_from_id
 from graphs.types import Bytes, Ints
 
-__all__ = [
-    "ChainGraph",
-    "ChainJob",
-    "CountJob",
-    "beginnings",
-    "chain_rows",
-    "chains",
-    "count_chains",
-    "count_job",
-]
-
 _ROWS = 20_000
 """Rows of a unit, about; a contracted graph with more is split."""
 

@@ -8,8 +8,6 @@ from importlib.resources import files
 
 from graphs.errors import InvariantError, shown
 
-__all__ = ["chain_named", "chain_names", "name_of"]
-
 
 @cache
 def _named() -> dict[str, str]:

@@ -15,8 +15,6 @@ from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, LimitField, LimitsLike
 from graphs.errors import InvariantError, numbered
 from graphs.types import Bytes
 
-__all__ = ["ChainOptions", "ChainQuery", "is_planar"]
-
 
 class ChainOptions(TypedDict, total=False):
     """What a `ChainQuery` says besides its numbers of links and freedoms."""

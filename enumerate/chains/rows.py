@@ -37,18 +37,6 @@ from enumerate.runner.job import Column, ListColumn, Row
 from graphs.identity.chains import automorphisms_of, canonical_numbers
 from graphs.types import Bytes, Ints
 
-__all__ = [
-    "SIZE_COLUMNS",
-    "GraphChains",
-    "are_inputs",
-    "assortment_of",
-    "chain_ids",
-    "columns_of",
-    "input_choices",
-    "rows_of_graph",
-    "rows_of_joints",
-]
-
 SIZE_COLUMNS: dict[str, Column] = dict.fromkeys(("links", "joints", "dof", "loops"), int)
 COLUMNS: dict[str, Column] = {
     "code": str,

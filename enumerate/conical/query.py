@@ -23,16 +23,6 @@ from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.identity.chains import subdivided, symmetries_of
 from graphs.types import Ints, JointId, LinkId
 
-__all__ = [
-    "ConicalCountJob",
-    "ConicalQuery",
-    "Portion",
-    "conical_orders",
-    "count_conical_orders",
-    "joint_symmetries",
-    "links_apart",
-]
-
 _PLACEMENTS = 2_000_000
 """Placements of a unit that counts, at most; symmetric ones apart."""
 

@@ -21,16 +21,6 @@ from enumerate.kernel.compiled import compiled, cycles, doubled
 from graphs.errors import InvariantError
 from graphs.types import Ints
 
-__all__ = [
-    "Rounds",
-    "count_rounds_by_burnside",
-    "count_rounds_by_orbits",
-    "fewest_layers",
-    "layers_of_links",
-    "placements",
-    "prefixes",
-]
-
 
 @dataclass(frozen=True, slots=True)
 class Rounds:

@@ -24,26 +24,6 @@ from enumerate.kernel.compiled import compiled, doubled
 from enumerate.kernel.labelling import canonical_labels
 from graphs.types import Bytes, Flags, Ints, Words
 
-__all__ = [
-    "EVERY",
-    "Frame",
-    "PlacementRange",
-    "Units",
-    "conditions",
-    "frame_of",
-    "graph6_rows",
-    "joints_of_all",
-    "link_symmetries",
-    "list_placements",
-    "no_prefix",
-    "orbits_of",
-    "orbits_of_all",
-    "place",
-    "rigid_sets",
-    "symmetries_fixing",
-    "with_symmetries",
-]
-
 _GUARD = np.uint64(0x8080808080808080)
 _ONES = np.uint64(0x0101010101010101)
 _LOW = np.uint64(0x7F7F7F7F7F7F7F7F)

@@ -23,18 +23,6 @@ from enumerate.kernel.labelling import canonical_labels
 from graphs.errors import InvariantError
 from graphs.types import Bytes, Ints
 
-__all__ = [
-    "MOST_LOOPS",
-    "Growth",
-    "cheapest_degree",
-    "contracted_graphs",
-    "cubic_graphs",
-    "decode",
-    "descendants",
-    "graph_key",
-    "streamed_graphs",
-]
-
 MOST_LOOPS = 11
 """20 links at most, so that a place in the matrix fits a byte, and the conditions on placements their counters."""
 

@@ -17,8 +17,6 @@ from enumerate.contracted.binary_links import Frame
 from enumerate.kernel.compiled import compiled, doubled, slot_of
 from graphs.types import Bytes, Ints
 
-__all__ = ["Cycles", "count_left_in_place", "cycles_of"]
-
 _ENOUGH = 1 << 40
 """Room outside a set that cannot be used up any more."""
 

@@ -23,20 +23,6 @@ from enumerate.kernel.compiled import compiled, empty_set, insert
 from enumerate.kernel.maps import END, JOINT, canonical_map, decode_map, faces_of, from_turns, symmetries_of_map
 from graphs.types import Bytes, Ints
 
-__all__ = [
-    "MOST_MAP_LOOPS",
-    "code_of",
-    "contracted_maps",
-    "cubic_maps",
-    "expanded",
-    "joint_matrix",
-    "map_symmetries",
-    "outer_faces",
-    "outer_frame",
-    "plane_trees",
-    "ring",
-]
-
 MOST_MAP_LOOPS = 9
 """The maps of all levels are held in memory: 4 million for ten loops."""
 

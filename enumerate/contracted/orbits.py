@@ -32,8 +32,6 @@ from enumerate.contracted.states import (
 from enumerate.kernel.compiled import compiled
 from graphs.types import Bytes, Flags, Ints, Words
 
-__all__ = ["count_orbits", "count_with_a_link"]
-
 
 @compiled
 def count_orbits(frame: Frame, units: int, most: int) -> int:

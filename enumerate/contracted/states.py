@@ -19,23 +19,6 @@ from enumerate.contracted.binary_links import Frame
 from enumerate.kernel.compiled import compiled, doubled
 from graphs.types import Bytes, Ints, Words
 
-__all__ = [
-    "GROUP",
-    "GROUPS",
-    "LEVEL",
-    "Classes",
-    "StateTable",
-    "add",
-    "beginning",
-    "classes_in_order",
-    "filled",
-    "lies_in",
-    "order_of_classes",
-    "step",
-    "strings_of_classes",
-    "total_at_end",
-]
-
 
 class Counters(NamedTuple):
     """How counters lie in a word: one in each, its guard bit, and the largest value of one.

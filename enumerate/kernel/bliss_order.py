@@ -20,8 +20,6 @@ import numpy as np
 from enumerate.kernel.compiled import compiled
 from graphs.types import Ints
 
-__all__ = ["MOST_NODES", "bliss_orders"]
-
 MOST_NODES = 62
 """The vertices of a set are bits of a word that has a sign, and of graph6 the number of nodes is one byte."""
 

@@ -16,22 +16,6 @@ import numpy as np
 from enumerate.kernel.compiled import compiled, doubled
 from graphs.types import Ints, Words
 
-__all__ = [
-    "FINITE",
-    "FREE",
-    "INFINITE",
-    "MOST_JOINTS",
-    "OUTER",
-    "SPATIAL",
-    "centres_at_infinity",
-    "class_points",
-    "classes_of",
-    "joints_of_faces",
-    "labellings",
-    "mobility_of",
-    "points_of_ends",
-]
-
 OUTER, FINITE, INFINITE, SPATIAL = 0, 1, 2, 3
 """Labels of faces."""
 

@@ -12,8 +12,6 @@ import numpy.typing as npt
 from enumerate.machine_code.cache import KeptCode, fingerprint
 from graphs.types import Bytes, Ints
 
-__all__ = ["compiled", "cycles", "doubled", "empty_set", "insert", "kernels", "number_of_orbits", "slot_of"]
-
 T = TypeVar("T", bound=np.generic)
 F = TypeVar("F", bound=Callable[..., object])
 

@@ -17,8 +17,6 @@ import numpy as np
 from enumerate.kernel.compiled import compiled, doubled
 from graphs.types import Bytes, Words
 
-__all__ = ["canonical_labels"]
-
 MOST_VERTICES = 22
 """A pair of vertices must fit one byte."""
 

@@ -26,8 +26,6 @@ import numpy as np
 from enumerate.kernel.compiled import compiled, doubled
 from graphs.types import Bytes, Ints
 
-__all__ = ["END", "JOINT", "OPEN", "canonical_map", "decode_map", "faces_of", "from_turns", "symmetries_of_map"]
-
 OPEN, END, JOINT = 0, 1, 2
 """Symbols of a code: an open edge, the end of a link; joint k is ``JOINT + k``."""
 

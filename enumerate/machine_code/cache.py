@@ -28,8 +28,6 @@ from numba.core import caching, serialize
 
 from enumerate.machine_code.folders import compiling, is_ours, make_folder, prune, safe, touch, usable_bases
 
-__all__ = ["CodeFiles", "KeptCode", "fingerprint", "read_whole", "write_whole"]
-
 _numba: Any = caching
 _dumps: Callable[[object], bytes] = serialize.dumps
 _DIGEST = 32

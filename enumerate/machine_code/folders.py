@@ -18,21 +18,6 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, TypeAlias
 
-__all__ = [
-    "bases",
-    "compiling",
-    "heard_by",
-    "is_ours",
-    "make_folder",
-    "on_compiling",
-    "prune",
-    "safe",
-    "to_workers",
-    "touch",
-    "usable_bases",
-    "writable_base",
-]
-
 _DAY = 86_400
 _OLD = 30 * _DAY
 _MOST = 8

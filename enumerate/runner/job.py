@@ -17,32 +17,6 @@ from graphs.errors import InvariantError
 from graphs.printing import plain
 from graphs.types import Bytes, Flags, Ints
 
-__all__ = [
-    "ANY_NUMBER",
-    "ONE_OR_MORE",
-    "Column",
-    "Counting",
-    "Job",
-    "LimitField",
-    "Limits",
-    "LimitsLike",
-    "ListColumn",
-    "Progress",
-    "Query",
-    "QueryCount",
-    "QueryJob",
-    "RangeColumn",
-    "Row",
-    "RowCount",
-    "Sink",
-    "Unit",
-    "batches",
-    "packed",
-    "row_as_dict",
-    "stored",
-    "unstored",
-]
-
 Row = tuple[Any, ...]
 Rows = TypeVar("Rows", Bytes, list[Any])
 

@@ -22,8 +22,6 @@ from enumerate.runner.stopping import interruptible
 from enumerate.runner.workers import Cluster, LocalWorkers, Workers, timed
 from graphs.errors import StoreError
 
-__all__ = ["graphs_of", "rows_of", "run", "total_of", "tuples_of"]
-
 G = TypeVar("G", bound=nx.Graph)
 
 _AHEAD = 4

@@ -25,8 +25,6 @@ from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 
-__all__ = ["CountSink", "FolderSink", "JsonLinesSink", "ParquetSink", "RowSink", "SortedSink", "sink_for"]
-
 
 class RowSink:
     """A sink that calls a function with the columns and the rows of each unit.

@@ -17,8 +17,6 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
-__all__ = ["Interrupted", "heard_again", "interruptible", "unheard"]
-
 _NAMES = ("SIGINT", "SIGTERM", "SIGHUP")
 """Signals that stop a run; not every system has all."""
 

@@ -33,8 +33,6 @@ from enumerate.runner.store_units import (
 from graphs.errors import StoreError
 from graphs.files.atomic import check_place, remove_left
 
-__all__ = ["SqliteSink", "job_in", "read_meta", "read_rows"]
-
 _REMEMBERED = 4096
 """Lists of a column whose JSON text is kept: many rows share theirs."""
 

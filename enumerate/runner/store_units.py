@@ -29,21 +29,6 @@ from enumerate.runner.job import Row
 from graphs.errors import OpenError, StoreError, shown
 from graphs.files.atomic import Unfinished, remove_folder
 
-__all__ = [
-    "COMPLAINTS",
-    "FORMAT",
-    "PATIENCE",
-    "VERSION",
-    "UnitTable",
-    "examine_store",
-    "make_tables",
-    "meta_in",
-    "naming",
-    "quoted",
-    "reading",
-    "rebuild_store",
-]
-
 T = TypeVar("T")
 
 FORMAT = "synthedra/store"

@@ -20,8 +20,6 @@ from enumerate.runner.job import Job, Row
 from enumerate.runner.stopping import heard_again, unheard
 from graphs.errors import StoreError
 
-__all__ = ["Cluster", "LocalWorkers", "Workers", "timed"]
-
 
 class Workers(Protocol):
     """Processes or machines that work on units, `number` of them at the same time.

@@ -55,24 +55,6 @@ from graphs.identity.drawings import map_text, mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 from graphs.types import Bytes, Ints
 
-__all__ = [
-    "CENTRE_COLUMNS",
-    "LABEL_LETTERS",
-    "UNIT_ROWS",
-    "FormJob",
-    "Maps",
-    "SCCountJob",
-    "SCJob",
-    "chain_forms",
-    "count_sc_graphs",
-    "drawn_of",
-    "map_ids",
-    "map_units",
-    "sc_count_job",
-    "sc_graphs",
-    "sc_rows",
-]
-
 CENTRE_COLUMNS: dict[str, Column] = dict.fromkeys(("spatial", "centres", "infinite"), int)
 SC_COLUMNS: dict[str, Column] = {
     "code": str,

@@ -27,17 +27,6 @@ from enumerate.kernel.centres import (
 from enumerate.kernel.compiled import compiled, doubled, number_of_orbits
 from graphs.types import Bytes, Ints, Words
 
-__all__ = [
-    "Centres",
-    "centres_of_all",
-    "codes_of_all",
-    "count_drawn",
-    "count_drawn_by_burnside",
-    "count_on_map",
-    "describe",
-    "list_drawn",
-]
-
 
 class Centres(NamedTuple):
     """Which centres the loops of a mechanism may have.

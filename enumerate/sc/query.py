@@ -11,8 +11,6 @@ from enumerate.kernel.centres import MOST_JOINTS
 from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, LimitField, LimitsLike, Query
 from graphs.errors import InvariantError, numbered
 
-__all__ = ["SCOptions", "SCQuery"]
-
 
 class SCOptions(TypedDict, total=False):
     """What an `SCQuery` says besides its numbers of links and freedoms."""

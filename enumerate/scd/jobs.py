@@ -37,19 +37,6 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.types import Bytes, Ints
 
-__all__ = [
-    "SCDCountJob",
-    "SCDJob",
-    "all_mechanisms",
-    "count_scd_graphs",
-    "mechanism_of",
-    "placements_on",
-    "scd_count_job",
-    "scd_graphs",
-    "scd_graphs_of",
-    "scd_rows",
-]
-
 SCD_COLUMNS: dict[str, Column] = {
     "code": str,
     "sc": str,

@@ -38,8 +38,6 @@ from enumerate.scd.patterns import (
 )
 from graphs.types import Bytes, Flags, Ints
 
-__all__ = ["count_placements", "list_placements_of", "sides_of_all"]
-
 SCD_FACTS = ("open_edges", "vertices", "explicit", "implicit", "symmetry", "exact_dof")
 """Columns of the facts of `list_placements_of`."""
 

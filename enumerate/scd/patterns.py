@@ -29,26 +29,6 @@ from enumerate.kernel.compiled import compiled, doubled
 from enumerate.kernel.maps import decode_map, faces_of, symmetries_of_map
 from graphs.types import Bytes, Ints, Words
 
-__all__ = [
-    "CLOSED",
-    "OPENED",
-    "TOO_MANY",
-    "all_explicit",
-    "corner_states",
-    "corner_symmetries",
-    "drawn",
-    "explicit_sets",
-    "forced_mobility",
-    "has_centre",
-    "number_of_placements",
-    "numbers_of_placements",
-    "outline",
-    "patterns",
-    "placements_of_choice",
-    "room_of",
-    "ways_to_lay",
-]
-
 CLOSED, OPENED, ANY = 0, 1, 2
 """What a pattern says of a corner: no open edge, one or more, either."""
 

@@ -16,17 +16,6 @@ from enumerate.sc.query import SCQuery
 from graphs.errors import InvariantError, numbered
 from graphs.types import Bytes, Ints
 
-__all__ = [
-    "CodedMechanisms",
-    "Mechanisms",
-    "OneMechanism",
-    "PlacementOptions",
-    "PlacementQuery",
-    "SCDOptions",
-    "SCDQuery",
-    "Source",
-]
-
 _MOST_DEGREE = 60
 
 

@@ -21,8 +21,6 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.rank.realisation import PRIMES, PrimeField, join, null_vectors
 from graphs.types import JointId, LinkId
 
-__all__ = ["ChainString", "chain_sc", "chain_scd", "count_strings", "joint_chain", "string_of_chain", "strings"]
-
 MAX_PANELS = 2
 """Rectangular panels in the strings of Table 8, at most."""
 MAX_CLUSTER = 3

@@ -6,8 +6,6 @@ from graphs.convert.table import CONVERSIONS, FORMS, Mechanism, graph_of
 from graphs.errors import InvariantError, shown
 from graphs.files.accepted import MechanismLike, mechanism_for
 
-__all__ = ["convert"]
-
 
 def convert(mechanism: MechanismLike, kind: str | None = None, *, form: str | None = None) -> Mechanism:
     """Convert a mechanism to another kind, or change its centres, or both in this order.

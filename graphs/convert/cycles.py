@@ -20,8 +20,6 @@ from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Floats
 
-__all__ = ["HingedFaces", "axes_meet", "boundary_cycles", "loops_with_centres", "vertex_cycles"]
-
 _FARTHEST = 1e3
 """Lines that meet farther than this, in units of the extent, may as well be parallel."""
 

@@ -22,8 +22,6 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, sides_of_face
 from graphs.tolerances import DOUBLE
 
-__all__ = ["SheetMechanism", "mechanism_of_sheet"]
-
 
 @dataclass(frozen=True)
 class SheetMechanism:

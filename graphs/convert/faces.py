@@ -18,8 +18,6 @@ from graphs.mechanism.precision import flattened
 from graphs.mechanism.sheet import COLLINEAR, HINGES, Edge, Sheet, sides_of_face
 from graphs.types import Floats
 
-__all__ = ["creases_on_no_face", "joins_faces", "traced_anew", "with_simple_faces"]
-
 _OVERLAP = 1e-6
 """Faces overlap if they cover less than their areas by this part."""
 

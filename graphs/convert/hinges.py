@@ -17,8 +17,6 @@ from graphs.errors import numbered
 from graphs.mechanism.sheet import COLLINEAR, Edge
 from graphs.types import Floats
 
-__all__ = ["HingeLines", "lines_of_hinges"]
-
 BENT = 0.03
 """Hinges farther off one line than this, in units of their lengths, are bent: equal ones by over 3.4 degrees."""
 

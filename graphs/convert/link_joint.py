@@ -14,8 +14,6 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.types import JointId, Joints, LinkId
 
-__all__ = ["block_cycles", "sc_from_link_joint_graph"]
-
 
 @dataclass(frozen=True, slots=True)
 class BlockCycles:

@@ -25,17 +25,6 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, Sheet, sides_of_face
 from graphs.types import JointId, LinkId
 
-__all__ = [
-    "VertexStep",
-    "internal_rods",
-    "oriented_panels",
-    "polyhedron_of",
-    "rings_of",
-    "scd_from_panels",
-    "scd_of_placed_panels",
-    "vertex_steps",
-]
-
 Panel = tuple[Any, ...]
 
 Remote = Callable[[Mapping[JointId, tuple[Any, ...]], Sequence[tuple[JointId, ...]]], Sequence[Loop]]

@@ -24,20 +24,6 @@ from graphs.mechanism.surfaces import SurfaceLinkage
 from graphs.mechanism.vertex_edge import VertexEdgeGraph, sc_from_vertex_edge, vertex_edge_from_sc
 from graphs.types import JointId
 
-__all__ = [
-    "CONVERSIONS",
-    "FORMS",
-    "Mechanism",
-    "graph_of",
-    "to_joints",
-    "to_polyhedron",
-    "to_sc",
-    "to_scd",
-    "to_sheet",
-    "to_solids",
-    "to_vertex_edge",
-]
-
 Mechanism = SCGraph | PolyhedronModel | VertexEdgeGraph | Sheet | SurfaceLinkage | HingedSolids | JointedLinkage
 """Any object that a file may hold (an SCDGraph is an SCGraph)."""
 

@@ -25,8 +25,6 @@ from graphs.limits import check_work
 from graphs.mechanism.sheet import HINGES, Edge, Place, Reading, Repair, RepairKind, Sheet, sides_of_face
 from graphs.types import Floats
 
-__all__ = ["MOST", "TOLERANCES", "Lines", "crossings", "networks_of", "trace_sheet"]
-
 _SAME = 1e-3
 """Crossings nearer than this, in units of the tolerance, are one that was found more than once."""
 _MARGIN = 4 * _SAME

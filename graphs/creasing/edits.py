@@ -20,8 +20,6 @@ from graphs.edit.named import joint_named, known
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.mechanism.sheet import HINGES, Sheet, sides_of_face, with_all_edges
 
-__all__ = ["SheetEdit", "crease_sheet", "joint_of_sheet_named", "lock_crease", "remove_crease", "take_off_panels"]
-
 
 @dataclass(frozen=True)
 class SheetEdit:

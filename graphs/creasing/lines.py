@@ -12,8 +12,6 @@ import numpy as np
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.mechanism.sheet import COLLINEAR, FLAT, Sheet, sides_of_face
 
-__all__ = ["creased_along", "edge_in_words"]
-
 
 def creased_along(
     sheet: Sheet, start: int | Sequence[float], end: int | Sequence[float], letter: str

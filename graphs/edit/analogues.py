@@ -12,8 +12,6 @@ from graphs.errors import UnsolvableError, numbered
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 
-__all__ = ["generalised_form", "planar_analogue", "spherical_analogue"]
-
 G = TypeVar("G", bound=SCGraph)
 
 

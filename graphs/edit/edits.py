@@ -20,21 +20,6 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.types import JointId, Joints, LinkId
 
-__all__ = [
-    "Edit",
-    "add_crease",
-    "add_loop",
-    "add_ride_along",
-    "counts_as_json",
-    "crease_link",
-    "fresh",
-    "lock_hinge",
-    "lock_joint",
-    "make_explicit",
-    "make_implicit",
-    "ride_along",
-]
-
 
 @dataclass(frozen=True, slots=True)
 class Edit:

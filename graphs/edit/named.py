@@ -9,8 +9,6 @@ from graphs.errors import InvariantError, shown
 from graphs.mechanism.sc import SCGraph
 from graphs.types import JointId, LinkId
 
-__all__ = ["joint_named", "known", "link_named"]
-
 _MOST = 12
 """Names that are listed in a message."""
 

@@ -12,8 +12,6 @@ from graphs.files.formats import read
 from graphs.mechanism.precision import stated
 from graphs.mechanism.sheet import Sheet
 
-__all__ = ["MechanismLike", "mechanism_for", "with_stated_precision"]
-
 MechanismLike: TypeAlias = Mechanism | str | Path
 """A mechanism as `read` returns it, the path of its file, or an id."""
 

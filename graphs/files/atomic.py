@@ -22,19 +22,6 @@ from pathlib import Path
 
 from graphs.errors import OpenError, shown
 
-__all__ = [
-    "Beside",
-    "FolderBeside",
-    "Unfinished",
-    "check_new_folder",
-    "check_place",
-    "reason_of",
-    "remove_folder",
-    "remove_left",
-    "write_chunks",
-    "write_text",
-]
-
 if sys.platform != "win32":
     import fcntl
 

@@ -26,19 +26,6 @@ from graphs.joints.linkage import JointedLinkage, JointKind, kind_named
 from graphs.mechanism.sc import SCGraph
 from graphs.types import JointId
 
-__all__ = [
-    "are_kept",
-    "as_linkage",
-    "as_sc",
-    "edge_list_text",
-    "graph6_text",
-    "graphml_text",
-    "names_from_text",
-    "read_edge_list",
-    "read_graph6",
-    "read_graphml",
-]
-
 _INTEGER = re.compile(r"0|-?[1-9]\d{0,17}")
 """An integer as Python writes it: ``01`` is another name than ``1``."""
 

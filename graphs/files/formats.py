@@ -51,20 +51,6 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.surfaces import SurfaceLinkage
 
-__all__ = [
-    "READERS",
-    "WRITERS",
-    "Entry",
-    "is_id",
-    "line_named",
-    "mechanism_of_id",
-    "read",
-    "read_all",
-    "read_linkage",
-    "write",
-    "write_converted",
-]
-
 _IDS = ("k1:", "m1:")
 
 

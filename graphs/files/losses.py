@@ -25,19 +25,6 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import SurfaceLinkage
 from graphs.printing import plain
 
-__all__ = [
-    "change_of_type",
-    "lost_as_bare_graph",
-    "lost_as_cp",
-    "lost_as_dxf",
-    "lost_as_fold",
-    "lost_as_graphml",
-    "lost_as_json",
-    "lost_as_nameless_graph",
-    "lost_as_obj",
-    "lost_as_svg",
-]
-
 _KEYS = 12
 """So many keys of a file are named."""
 

@@ -23,23 +23,6 @@ from graphs.mechanism.surfaces import Cone, Cylinder, Pair, Surface, SurfaceLink
 from graphs.mechanism.vertex_edge import VertexEdgeGraph
 from graphs.types import JointId, LinkId
 
-__all__ = [
-    "FORMATS",
-    "KIND",
-    "Rows",
-    "document",
-    "dumps",
-    "from_document",
-    "head",
-    "holds_orientations",
-    "is_count",
-    "names",
-    "orientation_rows",
-    "orientations_document",
-    "rows_from_document",
-    "written",
-]
-
 VERSION = 1
 
 

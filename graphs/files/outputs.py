@@ -14,20 +14,6 @@ from typing import Generic, TypeAlias, TypeVar
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.atomic import Beside, check_place
 
-__all__ = [
-    "Format",
-    "Formats",
-    "Lost",
-    "check_installed",
-    "check_writable",
-    "format_of",
-    "formats_by_suffix",
-    "listed",
-    "unknown_extension",
-    "write_as",
-    "write_bytes",
-]
-
 Content = TypeVar("Content")
 Lost: TypeAlias = tuple[str, ...]
 """Parts that a file does not hold, each with its number."""

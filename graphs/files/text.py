@@ -18,8 +18,6 @@ from graphs.errors import FileError, InvariantError, OpenError, shown
 from graphs.files.atomic import reason_of
 from graphs.limits import how_to_raise, most
 
-__all__ = ["Checker", "in_degrees", "json_text", "load_json", "read_text"]
-
 
 def read_text(path: Path) -> str:
     """Return the text of a regular file (UTF-8, with or without byte order mark), not empty and not too large."""

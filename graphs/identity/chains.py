@@ -29,18 +29,6 @@ try:
 except ImportError:
     bliss_bind = None
 
-__all__ = [
-    "automorphisms_of",
-    "canonical_numbers",
-    "chain_from_id",
-    "chain_id",
-    "class_code",
-    "labels_of",
-    "subdivided",
-    "symmetries_of",
-    "symmetries_of_links",
-]
-
 _LINK, _JOINT, _MARKED = 0, 1, 2
 
 

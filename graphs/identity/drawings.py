@@ -28,8 +28,6 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.types import JointId, LinkId
 
-__all__ = ["drawing_of", "map_code", "map_id", "map_text", "mechanism_from_map_id", "symbols_of"]
-
 _PREFIX = "m1:"
 _OPEN, _END, _JOINT = 0, 1, 2
 _LABELS = {Centre.FINITE: "f", Centre.INFINITE: "i", Centre.NONE: "s"}

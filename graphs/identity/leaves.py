@@ -18,8 +18,6 @@ from collections import Counter, defaultdict, deque
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-__all__ = ["ColouredGraph", "Symmetries", "greatest_leaf"]
-
 
 class ColouredGraph(NamedTuple):
     """A simple graph whose nodes 0, 1, ... may have colours; edges are pairs of nodes, no pair twice.

@@ -15,8 +15,6 @@ from graphs.loops.loop import Centre
 from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.types import JointId, LinkId
 
-__all__ = ["points_of", "rods_between_balls"]
-
 _BODY = 3
 
 

@@ -15,8 +15,6 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.types import Floats, JointId, LinkId
 
-__all__ = ["JointKind", "JointPlace", "JointedLinkage", "Leg", "kind_named", "legs", "plain_vector"]
-
 
 class JointKind(Enum):
     """A kind of joint, by the letter that names of legs use (UPS, RUS).

@@ -18,8 +18,6 @@ from graphs.mechanism.precision import precision_of_axes
 from graphs.tolerances import Tolerances
 from graphs.types import Floats, JointId
 
-__all__ = ["placed", "placed_knees"]
-
 _ENDS = (JointKind.REVOLUTE, JointKind.UNIVERSAL, JointKind.SPHERICAL)
 
 

@@ -22,8 +22,6 @@ from graphs.mechanism.solids import Axis, HingedSolids
 from graphs.tolerances import Tolerances
 from graphs.types import Floats, JointId, LinkId
 
-__all__ = ["recognised", "revolutes_of"]
-
 _SMALL = 0.1
 """Size of the chain that stands for a joint, in units of the extent."""
 _ARM = 0.5

@@ -24,8 +24,6 @@ from graphs.mechanism.sc import SCGraph
 from graphs.printing import Block, Printed, plain
 from graphs.types import JointId, LinkId
 
-__all__ = ["AssurGroup", "AssurReduction", "assur_groups", "reduce_assur"]
-
 
 @dataclass(frozen=True, slots=True)
 class AssurGroup:

@@ -27,8 +27,6 @@ from graphs.printing import Block, Printed, plain
 from graphs.reduce.working import RULES, ReductionTerms, Removal, TakenAddendum, WorkingGraph, take_all
 from graphs.types import JointId, LinkId
 
-__all__ = ["Reduction", "ReductionStep", "reduce"]
-
 
 class _FourBar(NamedTuple):
     """A four-bar of a block, and the class of the loops that it is a sum of."""

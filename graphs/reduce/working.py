@@ -18,8 +18,6 @@ from graphs.loops.loop import Loop, cut_into_cycles, dependent_loop, in_span_of
 from graphs.mechanism.sc import SCGraph
 from graphs.types import JointId, Joints, LinkId
 
-__all__ = ["RULES", "Path", "ReductionTerms", "Removal", "TakenAddendum", "WorkingGraph", "take_all"]
-
 
 @dataclass(frozen=True, slots=True)
 class Removal:

@@ -35,8 +35,6 @@ from synth.motion.configuration import Configuration
 from synth.motion.walk.step import Allowance
 from synth.moving.made import Movable, configuration_of
 
-__all__ = ["Advice", "Creased", "Locked", "advise"]
-
 _USED_UP = "; the search ended at its work limit"
 _LOOSE = 1e4
 """Amplification of play is printed up to this factor, above as more."""

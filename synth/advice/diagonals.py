@@ -29,8 +29,6 @@ from synth.folding.configuration import configuration_of_sheet
 from synth.motion.linkage import PosedLinkage, PosedLoop
 from synth.motion.walk.step import Allowance
 
-__all__ = ["Diagonal"]
-
 
 @dataclass(frozen=True, slots=True)
 class Diagonal:

@@ -33,8 +33,6 @@ from synth.motion.singular.second_order import rates_at
 from synth.motion.walk.step import Allowance
 from synth.verdict.verdict import flaps_of
 
-__all__ = ["GeneralPose", "cheapest_sets"]
-
 
 @dataclass(frozen=True, slots=True)
 class GeneralPose:

@@ -36,8 +36,6 @@ from synth.atlas.columns import COLUMNS, RELATIONS, SCHEMA, stored_columns
 from synth.atlas.filling import filled
 from synth.candidates.job import CandidateJob
 
-__all__ = ["AtlasJob", "AtlasPlan", "AtlasSink", "build_atlas"]
-
 _FEWEST = 4
 """Fewest links of a chain: with less it is rigid, or not closed."""
 _REALISED_AT_ONCE, _AT_ONCE = 8, 2000

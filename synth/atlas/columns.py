@@ -21,11 +21,6 @@ from graphs.errors import StoreError, shown
 from graphs.mechanism.sc import ARRANGEMENTS
 from graphs.printing import plain
 
-__all__ = [
-    "COLUMNS", "KINDS", "RELATIONS", "SCHEMA", "AtlasColumn", "NamedType", "damaged", "name_of_type",
-    "named_types", "stored_columns", "text_values", "value_of",
-]  # fmt: skip
-
 SCHEMA = 2
 """Version of the columns and of what they mean."""
 

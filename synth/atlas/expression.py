@@ -28,8 +28,6 @@ from graphs.edit.named import known
 from graphs.errors import InvariantError, shown
 from graphs.printing import plain
 
-__all__ = ["Condition", "ExpressionError", "condition_of"]
-
 _LONGEST, _DEEPEST = 10_000, 60
 """Most letters of an expression, and most nested brackets."""
 _AROUND = 40

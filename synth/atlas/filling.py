@@ -27,8 +27,6 @@ from synth.motion.driving import MotionOptions
 from synth.motion.motion import motion_of
 from synth.realisation.realised import Kind, Realisation, realise
 
-__all__ = ["coordinates_of", "filled", "order_id"]
-
 _FRAMES = 24
 """Frames of the motion by which the largest fold angle is measured."""
 

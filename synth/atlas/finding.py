@@ -20,8 +20,6 @@ from graphs.printing import Block, Printed, TableBlock
 from synth.atlas.columns import NamedType, named_types
 from synth.atlas.opened import Atlas
 
-__all__ = ["FoundType", "NearType", "find_type"]
-
 
 @dataclass(frozen=True, slots=True)
 class NearType:

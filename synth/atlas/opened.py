@@ -37,11 +37,6 @@ from synth.atlas.expression import condition_of
 if TYPE_CHECKING:
     import pandas
 
-__all__ = [
-    "Atlas", "AtlasRows", "Neighbour", "Rows", "TypeReport", "open_atlas", "open_guarded", "report_of", "selected",
-    "value_text",
-]  # fmt: skip
-
 _READABLE = {"type", "types", "relations", "atlas", "json_each", "json_tree"}
 _ALLOWED = {sqlite3.SQLITE_SELECT, sqlite3.SQLITE_RECURSIVE}
 _REFUSED = {

@@ -29,10 +29,6 @@ from synth.viewer.building import BUILT
 from synth.viewer.pages import check_built, json_in_html
 from synth.viewer.shown import shown_of
 
-__all__ = [
-    "SEARCHED", "Site", "SiteSink", "data_script", "document", "files_of_type", "index_page", "site_of",
-]  # fmt: skip
-
 _POLICY = (
     "default-src 'none'; script-src 'self' file:; style-src 'self' file: 'unsafe-inline'; "
     "img-src 'self' file: blob: data:; base-uri 'none'; form-action 'none'"

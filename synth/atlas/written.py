@@ -23,8 +23,6 @@ from synth.atlas.opened import AtlasRows
 from synth.drawing.catalogue import CatalogueEntry, catalogue_pages, drawable_of_type, write_catalogue
 from synth.drawing.scene.writing import PICTURES
 
-__all__ = ["sheet_of_type", "write_rows"]
-
 
 def sheet_of_type(values: Mapping[str, Any]) -> Sheet | None:
     """Return the panels of a type, from its values in an atlas by column; None if none were found.

@@ -15,8 +15,6 @@ from graphs.mechanism.surfaces import Surface
 from graphs.types import LinkId
 from synth.candidates.job import CandidateCountJob, CandidateJob, Filter
 
-__all__ = ["conical_candidates", "count_conical_candidates"]
-
 Grounds: TypeAlias = Sequence[LinkId | None] | Literal["all"] | None
 """Fixed links; "all" for each of those that no symmetry exchanges; None for that of the chain."""
 

@@ -13,8 +13,6 @@ from enumerate.runner.stopping import interruptible
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["run"]
-
 
 def run() -> None:
     """Run the command; print one line if code has to be compiled, which takes longer than most answers."""

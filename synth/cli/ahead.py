@@ -19,8 +19,6 @@ from graphs.errors import numbered
 from synth.cli.main import main
 from synth.cli.runner import cores
 
-__all__ = ["compile_ahead"]
-
 _SMALL = (
     "enumerate sc --links 8 --dof 1",
     "enumerate chains --links 8 --dof 1",

@@ -20,8 +20,6 @@ from graphs.errors import SynthedraError
 from graphs.printing import plain
 from synth.cli import options
 
-__all__ = ["NamedGroup", "main"]
-
 _SECTIONS: dict[str, dict[str, str]] = {
     "Analyse motion": {
         "mobility": "Report mobility, degrees of freedom and motion branches, with the evidence.",

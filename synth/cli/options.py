@@ -18,13 +18,6 @@ if TYPE_CHECKING:
     from graphs.mechanism.surfaces import Surface
     from graphs.types import JointId, LinkId
 
-__all__ = [
-    "BRANCH", "FILE", "FILES", "FILE_NAME", "FORCE", "JSON", "LENGTH", "LENGTH_OR_NONE", "LOSSY",
-    "NUMBER_OF_SURFACE", "WORKERS", "LimitsType", "NumberList", "branch", "choice", "driven_angles", "flag",
-    "in_radians", "joint_of", "limits", "link_of", "named_value", "number", "numbers_of_joints", "output",
-    "repeated", "seed", "surface_from_options", "value",
-]  # fmt: skip
-
 _MOST_DIGITS = 9
 """Digits of the number of a branch: nobody lists more, and Python converts no more than some thousands."""
 

@@ -21,11 +21,6 @@ if TYPE_CHECKING:
     from graphs.convert import Mechanism
     from synth.drawing.mechanisms.chains import OrderOnCircle
 
-__all__ = [
-    "COLOUR", "DRAWN", "LAYER", "LOOK", "MODE", "PRECISION", "ROW", "NamedMechanism", "keep_looks", "precise",
-    "precise_sheet", "read", "read_named", "stated",
-]  # fmt: skip
-
 _LOOKS, _PRECISION = "synthedra.stated", "synth.precision"
 """Keys under which the values of options are kept with the context."""
 _COMMA = re.compile(r",(?=[A-Za-z-]=)")

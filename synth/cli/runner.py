@@ -20,11 +20,6 @@ from synth.cli.output import console, plain, print_json, table, tell_written
 if TYPE_CHECKING:
     from enumerate.runner.job import Column, Job, Progress, Row, Sink
 
-__all__ = [
-    "RunOptions", "TablePrinter", "check_method", "cores", "run_count", "run_resumable", "run_rows", "run_whole",
-    "runner_options",
-]  # fmt: skip
-
 _MOST_IN_TABLE = 1000
 _PATIENCE = 1.0
 """Seconds before progress is shown, and between two lines of it."""

@@ -28,16 +28,6 @@ from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.shapes import LARGE, Label, Layer, moved, text_width
 from synth.drawing.scene.writing import PICTURES, Pages, Scene
 
-__all__ = [
-    "CatalogueEntry",
-    "catalogue_entries",
-    "catalogue_pages",
-    "drawable_of_type",
-    "entry_numbered",
-    "is_catalogue",
-    "write_catalogue",
-]
-
 Row = Mapping[str, Any]
 """Column to value."""
 

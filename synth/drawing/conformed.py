@@ -41,8 +41,6 @@ from synth.drawing.scene.shapes import (
 from synth.drawing.scene.writing import Scene
 from synth.drawing.space.panels import View, view_from
 
-__all__ = ["draw_conformed", "surface_layer"]
-
 _SIDE = 240.0
 """Side of the squares of the circle and of the surface, points."""
 _UNIT = 74.0

@@ -39,8 +39,6 @@ from synth.guidance.dyads import AxisCurve, Dyad
 from synth.guidance.order import Hoop, HoopCrossing, direction_words, order_verdicts, pair_name
 from synth.guidance.orientations import Orientations, unit_vector
 
-__all__ = ["CCW", "CW", "NEITHER", "draw_hoop", "draw_map", "hammer", "hammer_inverse", "spread"]
-
 CCW, CW, NEITHER = "class0", "class1", "body"
 """Colours of regions of the map: in order with a crank that turns so, or not in order."""
 _NEEDED = "mountain"

@@ -14,8 +14,6 @@ from synth.drawing.scene.writing import Scene
 from synth.surfaces.loop_maps import ConeMap, CylinderMap, cone_reach, cylinder_reach
 from synth.surfaces.loop_sums import Base, loop_sum, sign_patterns
 
-__all__ = ["draw_loop_sums"]
-
 _POINTS = 400
 _MOST_CURVES = 128
 _MOST_NAMED = 8

@@ -39,8 +39,6 @@ from synth.motion.singular.sampling import rates_towards
 from synth.motion.singular.second_order import quadrics_of, rates_at
 from synth.motion.walk.step import Allowance
 
-__all__ = ["AlikeClosure", "alike_classes", "fold_to"]
-
 _LARGEST_GROUP = 24
 """Motions of a group whose pairs are tried as generators of subgroups: those of a polygon of twelve sides."""
 

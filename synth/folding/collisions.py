@@ -22,8 +22,6 @@ from synth.motion.path import Path
 from synth.motion.walk.step import PathEvent, Step
 from synth.motion.walk.walking import Event, Walk
 
-__all__ = ["Collision", "Panels"]
-
 _APART = radians(3.0)
 """Between poses that are looked at no joint turns by more."""
 _REFINED = 10

@@ -38,8 +38,6 @@ from synth.motion.configuration import EXACT, Configuration, PointPlaces, doubt_
 from synth.motion.linkage import PosedLinkage, linkage_of_sheet
 from synth.motion.path import Path
 
-__all__ = ["SheetConfiguration", "configuration_of_sheet", "opened"]
-
 
 def opened(sheet: Sheet, mechanism: SheetMechanism) -> Sheet:
     """Return a sheet in which panels share a vertex only if hinges join them there; new edges come last."""

@@ -23,8 +23,6 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.derivatives import AxisDependence, BodyPoses, BodyTree, Sensitivity, spatial
 from synth.motion.linkage import Creases, PosedLinkage, creases_of, link_motions
 
-__all__ = ["SheetDerivatives", "axis_motions", "dependence_on_vertices", "largest_panel", "vertex_places"]
-
 
 def vertex_places(
     sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinkage, angles: Floats

@@ -21,8 +21,6 @@ from synth.motion.driving import BranchChoice, MotionOptions, beginning
 from synth.motion.marked import disagreement_with
 from synth.motion.motion import FRAMES, Motion, motion_of
 
-__all__ = ["assign_branch", "fold"]
-
 
 def fold(
     mechanism: MechanismLike,

@@ -47,20 +47,6 @@ from synth.motion.singular.second_order import (
 )
 from synth.motion.walk.step import Allowance
 
-__all__ = [
-    "MOST_BRANCHES",
-    "MOST_JOINTS",
-    "Branch",
-    "Branches",
-    "Certainty",
-    "FlatVertices",
-    "Search",
-    "branches_of",
-    "first_branch",
-    "search_for",
-    "signs_of",
-]
-
 
 class FlatVertices:
     """The loops of a linkage that are flat vertices of four creases, each with two modes.

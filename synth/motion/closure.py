@@ -27,8 +27,6 @@ from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
-__all__ = ["ClosureEquations", "Corrected", "TangentSpace", "carried", "corrected", "exactly_held", "frames_of"]
-
 
 @dataclass(frozen=True, slots=True)
 class _LoopGroup:

@@ -31,8 +31,6 @@ from synth.motion.singular.nearest import InitialMotion, begun_near
 from synth.motion.singular.second_order import rates_at
 from synth.motion.walk.walking import Event
 
-__all__ = ["EXACT", "Configuration", "PointPlaces", "at_most", "doubt_of", "doubt_of_rigid", "listed"]
-
 EXACT = DOUBLE.closed
 """Coordinates that are precise to this part of the extent are taken at their word: loops of them close."""
 

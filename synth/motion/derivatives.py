@@ -24,17 +24,6 @@ from graphs.types import Floats, Ints, LinkId
 from synth.motion.closure import ClosureEquations, TangentSpace, carried
 from synth.motion.linkage import PosedLinkage, joints_outwards
 
-__all__ = [
-    "AxisChange",
-    "AxisDependence",
-    "BodyPoses",
-    "BodyTree",
-    "Sensitivity",
-    "dependence_on_axes",
-    "derivatives_by_parameters",
-    "spatial",
-]
-
 _NUDGE = 1e-4
 """Radians, of the differences that say whether ranks change: their error is 1e-8."""
 _COMPLEX = 1e-40

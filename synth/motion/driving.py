@@ -28,8 +28,6 @@ from synth.motion.singular.second_order import RateSpace
 from synth.motion.walk.step import Allowance
 from synth.motion.walk.walking import Event
 
-__all__ = ["BranchChoice", "DrivenMotion", "MotionOptions", "beginning", "driven_from", "goals_of"]
-
 _LARGE = 10**9
 _STARTS = 8
 """Starts of the search for rates with all marks at which several joints are driven."""

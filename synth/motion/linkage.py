@@ -24,19 +24,6 @@ from graphs.rank.exact import independent_cycles
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Floats, Ints, JointId, LinkId
 
-__all__ = [
-    "Creases",
-    "PosedLinkage",
-    "PosedLoop",
-    "axis_lengths",
-    "creases_of",
-    "joints_outwards",
-    "link_motions",
-    "linkage_of_axes",
-    "linkage_of_sheet",
-    "moved",
-]
-
 
 @dataclass(frozen=True, slots=True)
 class PosedLoop:

@@ -19,18 +19,6 @@ from synth.motion.linkage import PosedLinkage
 from synth.motion.singular.sampling import rates_towards, same_part
 from synth.motion.singular.second_order import RateSpace, rates_at
 
-__all__ = [
-    "AssignedBranch",
-    "Disagreement",
-    "Marked",
-    "agreeing_best",
-    "assigned_branch",
-    "disagreement_with",
-    "marked_rates",
-    "nearest_branch",
-    "rates_as_marked",
-]
-
 Marked = Literal["has", "none has", "none found"]
 
 _REFINED, _TRIED = 4, 60

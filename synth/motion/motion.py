@@ -23,8 +23,6 @@ from synth.motion.driving import DrivenMotion, MotionOptions, driven_from
 from synth.motion.linkage import PosedLinkage, link_motions
 from synth.motion.path import Path
 
-__all__ = ["FRAMES", "Motion", "motion_along", "motion_of"]
-
 FRAMES = 20
 """Frames after the first, by default."""
 _LISTED = 12

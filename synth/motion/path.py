@@ -23,8 +23,6 @@ from synth.motion.walk.events import Limit, RankDeficiency, Return, TurningPoint
 from synth.motion.walk.step import WATCHED, Allowance, PathEvent, RankWatch
 from synth.motion.walk.walking import Event, Goal, KeptSigns, Walk
 
-__all__ = ["Path", "PathOptions", "circuit_through", "driven_path"]
-
 _MOST_PAST = 1_000
 """Steps past a turning point."""
 

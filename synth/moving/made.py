@@ -40,8 +40,6 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT, Configuration
 from synth.motion.linkage import PosedLinkage, linkage_of_axes
 
-__all__ = ["Movable", "configuration_of", "linkage_of_rods", "posed_on_surface", "sheet_of", "with_precision"]
-
 
 @dataclass
 class _Hinges:

@@ -25,8 +25,6 @@ from synth.motion.driving import MotionOptions
 from synth.motion.motion import FRAMES, Motion, motion_of
 from synth.moving.made import Movable, configuration_of, sheet_of
 
-__all__ = ["move", "table_text"]
-
 
 def move(
     mechanism: Movable,

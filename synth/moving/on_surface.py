@@ -36,8 +36,6 @@ from synth.motion.walk.step import Step
 from synth.motion.walk.walking import Event, Walk
 from synth.moving.made import configuration_of
 
-__all__ = ["InstantAxis", "LinkPoint", "SurfaceMotion", "move_on_surface"]
-
 BACK, ROUND = "turns back", "turns all round"
 """Why a driving joint goes no further."""
 

@@ -9,8 +9,6 @@ from graphs.mechanism.solids import HingedSolids
 from synth.patterns import creases, goods, hinged_rings, platforms, scissors
 from synth.patterns.generator import Generator, Parameter, Values, angle, count, length
 
-__all__ = ["GENERATORS"]
-
 _MESH = (
     count("rows", 3, 2, 12, "number of rows of panels"),
     count("columns", 3, 2, 12, "number of columns of panels"),

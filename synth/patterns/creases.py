@@ -13,28 +13,6 @@ from graphs.errors import InvariantError
 from graphs.mechanism.sheet import Sheet, sides_of_face
 from synth.patterns.panels import Corners, Place, sheet_of_faces, sheet_of_panels
 
-__all__ = [
-    "bird_base",
-    "chickenwire",
-    "deployable_cylinder",
-    "fan",
-    "folded_miura",
-    "freedoms_of_triangles",
-    "hexagon_twist",
-    "huffman_grid",
-    "kresling",
-    "map_sheet",
-    "miura",
-    "miura_tube",
-    "polygon_twist",
-    "preliminary_base",
-    "resch",
-    "square_twist",
-    "waterbomb",
-    "waterbomb_base",
-    "yoshimura",
-]
-
 
 def fan(directions: Sequence[float], letters: str = "", title: str = "") -> Sheet:
     """Return a flat vertex with creases of length 1 in rising directions, radians, unassigned without letters."""

@@ -17,8 +17,6 @@ from synth.folding.alike import fold_to
 from synth.patterns.catalogue import GENERATORS
 from synth.patterns.generator import FOLD, Generator
 
-__all__ = ["Generated", "folded", "generate"]
-
 
 def folded(sheet: Sheet, angle: float) -> Sheet:
     """Return a flat sheet folded on the branch of its assignment up to a largest fold angle, radians."""

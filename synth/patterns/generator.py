@@ -13,8 +13,6 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.tolerances import DOUBLE
 
-__all__ = ["FOLD", "Generator", "Parameter", "Unit", "Values", "angle", "count", "length"]
-
 Unit = Literal["count", "length", "angle"]
 """Counts are whole; lengths have any unit, the same for all of a mechanism; angles are radians."""
 

@@ -20,8 +20,6 @@ from graphs.types import JointId
 from synth.patterns.hinged_rings import Line
 from synth.patterns.panels import Place, sheet_of_faces
 
-__all__ = ["angle_pop_up", "beaked_box", "box_pop_up", "crash_lock", "parallel_pop_up", "slit_card", "webbed_tray"]
-
 
 def parallel_pop_up(opening: float, left: float, right: float, first: float, second: float) -> HingedSolids:
     """Return a card with two panels across its fold, their creases parallel to it; links from the left half on."""

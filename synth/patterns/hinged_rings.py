@@ -21,22 +21,6 @@ from graphs.tolerances import DOUBLE, canonical_order
 from graphs.types import Floats, JointId
 from synth.patterns.panels import sheet_of_faces
 
-__all__ = [
-    "Line",
-    "bennett",
-    "closed_chain",
-    "goldberg",
-    "kaleidocycle",
-    "line_symmetric",
-    "myard",
-    "plane_symmetric",
-    "ring",
-    "sarrus",
-    "spherical_ring",
-    "trihedral",
-    "turned",
-]
-
 Line = tuple[Sequence[float], Sequence[float]]
 """A point of an axis and its direction."""
 

@@ -8,8 +8,6 @@ from types import MappingProxyType
 
 from graphs.mechanism.sheet import Sheet, sides_of_face
 
-__all__ = ["Corners", "Place", "rounded", "sheet_of_faces", "sheet_of_panels"]
-
 Place = tuple[float, ...]
 Corners = Sequence[Place]
 

@@ -14,8 +14,6 @@ from graphs.mechanism.sc import SCGraph
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId, LinkId
 
-__all__ = ["platform", "translating_platform"]
-
 _DIGITS = 14
 _UP = np.array([0.0, 0.0, 1.0])
 _THIRD = 2 * pi / 3

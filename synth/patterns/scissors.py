@@ -22,8 +22,6 @@ from graphs.mechanism.solids import Axis, HingedSolids
 from graphs.tolerances import DOUBLE
 from graphs.types import JointId, LinkId
 
-__all__ = ["CUBE", "OCTAHEDRON", "TETRAHEDRON", "Corners", "prism", "scissor_polyhedron", "scissor_ring"]
-
 _UP = (0.0, 0.0, 1.0)
 
 Corners = Sequence[tuple[float, float, float]]

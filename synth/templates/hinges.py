@@ -33,8 +33,6 @@ from synth.templates.pieces import (
     united,
 )
 
-__all__ = ["HingeKind", "Hinges", "with_hinges"]
-
 HingeKind = Literal["offset", "living", "gap"]
 _STRAIGHT = 5e-7
 """Corners this close to a straight line, in millimetres, are none."""

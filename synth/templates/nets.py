@@ -31,9 +31,6 @@ from synth.templates.pieces import (
 )
 from synth.templates.unfolding import Net, Panels, laid_across, nets_of, panels_of
 
-__all__ = ["CutNets", "Joins", "pieces_of_panels", "slot_of", "tab_at"]
-
-
 _DEPTHS = (1.0, 0.7, 0.5, 0.35)
 _SLANTS = (0.6, 1.0, 2.0, 4.0)
 """How far the ends of a tab run in, in units of its depth."""

@@ -24,8 +24,6 @@ from synth.templates.template import (
     template_of,
 )
 
-__all__ = ["template"]
-
 _REALISED = 150.0
 """Millimetres of the longer side of a type that is realised: its coordinates have no size of their own."""
 

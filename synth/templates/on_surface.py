@@ -28,9 +28,6 @@ from synth.drawing.scene.writing import Scene
 from synth.templates.pieces import Kind, Piece, Point, Stroke, Text
 from synth.templates.template import GREATEST, Template
 
-__all__ = ["Dimensions", "layered", "solids_on_surface", "surface_of", "template_on_surface"]
-
-
 _INNER = 0.35
 """Inner end of links, in units of the length of the ruling lines."""
 _TAB_OF_GAP, _SLOT_OF_GAP = 0.45, 0.2

@@ -15,9 +15,6 @@ from synth.drawing.scene.writing import Scene
 from synth.templates.pieces import LOOKS, Kind, Piece, Point, Stroke, Text
 from synth.templates.template import Template
 
-__all__ = ["Page", "Paper", "gauge", "laid_out", "layers_of", "pages_of", "paper_named", "strokes_and_texts"]
-
-
 MARGIN = 10.0
 """Millimetres of each side of a page on which nothing is printed: what printers leave free."""
 FOOTER = 20.0

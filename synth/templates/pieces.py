@@ -16,30 +16,6 @@ from graphs.errors import numbered
 from graphs.mechanism.sheet import Sheet, sides_of_face
 from graphs.types import Floats
 
-__all__ = [
-    "FOLDS",
-    "GRID",
-    "LOOKS",
-    "Kind",
-    "Look",
-    "Piece",
-    "Point",
-    "Stroke",
-    "Text",
-    "common_spans",
-    "cut_once",
-    "is_laid_out",
-    "lies_over",
-    "lies_within",
-    "piece_of_flat_sheet",
-    "point_of",
-    "put_together",
-    "spans_on",
-    "uncovered",
-    "united",
-]
-
-
 Point = tuple[float, float]
 Kind = Literal["CUT", "MOUNTAIN", "VALLEY", "CREASE", "MARKS"]
 

@@ -25,9 +25,6 @@ from synth.templates.pieces import GRID, united
 from synth.templates.template import GREATEST, millimetres, scale_of
 from synth.templates.unfolding import Panels, Plane, panels_of
 
-__all__ = ["SOLIDS", "THICKNESS", "write_linkage_on_surface", "write_solids"]
-
-
 _RIGID = 1e-4
 """Largest change of the shape of a moving panel, as part of its extent."""
 _STRAIGHT = 1e-6

@@ -40,20 +40,6 @@ from synth.templates.pieces import Kind, Piece, is_laid_out, piece_of_flat_sheet
 if TYPE_CHECKING:
     from synth.realisation.realised import Kind as RealisedKind
 
-__all__ = [
-    "GREATEST",
-    "Template",
-    "folded_pose",
-    "linkage_on_a_surface",
-    "millimetres",
-    "panels_of_mechanism",
-    "pictured",
-    "scale_of",
-    "template_of",
-    "unit_of",
-]
-
-
 _UNITS = {"mm": 1.0, "cm": 10.0, "m": 1e3, "um": 1e-3, "nm": 1e-6, "in": 25.4, "pt": 25.4 / 72}
 """Units of length that FOLD names, in millimetres; its ``unit`` is not a length."""
 

@@ -22,8 +22,6 @@ from graphs.tolerances import DOUBLE, leading, trailing
 from graphs.types import Floats
 from synth.templates.pieces import lies_over
 
-__all__ = ["Net", "Panels", "Plane", "laid_across", "nets_of", "panels_of"]
-
 
 @dataclass(frozen=True)
 class Plane:

@@ -18,9 +18,6 @@ from synth.templates.pages import Page, Paper, gauge, laid_out, layers_of, pages
 from synth.templates.pieces import LOOKS
 from synth.templates.template import Template
 
-__all__ = ["TEMPLATES", "write_template"]
-
-
 _BELOW = -8.0
 """Height of the gauge, millimetres; the pieces begin at 0."""
 _ROW = 1.5

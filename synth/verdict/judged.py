@@ -41,8 +41,6 @@ from synth.verdict.verdict import (
     text_of_motion,
 )
 
-__all__ = ["MOST_PANELS", "JudgedMobility", "mobility", "mobility_of_type", "verdict_of_motion"]
-
 
 def verdict_of_motion(configuration: Configuration, generic: int | None = None) -> Verdict:
     """Return the verdict on a mechanism at a configuration.

@@ -22,19 +22,6 @@ from synth.motion.branches import Certainty
 from synth.motion.configuration import Configuration, at_most, listed
 from synth.motion.marked import Marked
 
-__all__ = [
-    "AsWritten",
-    "Basis",
-    "MotionBranch",
-    "MotionFindings",
-    "Verdict",
-    "WithinPrecision",
-    "clusters_of",
-    "flaps_of",
-    "in_words",
-    "text_of_motion",
-]
-
 Basis = Literal["motion", "pose", "generic", "count"]
 
 

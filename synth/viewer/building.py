@@ -20,8 +20,6 @@ from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-__all__ = ["BUILT", "NODE_PACKAGE", "build", "needed"]
-
 HERE = Path(__file__).resolve().parent
 BUILT = HERE / "built"
 _WEB = HERE / "web"

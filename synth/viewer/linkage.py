@@ -32,16 +32,6 @@ from synth.motion.closure import frames_of
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage, PosedLoop, joints_outwards
 
-__all__ = [
-    "Bodies",
-    "ShownCentre",
-    "bodies_of_linkage",
-    "bodies_of_sheet",
-    "centres_of",
-    "page_data",
-    "solver_data",
-]
-
 _HALF = 0.2
 """Half the length of the piece of an axis that is shown, in mean distances between the joints of a link."""
 _FROM_APEX = (0.35, 1.0)

@@ -22,8 +22,6 @@ from graphs.printing import plain
 from synth.viewer.building import BUILT
 from synth.viewer.shown import Shown, shown_of
 
-__all__ = ["ViewPage", "check_built", "json_in_html", "page", "view"]
-
 _SUFFIXES = (".html", ".htm")
 
 _SCRIPT, _STYLE = "page.js", "page.css"

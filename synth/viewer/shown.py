@@ -44,8 +44,6 @@ from synth.viewer.linkage import (
     solver_data,
 )
 
-__all__ = ["DrawnCreases", "MovingLinkage", "Report", "Shown", "Ways", "shown_of", "ways_of"]
-
 Report = Callable[[str, int, int], None]
 """Called with the next step in words, its number, and the number of steps."""
 

@@ -30,19 +30,6 @@ from graphs.mechanism.precision import flat_places
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.printing import plain
 
-__all__ = [
-    "DxfLayer",
-    "DxfLine",
-    "DxfWord",
-    "Record",
-    "drawn_shapes",
-    "dxf_of",
-    "dxf_text",
-    "records",
-    "rgb_of_number",
-    "sheet_from_dxf",
-]
-
 _CODE = re.compile(r"[ \t]*-?[0-9]{1,4}[ \t]*")
 _BREAK = re.compile(r"\r\n|\n|\r")
 

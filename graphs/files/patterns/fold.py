@@ -24,8 +24,6 @@ from graphs.limits import most
 from graphs.mechanism.precision import flattened, written_by
 from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, WrittenPrecision
 
-__all__ = ["fold_text", "fold_text_of_poses", "read_fold", "sheet_from_fold"]
-
 _OLD_NAMES = {
     "edges_foldAngles": "edges_foldAngle",
     "edges_lengths": "edges_length",

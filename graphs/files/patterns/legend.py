@@ -17,25 +17,6 @@ from typing import Literal, NamedTuple, TypeAlias, cast, get_args
 
 from graphs.errors import InvariantError, numbered, shown
 
-__all__ = [
-    "COLOURS",
-    "LEFT_OUT",
-    "UNSTATED",
-    "Dash",
-    "Interpretation",
-    "Legend",
-    "Looks",
-    "Rgb",
-    "Stroke",
-    "dash_of_lengths",
-    "dash_of_line_type",
-    "described_strokes",
-    "letter_of_colour",
-    "letter_of_name",
-    "name_of_rgb",
-    "rgb_of_css",
-]
-
 Rgb: TypeAlias = tuple[int, int, int]
 
 _HEX = re.compile(r"#(?:[0-9a-f]{3,4}|[0-9a-f]{6}|[0-9a-f]{8})")

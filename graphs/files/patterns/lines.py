@@ -21,8 +21,6 @@ from graphs.files.text import Checker, read_text
 from graphs.mechanism.precision import flat_places, written_by
 from graphs.mechanism.sheet import HINGES, Reading, Sheet, WrittenPrecision, with_all_edges
 
-__all__ = ["cp_text", "sheet_from_cp", "sheet_from_opx", "traced_sheet"]
-
 _BORDERS = "BC"
 
 

@@ -20,8 +20,6 @@ from graphs.mechanism.sheet import Sheet
 
 _CREASE = re.compile(r"#e +(\d{1,9}) +(\d{1,9}) +([BMVFUCJ])(?: +([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?))?")
 
-__all__ = ["obj_text", "sheet_from_obj"]
-
 
 def sheet_from_obj(path: Path) -> Sheet:
     """Read the ``v`` and ``f`` lines and the crease comments of an OBJ file, and ignore others."""

@@ -39,8 +39,6 @@ from graphs.mechanism.precision import digits_of, flat_places
 from graphs.mechanism.sheet import Sheet, WrittenPrecision, sides_of_face, with_all_edges
 from graphs.printing import plain
 
-__all__ = ["sheet_from_svg", "svg_text"]
-
 _LINKS = ("href", "{http://www.w3.org/1999/xlink}href")
 
 _LONG_NUMBER = re.compile(r"[0-9]{101}")

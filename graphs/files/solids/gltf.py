@@ -19,8 +19,6 @@ from graphs.files.solids.meshes import Mesh
 from graphs.printing import plain
 from graphs.types import Floats
 
-__all__ = ["gltf_text"]
-
 _LONGEST = 100
 _FLOATS, _INDICES = 5126, 5125
 """Component types: 32-bit numbers, unsigned 32-bit integers."""

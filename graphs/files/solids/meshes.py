@@ -19,8 +19,6 @@ from graphs.geometry import unit
 from graphs.printing import plain
 from graphs.types import Floats
 
-__all__ = ["Mesh", "obj_of_meshes", "stl_bytes", "three_mf_bytes"]
-
 
 @dataclass(frozen=True)
 class Mesh:

@@ -13,9 +13,6 @@ from graphs.printing import TableBlock
 from synth.cli import options, output as out
 from synth.cli.runner import RunOptions, run_resumable, run_whole, runner_options
 
-__all__ = ["atlas_group"]
-
-
 _ATLAS = click.argument("atlas", metavar="ATLAS.sqlite", type=options.FILE_NAME)
 
 

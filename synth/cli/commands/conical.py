@@ -20,9 +20,6 @@ if TYPE_CHECKING:
     from enumerate.runner import Limits, Sink
     from graphs.types import LinkId
 
-__all__ = ["conical"]
-
-
 _LINKAGE = ("one-way", "both-ways", "by-angles", "not-known")
 
 

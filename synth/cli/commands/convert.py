@@ -17,9 +17,6 @@ if TYPE_CHECKING:
     from graphs.convert import Mechanism
     from graphs.mechanism import SurfaceLinkage
 
-__all__ = ["convert", "id_command", "reconstruct"]
-
-
 _SOLIDS = (".stl", ".3mf", ".gltf")
 
 

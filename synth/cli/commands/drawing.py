@@ -27,9 +27,6 @@ if TYPE_CHECKING:
     from synth.realisation.realised import Kind as RealisedKind
     from synth.templates.hinges import HingeKind
 
-__all__ = ["draw", "template", "view"]
-
-
 _KINDS = (
     "pattern", "marks", "repairs", "folded", "chain", "graph", "model", "solids", "cone", "cylinder", "circle",
     "sphere",

@@ -22,9 +22,6 @@ if TYPE_CHECKING:
     from enumerate.scd.query import Mechanisms
     from enumerate.strings import ChainString
 
-__all__ = ["enumerate_group"]
-
-
 _COLUMNS: dict[str, type] = {
     "creases": int, "string": str, "joints": str, "distance": str, "dof": int, "modes": int, "mode": str,
     "comment": str,

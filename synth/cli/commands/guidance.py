@@ -19,9 +19,6 @@ from synth.cli.output import about, check_output, check_picture, console, plain,
 if TYPE_CHECKING:
     from synth.guidance.order import Direction
 
-__all__ = ["dyads", "fourbar", "order"]
-
-
 _AXIS = options.NumberList(axis=True)
 
 _ORIENTATIONS = options.value(

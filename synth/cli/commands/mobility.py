@@ -20,10 +20,6 @@ from synth.cli.reading import DRAWN, PRECISION, precise
 if TYPE_CHECKING:
     from rich.console import Console
 
-
-__all__ = ["mobility"]
-
-
 _LONGEST_PATH = 4096
 
 

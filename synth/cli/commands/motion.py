@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from graphs.convert import Mechanism
     from graphs.types import LinkId
 
-__all__ = ["advise", "explain", "fold", "limits", "positions", "states"]
-
 
 @click.command()
 @options.FILE

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from graphs.convert import Mechanism
     from synth.realisation import ConeRealisation, Realisation
 
-__all__ = ["generate", "realise"]
-
 
 class _Generators(NamedGroup):
     """A command for each generator; the generators are imported when one is looked up."""

@@ -31,9 +31,6 @@ if TYPE_CHECKING:
     from graphs.mechanism.surfaces import Surface
     from graphs.types import LinkId
 
-__all__ = ["cone_group", "cylinder_group"]
-
-
 Kind = Literal["cone", "cylinder"]
 _Command = Callable[..., None]
 

@@ -21,21 +21,6 @@ import networkx as nx
 from graphs.identity.chains import subdivided, symmetries_of
 from graphs.types import Joints, LinkId
 
-__all__ = [
-    "Neighbours",
-    "Node",
-    "Skeleton",
-    "bodies",
-    "dots",
-    "embedded",
-    "faces_of",
-    "made_biconnected",
-    "mirrored",
-    "part_of",
-    "same_cycle",
-    "swaps_of",
-]
-
 Node: TypeAlias = tuple[Any, ...]
 Neighbours: TypeAlias = dict[Node, tuple[Node, ...]]
 

@@ -27,8 +27,6 @@ from synth.drawing.layout.embedding import (
 )
 from synth.drawing.layout.plane import barycentric, plane_graph, pulled, springs_of
 
-__all__ = ["Layout", "PlacedFace", "layout_of"]
-
 Place = tuple[float, float]
 _GAP = 1.0
 _MOST_CHOICES = 2

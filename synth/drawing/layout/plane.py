@@ -20,8 +20,6 @@ from shapely import LinearRing
 from graphs.types import Floats, Ints
 from synth.drawing.layout.embedding import Node, faces_of
 
-__all__ = ["LayoutSprings", "PlaneGraph", "barycentric", "plane_graph", "pulled", "springs_of"]
-
 _ROUNDS = 12
 _HUB_WEIGHT = 0.25
 _STEPS = 80

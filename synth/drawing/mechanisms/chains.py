@@ -25,8 +25,6 @@ from synth.drawing.scene.frame import PLAIN, Frame, PictureOptions, captions_of,
 from synth.drawing.scene.shapes import NORMAL, SMALL, Disc, Label, Layer, Line, Point, Polygon, Shape
 from synth.drawing.scene.writing import Scene
 
-__all__ = ["ChainLook", "OrderOnCircle", "chain_scene", "order_of_linkage", "order_scene", "strip_scene"]
-
 _UNIT = 46.0
 _BINARY = 3.4
 """Width of a binary link, points."""

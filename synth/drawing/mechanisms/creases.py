@@ -51,8 +51,6 @@ from synth.motion.marked import disagreement_with
 from synth.moving.made import configuration_of
 from synth.verdict.judged import verdict_of_motion
 
-__all__ = ["COLOURINGS", "crease_scene", "overlay_of_marks", "overlay_of_repairs", "places_on_page"]
-
 COLOURINGS = ("letters", "verdict", "branch", "centres", "none")
 """Colours show the assignment; immobile creases and panels that move as one; how creases begin to fold on a
 branch; the class of centres; nothing."""

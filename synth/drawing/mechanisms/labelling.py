@@ -10,8 +10,6 @@ from typing import TypeAlias
 from graphs.loops.loop import Centre
 from synth.drawing.scene.shapes import FINE, NORMAL, Disc, Label, Line, Point, Shape
 
-__all__ = ["SIGN", "Obstacles", "beside", "centre_sign", "joint_dot", "placed"]
-
 SIGN = 4.2
 """Radius of the sign of a centre, points."""
 _WEIGHT_OF_LABEL = 1000.0

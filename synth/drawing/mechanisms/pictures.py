@@ -22,7 +22,7 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import SurfaceLinkage
 from synth.drawing.mechanisms.chains import OrderOnCircle, chain_scene, order_of_linkage, order_scene, strip_scene
-from synth.drawing.mechanisms.creases import COLOURINGS, crease_scene, overlay_of_marks, overlay_of_repairs
+from synth.drawing.mechanisms.creases import crease_scene, overlay_of_marks, overlay_of_repairs
 from synth.drawing.mechanisms.sc_graphs import sc_scene
 from synth.drawing.mechanisms.space import folded_scene, model_scene, solids_scene
 from synth.drawing.scene.frame import BOX, Box, PictureOptions
@@ -30,8 +30,6 @@ from synth.drawing.scene.writing import Scene
 from synth.folding.configuration import SheetConfiguration
 from synth.guidance.orientations import Orientations
 from synth.motion.configuration import Configuration
-
-__all__ = ["COLOURINGS", "KINDS", "Drawable", "draw"]
 
 Drawable: TypeAlias = Configuration | MechanismLike | Orientations | ChainString | OrderOnCircle | nx.Graph
 

@@ -41,8 +41,6 @@ from synth.drawing.scene.shapes import (
 )
 from synth.drawing.scene.writing import Scene
 
-__all__ = ["class_numbers", "sc_scene"]
-
 _UNIT = 58.0
 _LINK = 6.6
 _STUB = 10.0

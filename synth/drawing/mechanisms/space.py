@@ -26,8 +26,6 @@ from synth.drawing.space.panels import SpatialPanels, View, bodies_of, panel_sha
 from synth.folding.configuration import SheetConfiguration
 from synth.moving.made import configuration_of
 
-__all__ = ["folded_scene", "model_scene", "solids_scene"]
-
 _MANY = 60
 """Number of visible panels above which links are not numbered."""
 

@@ -13,21 +13,6 @@ from graphs.types import Floats
 from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, Label, Layer, Line, Point, Shape, moved, text_width
 from synth.drawing.scene.writing import Scene
 
-__all__ = [
-    "BOX",
-    "COLUMN",
-    "PLAIN",
-    "Box",
-    "Frame",
-    "PictureOptions",
-    "Plot",
-    "captions_of",
-    "framed",
-    "page_of",
-    "round_steps",
-    "signed",
-]
-
 COLUMN = 340.0
 """The width of a picture at most, points: it fits a page with margins, and a half of it is a column."""
 Box: TypeAlias = tuple[float, float]

@@ -15,28 +15,6 @@ from typing import TypeAlias
 from graphs.errors import InvariantError, shown
 from graphs.printing import plain
 
-__all__ = [
-    "FINE",
-    "LARGE",
-    "NORMAL",
-    "SMALL",
-    "STRONG",
-    "Disc",
-    "Label",
-    "Layer",
-    "Line",
-    "Point",
-    "Polygon",
-    "Shape",
-    "arc_points",
-    "colour_of",
-    "colour_of_class",
-    "moved",
-    "put",
-    "scaled",
-    "text_width",
-]
-
 FINE, NORMAL, STRONG = 0.5, 1.0, 1.6
 """Widths of lines in points: for secondary lines, for the mechanism, for what should be seen first."""
 

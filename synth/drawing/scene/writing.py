@@ -27,8 +27,6 @@ from graphs.files.outputs import Format, formats_by_suffix, write_as
 from graphs.printing import LONGEST_CELL, plain
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Shape, colour_of, scaled
 
-__all__ = ["PICTURES", "Pages", "Scene", "pdf_bytes", "pixels", "svg_text"]
-
 _FONT = "Helvetica, Arial, 'DejaVu Sans', sans-serif"
 _BASELINE = 0.35
 """From the middle of letters down to the line they stand on, in SVG and PDF, in units of their size."""

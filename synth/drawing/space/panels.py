@@ -22,25 +22,6 @@ from synth.drawing.scene.shapes import FINE, NORMAL, STRONG, Line, Point, Polygo
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.linkage import PosedLinkage, link_motions
 
-__all__ = [
-    "HINGE",
-    "SpatialPanels",
-    "View",
-    "bodies_of",
-    "drawn_order",
-    "front_up",
-    "hinge_ends",
-    "joints_of_links",
-    "panel_shapes",
-    "panels_of",
-    "places_of_hinges",
-    "same_side_up",
-    "sheet_and_mechanism",
-    "view_from",
-    "view_from_above",
-    "view_of_motion",
-]
-
 HINGE = "H"
 """The letter of an edge that is a hinge of solids."""
 _LETTERS = {"M": "mountain", "V": "valley", "U": "ink", "C": "cut", "B": "ink", HINGE: "class1"}

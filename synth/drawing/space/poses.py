@@ -37,8 +37,6 @@ from synth.drawing.space.panels import (
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.motion import Motion
 
-__all__ = ["MOTIONS", "check_motion_file", "pose_scenes", "save_moving_poses", "strip_of_poses", "write_motion"]
-
 _IN_STRIP, _IN_ROW = 12, 4
 """Poses of a strip, and in one row of it, at most."""
 _SIZE, _MOVING = 120.0, 288.0

@@ -30,8 +30,6 @@ from synth.motion.closure import ClosureEquations, TangentSpace, corrected
 from synth.motion.linkage import PosedLinkage
 from synth.motion.walk.step import Allowance
 
-__all__ = ["FARTHEST_PATTERN", "Fitting", "MeantAngles", "VertexPlaces"]
-
 
 class VertexPlaces:
     """Vertices that may be moved: in the plane of a flat sheet, else in space with panels kept planar.

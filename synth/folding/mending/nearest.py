@@ -37,16 +37,6 @@ from synth.motion.singular.second_order import (
 )
 from synth.motion.walk.step import Allowance
 
-__all__ = [
-    "MendedPattern",
-    "NearbyPatterns",
-    "WrittenPattern",
-    "beyond_precision",
-    "covers",
-    "flattened",
-    "nearby",
-]
-
 FARTHEST = 4.0
 """Vertices are moved by this times the precision at most."""
 

@@ -21,8 +21,6 @@ from graphs.tolerances import DOUBLE, canonical_order, trailing
 from graphs.types import Floats, Ints
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
-__all__ = ["in_order", "joint_order"]
-
 _BENT = 0.37
 """Invariants x count as 1 / (x + this): sums of squares are alike where their terms are not."""
 

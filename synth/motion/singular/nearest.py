@@ -25,8 +25,6 @@ from synth.motion.singular.sampling import rates_towards
 from synth.motion.singular.second_order import Quadric, RateSpace, quadrics_of, rates_at, rates_near
 from synth.motion.walk.step import STRAY
 
-__all__ = ["InitialMotion", "begun_near", "folded_start", "spaces_near"]
-
 _SCALES, _WEIGHTS = (0.4, 0.2, 0.6), (1.0, 0.7, 1.4)
 """Fold angles of valleys at the starts, radians, and those of mountains as multiples of these: where both are
 alike, a symmetric start may lead back to the flat state."""

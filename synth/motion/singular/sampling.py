@@ -30,18 +30,6 @@ from synth.motion.singular.second_order import (
 )
 from synth.motion.walk.step import Allowance
 
-__all__ = [
-    "TracedBranch",
-    "finite_rates",
-    "followed",
-    "freedoms_at",
-    "general_rates",
-    "in_half_tangents",
-    "rates_towards",
-    "same_part",
-    "walked",
-]
-
 _STEPS = 6
 _NUDGE = 1e-4
 """Radians, of the differences by which derivatives change along a flex."""

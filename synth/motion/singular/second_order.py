@@ -31,22 +31,6 @@ from synth.motion.closure import ClosureEquations, TangentSpace
 from synth.motion.linkage import PosedLinkage, PosedLoop
 from synth.motion.walk.step import Allowance
 
-__all__ = [
-    "Quadric",
-    "RateSpace",
-    "Rigidity",
-    "all_quadrics",
-    "definite_weights",
-    "largest_only",
-    "local_forms",
-    "quadrics_of",
-    "rates_at",
-    "rates_near",
-    "rigidity_of",
-    "shared_quadrics",
-    "spaces_within",
-]
-
 MOST_ROWS = 600
 """Self-stresses of several loops together are looked for up to so many closure equations."""
 

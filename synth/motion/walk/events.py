@@ -17,8 +17,6 @@ from synth.motion.closure import ClosureEquations, Corrected, TangentSpace, corr
 from synth.motion.walk.step import Step, named
 from synth.motion.walk.walking import Event, Walk, only_rates
 
-__all__ = ["Limit", "RankDeficiency", "Return", "TurningPoint", "free_rates", "independent_joints"]
-
 _FLAT, _FLAT_BEYOND = 1e-4, 0.02
 """Angles this near to 0 and 180 degrees, radians, are those if loops close with them; the second is for steps that
 lead beyond 180 degrees, since where branches meet Newton's method may end on another."""

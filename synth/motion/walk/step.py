@@ -22,8 +22,6 @@ from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId
 from synth.motion.closure import ClosureEquations, Corrected, TangentSpace, corrected, exactly_held
 
-__all__ = ["STRAY", "WATCHED", "Allowance", "EventKind", "PathEvent", "RankWatch", "Step", "in_degrees", "named"]
-
 
 @dataclass(slots=True)
 class Allowance:

@@ -20,8 +20,6 @@ from graphs.types import Flags, Floats, JointId
 from synth.motion.closure import ClosureEquations, Corrected, TangentSpace, corrected, exactly_held
 from synth.motion.walk.step import STRAY, Allowance, EventKind, PathEvent, RankWatch, Step, in_degrees
 
-__all__ = ["Event", "Goal", "KeptSigns", "Walk", "only_rates"]
-
 _FIRST, _LARGEST, _LEAST = 0.02, 0.2, 1e-6
 """Steps, radians of the joint that moves most."""
 _STRAY_FIRST = 0.5

@@ -28,8 +28,6 @@ from synth.viewer.shown import Shown
 from synth.viewer.workbench.asking import Engine, file_name
 from synth.viewer.workbench.reading import KINDS, MOTION, REFUSED, are_edits
 
-__all__ = ["MOST_BYTES", "Guard", "Place", "Presence", "application", "serve"]
-
 MOST_BYTES = 50_000_000
 """Largest size of a file."""
 _OWN_SITE = (b"same-origin", b"none")

@@ -12,8 +12,6 @@ import sys
 from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager, suppress
 
-__all__ = ["Engine", "beating", "file_name"]
-
 _LONGEST = 120
 """Bytes of a name: file systems take 255 bytes, whatever the letters."""
 _SECONDS = 120.0

@@ -37,8 +37,6 @@ from graphs.reduce.ride_alongs import reduce
 from synth.moving.made import sheet_of
 from synth.viewer.shown import Report, shown_of
 
-__all__ = ["KINDS", "MOTION", "REFUSED", "answered", "are_edits", "edited", "printed"]
-
 KINDS = ("pdf", "svg", "dxf")
 MOTION = "--motion"
 """Option that asks for the motion of a mechanism so large that it is looked for on request only."""
