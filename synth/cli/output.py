@@ -15,13 +15,19 @@ from typing import TYPE_CHECKING, Any, Protocol
 import click
 
 from graphs.errors import FileError, InvariantError, SynthedraError
-from graphs.printing import UNWRAPPED, console_for, plain
+from graphs.printing import UNWRAPPED, console_for, plain, rich_table as table
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from graphs.files.formats import Entry
     from graphs.printing import Block, Printed
+
+__all__ = [
+    "OutputError", "ReaderGoneError", "about", "check_output", "check_picture", "console", "entries",
+    "guard_output", "plain", "print_answer", "print_json", "print_result", "progress_line", "shortened", "table",
+    "tell_lost", "tell_written",
+]  # fmt: skip
 
 _FIGURES = 12
 """Significant figures of numbers in JSON; rows of enumerations have no more."""
