@@ -14,8 +14,6 @@ result is checked by its exact rank. Of those that a symmetry of the mechanism e
 Source: Wiener 2016, section 4.2. Theory: docs/theory/scd-enumeration.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations

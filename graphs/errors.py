@@ -4,8 +4,6 @@ Every error that synthedra raises on purpose is a :class:`SynthedraError`; its m
 names the place, what is wrong and what was expected.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from types import UnionType
 

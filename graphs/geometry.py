@@ -5,8 +5,6 @@ depends on the points alone. Points may coincide, lie in one line, and be 1e40 o
 rounding; callers judge what is zero for the precision of a file (`graphs.tolerances`).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 

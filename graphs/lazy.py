@@ -4,8 +4,6 @@ The names stand once, in the stub beside the face (``__init__.pyi``), where type
 the idea of SPEC 1 of Scientific Python; a stub may name files of any room here.
 """
 
-from __future__ import annotations
-
 import ast
 import sys
 from collections.abc import Callable

@@ -6,8 +6,6 @@ of its limit; ``SYNTHEDRA_MOST`` in the environment raises (or lowers) limits, a
 commas between several. The table is in docs/files.md.
 """
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Iterable, Sequence

@@ -1,7 +1,5 @@
 """Types that every room uses: arrays, whose shapes are stated where they are passed, ids of links and joints."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Mapping
 
 import numpy as np

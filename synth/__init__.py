@@ -26,8 +26,6 @@ Angles are radians. Every answer prints as the command line does, has ``to_json(
 error on purpose is a `SynthedraError`. More is in the rooms: ``docs/architecture.md`` lists them.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 from synth.notebook import show_in_this_notebook
 

@@ -1,7 +1,5 @@
 """Several edits in one call, as `synth edit` makes them; one by one: `graphs.edit` and `graphs.creasing`."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial

@@ -7,8 +7,6 @@ joints, so no placement is ever compared with another (`enumerate.contracted.lef
 docs/theory/chains.md.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from enumerate.contracted.binary_links import (

@@ -17,8 +17,6 @@ Source: R. W. Robinson, *Enumeration of non-separable graphs*, J. Combin. Theory
 Leroux, *Combinatorial Species and Tree-like Structures* (1998), section 4.1.
 """
 
-from __future__ import annotations
-
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction

@@ -9,8 +9,6 @@ Source: Yan and Hwang, *The specialization of mechanisms*, Mech. Mach. Theory 26
 A233288 has the numbers for M = 1.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial

@@ -1,7 +1,5 @@
 """Chains that have names, in ``enumerate/named/chains.json``."""
 
-from __future__ import annotations
-
 import json
 from functools import cache
 from importlib.resources import files

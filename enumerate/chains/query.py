@@ -1,7 +1,5 @@
 """Which chains are to be enumerated: numbers of links and freedoms, kinds, and limits of what they look like."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass

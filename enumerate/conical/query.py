@@ -6,8 +6,6 @@ What the candidates do is worked out in `synth.candidates.job`. Source: Hyatt et
 docs/theory/conical-candidates.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache

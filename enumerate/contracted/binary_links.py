@@ -13,8 +13,6 @@ falling order, the lexicographically largest. A chain has the links of its contr
 links, string after string, each from the end whose number is larger. Theory: docs/theory/chains.md.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -7,8 +7,6 @@ that agree in that go on together. Nothing is shared with the count by orbits bu
 docs/theory/chains.md.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

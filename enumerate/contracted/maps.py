@@ -11,8 +11,6 @@ joints of a string follow each other from the link of its even dart to that of i
 docs/theory/sc-enumeration.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -8,8 +8,6 @@ chosen, one of each orbit of links, counted under the symmetries that leave it w
 from is taken off the needs. Nothing is shared with the count by Burnside's lemma. Theory: docs/theory/chains.md.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from enumerate.contracted.binary_links import Frame, with_symmetries

@@ -9,8 +9,6 @@ each set of links still needs, so placements that agree in that are one *state*,
 once the set has enough, or cannot but get it. Theory: docs/theory/chains.md.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

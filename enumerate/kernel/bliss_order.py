@@ -11,8 +11,6 @@ Source: Junttila and Kaski, *Engineering an efficient canonical labeling tool fo
 2007; *Conflict propagation and component recursion for canonical labeling*, TAPAS 2011.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

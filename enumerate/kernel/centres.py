@@ -9,8 +9,6 @@ small, never too large (about once in 10^7 graphs and prime), so the larger one 
 docs/theory/exact-mobility.md.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled

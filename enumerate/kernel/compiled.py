@@ -1,7 +1,5 @@
 """What compiled code shares: the one decorator, arrays and sets of rows that grow, orbits by Burnside's lemma."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar, cast
 

@@ -10,8 +10,6 @@ vertex, few vertices), whose groups are small; ids of mechanisms come from `grap
 Source: McKay and Piperno, *Practical graph isomorphism, II*, J. Symb. Comput. 60 (2014), section 2.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled

@@ -17,8 +17,6 @@ least over all allowed roots and both senses, and the roots that give it are the
 `graphs.identity.drawings`. Theory: docs/theory/map-codes.md.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -5,8 +5,6 @@ this user and nobody else may write there. There may be several: what one cannot
 notified once in a run, by the process that is the first to compile. Loads without numba.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -1,7 +1,5 @@
 """The runner of every enumerator: jobs in units of work, worker processes, sinks and stores."""
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -5,8 +5,6 @@ holds exactly the units 0 to k - 1 whatever killed the run. Only a fixed number 
 memory does not grow with the number of rows.
 """
 
-from __future__ import annotations
-
 import gc
 import time
 from collections import deque

@@ -4,8 +4,6 @@ Files are written beside their place and moved there when the run is complete; w
 is removed by the next one to the same place. To add a format, write a sink and enter it in ``SINKS``.
 """
 
-from __future__ import annotations
-
 import csv
 import io
 import json

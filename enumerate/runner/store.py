@@ -6,8 +6,6 @@ A store is looked through before a run goes on with it, and each unit when it is
 (`enumerate.runner.store_units`).
 """
 
-from __future__ import annotations
-
 import sqlite3
 import warnings
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence

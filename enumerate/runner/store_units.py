@@ -9,8 +9,6 @@ A store that is damaged is never written to: its units that are as they were wri
 takes its place. The rows keep their numbers, so that units which are computed again fill the gaps.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import marshal

@@ -1,7 +1,5 @@
 """Who works on units: processes of this machine, the workers of a Dask cluster, or whatever else gives futures."""
 
-from __future__ import annotations
-
 import gc
 import logging
 import os

@@ -8,8 +8,6 @@ the SC graph with the most centres: Watt's chain has two, Stephenson's one. Theo
 Source: Wiener 2016, sections 3.3 and 6.4, which names an exhaustive type synthesis as the use of SC graphs.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field

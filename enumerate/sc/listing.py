@@ -5,8 +5,6 @@ other, their other neighbours a and b joined by a joint, and the cycle a-u-v-b a
 of joints are words of 64 bits. Theory: docs/theory/sc-enumeration.md, docs/theory/reduction.md.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

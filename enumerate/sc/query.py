@@ -1,7 +1,5 @@
 """Which SC graphs are to be enumerated."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import TypedDict
 

@@ -4,8 +4,6 @@ A *pattern* says which points of a face are one; *choices* lay the open edges of
 left.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

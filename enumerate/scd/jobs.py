@@ -5,8 +5,6 @@ The thesis stops at single examples of SCD graphs (section 3.4); here are all of
 docs/theory/scd-enumeration.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, Unpack

@@ -10,8 +10,6 @@ The count makes no placement: one that a symmetry leaves as it is, is constant o
 cycle of links is as free as one of its links. Theory: docs/theory/scd-enumeration.md.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -8,8 +8,6 @@ do not depend on each other: each takes open edges in some of its corners, as ma
 docs/theory/scd-enumeration.md.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from enumerate.contracted.maps import code_of

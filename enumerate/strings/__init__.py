@@ -1,7 +1,5 @@
 """All R/- strings: chains of panels between two bodies, and the mechanisms they are."""
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -1,7 +1,5 @@
 """A mechanism converted by the names of kinds and forms. The roads are in :mod:`graphs.convert.table`."""
 
-from __future__ import annotations
-
 from graphs.convert.table import CONVERSIONS, FORMS, Mechanism, graph_of
 from graphs.errors import InvariantError, shown
 from graphs.files.accepted import MechanismLike, mechanism_for

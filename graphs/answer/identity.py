@@ -3,8 +3,6 @@
 Theory: docs/theory/map-codes.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ their slides and planar joints along it. A freedom is *passive* if it moves link
 links, and nothing else. Theory: docs/theory/joints.md, docs/theory/mobility-by-count.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise

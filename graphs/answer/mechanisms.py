@@ -3,8 +3,6 @@
 Theory: docs/theory/mobility-by-count.md, docs/theory/exact-mobility.md, docs/theory/pose.md.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import pi
 from typing import Literal

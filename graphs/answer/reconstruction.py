@@ -3,8 +3,6 @@
 Source: Wiener 2016, section 3.4.4. Theory: docs/theory/polyhedron-model.md.
 """
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """One kind of mechanism made of another; `graphs.convert.table` says which of which."""
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -5,8 +5,6 @@ parallel it is planar, where they meet in one point spherical, at this configura
 belong to one panel and keep their place to each other. Theory: docs/theory/crease-patterns.md.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass

@@ -5,8 +5,6 @@ its lines are traced. A face that crosses itself is refused: a panel has an insi
 docs/theory/crease-patterns.md.
 """
 
-from __future__ import annotations
-
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import replace

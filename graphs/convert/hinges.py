@@ -3,8 +3,6 @@
 Theory: docs/theory/crease-patterns.md, "Split hinges".
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Independent loops of a link-joint graph, by blocks: faces of an embedding, or a shortest cycle basis."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise

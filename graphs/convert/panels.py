@@ -4,8 +4,6 @@ Two panels that share a side are hinged there; an interior vertex is a finite, e
 2016, sections 3.4 and 3.4.4, Fig. 35. Theory: docs/theory/scd-graphs.md, docs/theory/polyhedron-model.md.
 """
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass

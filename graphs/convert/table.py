@@ -1,7 +1,5 @@
 """From any object that a file may hold to any other; by the names of kinds and forms: `graphs.answer.convert`."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable
 

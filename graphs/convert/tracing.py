@@ -4,8 +4,6 @@ Lines are welded by a tolerance (ends that nearly meet become one vertex), split
 pruned, and the faces are walked round. Theory: docs/theory/crease-patterns.md.
 """
 
-from __future__ import annotations
-
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace

@@ -5,8 +5,6 @@ of closed surfaces. All are formulas: they hold for a generic realisation of a t
 (docs/theory/mobility-by-count.md). :mod:`graphs.count.report` says which of them apply to a mechanism.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from graphs.mechanism.polyhedron import PolyhedronModel

@@ -4,8 +4,6 @@ Source: Wiener 2016, Fig. 37 and Table 6; Wampler, Larson, Erdman 2007, Eqs. 5 t
 Theory: docs/theory/mobility-by-count.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Self

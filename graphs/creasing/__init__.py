@@ -1,7 +1,5 @@
 """Crease patterns edited: creases locked, added along a line, removed, panels taken off; patterns again."""
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

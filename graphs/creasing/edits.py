@@ -4,8 +4,6 @@ Vertices keep their numbers, and edges theirs, except where a crease is removed 
 ones come last.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """A sheet creased along a line: vertices where it starts, ends and crosses edges, faces split between them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise

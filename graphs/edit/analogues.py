@@ -4,8 +4,6 @@ All three change centres only: links, joints and loops stay. Source: Wiener 2016
 Theory: docs/theory/sc-graphs.md.
 """
 
-from __future__ import annotations
-
 from typing import TypeVar
 
 from graphs.errors import UnsolvableError, numbered

@@ -4,8 +4,6 @@ An edit returns a new graph; nothing is changed in place. Edits of SCD graphs ke
 Wiener 2016, sections 4.2 and 6.3.2, Eqs. 5 to 7. Theory: docs/theory/edits.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Container, Hashable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from itertools import count, islice

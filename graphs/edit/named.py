@@ -1,7 +1,5 @@
 """Links and joints by the names that people type: an id, a number, a pair of links; near names for a wrong one."""
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable
 from difflib import get_close_matches
 

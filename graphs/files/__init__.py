@@ -4,8 +4,6 @@ Crease patterns are in `patterns`, the project's own JSON in `native`, link-join
 Every failure is a `FileError` with its place; a file is written whole or not at all.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -1,7 +1,5 @@
 """What the verbs of ``synth`` take as their first argument: a mechanism, or the file or id that has it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from types import UnionType
 from typing import TypeAlias, TypeVar, overload

@@ -5,8 +5,6 @@ what can be locked belongs to nobody. Unfinished files are named ``.NAME.xxxxxxx
 is. Where there are no such locks, no file is ever taken for left over.
 """
 
-from __future__ import annotations
-
 import hashlib
 import os
 import re

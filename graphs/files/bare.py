@@ -5,8 +5,6 @@ linkage with joints of all kinds. Edge lists are lines ``link link [joint]``, th
 tables of edges (CSV, pandas). Names that are text are integers if all of them are written as integers are.
 """
 
-from __future__ import annotations
-
 import csv
 import re
 import string

@@ -3,8 +3,6 @@
 To add a format, enter a reader in ``READERS``, or a `Format` in ``WRITERS`` (docs/architecture.md).
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What a file cannot hold of a mechanism: by kind and number, and whether it is of another type when read back."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Hashable
 from dataclasses import dataclass
 from math import isclose, pi

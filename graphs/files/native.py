@@ -3,8 +3,6 @@
 The formats are published as JSON Schemas in ``graphs/schema/``. Guide: docs/native-json.md.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from math import degrees, inf, radians

@@ -3,8 +3,6 @@
 Content is a mechanism, pages of a picture, a template, poses of a motion, solids, or rows of an atlas.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from importlib import import_module

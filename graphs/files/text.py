@@ -3,8 +3,6 @@
 Every failure is a `FileError` that names the file, the place, the fault and the expected value.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import stat

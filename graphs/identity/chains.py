@@ -11,8 +11,6 @@ centre. Which loops were chosen within a class does not show. Theory: docs/theor
 Where bliss is not installed, `graphs.identity.leaves` finds the same numbers, more slowly.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Hashable, Iterable, Sequence
 from io import BytesIO
 from typing import Any

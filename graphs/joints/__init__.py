@@ -4,8 +4,6 @@
 of it, `recognised` sees such chains in one of creases. Theory: docs/theory/joints.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

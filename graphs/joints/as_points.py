@@ -5,8 +5,6 @@ of one on a line or in a plane of the other. Source: Wampler, Larson, Erdman 200
 docs/theory/joints.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import combinations
 

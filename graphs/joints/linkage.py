@@ -1,7 +1,5 @@
 """A linkage with joints of all kinds: a link-joint graph, the kind of each joint, and perhaps their places."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

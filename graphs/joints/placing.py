@@ -4,8 +4,6 @@ A *knee* is three parallel revolutes, the middle axis at equal arms from the two
 against the other in all ways of a plane, as a slide between two parallel axes does. Theory: docs/theory/joints.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 

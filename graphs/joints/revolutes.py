@@ -5,8 +5,6 @@ a slide the linkage of Sarrus (or a knee, `graphs.joints.placing`), C a slide an
 Wiener 2016, sections 5.1 and 5.2. Theory: docs/theory/joints.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import count, pairwise

@@ -1,7 +1,5 @@
 """Loops of a mechanism: what a loop is, the space of cycles, and which loops share a centre."""
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

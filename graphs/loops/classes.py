@@ -7,8 +7,6 @@ at all pairs of loops that share a joint: ten thousand loops on one joint have f
 docs/theory/centre-classes.md.
 """
 
-from __future__ import annotations
-
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass

@@ -6,8 +6,6 @@ sections 3.3.1 to 3.3.3). A cycle is a set of joints; the sum of two is the join
 bits stand for cycles. Theory: docs/theory/sc-graphs.md.
 """
 
-from __future__ import annotations
-
 from collections import Counter, defaultdict
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass

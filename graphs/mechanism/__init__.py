@@ -3,8 +3,6 @@
 An SCD graph is an SC graph with a drawing; the rules say which drawings are valid. Nothing here counts or ranks.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -5,8 +5,6 @@ faces of the drawing, its corners and the vertices of the links follow (Wiener 2
 face is the outer one. Theory: docs/theory/scd-graphs.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum

@@ -6,8 +6,6 @@ evidence of the whole geometry (`graphs.mechanism.estimate`) is weighed against 
 docs/theory/precision.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from math import floor, log, log10

@@ -3,8 +3,6 @@
 How it moves is worked out in ``synth.moving``. Theory: docs/theory/moving.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import hypot

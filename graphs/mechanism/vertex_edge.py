@@ -5,8 +5,6 @@ links. Creases that run to the border of the sheet end free. The cyclic order of
 makes the graph definite. Theory: docs/theory/vertex-edge-graphs.md.
 """
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Hashable, Mapping, Sequence
 from types import MappingProxyType

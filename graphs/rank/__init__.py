@@ -5,8 +5,6 @@ lengths (`rods`), and the rank of these equations is found modulo primes, or in 
 `singular_values`, `dissection`).
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

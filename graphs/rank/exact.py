@@ -7,8 +7,6 @@ with a probability of about (number of joints) / 2^58 per prime. It is the arbit
 sub-mechanism; the kernel shows immobile joints and links that move as one. Theory: docs/theory/exact-mobility.md.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -7,8 +7,6 @@ Over a prime field of about 2^61 numbers a realisation has the generic rank but 
 of joints) / 2^58 (Schwartz 1980), and never a larger one. Theory: docs/theory/exact-mobility.md.
 """
 
-from __future__ import annotations
-
 import random
 from collections import defaultdict
 from collections.abc import Mapping, Sequence

@@ -6,8 +6,6 @@ misreport, so links of four vertices or more get a virtual apex. Source: Wampler
 10. Theory: docs/theory/exact-mobility.md.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass

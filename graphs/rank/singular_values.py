@@ -7,8 +7,6 @@ counted, and reported as nearly zero. For matrices known to a relative zero, tha
 bound. Bases are canonical (`graphs.tolerances.canonical_basis`). Theory: docs/theory/pose.md.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Literal
 

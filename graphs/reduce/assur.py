@@ -7,8 +7,6 @@ dependencies are the Assur groups, whatever the assignment (Dulmage and Mendelso
 docs/theory/reduction.md.
 """
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass

@@ -5,8 +5,6 @@ centre; its relative mobility is 0. An *adjunct addendum* is a chain of them. So
 and 4.2.5. Theory: docs/theory/reduction.md.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ Loops are sets of joints here, so that changing a long loop costs as much as wha
 :mod:`graphs.reduce.ride_alongs` for what a step is. Theory: docs/theory/reduction.md.
 """
 
-from __future__ import annotations
-
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace

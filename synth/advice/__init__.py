@@ -5,8 +5,6 @@ branch that the assignment chooses; sets of joints, cheapest first), `diagonals`
 does to the closure equations, and the smallest sets of them). Theory: docs/theory/advice.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

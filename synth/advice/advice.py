@@ -1,7 +1,5 @@
 """Joints to lock or panels to crease for a number of freedoms. Theory: docs/theory/advice.md."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import islice

@@ -9,8 +9,6 @@ the closure columns (Oxley, Matroid Theory, 2.1). Those of one size, with fewer 
 bases of its truncation: there the greedy choice is the cheapest (Edmonds 1971). Theory: docs/theory/advice.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush

@@ -4,8 +4,6 @@
 steps are compiled (`kernel`). Theory: docs/theory/positions.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

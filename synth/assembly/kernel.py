@@ -5,8 +5,6 @@ centre these are the quaternions of rotations; a plane is a sphere without curva
 docs/theory/positions.md.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 

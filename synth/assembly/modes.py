@@ -4,8 +4,6 @@ Positions of one *circuit* are reached from each other without taking the linkag
 it without the driven joint turning back. Theory: docs/theory/positions.md.
 """
 
-from __future__ import annotations
-
 from bisect import bisect_right
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace

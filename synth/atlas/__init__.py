@@ -4,8 +4,6 @@ Building: `AtlasPlan` says which types, `build_atlas` lists them, resumably. Que
 by conditions on `COLUMNS`, `Atlas.sql`, `Atlas.show`, `find_type`. Theory: docs/theory/atlas.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

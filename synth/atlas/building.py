@@ -6,8 +6,6 @@ found. When all are there, views and indexes are made, and the table ``atlas``, 
 Theory: docs/theory/atlas.md.
 """
 
-from __future__ import annotations
-
 import shlex
 import sqlite3
 from collections.abc import Callable, Iterator, Sequence

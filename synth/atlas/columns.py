@@ -4,8 +4,6 @@ A value that no atlas writes is damage, reported with its place. Names are in ``
 sources; the theory says how the file is made. Theory: docs/theory/atlas.md.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable
 from dataclasses import dataclass

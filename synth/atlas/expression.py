@@ -17,8 +17,6 @@
 A type for which a value is unknown fulfils no condition on it, negated or not. Theory: docs/theory/atlas.md.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, NamedTuple, NoReturn

@@ -3,8 +3,6 @@
 A row of an enumeration becomes a row of the atlas; columns that a kind of type does not have stay empty.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import lru_cache

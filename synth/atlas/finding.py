@@ -1,7 +1,5 @@
 """Which type of an atlas a mechanism is, and which known types are one edit away. Theory: docs/theory/atlas.md."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ Scripts are classic ones beside the pages: from ``file://`` browsers load neithe
 writes their files into a new folder, which appears when it is complete.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from html import escape

@@ -1,7 +1,5 @@
 """Rows of an atlas as files: tables, a folder of mechanisms, drawings on pages, panels with coordinates."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Conical candidates evaluated: a job for the runner, with rows of circuits, layers, ranks, senses of rotation."""
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

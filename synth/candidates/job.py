@@ -5,8 +5,6 @@ Candidates come from `enumerate.conical.query`, their values from `synth.candida
 docs/theory/conical-candidates.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import astuple, dataclass
 from functools import cached_property

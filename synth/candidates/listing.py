@@ -1,7 +1,5 @@
 """Conical candidates of a chain in one call, as `synth enumerate conical` lists and counts them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Literal, TypeAlias
 

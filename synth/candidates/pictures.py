@@ -1,7 +1,5 @@
 """A picture of each candidate: the circle with links, ICRL and shadow, and with a cone angle the cone."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping
 from math import radians
 from pathlib import Path

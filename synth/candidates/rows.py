@@ -4,8 +4,6 @@ Layers, and values over all angles: `synth.conformed.all_angles`; rank and behav
 `synth.conformed.behaviours`. Theory: docs/theory/conical-candidates.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -5,8 +5,6 @@
 straight (`joint_limits`). Theory: docs/theory/compliance.md, docs/theory/activating-constraints.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -1,7 +1,5 @@
 """The compliance states of a mechanism, and what springs do to it. Theory: docs/theory/compliance.md."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise

@@ -3,8 +3,6 @@
 Theory: docs/theory/activating-constraints.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator
 from dataclasses import asdict, dataclass
 from math import acos, atan2, degrees, inf, pi, tau

@@ -3,8 +3,6 @@
 Theory: docs/theory/compliance.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import isfinite, pi

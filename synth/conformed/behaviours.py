@@ -9,8 +9,6 @@ by the two diagonals. Crossed 1 has sides 12 and 34, crossed 2 has 23 and 41; co
 opposite links is ground and coupler (names of which the paper has figures only). Theory: docs/theory/behaviour.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import IntEnum

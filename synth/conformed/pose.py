@@ -5,8 +5,6 @@ at azimuth t has the axis R_y(t) O with O = (0, -sin lambda, cos lambda) (Eq. 17
 docs/theory/conformed.md, docs/theory/four-bars.md.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,8 +4,6 @@ Scenes are in `synth.drawing.scene`, places of links and joints in `synth.drawin
 `synth.drawing.space`, pictures of mechanisms in `synth.drawing.mechanisms`, of many in `synth.drawing.catalogue`.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

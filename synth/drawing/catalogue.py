@@ -4,8 +4,6 @@ Rows of an enumeration (a store, JSON lines, Parquet), graph6 files and folders 
 written as a PDF, or one picture per page.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass

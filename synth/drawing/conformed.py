@@ -5,8 +5,6 @@ so that none hides another. The layers drawn are those counted (`synth.conformed
 Figs. 7 to 9; Hyatt et al. 2021, section 5.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from itertools import pairwise
 from math import cos, degrees, pi, radians, sin

@@ -5,8 +5,6 @@ The design sphere with the hoop is as in Figs. 3 to 5 of Tipparthi and Larochell
 hoop. The map is that of Hammer, which keeps areas (as Fig. 6 there).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import groupby, pairwise
 from math import hypot

@@ -1,7 +1,5 @@
 """Pictures of loop sums against lambda or the radius (Hyatt et al. 2020, Fig. 10; 2021, Figs. 3 and 10)."""
 
-from __future__ import annotations
-
 from math import ceil, floor
 from typing import NamedTuple
 

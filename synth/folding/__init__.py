@@ -6,8 +6,6 @@ vertices are and how a folded sheet changes with its vertices, `collisions` whic
 `alike` keeps a symmetry. How anything moves is in `synth.motion`. Theory: docs/theory/folding.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -7,8 +7,6 @@ to an angle first along the motions that keep a symmetry, which have few freedom
 docs/theory/folding.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations_with_replacement, islice

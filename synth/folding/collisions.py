@@ -5,8 +5,6 @@ cut out of the line of both planes overlap. Panels that share a crease, lie on e
 Pairs are sorted out by bounding boxes first. Theory: docs/theory/folding.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from math import ceil, radians

@@ -3,8 +3,6 @@
 Theory: docs/theory/folding.md, docs/theory/verdict.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 

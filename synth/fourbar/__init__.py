@@ -1,7 +1,5 @@
 """Four-bars, spherical and planar: which lengths close, and the positions they take."""
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -7,8 +7,6 @@ al. 2021, Table 1, Eqs. 1 to 3; the types are those of McCarthy, *Geometric Desi
 docs/theory/four-bars.md, docs/theory/rounding.md.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import product
 from math import degrees, floor, fsum, log10

@@ -6,8 +6,6 @@ right-handed about the outward axes (Hyatt et al. 2020, section 6, put right: do
 has two branches, which are the circuits of linkages whose input turns fully. Theory: docs/theory/four-bars.md.
 """
 
-from __future__ import annotations
-
 from typing import Literal
 
 import numpy as np

@@ -4,8 +4,6 @@ Of three orientations any axis has its dyad, four leave a curve (`dyads`), five 
 least squares (`synthesis`).
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

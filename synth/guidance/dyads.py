@@ -7,8 +7,6 @@ S_12 meet it in two more lines each, and find the whole cone. Five and more: ``s
 docs/theory/dyads.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from math import degrees

@@ -6,8 +6,6 @@ G_2. A dyad fixes the lines of its two axes, not which end of an axis a link rea
 same joint lines (Hyatt et al. 2020, section 2.3), each mapped to cones apart. Theory: docs/theory/guidance.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise, permutations

@@ -7,8 +7,6 @@ Larochelle 2011, Theorem 1, Eqs. 1 and 2). The three checks share no step but th
 docs/theory/order.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import degrees, radians

@@ -7,8 +7,6 @@ the error at an orientation is how far the angle between G and M_i W is from its
 docs/theory/dyads.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import degrees

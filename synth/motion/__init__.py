@@ -8,8 +8,6 @@ which of them agrees with a mountain-valley assignment, `driving` which is taken
 docs/theory/folding.md, docs/theory/derivatives.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -6,8 +6,6 @@ Each branch is followed to a fold of ten degrees; its degrees of freedom are tho
 the sign of all rates together; farther off, two of them may be one curve. Theory: docs/theory/folding.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice

@@ -3,8 +3,6 @@
 Theory: docs/theory/folding.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import degrees, pi, radians, tau

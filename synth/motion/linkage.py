@@ -5,8 +5,6 @@ of other joints, from this configuration. Lengths are in units of the extent, ab
 Theory: docs/theory/folding.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 

@@ -3,8 +3,6 @@
 Theory: docs/theory/verdict.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Literal, NamedTuple
 

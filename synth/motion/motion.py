@@ -3,8 +3,6 @@
 Theory: docs/theory/folding.md, docs/theory/moving.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import degrees

@@ -4,8 +4,6 @@
 `on_surface` follows conical linkages all along their circuits. Theory: docs/theory/moving.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -3,8 +3,6 @@
 Theory: docs/theory/moving.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations

@@ -4,8 +4,6 @@ Tables are comma-separated, one row per axis or vertex and frame; lengths are in
 angles in degrees. Theory: docs/theory/moving.md.
 """
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace

@@ -4,8 +4,6 @@
 and second order, errors of axes), `reasons` (special geometry by name). Theory: docs/theory/overconstraint.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -1,7 +1,5 @@
 """Why a mechanism moves although counts say no. Theory: docs/theory/overconstraint.md."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import degrees, isfinite
 from typing import Any

@@ -4,8 +4,6 @@ Each reason is a property of the axes of some loops, tested to a part of the ext
 alone decide, where self-stresses are couples. Theory: docs/theory/overconstraint.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import pi
 

@@ -4,8 +4,6 @@ A redundant equation is a self-stress: a sum of closure equations that is zero a
 docs/theory/overconstraint.md.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from math import inf
 

@@ -5,8 +5,6 @@ source gives, its conditions. Files: `creases`, `hinged_rings`, `goods`, `platfo
 Theory: docs/theory/generators.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

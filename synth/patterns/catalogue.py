@@ -1,7 +1,5 @@
 """All generators, by name, with their parameters, conditions and sources. Theory: docs/theory/generators.md."""
 
-from __future__ import annotations
-
 from math import isclose, pi
 
 from graphs.joints.linkage import JointedLinkage

@@ -3,8 +3,6 @@
 Angles are radians, lengths any unit. Theory: docs/theory/generators.md, docs/theory/activating-constraints.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import acos, cos, degrees, dist, isclose, log, pi, sin, sqrt, tan

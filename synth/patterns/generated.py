@@ -1,7 +1,5 @@
 """What a generator makes, with what is known of it. Theory: docs/theory/generators.md."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import degrees

@@ -1,7 +1,5 @@
 """A generator: a function that makes a mechanism, its parameters with ranges, and the facts from its source."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import degrees, isfinite, radians

@@ -4,8 +4,6 @@ Pop-ups are four links about a point or about parallel axes, or strips cut out o
 lengths any unit. Source of pop-ups: A. S. Glassner, "Interactive pop-up card design" (2002).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from itertools import pairwise
 from math import acos, cos, degrees, pi, radians, sin, sqrt, tan

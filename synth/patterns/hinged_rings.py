@@ -4,8 +4,6 @@ Sources: R. Bricard, "Lecons de cinematique" (1927); P. Schatz (1929); D. Schatt
 Escher Kaleidocycles" (1977). Theory: docs/theory/generators.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import acos, atan2, cos, degrees, hypot, isclose, pi, sin, tan
 

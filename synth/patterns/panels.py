@@ -1,7 +1,5 @@
 """Sheets from panels: corners at the same place are one vertex, sides are listed with their letters."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType

@@ -1,7 +1,5 @@
 """Platforms by the letters of their legs: UPS, RUS, UUU, SPS, RPS, UPU, CRR. Theory: docs/theory/joints.md."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import cos, isclose, pi, sin
 

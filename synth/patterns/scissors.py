@@ -5,8 +5,6 @@ between the rays the same at every opening. On each ray the far ends of all pair
 near ends. Source: Wampler, Larson, Erdman 2007, Figs. 13 to 18; Hoberman 1990. Theory: docs/theory/generators.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import combinations, pairwise, product
 from math import asin, cos, degrees, pi, sin, sqrt

@@ -6,8 +6,6 @@ drawings. `strips` are those of R/- strings; `on_cone` lays a type with one cent
 stores and folders; `special` finds members that move although counts say no. Theory: docs/theory/realisation.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -9,8 +9,6 @@ Tachi, Generalization of rigid-foldable quadrilateral-mesh origami (2009); T. A.
 L. L. Howell, Rigidly foldable origami gadgets and tessellations (2015). Theory: docs/theory/realisation.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial

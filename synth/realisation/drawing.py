@@ -7,8 +7,6 @@ point for a finite centre, a direction for an infinite one), and *hubs* of panel
 Source: W. T. Tutte, How to draw a graph, Proc. London Math. Soc. 13 (1963). Theory: docs/theory/realisation.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial

@@ -4,8 +4,6 @@ A row says whether a type was realised, and holds its file; beside the folder is
 run is resumed. Theory: docs/theory/realisation.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property

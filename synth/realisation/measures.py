@@ -3,8 +3,6 @@
 Theory: docs/theory/realisation.md.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -3,8 +3,6 @@
 Theory: docs/theory/realisation.md, docs/theory/multiloop.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import degrees, isfinite, pi, radians

@@ -4,8 +4,6 @@ A bounded face without open edges is an inner vertex; one with open edges is a h
 Theory: docs/theory/realisation.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
 from functools import cached_property

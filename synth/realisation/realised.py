@@ -3,8 +3,6 @@
 Theory: docs/theory/realisation.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial

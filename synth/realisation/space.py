@@ -12,8 +12,6 @@ Source: H. Crapo and W. Whiteley, Statics of frameworks and motions of panel str
 (1982). Theory: docs/theory/realisation.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 

@@ -3,8 +3,6 @@
 Source: Wiener 2016, sections 5.1.2 and 5.2. Theory: docs/theory/realisation.md, docs/theory/strings.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import pairwise
 

@@ -4,8 +4,6 @@ A loop is described by its steps: projected angles round the axis (`circuit`). `
 cylinders of one loop, `linkages` those of several; `loop_sums` has closed forms for a million four-bars at a time.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -6,8 +6,6 @@ Sources: Hyatt et al. 2020, Table 1 (printed with every row inverted, docs/mispr
 docs/theory/conformed.md, docs/theory/multiloop.md.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import combinations
 

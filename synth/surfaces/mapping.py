@@ -4,8 +4,6 @@ Cones and cylinders share this (`synth.surfaces.loop_maps`). Where rounding deci
 leaves few digits of it, the circle says so. Theory: docs/theory/rounding.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations

@@ -7,8 +7,6 @@ with tabs), `hinges` (thick material), `template`, `on_surface` (linkages on con
 tiles, the note of assembly), `writing`, `solids`. Theory: docs/theory/templates.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -5,8 +5,6 @@ both sides (offset creases, after J. S. Ku and E. D. Demaine, *Journal of Mechan
 made soft by rows of cuts (a living hinge), or is not there (a gap). Theory: docs/theory/templates.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise

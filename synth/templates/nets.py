@@ -1,7 +1,5 @@
 """Nets as pieces of a template: what is cut, folded and glued, with a tab and a number where two edges meet."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field

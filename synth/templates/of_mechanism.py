@@ -1,7 +1,5 @@
 """The template of any mechanism in one call, as `synth template` makes it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path

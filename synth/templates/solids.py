@@ -1,7 +1,5 @@
 """Panels as thin solids with open hinges, written to STL, 3MF, OBJ, and glTF with the motion."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path

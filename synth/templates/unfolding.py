@@ -3,8 +3,6 @@
 Theory: docs/theory/templates.md.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Templates written to files, whole or not at all: PDF, SVG or DXF, by the extension."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain

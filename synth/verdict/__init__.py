@@ -4,8 +4,6 @@
 writes its sentences, `judged` makes it of a configuration, or of counts and ranks. Theory: docs/theory/verdict.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

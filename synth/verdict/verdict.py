@@ -4,8 +4,6 @@ In words the answer comes first, then branches, then evidence in the order of it
 qualifier is proved; a numerical one says how far it was traced. Theory: docs/theory/verdict.md.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field

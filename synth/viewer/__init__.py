@@ -4,8 +4,6 @@
 together of data and the script that `building` makes of the sources in `web`. Theory: docs/theory/viewer.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -8,8 +8,6 @@ stays as it is. If something is missing, nothing is built, and the reason is pri
 docs/theory/viewer.md.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -5,8 +5,6 @@ the hull of the pieces of its joints, the least body that carries them. Theory: 
 docs/theory/centre-classes.md.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields, is_dataclass

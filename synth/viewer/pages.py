@@ -4,8 +4,6 @@ The policy of the page allows its own script and style, by their digests, and pi
 are JSON in which no letter can end their element. Theory: docs/theory/viewer.md.
 """
 
-from __future__ import annotations
-
 import json
 from base64 import b64encode
 from collections.abc import Sequence

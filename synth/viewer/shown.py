@@ -4,8 +4,6 @@ The starts of motions are found in Python and followed in the page. A mechanism 
 with the reason. Theory: docs/theory/viewer.md.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from dataclasses import dataclass

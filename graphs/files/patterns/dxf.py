@@ -7,8 +7,6 @@ form that every program takes, with CONTINUOUS lines: machines cut along dashes 
 the remark does.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from colorsys import hsv_to_rgb

@@ -5,8 +5,6 @@ demands, and named when the sheet is written. A frame with ``frame_inherit`` tak
 ``frame_parent``, the key frame (0) or an earlier or later one.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -5,8 +5,6 @@ the intended mechanism. So it is refused. ``.opx`` is what Java's ``XMLEncoder``
 without properties that are zero.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree

@@ -4,8 +4,6 @@ Sides between two faces are creases. OBJ has no word for their kind; a comment `
 of the edge between two vertices (numbered from 1) and, if known, its fold angle in degrees.
 """
 
-from __future__ import annotations
-
 import re
 from math import isfinite, radians
 from pathlib import Path

@@ -3,8 +3,6 @@
 Shapes, transforms and styles are read by svgelements; curves become polylines.
 """
 
-from __future__ import annotations
-
 import re
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator

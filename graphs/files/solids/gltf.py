@@ -3,8 +3,6 @@
 *glTF 2.0 Specification*, Khronos. Lengths there are metres, and y is up: a node above all others sees to both.
 """
 
-from __future__ import annotations
-
 import json
 from base64 import b64encode
 from collections.abc import Sequence

@@ -4,8 +4,6 @@ Binary STL is 80 bytes for people, then triangles as 32-bit numbers. 3MF: *3MF C
 meshes give equal files.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from io import BytesIO

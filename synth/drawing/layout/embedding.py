@@ -9,8 +9,6 @@ Drawn as bodies, joints are nodes and a link is the polygon of its joints; a bin
 links are nodes. An edge that would come twice, between two links that share two joints, has a node in its middle.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Where the links, joints and loops of a link-joint graph are drawn."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf

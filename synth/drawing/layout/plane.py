@@ -9,8 +9,6 @@ makes a crossing. Both steps treat mirror images alike. Theory: docs/theory/pict
 Source: W. T. Tutte, How to draw a graph, Proc. London Math. Soc. 13 (1963).
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ of `synth.drawing.conformed`, which show more. A string is a strip of paper betw
 creases that meet in a point.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise

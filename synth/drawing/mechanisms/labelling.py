@@ -1,7 +1,5 @@
 """Labels placed beside what they name and on nothing else; signs of the thesis for centres and joints."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from math import cos, hypot, pi, sin

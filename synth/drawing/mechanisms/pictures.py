@@ -1,7 +1,5 @@
 """One picture of any mechanism, of the kind that suits it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial

@@ -5,8 +5,6 @@ share their centre have signs of one colour and number. Open edges of an SCD gra
 `synth reduce` lists, lie on yellow bands. Source: Wiener 2016, 3.3, 3.4 and 4.2.4.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from itertools import pairwise

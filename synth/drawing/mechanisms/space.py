@@ -5,8 +5,6 @@ Where that goes round in a circle, which it can among three panels, the one whos
 first.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

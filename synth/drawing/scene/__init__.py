@@ -1,7 +1,5 @@
 """Scenes: shapes of a picture in layers, apart from how it is written; writers for SVG, PNG and PDF."""
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -1,7 +1,5 @@
 """From numbers to the page: the frame of a layout, with a caption below; curves against axes with ticks."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import ceil, floor, log10

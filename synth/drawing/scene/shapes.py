@@ -5,8 +5,6 @@ those of Okabe and Ito, but for yellow, which is too light on paper; on dark pap
 Whatever a colour shows is shown by a dash, a sign or a number too.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import cos, pi, sin

@@ -1,7 +1,5 @@
 """Panels and solids in space: views, hidden panels, light and sides; strips and moving pictures."""
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

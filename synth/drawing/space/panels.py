@@ -5,8 +5,6 @@ where they are parallel, which is what kaleidocycles and the linkages of Sarrus 
 hinges are put where the axes of a link come nearest to each other.
 """
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -3,8 +3,6 @@
 All poses are drawn from one place and at one scale.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from io import BytesIO
 from math import ceil

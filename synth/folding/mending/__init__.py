@@ -4,8 +4,6 @@
 vertices. Theory: docs/theory/mending.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -6,8 +6,6 @@ meant to be alike come first, since then most patterns have all their branches a
 fitted, together with those before it as long as that is possible, else by itself. Theory: docs/theory/mending.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property

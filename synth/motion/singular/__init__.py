@@ -5,8 +5,6 @@ rigidity; `joint_order` is the order of the joints in which branches are searche
 `nearest` finds one motion of linkages that are too large for all. Theory: docs/theory/folding.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -7,8 +7,6 @@ radian most configurations are regular. A folded state belongs to a motion from 
 back there. Theory: docs/theory/folding.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice

@@ -5,8 +5,6 @@ closure equations are squares there, which Newton's method approaches slowly, so
 no motion is found so, they are freed. Theory: docs/theory/folding.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import islice

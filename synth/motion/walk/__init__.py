@@ -5,8 +5,6 @@ the rank; `events` has the events that a walk is given: turning points, panels o
 the return to where it began; others bring their own. Theory: docs/theory/folding.md.
 """
 
-from __future__ import annotations
-
 from graphs.lazy import offered
 
 __getattr__, __dir__, __all__ = offered(__name__)

@@ -3,8 +3,6 @@
 Theory: docs/theory/folding.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import pi
 

@@ -6,8 +6,6 @@ complex numbers and leading dimensions, so that all derivatives come from one ca
 polynomials). Theory: docs/theory/realisation.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import ceil, radians

@@ -5,8 +5,6 @@ parallel creases. A family of axes adds conditions to those of the type: a symme
 parallel or meet, equal links, configurations along a motion that close. Theory: docs/theory/realisation.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from itertools import combinations, islice

@@ -4,8 +4,6 @@ Each member of a family is followed by a finite motion; `SpecialSearch` reports 
 move. Theory: docs/theory/realisation.md.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace

@@ -5,8 +5,6 @@ request is answered only if it names this host and port, comes from no other ori
 is not too large. Theory: docs/theory/viewer.md.
 """
 
-from __future__ import annotations
-
 import asyncio
 import secrets
 import socket

@@ -3,8 +3,6 @@
 Theory: docs/theory/viewer.md.
 """
 
-from __future__ import annotations
-
 import asyncio
 import json
 import re

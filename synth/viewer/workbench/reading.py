@@ -13,8 +13,6 @@ An EDIT is ``lock:JOINT``, ``remove:JOINT``, ``ride-alongs``, or ``crease:END~EN
 a vertex, or ``x,y`` or ``x,y,z``. Theory: docs/theory/viewer.md, docs/theory/edits.md.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import sys
