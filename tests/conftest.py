@@ -21,6 +21,8 @@ from hypothesis import HealthCheck, settings
 from real_patterns import folder_of_patterns
 
 pytest_plugins = ["kinds"]
+collect_ignore = ["support/typed_script.py"]
+"""Read by mypy alone; it is not meant to run."""
 
 ROOT = Path(__file__).resolve().parent.parent
 

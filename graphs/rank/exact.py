@@ -19,7 +19,7 @@ from flint import nmod_mat
 from graphs.errors import NumericalError
 from graphs.loops.loop import Centre, Loop, added_independent, signed_cycle
 from graphs.mechanism.sc import SCGraph
-from graphs.rank.realisation import PRIMES, Field, Line, Point, PrimeField, Realisation, realise
+from graphs.rank.realisation import PRIMES, Field, GenericRealisation, Line, Point, PrimeField, realise
 from graphs.types import JointId, LinkId
 
 _FINITE = [(0, 0), (0, 1), (0, 2)]
@@ -179,7 +179,7 @@ def closure_modulo(mechanism: SCGraph, prime: int, *, forced: bool = True, seed:
     return closure, matrix_modulo(closure, prime)
 
 
-def centres_of_loops(mechanism: SCGraph, placed: Realisation) -> dict[int, Any]:
+def centres_of_loops(mechanism: SCGraph, placed: GenericRealisation) -> dict[int, Any]:
     """Return the centre of each of the independent loops that has one."""
     classes = zip(placed.points, mechanism.centre_classes(), strict=False)  # vertices of SCD graphs follow
     return {loop: point for point, one in classes for loop in one.loops if loop < len(mechanism.loops)}

@@ -131,7 +131,7 @@ class Incidence:
 
 
 @dataclass(frozen=True, slots=True)
-class Realisation:
+class GenericRealisation:
     """Points (x, y, z, w) in the order of the incidence, and the axis of each joint: (u, p x u)."""
 
     points: tuple[Point, ...]
@@ -160,7 +160,7 @@ def incidence_of(mechanism: SCGraph, *, forced: bool = True) -> Incidence:
     return Incidence(tuple(mechanism.joints), tuple(points))
 
 
-def realise(mechanism: SCGraph, field: Field, *, forced: bool = True) -> Realisation:
+def realise(mechanism: SCGraph, field: Field, *, forced: bool = True) -> GenericRealisation:
     """Place a random realisation of the type of an SC or SCD graph, whose vertices are placed too if it is forced.
 
     Raises `UnsolvableError` if centres that must lie in line could not be placed: the type is not realised.
@@ -168,13 +168,13 @@ def realise(mechanism: SCGraph, field: Field, *, forced: bool = True) -> Realisa
     return realise_points(incidence_of(mechanism, forced=forced), field)
 
 
-def realise_points(incidence: Incidence, field: Field) -> Realisation:
+def realise_points(incidence: Incidence, field: Field) -> GenericRealisation:
     """Place points and axes; raises `UnsolvableError` if points that must lie in line could not be placed."""
     order = list(range(len(incidence.points)))
     for attempt in range(_ATTEMPTS):
         points = _place(incidence, order, field)
         if points is not None:
-            return Realisation(points, _axes(incidence, points, field))
+            return GenericRealisation(points, _axes(incidence, points, field))
         if attempt == 0:
             busy = _on_axis(incidence)
             order.sort(key=lambda i: -sum(len(busy[joint]) > 2 for joint in incidence.points[i][0]))

@@ -34,7 +34,7 @@ class Removal:
     reopened: int | None
 
 
-class Path(NamedTuple):
+class RideAlongPath(NamedTuple):
     """Two binary links u and v in a row, between two others a and b: links and joints as they are passed."""
 
     a: LinkId
@@ -104,7 +104,7 @@ class WorkingGraph:
         # The dict itself: the views of networkx triple the time of a reduction.
         return [joint for keys in self.original._adj[link].values() for joint in keys if joint in self.joints]
 
-    def path(self, middle: JointId) -> Path | None:
+    def path(self, middle: JointId) -> RideAlongPath | None:
         """Return the path of a joint that joins two binary links."""
         u, v = self.joints[middle]
         if self.degree[u] != 2 or self.degree[v] != 2:
@@ -112,7 +112,7 @@ class WorkingGraph:
         (before,) = (joint for joint in self.joints_at(u) if joint != middle)
         (after,) = (joint for joint in self.joints_at(v) if joint != middle)
         a, b = self.other_end(before, u), self.other_end(after, v)
-        return None if v == a else Path(a, before, u, middle, v, after, b)
+        return None if v == a else RideAlongPath(a, before, u, middle, v, after, b)
 
     def centred_through(self, joint: JointId) -> list[int]:
         """Return the loops with a centre that pass a joint; round a binary path they are of one class."""
@@ -149,7 +149,7 @@ class WorkingGraph:
 
     def remove(
         self,
-        path: Path,
+        path: RideAlongPath,
         dropped: int,
         deltas: Sequence[tuple[int, frozenset[JointId]]],
         reopened: int | None = None,
@@ -315,7 +315,7 @@ def take_all(work: WorkingGraph, terms: ReductionTerms) -> list[TakenAddendum]:
     return addenda
 
 
-def _path_that_may_go(work: WorkingGraph, middle: JointId, terms: ReductionTerms) -> Path | None:
+def _path_that_may_go(work: WorkingGraph, middle: JointId, terms: ReductionTerms) -> RideAlongPath | None:
     """Return the path of a joint that joins two binary links between two others, if nothing protects them."""
     path = work.path(middle) if middle in work.joints else None
     if path is None:
@@ -325,7 +325,7 @@ def _path_that_may_go(work: WorkingGraph, middle: JointId, terms: ReductionTerms
     return path if terms.fully or work.loops_in_block[work.block_of[middle]] > 1 else None
 
 
-def _cycles(work: WorkingGraph, path: Path) -> list[_Cycle]:
+def _cycles(work: WorkingGraph, path: RideAlongPath) -> list[_Cycle]:
     """Return the joints between the ends of a path, each with the cycle that it closes with it."""
     a, before, _, middle, _, after, b = path
     between = work.original[a][b] if work.original.has_edge(a, b) else ()
@@ -343,7 +343,7 @@ def _needs_elimination(work: WorkingGraph, middle: JointId, cycles: list[_Cycle]
     return False
 
 
-def _take_ride_along(work: WorkingGraph, path: Path, cycles: list[_Cycle]) -> TakenAddendum | None:
+def _take_ride_along(work: WorkingGraph, path: RideAlongPath, cycles: list[_Cycle]) -> TakenAddendum | None:
     """Take off the two links within a path, if they are a ride-along."""
     middle = path.middle
     for joint, cycle in cycles:
@@ -371,7 +371,7 @@ def _independent_member(work: WorkingGraph, cycle: frozenset[JointId], middle: J
     return next((independent[i] for i in summands or () if independent[i] in passing), None)
 
 
-def _take_dyad(work: WorkingGraph, path: Path) -> TakenAddendum | None:
+def _take_dyad(work: WorkingGraph, path: RideAlongPath) -> TakenAddendum | None:
     """Take off the two links within a path, a dyad, if a loop through it has a centre."""
     middle = path.middle
     passing = [i for i in work.centred_through(middle) if i not in work.closing]

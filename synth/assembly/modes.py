@@ -84,6 +84,12 @@ class PositionSet(Printed):
     curves : int
         Closed curves of members that were walked to count those of a general member.
     notes : tuple of str
+
+    Examples
+    --------
+    >>> from synth.patterns import generate
+    >>> positions(generate("four-bar").mechanism, drive={0: 0.2})
+    <PositionSet: 2 of 2>
     """
 
     configuration: Configuration

@@ -19,7 +19,7 @@ from graphs.types import Flags, Floats
 from synth.conformed.all_angles import LinksInLayers, links_in_layers
 from synth.conformed.behaviours import Way, behaviour_of_motion, icrl
 from synth.conformed.rates import ConformedChain, first_order
-from synth.drawing.scene.frame import Frame, captions_of, page_of
+from synth.drawing.scene.frame import PictureFrame, captions_of, page_of
 from synth.drawing.scene.shapes import (
     FINE,
     NORMAL,
@@ -111,7 +111,7 @@ def draw_conformed(
     count = numbered(int(laid.layers.max(initial=0)) + 1, "layer")
     said = f"links in {count}, the first innermost; the first link grey"
     layers.append(Layer("legend", tuple(legend)))
-    return page_of(Frame(1, 0, 0, 0, 0, wide, _SIDE + high), layers, captions_of(title, said))
+    return page_of(PictureFrame(1, 0, 0, 0, 0, wide, _SIDE + high), layers, captions_of(title, said))
 
 
 def _at(azimuth: float, radius: float = 1.0) -> Point:

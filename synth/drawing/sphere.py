@@ -16,7 +16,7 @@ import numpy.typing as npt
 from graphs.errors import UnsolvableError, numbered
 from graphs.geometry import across, signed_area, unit
 from graphs.types import Flags, Floats
-from synth.drawing.scene.frame import COLUMN, Frame, Plot, framed, page_of
+from synth.drawing.scene.frame import COLUMN, PictureFrame, Plot, framed, page_of
 from synth.drawing.scene.shapes import (
     FINE,
     NORMAL,
@@ -114,7 +114,7 @@ def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Sc
         "red, above the line: the axes that decide",
         "blue: the body's z axis at each orientation; red, green: towards its x, y; open or dashed: far side",
     ]
-    return page_of(Frame(1, 0, 0, 0, 0, _SIDE, _SIDE + _STRIP), layers, said)
+    return page_of(PictureFrame(1, 0, 0, 0, 0, _SIDE, _SIDE + _STRIP), layers, said)
 
 
 class _Globe:
@@ -281,11 +281,11 @@ def draw_map(
     said = f"order of {numbered(len(orientations), 'orientation')} by fixed axis; all of the sphere, z on top"
     if axes:
         said += "; dots: relative axes, both ends"
-    page = Frame(1, 0, 0, 0, 0, frame.width, frame.height + 2 * SMALL)
+    page = PictureFrame(1, 0, 0, 0, 0, frame.width, frame.height + 2 * SMALL)
     return page_of(page, layers, [said + ("; stars: fixed axes of dyads" if numbers else "")])
 
 
-def _regions(orientations: Orientations, frame: Frame, width: int) -> list[Shape]:
+def _regions(orientations: Orientations, frame: PictureFrame, width: int) -> list[Shape]:
     """Return the map and its regions, larger ones first, so that a region inside a hole lies above it."""
     turn = np.linspace(0.0, 2.0 * np.pi, 181)
     rim = np.column_stack([2 * np.sqrt(2.0) * np.cos(turn), np.sqrt(2.0) * np.sin(turn)])
@@ -305,7 +305,7 @@ def _regions(orientations: Orientations, frame: Frame, width: int) -> list[Shape
     return [whole, *(shape for _, _, shape in regions), *outlines]
 
 
-def _graticule_of_map(frame: Frame) -> list[Shape]:
+def _graticule_of_map(frame: PictureFrame) -> list[Shape]:
     """Return circles of 30 degrees, and the edge of the map."""
     turn = np.linspace(-np.pi + 1e-9, np.pi - 1e-9, 181)
     half = np.linspace(-np.pi / 2, np.pi / 2, 91)
@@ -320,11 +320,11 @@ def _graticule_of_map(frame: Frame) -> list[Shape]:
     return shapes
 
 
-def _line(frame: Frame, points: Floats, colour: str, width: float) -> Line:
+def _line(frame: PictureFrame, points: Floats, colour: str, width: float) -> Line:
     return Line(frame.row(np.column_stack(hammer(points)).tolist()), colour, width)
 
 
-def _curves(frame: Frame, curves: Iterable[AxisCurve]) -> list[Shape]:
+def _curves(frame: PictureFrame, curves: Iterable[AxisCurve]) -> list[Shape]:
     """Return closed curves, broken where they go over the edge of the map."""
     shapes: list[Shape] = []
     for curve in curves:
@@ -338,7 +338,7 @@ def _curves(frame: Frame, curves: Iterable[AxisCurve]) -> list[Shape]:
 
 
 def _marks_on_map(
-    frame: Frame, lines: Sequence[tuple[Floats, str, str]], numbers: Sequence[tuple[Floats, str, str]]
+    frame: PictureFrame, lines: Sequence[tuple[Floats, str, str]], numbers: Sequence[tuple[Floats, str, str]]
 ) -> list[Shape]:
     every = [*lines, *numbers]
     if not every:
@@ -364,7 +364,7 @@ def _star(at: tuple[float, float], colour: str) -> Polygon:
     return Polygon(list(corners), colour, "paper", FINE)
 
 
-def _legend(frame: Frame) -> list[Shape]:
+def _legend(frame: PictureFrame) -> list[Shape]:
     entries = (
         ("in order, crank counter-clockwise", CCW),
         ("in order, crank clockwise (dashed rim)", CW),

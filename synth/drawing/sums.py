@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphs.types import Floats
-from synth.drawing.scene.frame import Frame, Plot, page_of, round_steps
+from synth.drawing.scene.frame import PictureFrame, Plot, page_of, round_steps
 from synth.drawing.scene.shapes import FINE, SMALL, STRONG, Disc, Label, Layer, Line, Shape, colour_of_class
 from synth.drawing.scene.writing import Scene
 from synth.surfaces.loop_maps import ConeMap, CylinderMap, cone_reach, cylinder_reach
@@ -82,7 +82,7 @@ def draw_loop_sums(mapped: ConeMap | CylinderMap) -> Scene:
         Layer("legend", tuple(_legend(special))),
     ]
     said = f"loop sums of {links}: the loop closes where one is a multiple of 360° (dots)"
-    return page_of(Frame(1, 0, 0, 0, 0, _LEFT + _WIDE + _LEGEND, _TOP + _HIGH + _BELOW), layers, [said])
+    return page_of(PictureFrame(1, 0, 0, 0, 0, _LEFT + _WIDE + _LEGEND, _TOP + _HIGH + _BELOW), layers, [said])
 
 
 def _on_cones(mapped: ConeMap) -> _Sums:

@@ -28,7 +28,7 @@ _BLOCK = 256
 """Pieces whose boxes are compared with all others at a time."""
 
 
-class Panels:
+class PanelShapes:
     """Panels as planar convex pieces, from the vertices round each face and the panel that each face is part of.
 
     `flat`, float[vertices, 3], are places of the vertices in a configuration in which faces are planar. Panels
@@ -109,7 +109,7 @@ class Collision(Event):
     less is not seen. `places` gives the vertices, float[F, vertices, 3], at joint angles float[F, J].
     """
 
-    def __init__(self, panels: Panels, places: Callable[[Floats], Floats]) -> None:
+    def __init__(self, panels: PanelShapes, places: Callable[[Floats], Floats]) -> None:
         self._panels, self._places = panels, places
         self._met: Floats | None = None
 

@@ -21,7 +21,7 @@ from graphs.mechanism.precision import keeping, precision_of_sheet, stated
 from graphs.mechanism.sheet import Edge, Sheet, sides_of_face, with_all_edges
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId
-from synth.folding.collisions import Collision, Panels
+from synth.folding.collisions import Collision, PanelShapes
 from synth.folding.derivatives import vertex_places
 from synth.folding.mending.nearest import (
     ALL_BRANCHES,
@@ -216,7 +216,7 @@ class SheetConfiguration(Configuration):
             return self.placed(angles).points
 
         here = places(self.linkage.angles[None])[0]
-        return Collision(Panels(self.sheet.faces, numbers, here, self.tolerances), places)
+        return Collision(PanelShapes(self.sheet.faces, numbers, here, self.tolerances), places)
 
 
 def _marks_of(sheet: Sheet, linkage: PosedLinkage) -> Floats:

@@ -21,7 +21,7 @@ from synth.templates.pieces import (
     Kind,
     Piece,
     Point,
-    Stroke,
+    TemplateLine,
     Text,
     common_spans,
     cut_once,
@@ -74,7 +74,7 @@ class Hinges:
 class _Strip:
     """The strip between two panels in place of a fold, from `first` to `last` along it, in millimetres."""
 
-    fold: Stroke
+    fold: TemplateLine
     start: Floats
     along: Floats
     off: Floats
@@ -86,24 +86,24 @@ class _Strip:
         """Return a place by millimetres along the fold, and by half widths across it."""
         return point_of(self.start + along * self.along + across * self.width / 2 * self.off)
 
-    def line(self, kind: Kind, across: float, first: float, last: float) -> Stroke:
+    def line(self, kind: Kind, across: float, first: float, last: float) -> TemplateLine:
         """Return a line along the fold."""
-        return Stroke(kind, self.at(first, across), self.at(last, across))
+        return TemplateLine(kind, self.at(first, across), self.at(last, across))
 
-    def sides(self) -> list[Stroke]:
+    def sides(self) -> list[TemplateLine]:
         """Return its borders with the panels."""
         return [self.line(self.fold.kind, across, self.first, self.last) for across in (-1, 1)]
 
-    def ends(self) -> list[Stroke]:
+    def ends(self) -> list[TemplateLine]:
         """Return the cuts at its ends."""
-        return [Stroke("CUT", self.at(along, -1), self.at(along, 1)) for along in (self.first, self.last)]
+        return [TemplateLine("CUT", self.at(along, -1), self.at(along, 1)) for along in (self.first, self.last)]
 
     def polygon(self) -> Any:
         """Return its area."""
         return shapely.Polygon([end for side in self.ends() for end in (side.start, side.end)]).convex_hull
 
 
-def with_hinges(piece: Piece, met: Sequence[Stroke], hinges: Hinges) -> Piece:
+def with_hinges(piece: Piece, met: Sequence[TemplateLine], hinges: Hinges) -> Piece:
     """Return a piece with strips in the place of its folds.
 
     `met` are the edges that meet others when it is put together; a gap is left there too. Raise UnsolvableError if
@@ -123,7 +123,7 @@ def with_hinges(piece: Piece, met: Sequence[Stroke], hinges: Hinges) -> Piece:
     return Piece((*cut_once(cuts), *more, *marks), (*piece.texts, *words), covered)
 
 
-def _panels(piece: Piece, lines: Sequence[Stroke], width: float) -> list[Any]:
+def _panels(piece: Piece, lines: Sequence[TemplateLine], width: float) -> list[Any]:
     """Return the panels without the strips at their own hinges; each must remain in one part."""
     every = [shapely.LineString([line.start, line.end]) for line in lines]
     parted = united(shapely.buffer(every, _THIN, cap_style="square"))
@@ -146,7 +146,7 @@ def _parts(shape: Any) -> list[Any]:
     return [part for part in getattr(shape, "geoms", [shape]) if part.area > _SPECK]
 
 
-def _all_strips(folds: Sequence[Stroke], panels: Sequence[Any], hinges: Hinges) -> list[_Strip]:
+def _all_strips(folds: Sequence[TemplateLine], panels: Sequence[Any], hinges: Hinges) -> list[_Strip]:
     rings = [ring for panel in panels for ring in (panel.exterior, *panel.interiors)]
     sides = np.array([ends for ring in rings for ends in pairwise(ring.coords)]).reshape(-1, 2, 2)
     strips = [strip for fold in folds for strip in _strips(fold, sides, hinges)]
@@ -159,7 +159,7 @@ def _all_strips(folds: Sequence[Stroke], panels: Sequence[Any], hinges: Hinges) 
     return strips
 
 
-def _strips(fold: Stroke, sides: Floats, hinges: Hinges) -> Iterator[_Strip]:
+def _strips(fold: TemplateLine, sides: Floats, hinges: Hinges) -> Iterator[_Strip]:
     """Yield the strips of a fold: where it has a panel on both sides."""
     start, end = np.array(fold.start), np.array(fold.end)
     length = float(np.linalg.norm(end - start))
@@ -177,24 +177,24 @@ def _strips(fold: Stroke, sides: Floats, hinges: Hinges) -> Iterator[_Strip]:
         yield _Strip(fold, start, along, off, width, first, last)
 
 
-def _cuts(piece: Piece, panels: Sequence[Any], strips: Sequence[_Strip]) -> list[Stroke]:
+def _cuts(piece: Piece, panels: Sequence[Any], strips: Sequence[_Strip]) -> list[TemplateLine]:
     """Return the outlines of panels except at strips, the slits, and the ends of strips."""
     joined = np.array([(side.start, side.end) for strip in strips for side in strip.sides()]).reshape(-1, 2, 2)
     cuts = []
     for panel in panels:
         for ring in (panel.exterior, *panel.interiors):
             for start, end in pairwise(ring.coords):
-                cuts += uncovered(Stroke("CUT", start, end), joined)
+                cuts += uncovered(TemplateLine("CUT", start, end), joined)
     removed = shapely.difference(piece.covered, united(panels), grid_size=GRID)
     for stroke in piece.strokes:
         if stroke.kind == "CUT":
             rest = shapely.LineString([stroke.start, stroke.end]).difference(removed)
             for part in getattr(rest, "geoms", [rest]):
-                cuts += [Stroke("CUT", start, end) for start, end in pairwise(part.coords)]
+                cuts += [TemplateLine("CUT", start, end) for start, end in pairwise(part.coords)]
     return cuts + [end for strip in strips for end in strip.ends()]
 
 
-def _rows(strip: _Strip) -> list[Stroke]:
+def _rows(strip: _Strip) -> list[TemplateLine]:
     """Return the cuts of a living hinge: in rows along it, every other row shifted by half a cut."""
     rows = max(2, ceil(strip.width / _ROWS_APART))
     length = strip.last - strip.first
@@ -210,7 +210,7 @@ def _rows(strip: _Strip) -> list[Stroke]:
     return cuts
 
 
-def _letters(folds: Sequence[Stroke]) -> Iterator[Text]:
+def _letters(folds: Sequence[TemplateLine]) -> Iterator[Text]:
     """Yield the letters of folds that are not lines any more."""
     for fold in folds:
         if letter := _LETTERS.get(fold.kind):

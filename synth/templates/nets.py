@@ -19,7 +19,7 @@ from synth.templates.pieces import (
     Kind,
     Piece,
     Point,
-    Stroke,
+    TemplateLine,
     Text,
     cut_once,
     lies_over,
@@ -137,10 +137,10 @@ class _Work:
     """A net on the way to a piece."""
 
     net: Net
-    strokes: list[Stroke] = field(default_factory=list)
+    strokes: list[TemplateLine] = field(default_factory=list)
     texts: list[Text] = field(default_factory=list)
     tabs: list[Any] = field(default_factory=list)
-    met: list[Stroke] = field(default_factory=list)
+    met: list[TemplateLine] = field(default_factory=list)
 
 
 @dataclass
@@ -176,7 +176,7 @@ class CutNets(NamedTuple):
     """Nets as pieces, with the edges of each that meet others; how many meet, and of these have no tab."""
 
     pieces: tuple[Piece, ...]
-    met: tuple[tuple[Stroke, ...], ...]
+    met: tuple[tuple[TemplateLine, ...], ...]
     numbers: int
     without_tab: int
 
@@ -196,7 +196,7 @@ def pieces_of_panels(sheet: Sheet, places: Floats, joins: Joins) -> CutNets:
         apart = float(np.abs([first.start - second.end, first.end - second.start]).max())
         if first.work is second.work and apart <= _SAME:  # the panels lie side by side
             if kind := _kind(panels, edge, first):
-                first.work.strokes.append(Stroke(kind, point_of(first.start), point_of(first.end)))
+                first.work.strokes.append(TemplateLine(kind, point_of(first.start), point_of(first.end)))
             continue
         _glue(panels, edge, (first, second), glue)
     _cut_borders(panels, of_face)
@@ -282,22 +282,22 @@ def _add_tab(side: _Side, shape: Floats, kind: Kind | None, number: str) -> None
     work.tabs.append(shapely.Polygon(shape))
     start, end, after, before = map(point_of, shape)
     if kind is not None:
-        work.strokes.append(Stroke(kind, start, end))
-    work.strokes += [Stroke("CUT", *ends) for ends in ((start, before), (before, after), (after, end))]
+        work.strokes.append(TemplateLine(kind, start, end))
+    work.strokes += [TemplateLine("CUT", *ends) for ends in ((start, before), (before, after), (after, end))]
     work.texts.append(Text(point_of(shape.mean(axis=0)), number))
 
 
 def _add_slot(side: _Side, slot: Floats, laid: Floats, own: Floats, glue: _Glue) -> None:
     """Cut a slot, given where its panel lies across the edge and in its own plane, and keep other tabs off it."""
     start, end = _carried(slot, laid, side.work.net.corners[side.face])
-    side.work.strokes.append(Stroke("CUT", point_of(start), point_of(end)))
+    side.work.strokes.append(TemplateLine("CUT", point_of(start), point_of(end)))
     round_it = shapely.LineString(slot).buffer(_OFF_SLOT, cap_style="square")
     glue.on_panel[side.face].append(_carried(np.array(round_it.exterior.coords[:-1]), laid, own))
 
 
 def _cut(side: _Side, number: str, *, beyond: float = 0.0) -> None:
     """Cut along a side that is joined to another, and put its number inside, beyond a tab's depth."""
-    side.work.met.append(Stroke("CUT", point_of(side.start), point_of(side.end)))
+    side.work.met.append(TemplateLine("CUT", point_of(side.start), point_of(side.end)))
     side.work.strokes.append(side.work.met[-1])
     side.work.texts.append(Text(side.inside(_IN + beyond), number))
 
@@ -310,7 +310,7 @@ def _cut_borders(panels: Panels, of_face: dict[int, _Work]) -> None:
             if frozenset(side) not in joined:
                 corners = work.net.corners[face]
                 ends = point_of(corners[corner]), point_of(corners[(corner + 1) % len(corners)])
-                work.strokes.append(Stroke("CUT", *ends))
+                work.strokes.append(TemplateLine("CUT", *ends))
 
 
 def _piece(work: _Work) -> Piece:

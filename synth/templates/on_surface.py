@@ -23,7 +23,7 @@ from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain
 from synth.drawing.conformed import surface_layer
 from synth.drawing.scene.writing import Scene
-from synth.templates.pieces import Kind, Piece, Point, Stroke, Text
+from synth.templates.pieces import Kind, Piece, Point, TemplateLine, Text
 from synth.templates.template import GREATEST, Template
 
 _INNER = 0.35
@@ -262,9 +262,9 @@ class _Unrolled:
         flat = self.linkage.surface.flat(azimuths - self.middle, lengths, height).tolist()
         return [(x, y) for x, y in flat]
 
-    def lines(self, kind: Kind, corners: Sequence[_Corner]) -> list[Stroke]:
+    def lines(self, kind: Kind, corners: Sequence[_Corner]) -> list[TemplateLine]:
         """Return the strokes of a way along corners."""
-        return [Stroke(kind, a, b) for a, b in pairwise(self.points(corners))]
+        return [TemplateLine(kind, a, b) for a, b in pairwise(self.points(corners))]
 
 
 def _piece_of_surface(linkage: LayeredLinkage) -> Piece:

@@ -12,7 +12,7 @@ from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.printing import plain
 from synth.drawing.scene.shapes import Label, Layer, Line, moved, scaled
 from synth.drawing.scene.writing import Scene
-from synth.templates.pieces import LOOKS, Kind, Piece, Point, Stroke, Text
+from synth.templates.pieces import LOOKS, Kind, Piece, Point, TemplateLine, Text
 from synth.templates.template import Template
 
 MARGIN = 10.0
@@ -104,7 +104,7 @@ class Page:
     """
 
     paper: Paper
-    strokes: tuple[Stroke, ...]
+    strokes: tuple[TemplateLine, ...]
     texts: tuple[Text, ...]
     picture: Layer | None = None
     is_note: bool = False
@@ -120,7 +120,7 @@ class Page:
         return Scene(self.paper.width, self.paper.height, tuple(layers), unit="mm")
 
 
-def layers_of(strokes: Sequence[Stroke], texts: Sequence[Text], height: float, ink: str) -> list[Layer]:
+def layers_of(strokes: Sequence[TemplateLine], texts: Sequence[Text], height: float, ink: str) -> list[Layer]:
     """Return strokes by their kinds, and texts in an ink, on a page of a height; all in millimetres."""
 
     def down(at: Point) -> Point:
@@ -158,17 +158,17 @@ _ROWS = (3.0, 8.0, 12.0, 17.0)
 _GAUGE_TEXT = 2.5
 
 
-def gauge(at: Point) -> tuple[list[Stroke], list[Text]]:
+def gauge(at: Point) -> tuple[list[TemplateLine], list[Text]]:
     """Return a ruler of 100 mm with a tick each 10 mm, from its left end on; the first stroke is the gauge."""
     x, y = at
-    strokes = [Stroke("MARKS", at, (x + GAUGE, y))]
+    strokes = [TemplateLine("MARKS", at, (x + GAUGE, y))]
     for tick in range(int(GAUGE) // _EACH + 1):
         place = x + tick * _EACH
-        strokes.append(Stroke("MARKS", (place, y - _TICK), (place, y + _TICK)))
+        strokes.append(TemplateLine("MARKS", (place, y - _TICK), (place, y + _TICK)))
     return strokes, [Text((x + GAUGE + 2, y), f"{GAUGE:g} mm", _GAUGE_TEXT, middle=False)]
 
 
-def footer(kinds: Iterable[Kind], caption: str) -> tuple[list[Stroke], list[Text]]:
+def footer(kinds: Iterable[Kind], caption: str) -> tuple[list[TemplateLine], list[Text]]:
     """Return the foot of a page: gauge, what its kinds of lines mean in words, caption.
 
     The meaning is in words only: a machine would cut or fold a line drawn to show it.
@@ -182,18 +182,21 @@ def footer(kinds: Iterable[Kind], caption: str) -> tuple[list[Stroke], list[Text
     return strokes, texts
 
 
-def frame(window: tuple[float, float]) -> list[Stroke]:
+def frame(window: tuple[float, float]) -> list[TemplateLine]:
     """Return the border of what a page shows of a larger piece: pages are laid together with it."""
     left, low = MARGIN, MARGIN + FOOTER
     right, high = left + window[0], low + window[1]
     corners = [(left, low), (right, low), (right, high), (left, high)]
-    return [Stroke("MARKS", a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
+    return [TemplateLine("MARKS", a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
 
 
-def cross(at: Point, name: str) -> tuple[list[Stroke], Text]:
+def cross(at: Point, name: str) -> tuple[list[TemplateLine], Text]:
     """Return a cross with a name: crosses of one name on two pages lie over each other."""
     x, y = at
-    strokes = [Stroke("MARKS", (x - _ARM, y), (x + _ARM, y)), Stroke("MARKS", (x, y - _ARM), (x, y + _ARM))]
+    strokes = [
+        TemplateLine("MARKS", (x - _ARM, y), (x + _ARM, y)),
+        TemplateLine("MARKS", (x, y - _ARM), (x, y + _ARM)),
+    ]
     return strokes, Text((x + _ARM / 2, y + _ARM / 2), name, _GAUGE_TEXT)
 
 
@@ -210,7 +213,7 @@ class Tile:
     and row, for the caption.
     """
 
-    strokes: tuple[Stroke, ...]
+    strokes: tuple[TemplateLine, ...]
     texts: tuple[Text, ...]
     where: str
 
@@ -260,7 +263,7 @@ def tiles_of(piece: Piece, window: tuple[float, float], name: str = "") -> Itera
             )
 
 
-def clipped(stroke: Stroke, area: tuple[float, float, float, float]) -> Stroke | None:
+def clipped(stroke: TemplateLine, area: tuple[float, float, float, float]) -> TemplateLine | None:
     """Return the part of a stroke in an area (left, low, right, high); None if it has no length.
 
     The method is that of Liang and Barsky.
@@ -283,7 +286,7 @@ def clipped(stroke: Stroke, area: tuple[float, float, float, float]) -> Stroke |
         return start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])
 
     # An end that is not cut off stays as it is, to the last digit.
-    return Stroke(stroke.kind, at(first) if first > 0 else start, at(last) if last < 1 else end)
+    return TemplateLine(stroke.kind, at(first) if first > 0 else start, at(last) if last < 1 else end)
 
 
 def _crosses(
@@ -446,7 +449,7 @@ def _page(template: Template, paper: Paper, content: _Laid | Tile, number: int, 
     return Page(paper, (*strokes, *foot), (*texts, *words))
 
 
-def _in_the_middle(laid: _Laid, paper: Paper) -> tuple[list[Stroke], list[Text]]:
+def _in_the_middle(laid: _Laid, paper: Paper) -> tuple[list[TemplateLine], list[Text]]:
     """Return the strokes and texts of pieces, moved to the middle of the page."""
     free = [
         most - max(shift[axis] + piece.size[axis] for piece, *shift in laid)
@@ -456,7 +459,7 @@ def _in_the_middle(laid: _Laid, paper: Paper) -> tuple[list[Stroke], list[Text]]
     return strokes_and_texts((piece, left + right, low + up) for piece, right, up in laid)
 
 
-def strokes_and_texts(laid: Iterable[tuple[Piece, float, float]]) -> tuple[list[Stroke], list[Text]]:
+def strokes_and_texts(laid: Iterable[tuple[Piece, float, float]]) -> tuple[list[TemplateLine], list[Text]]:
     """Return the strokes and texts of pieces, each moved to the right and up."""
     pieces = [piece.moved(right, up) for piece, right, up in laid]
     return [stroke for piece in pieces for stroke in piece.strokes], [

@@ -50,20 +50,20 @@ Marks are grey, which no reader of crease patterns takes for a line of the patte
 
 
 @dataclass(frozen=True, slots=True)
-class Stroke:
+class TemplateLine:
     """A straight line of a template, millimetres."""
 
     kind: Kind
     start: Point
     end: Point
 
-    def moved(self, right: float, up: float) -> Stroke:
+    def moved(self, right: float, up: float) -> TemplateLine:
         """Return the stroke elsewhere."""
-        return Stroke(self.kind, *((x + right, y + up) for x, y in (self.start, self.end)))
+        return TemplateLine(self.kind, *((x + right, y + up) for x, y in (self.start, self.end)))
 
-    def turned(self) -> Stroke:
+    def turned(self) -> TemplateLine:
         """Return the stroke turned by a quarter, counter-clockwise about the origin."""
-        return Stroke(self.kind, *((-y, x) for x, y in (self.start, self.end)))
+        return TemplateLine(self.kind, *((-y, x) for x, y in (self.start, self.end)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +84,7 @@ class Text:
 class Piece:
     """A part of a template that is cut out whole; `covered` is its material, a shapely geometry."""
 
-    strokes: tuple[Stroke, ...]
+    strokes: tuple[TemplateLine, ...]
     texts: tuple[Text, ...]
     covered: Any
 
@@ -130,12 +130,12 @@ _NEAR = 1e-6
 """Millimetres: borders this close are one line, and shorter remainders of a line are dropped."""
 
 
-def cut_once(strokes: Iterable[Stroke]) -> list[Stroke]:
+def cut_once(strokes: Iterable[TemplateLine]) -> list[TemplateLine]:
     """Return strokes; of cuts, only the parts that no cut before them covers.
 
     A machine that cuts twice burns; knives tear.
     """
-    parts: list[Stroke] = []
+    parts: list[TemplateLine] = []
     ends: list[tuple[Point, Point]] = []
     for stroke in strokes:
         kept = [stroke]
@@ -146,7 +146,7 @@ def cut_once(strokes: Iterable[Stroke]) -> list[Stroke]:
     return parts
 
 
-def uncovered(stroke: Stroke, ends: Floats) -> list[Stroke]:
+def uncovered(stroke: TemplateLine, ends: Floats) -> list[TemplateLine]:
     """Return the parts of a stroke, of some length, that no line covers; the lines are float[lines, 2, 2]."""
     start, end = np.array(stroke.start), np.array(stroke.end)
     length = float(np.linalg.norm(end - start))
@@ -156,7 +156,7 @@ def uncovered(stroke: Stroke, ends: Floats) -> list[Stroke]:
     free = _between(length, spans_on(start, along, ends))
     if free == [(0.0, length)]:
         return [stroke]
-    return [Stroke(stroke.kind, point_of(start + a * along), point_of(start + b * along)) for a, b in free]
+    return [TemplateLine(stroke.kind, point_of(start + a * along), point_of(start + b * along)) for a, b in free]
 
 
 def spans_on(start: Floats, along: Floats, ends: Floats) -> list[tuple[float, float]]:
@@ -250,7 +250,7 @@ def piece_of_flat_sheet(sheet: Sheet, places: Floats) -> tuple[Piece, tuple[str,
         kind = _kind(letter, faces[pair])
         if kind is not None:
             start, end = (point_of(places[vertex]) for vertex in edge)
-            strokes.append(Stroke(kind, start, end))
+            strokes.append(TemplateLine(kind, start, end))
         elif faces[pair]:
             flat += 1
         else:

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from synth.folding.collisions import Panels
+from synth.folding.collisions import PanelShapes
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import link_motions
 from synth.motion.path import PathOptions, driven_path
@@ -93,6 +93,6 @@ def asked_of(
     carried = zip(bodies.vertices, bodies.owners, strict=True)
     places = np.array([motions[owner][0] @ v + motions[owner][1] for v, owner in carried])
     gathered, closed = jacobian.T @ residual, corrected(closure, near).angles
-    pieces = Panels([around for _, around in faces], [link for link, _ in faces], bodies.vertices)
+    pieces = PanelShapes([around for _, around in faces], [link for link, _ in faces], bodies.vertices)
     crossing = [pieces.crossing(frame) for frame in places.swapaxes(0, 1)]
     return Asked(question, residual, gathered, closed, path.angles, path.stopped, places, crossing)

@@ -19,7 +19,7 @@ from graphs.mechanism.surfaces import SurfaceLinkage
 from graphs.types import JointId, LinkId
 from synth.drawing.layout.mechanisms import Layout, layout_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, joint_dot, placed
-from synth.drawing.scene.frame import PLAIN, Frame, PictureOptions, captions_of, framed, page_of
+from synth.drawing.scene.frame import PLAIN, PictureFrame, PictureOptions, captions_of, framed, page_of
 from synth.drawing.scene.shapes import NORMAL, SMALL, Disc, Label, Layer, Line, Point, Polygon, Shape
 from synth.drawing.scene.writing import Scene
 
@@ -64,7 +64,7 @@ def chain_scene(chain: SCGraph, options: PictureOptions = PLAIN, *, look: ChainL
     return page_of(frame, layers, captions_of(options.caption, said))
 
 
-def _chain_layers(chain: SCGraph, layout: Layout, frame: Frame, look: ChainLook) -> list[Layer]:
+def _chain_layers(chain: SCGraph, layout: Layout, frame: PictureFrame, look: ChainLook) -> list[Layer]:
     """Return links, joints and labels of a chain in a frame."""
     outlines = {link: frame.row(row) for link, row in layout.outlines.items()}
     bodies: list[Shape] = []

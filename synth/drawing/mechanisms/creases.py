@@ -26,7 +26,7 @@ from graphs.tolerances import DOUBLE
 from graphs.types import JointId, LinkId
 from synth.drawing.mechanisms.labelling import SIGN, Obstacles, beside, centre_sign, placed
 from synth.drawing.mechanisms.sc_graphs import class_numbers
-from synth.drawing.scene.frame import BOX, PLAIN, Box, Frame, PictureOptions, captions_of, framed, page_of
+from synth.drawing.scene.frame import BOX, PLAIN, Box, PictureFrame, PictureOptions, captions_of, framed, page_of
 from synth.drawing.scene.shapes import (
     FINE,
     NORMAL,
@@ -99,7 +99,7 @@ class DrawnPattern:
 
     sheet: Sheet
     mechanism: SheetMechanism
-    frame: Frame
+    frame: PictureFrame
     places: list[Point]
     motions: Motions
 
@@ -166,7 +166,7 @@ def places_on_page(sheet: Sheet, box: Box = BOX) -> list[Point]:
     return _framed(with_all_edges(sheet), box)[1]
 
 
-def _framed(whole: Sheet, box: Box, beyond: Sequence[tuple[float, ...]] = ()) -> tuple[Frame, list[Point]]:
+def _framed(whole: Sheet, box: Box, beyond: Sequence[tuple[float, ...]] = ()) -> tuple[PictureFrame, list[Point]]:
     """Return the frame of a picture, and the places of the vertices in it."""
     flat = flat_places(whole, "a picture of a crease pattern")
     every = [*flat, *beyond]

@@ -23,7 +23,7 @@ from graphs.reduce.ride_alongs import Reduction, reduce
 from graphs.types import JointId, LinkId
 from synth.drawing.layout.mechanisms import Layout, layout_of
 from synth.drawing.mechanisms.labelling import SIGN, Obstacles, beside, centre_sign, placed
-from synth.drawing.scene.frame import PLAIN, Frame, PictureOptions, captions_of, framed, page_of
+from synth.drawing.scene.frame import PLAIN, PictureFrame, PictureOptions, captions_of, framed, page_of
 from synth.drawing.scene.shapes import (
     NORMAL,
     SMALL,
@@ -101,7 +101,7 @@ def _kept_drawing(sc: SCGraph) -> tuple[dict[LinkId, tuple[JointId, ...]] | None
 
 
 def _signs(
-    sc: SCGraph, layout: Layout, frame: Frame, numbers: Mapping[int, int]
+    sc: SCGraph, layout: Layout, frame: PictureFrame, numbers: Mapping[int, int]
 ) -> tuple[dict[int, _Sign], list[Loop]]:
     """Return the sign of each loop that is a face; and the loops with a centre that are not."""
     places = {frozenset(face.joints): frame.at(face.at) for face in layout.faces}

@@ -17,7 +17,7 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.types import Floats, LinkId
 from synth.drawing.layout.mechanisms import layout_of
 from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
-from synth.drawing.scene.frame import PLAIN, Box, Frame, PictureOptions, captions_of, framed, page_of
+from synth.drawing.scene.frame import PLAIN, Box, PictureFrame, PictureOptions, captions_of, framed, page_of
 from synth.drawing.scene.shapes import NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Point, Shape
 from synth.drawing.scene.writing import Scene
 from synth.drawing.space.panels import SpatialPanels, View, bodies_of, panel_shapes, panels_of, view_from_above
@@ -65,7 +65,7 @@ def solids_scene(solids: HingedSolids, options: PictureOptions = PLAIN) -> Scene
     return page_of(frame, layers, captions_of(options.caption, said))
 
 
-def _seen_from_above(points: Floats, box: Box) -> tuple[Frame, View, list[Point]]:
+def _seen_from_above(points: Floats, box: Box) -> tuple[PictureFrame, View, list[Point]]:
     """Return the frame of points in space seen from above, the view, and their places on the page."""
     view = view_from_above(points)
     seen = view.places(points)

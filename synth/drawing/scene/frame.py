@@ -46,7 +46,7 @@ PLAIN = PictureOptions()
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
+class PictureFrame:
     """The map from places of a layout, y upwards, to the page, y downwards, in points.
 
     `scale` is points per unit. The layout's least x, `left`, and greatest y, `top`, lie at `across` and `down`;
@@ -70,7 +70,9 @@ class Frame:
         return [self.at(place) for place in places]
 
 
-def framed(places: Iterable[Sequence[float]], unit: float, box: Box = BOX, margin: float = _MARGIN) -> Frame:
+def framed(
+    places: Iterable[Sequence[float]], unit: float, box: Box = BOX, margin: float = _MARGIN
+) -> PictureFrame:
     """Return a frame round places for a box, (width, height), and a margin on each side, all in points.
 
     A unit of the layout is `unit` points long, if there is room.
@@ -83,7 +85,7 @@ def framed(places: Iterable[Sequence[float]], unit: float, box: Box = BOX, margi
     for extent, room in ((wide, box[0]), (tall, box[1])):
         if extent * scale > room - 2 * margin:
             scale = (room - 2 * margin) / extent
-    return Frame(scale, left, high, margin, margin, wide * scale + 2 * margin, tall * scale + 2 * margin)
+    return PictureFrame(scale, left, high, margin, margin, wide * scale + 2 * margin, tall * scale + 2 * margin)
 
 
 def captions_of(caption: str | None, *said: str) -> list[str]:
@@ -91,7 +93,7 @@ def captions_of(caption: str | None, *said: str) -> list[str]:
     return [] if caption is None else [text for text in (caption, *said) if text]
 
 
-def page_of(frame: Frame, layers: Iterable[Layer], captions: Sequence[str] = (), title: str = "") -> Scene:
+def page_of(frame: PictureFrame, layers: Iterable[Layer], captions: Sequence[str] = (), title: str = "") -> Scene:
     """Return a scene as large as its frame, with lines of text below; long ones are broken."""
     lines = [line for text in captions for line in wrap(plain(text, _LONGEST), _LETTERS)]
     wide = max([frame.width, *(text_width(line, SMALL) + 8 for line in lines)])

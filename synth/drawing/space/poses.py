@@ -20,7 +20,7 @@ from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.types import Floats
-from synth.drawing.scene.frame import Frame, framed, page_of
+from synth.drawing.scene.frame import PictureFrame, framed, page_of
 from synth.drawing.scene.shapes import SMALL, Label, Layer, moved
 from synth.drawing.scene.writing import PICTURES, Pages, Scene, pixels
 from synth.drawing.space.panels import (
@@ -61,7 +61,7 @@ def pose_scenes(
         yield page_of(frame, [Layer("panels", tuple(shapes))])
 
 
-def _square(seen: Floats, side: float, air: float) -> Frame:
+def _square(seen: Floats, side: float, air: float) -> PictureFrame:
     """Return the frame of a square with all points of the view in its middle."""
     low, high = seen.min(axis=0), seen.max(axis=0)
     middle, half = (low + high) / 2.0, float((high - low).max() / 2.0) or 1.0
@@ -93,7 +93,7 @@ def strip_of_poses(panels: Sheet | SpatialPanels, places: Floats) -> Scene:
         right, down = place % columns * _SIZE, place // columns * _SIZE
         layers += [moved(layer, right, down) for layer in scene.layers if layer.shapes]
         numbers.append(Label((right + SMALL, down + SMALL), str(number), SMALL, "grey"))
-    frame = Frame(1.0, 0.0, 0.0, 0.0, 0.0, columns * _SIZE, ceil(len(chosen) / columns) * _SIZE)
+    frame = PictureFrame(1.0, 0.0, 0.0, 0.0, 0.0, columns * _SIZE, ceil(len(chosen) / columns) * _SIZE)
     solid = isinstance(panels, SpatialPanels) and panels.solid
     said = "frames by number, seen from one place; " + ("hinges orange" if solid else "front grey, back blue")
     return page_of(frame, [*layers, Layer("numbers", tuple(numbers))], [said])

@@ -9,7 +9,7 @@ from commands import run
 
 from graphs.files.formats import write
 from graphs.mechanism.sheet import Sheet
-from synth.folding.collisions import Panels
+from synth.folding.collisions import PanelShapes
 from synth.folding.motion import fold
 from synth.patterns.creases import miura
 
@@ -104,7 +104,7 @@ def test_triangles_cross_where_an_edge_passes_through_one(rng, shared):
             for first, second in ((one, other), (other, one))
             for k in range(3)
         )
-        assert (Panels(TRIANGLES, [0, 1], places).crossing(places) is not None) == expected
+        assert (PanelShapes(TRIANGLES, [0, 1], places).crossing(places) is not None) == expected
         seen.add(expected)
     assert seen == {True, False}
 
@@ -115,7 +115,7 @@ def test_a_notch_is_not_part_of_its_panel():
     for (x, y), meets in {(1.5, 1.5): False, (0.4, 1.6): True, (1.6, 0.4): True, (0.3, 0.4): True}.items():
         needle = [(x, y, -1), (x + 0.1, y, 1), (x, y + 0.1, 1)]
         places = np.array(corner + needle, dtype=float)
-        assert (Panels([range(6), (6, 7, 8)], [0, 1], places).crossing(places) is not None) == meets
+        assert (PanelShapes([range(6), (6, 7, 8)], [0, 1], places).crossing(places) is not None) == meets
 
 
 def test_panels_that_cross_at_the_pose_of_the_file():

@@ -101,5 +101,5 @@ def test_advice_and_states_of_the_cube_follow_its_one_freedom(pin):
     assert answer.freedoms == 1
     assert all(len(lock.joints) == 1 for lock in answer.locks)
     assert answer.locks[0].joints[0].startswith("pin")
-    locked = states(cube, answer.locks[0].joints)
+    locked = states(cube, joints=answer.locks[0].joints)
     assert [state.freedoms for state in locked.sets] == [0, 1]

@@ -14,7 +14,7 @@ from synth.templates.on_surface import Dimensions, layered
 from synth.templates.pages import Paper, clipped, gauge, note_page, tiles_across
 from synth.templates.pieces import (
     Piece,
-    Stroke,
+    TemplateLine,
     common_spans,
     cut_once,
     is_laid_out,
@@ -29,8 +29,8 @@ from synth.templates.unfolding import plane_of_panel
 
 def test_example_of_with_hinges():
     outline = [(0, 0), (50, 0), (100, 0), (100, 40), (50, 40), (0, 40)]
-    cuts = [Stroke("CUT", *ends) for ends in pairwise([*outline, outline[0]])]
-    card = Piece((*cuts, Stroke("VALLEY", (50, 0), (50, 40))), (), shapely.Polygon(outline))
+    cuts = [TemplateLine("CUT", *ends) for ends in pairwise([*outline, outline[0]])]
+    card = Piece((*cuts, TemplateLine("VALLEY", (50, 0), (50, 40))), (), shapely.Polygon(outline))
     hinged = with_hinges(card, (), Hinges("offset", 3))
     assert [stroke.start[0] for stroke in hinged.strokes if stroke.kind == "VALLEY"] == [51.5, 48.5]
 
@@ -62,7 +62,7 @@ def test_example_of_layered():
 
 
 def test_example_of_gauge():
-    assert gauge((10, 20))[0][0] == Stroke(kind="MARKS", start=(10, 20), end=(110.0, 20))
+    assert gauge((10, 20))[0][0] == TemplateLine(kind="MARKS", start=(10, 20), end=(110.0, 20))
 
 
 def test_example_of_tiles_across():
@@ -70,7 +70,7 @@ def test_example_of_tiles_across():
 
 
 def test_example_of_clipped():
-    assert clipped(Stroke("CUT", (-5, 0), (5, 10)), (0, 0, 20, 8)) == Stroke(
+    assert clipped(TemplateLine("CUT", (-5, 0), (5, 10)), (0, 0, 20, 8)) == TemplateLine(
         kind="CUT", start=(0.0, 5.0), end=(3.0, 8.0)
     )
 
@@ -82,13 +82,20 @@ def test_example_of_note_page():
 
 def test_example_of_cut_once():
     assert cut_once(
-        [Stroke("CUT", (0, 0), (30, 0)), Stroke("CUT", (50, 0), (10, 0)), Stroke("CUT", (30, 0), (0, 0))]
-    ) == [Stroke(kind="CUT", start=(0, 0), end=(30, 0)), Stroke(kind="CUT", start=(50.0, 0.0), end=(30.0, 0.0))]
+        [
+            TemplateLine("CUT", (0, 0), (30, 0)),
+            TemplateLine("CUT", (50, 0), (10, 0)),
+            TemplateLine("CUT", (30, 0), (0, 0)),
+        ]
+    ) == [
+        TemplateLine(kind="CUT", start=(0, 0), end=(30, 0)),
+        TemplateLine(kind="CUT", start=(50.0, 0.0), end=(30.0, 0.0)),
+    ]
 
 
 def test_example_of_uncovered():
-    assert uncovered(Stroke("CUT", (0, 0), (9, 0)), np.array([[[4, 0], [20, 0.0]]])) == [
-        Stroke(kind="CUT", start=(0.0, 0.0), end=(4.0, 0.0))
+    assert uncovered(TemplateLine("CUT", (0, 0), (9, 0)), np.array([[[4, 0], [20, 0.0]]])) == [
+        TemplateLine(kind="CUT", start=(0.0, 0.0), end=(4.0, 0.0))
     ]
 
 
@@ -125,7 +132,9 @@ def test_example_of_millimetres():
 
 def test_example_of_steps_of_folds():
     assert (
-        steps_of_folds([Piece((Stroke("CUT", (0, 0), (9, 0)), Stroke("VALLEY", (0, 5), (9, 5))), (), None)])[1]
+        steps_of_folds(
+            [Piece((TemplateLine("CUT", (0, 0), (9, 0)), TemplateLine("VALLEY", (0, 5), (9, 5))), (), None)]
+        )[1]
         == "Fold 1 valley (blue, dashes: towards you). You see the printed side."
     )
 

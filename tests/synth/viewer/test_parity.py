@@ -14,7 +14,7 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.tolerances import EPSILON, Tolerances
-from synth.folding.collisions import Panels
+from synth.folding.collisions import PanelShapes
 from synth.motion.closure import ClosureEquations
 from synth.motion.path import driven_path
 from synth.patterns.creases import miura
@@ -123,7 +123,7 @@ def test_panels_that_cross():
     goals = np.radians([30.0, 60.0, 90.0, 120.0, 150.0])
     question = {**one.question, "driver": driver, "held": [1 - driver], "direction": None, "goals": goals.tolist()}
     (answer,) = answers([question])
-    panels = Panels(faces, range(3), moving.bodies.vertices)
+    panels = PanelShapes(faces, range(3), moving.bodies.vertices)
     expected = [panels.crossing(np.reshape(frame["places"], (-1, 3))) for frame in answer["frames"]]
     assert [frame["crossings"] for frame in answer["frames"]] == [
         [list(pair)] if pair else [] for pair in expected

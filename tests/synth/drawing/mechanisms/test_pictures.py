@@ -15,7 +15,8 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.reduce import reduce
-from synth.drawing.mechanisms.pictures import COLOURINGS, KINDS, draw
+from synth.drawing.mechanisms.creases import COLOURINGS
+from synth.drawing.mechanisms.pictures import KINDS, draw
 from synth.drawing.scene.shapes import Disc, Line
 from synth.drawing.scene.writing import svg_text
 from synth.drawing.space.panels import drawn_order
