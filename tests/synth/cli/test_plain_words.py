@@ -31,21 +31,6 @@ TELLS = re.compile(r"\b(told|tells?)\b(?!( \w+){0,3} (apart|from))", re.IGNORECA
 PLURAL = re.compile(r"\((s|es)\)")
 NOT_IN_ERRORS = (PLURAL, TELLS, re.compile(r"(?<!\.)\.$"), re.compile(r"\bas (it|they) lies?\b"))
 """Plurals that are not computed, "tell" for "report", a full stop at the end, a configuration that "lies"."""
-STILL_ALLOWED = {
-    "a mechanism with {} spatial loop(s) has no {} analogue",
-    "{} word(s)",
-    "{} cell(s)",
-    "steps: {} tell the {}",
-    "{} has {} joint(s)",
-    "{} meets link {} in {} joint(s)",
-    "link {} has {} side(s)",
-    "{} has no centre and {} open edge(s){}",
-    "{} input(s) for {} freedom(s): name one input for each",
-    "{} tell the {} themselves: leave --{} out",
-    "{} orientation(s)",
-    "in every pose above this drawing the panels at joint(s) {} are one plane",
-}
-"""Messages of rooms that are yet to be rewritten; none of `synth.cli` and `synth.templates`. Remove them with these."""
 ROOT = Path(__file__).parents[3]
 ERRORS = re.compile(r"(Error|BadParameter)$")
 OPTION = re.compile(r"(?<![\w/.-])--?[a-z][a-z-]*")
@@ -172,7 +157,7 @@ def test_errors_are_written_plainly(package):
         (path.relative_to(ROOT).as_posix(), message)
         for path in (ROOT / package).rglob("*.py")
         for message in _errors(path.read_text(encoding="utf-8"))
-        if not _is_plain(message) and message not in STILL_ALLOWED
+        if not _is_plain(message)
     }
     assert wrong == set()
 
