@@ -2,6 +2,7 @@
 PYTHON ?= python3
 VENV   := .venv
 BIN    := $(VENV)/bin
+USER   := $(VENV)/.installed-for-users
 STAMP  := $(VENV)/.installed
 # One process per core. Each takes tests from its own part of the list first, so that what one test compiled or
 # listed serves its neighbours; who is done takes from the others. PARALLEL= runs them in one process.
@@ -9,10 +10,11 @@ PARALLEL ?= -n logical --dist loadgroup
 # Byte code is kept, whatever the shell says: the tests start many processes, and pytest rewrites every file.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo test test-unit test-slow test-night durations test-web test-machines page check data pictures docs examples release clean help
+.PHONY: demo compiled test test-unit test-slow test-night durations test-web test-machines page check data pictures docs examples release clean help
 
 help:
-	@echo "make demo       install into $(VENV), ask some mechanisms for their mobility, and compile what enumerations need"
+	@echo "make demo       install into $(VENV) what users need, and ask some mechanisms for their mobility"
+	@echo "make compiled   compile what large enumerations need, before their first use: minutes"
 	@echo "make test       all tests but the slow ones"
 	@echo "make test-unit  the quickest of them, of single functions and classes: half a minute"
 	@echo "make test-slow  the slow tests too, at their full sizes: 90 minutes at most on two idle cores"
@@ -29,12 +31,17 @@ help:
 	@echo "make examples   write the output of the commands in README.md and docs/ into them anew, and name those that change"
 	@echo "make clean      remove $(VENV) and what tools keep here; machine code stays in ~/.cache/synthedra"
 
-$(STAMP): pyproject.toml
+# An environment with what users need; everything else comes with the first target that needs it.
+$(USER): pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 	  { echo "synthedra needs Python 3.11 or newer; name one with: make PYTHON=python3.11 ..." >&2; exit 2; }
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || $(MAKE) --no-print-directory install-venv
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --upgrade pip
+	$(BIN)/python -m pip install --quiet -e '.[draw,view]'
+	@touch $@
+
+$(STAMP): $(USER)
 	$(BIN)/python -m pip install --quiet -e '.[all]'
 	@touch $@
 
@@ -48,10 +55,12 @@ install-venv:
 	  echo "This Python cannot make virtual environments. Install them first: sudo apt-get install $$pkg" >&2; exit 2; \
 	fi
 
-demo: $(STAMP) page
+demo: $(USER) page
 	@BIN=$(BIN) sh data/demo.sh
-	@$(BIN)/python -m synth.cli.ahead || true
 	@echo "Next: . $(BIN)/activate, then synth --help"
+
+compiled: $(USER)
+	$(BIN)/python -m synth.cli.ahead
 
 # Compiled once before the tests, so that two of them do not compile the same function side by side.
 COMPILED := $(VENV)/.compiled
@@ -60,7 +69,7 @@ $(COMPILED): $(STAMP) $(shell find enumerate synth/conformed -name '*.py')
 	@touch $@
 
 # The script of the page, built by npm and esbuild. Where npm is missing or out of reach it says so, and all else goes on.
-page: $(STAMP)
+page: $(USER)
 	@$(BIN)/python synth/viewer/building.py
 
 test: $(STAMP) $(COMPILED)

@@ -33,6 +33,7 @@ import numpy as np
 
 from enumerate.chains.counting import count_by_burnside, count_by_orbits
 from enumerate.contracted.graphs import cubic_graphs, descendants
+from enumerate.machine_code.kernels import use_machine_code
 from graphs.types import Bytes, Floats
 
 RESULTS = Path(__file__).parent / "results"
@@ -174,6 +175,7 @@ def figures_of(cubic: int, sample: Sample, found: Counted) -> dict[str, Any]:
 
 def main() -> None:
     """Draw, count and write."""
+    use_machine_code()
     links, ancestors, wanted = [*map(int, sys.argv[1:]), *(400, 400)[len(sys.argv) - 2 :]]
     loops = (links - 2) // 2
     dice = np.random.default_rng(SEED)

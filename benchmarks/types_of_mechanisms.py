@@ -18,6 +18,7 @@ from pathlib import Path
 from statistics import median
 from time import perf_counter
 
+from enumerate.machine_code.kernels import use_machine_code
 from enumerate.sc.jobs import UNIT_ROWS, SCJob, count_sc_graphs, drawn_of
 from enumerate.sc.listing import describe
 from enumerate.sc.query import SCQuery
@@ -75,6 +76,7 @@ def scd_rows(mechanisms: SCDQuery) -> int:
 
 def main() -> None:
     """Time the jobs and store the figures."""
+    use_machine_code()
     figures: dict[str, object] = {"python": platform.python_version(), "cores": os.cpu_count()}
     for links, dof in ((10, 1), (12, 1), (11, 2)):
         figures[f"SC {links} links M={dof}, compiled"] = timed(lambda n=links, m=dof: sc_compiled(n, m))

@@ -179,6 +179,11 @@ class AddendumJob:
         found = (addendum for a, b in payload for addendum in self._between(a, b, before))
         return [_row(addendum) if self.as_rows else (addendum,) for addendum in found]
 
+    def interpreted(self, weight: int) -> float:
+        """Return no seconds: kernels find orbits only."""
+        del weight
+        return 0.0
+
     def number(self, payload: Sequence[tuple[LinkId, LinkId]]) -> int:
         """Return the number of rows of a unit."""
         return len(self.work(payload))

@@ -42,6 +42,14 @@ def count_by_orbits(codes: Bytes, n: int, links: int, most: int, inversions: boo
         The longest string of binary links to allow.
     inversions : bool
         Count pairs of a chain and a link of it, up to isomorphism.
+
+    Examples
+    --------
+    The chains of Watt and Stephenson come of two links with three joints:
+
+    >>> from enumerate.contracted.graphs import cubic_graphs
+    >>> count_by_orbits(cubic_graphs(2), 2, 6, 2, False)
+    2
     """
     total = 0
     for c in range(len(codes)):
@@ -50,7 +58,7 @@ def count_by_orbits(codes: Bytes, n: int, links: int, most: int, inversions: boo
             total += count_with_a_link(frame, links - n, most)
         else:
             total += count_orbits(frame, links - n, most)
-    return total
+    return int(total)
 
 
 @compiled
@@ -67,7 +75,7 @@ def count_in(frame: Frame, wanted: PlacementRange, prefix: Ints) -> int:
     """Return the number of placements with a prefix, the joints of the first units."""
     units, m = wanted.links - frame.links, len(frame.ends)
     if wanted.only == EVERY and len(prefix) == 0:
-        return count_orbits(frame, units, wanted.most)
+        return int(count_orbits(frame, units, wanted.most))
     nothing, nowhere = np.zeros((0, m), np.uint8), no_prefix()
     cost = np.ones(m, np.int64)
     total = 0
@@ -76,7 +84,7 @@ def count_in(frame: Frame, wanted: PlacementRange, prefix: Ints) -> int:
             room, weight = conditions(frame.ends, frame.sets, frame.needs, bound)
             left = Units(bound, units - bound, wanted.most)
             total += place(room, weight, cost, frame.first, left, frame.moved, prefix, nothing, nowhere)
-    return total
+    return int(total)
 
 
 @compiled
@@ -106,6 +114,14 @@ def count_by_burnside(codes: Bytes, n: int, links: int, most: int, inversions: b
     ----------
     codes, n, links, most, inversions
         As for `count_by_orbits`.
+
+    Examples
+    --------
+    The chains of Watt and Stephenson come of two links with three joints:
+
+    >>> from enumerate.contracted.graphs import cubic_graphs
+    >>> count_by_burnside(cubic_graphs(2), 2, 6, 2, False)
+    2
     """
     total = 0
     for c in range(len(codes)):
@@ -122,4 +138,4 @@ def count_by_burnside(codes: Bytes, n: int, links: int, most: int, inversions: b
                 for v in range(n):
                     fixed += placements * (automorphisms[a, v] == v)
         total += number_of_orbits(fixed, len(automorphisms))
-    return total
+    return int(total)

@@ -28,6 +28,7 @@ from enumerate.chains.query import ChainOptions, ChainQuery
 from enumerate.chains.rows import GraphChains, columns_of, rows_of_graph, rows_of_joints
 from enumerate.contracted.binary_links import EVERY
 from enumerate.contracted.graphs import contracted_graphs, cubic_graphs, descendants
+from enumerate.machine_code.weights import CHAIN, placing
 from enumerate.runner.job import (
     ANY_NUMBER,
     ONE_OR_MORE,
@@ -175,6 +176,10 @@ class ChainJob(QueryJob[ChainQuery]):
         chains = (joints for blocks in payload.choices for joints in glued(blocks))
         return [row for joints in chains for row in rows_of_joints(query, joints, self.bare)]
 
+    def interpreted(self, weight: int) -> float:
+        """Return about how many seconds the job takes with kernels interpreted, for so many rows."""
+        return placing(self.query.loops, self.query.dof) + CHAIN * weight
+
     def _chains(self, payload: _Graphs) -> Iterator[GraphChains]:
         for code in payload.codes:
             yield GraphChains.of(self.query, code, payload.n, payload.only, payload.prefix)
@@ -268,6 +273,11 @@ class CountJob(QueryCount[ChainQuery]):
         levels = _admitted(self.query, descendants(codes, n)) if self.streamed else [(n, codes)]
         return [(self._number(some, links), links) for links, some in levels]
 
+    def interpreted(self, weight: int) -> float:
+        """Return about how many seconds the job takes with kernels interpreted, whatever its units weigh."""
+        del weight
+        return placing(self.query.loops, self.query.dof) * (self.query.links if self.query.inversions else 1)
+
     def _number(self, codes: Bytes, n: int) -> int:
         query = self.query
         count = count_by_burnside if self.method == "burnside" else count_by_orbits
@@ -283,6 +293,11 @@ class _ConnectedCountJob(QueryCount[ChainQuery]):
     def units(self) -> Sequence[Unit]:
         """One unit."""
         return [Unit(None)] if self.query.possible else []
+
+    def interpreted(self, weight: int) -> float:
+        """Return about how many seconds the job takes with kernels interpreted."""
+        del weight
+        return placing(self.query.loops, self.query.dof)
 
     def work(self, payload: None) -> list[Row]:
         """Return the number."""

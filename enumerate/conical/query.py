@@ -15,6 +15,7 @@ import numpy as np
 
 from enumerate.conical.rounds import Rounds, count_rounds_by_burnside, count_rounds_by_orbits, placements, prefixes
 from enumerate.contracted.binary_links import orbits_of
+from enumerate.machine_code.weights import ROUND
 from enumerate.runner.job import Column, QueryCount, QueryJob, Row, Unit
 from enumerate.runner.running import total_of, tuples_of
 from graphs.errors import InvariantError, UnsolvableError, shown
@@ -186,6 +187,10 @@ class _OrderJob(QueryJob[ConicalQuery]):
         """A unit for each portion."""
         return [Unit(portion, weight) for portion, weight in self.query.portions(_PLACEMENTS)]
 
+    def interpreted(self, weight: int) -> float:
+        """Return about how many seconds the job takes with kernels interpreted, for so many placements."""
+        return ROUND * weight
+
     def work(self, payload: Portion) -> list[Row]:
         """Return the rows of a unit."""
         return [(payload.ground, tuple(row)) for row in self.query.placements(payload)[0].tolist()]
@@ -208,6 +213,10 @@ class ConicalCountJob(QueryCount[ConicalQuery]):
         if self.method == "burnside":
             return [Unit(Portion(ground, (0,))) for ground in self.query.grounds]
         return [Unit(portion, weight) for portion, weight in self.query.portions(_PLACEMENTS)]
+
+    def interpreted(self, weight: int) -> float:
+        """Return about how many seconds the job takes with kernels interpreted, for so many placements."""
+        return ROUND * weight
 
     def work(self, payload: Portion) -> list[Row]:
         """Return the number of candidates of a unit."""

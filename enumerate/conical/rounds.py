@@ -18,6 +18,7 @@ from math import perm
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, cycles, doubled
+from enumerate.machine_code.weights import expect, layering
 from graphs.errors import InvariantError
 from graphs.types import Ints
 
@@ -298,7 +299,9 @@ def fewest_layers(arcs: Ints) -> Ints:
     >>> fewest_layers(np.array([[[0b011], [0b110], [0b101]], [[0b001], [0b010], [0b100]]])).tolist()
     [3, 1]
     """
-    return _fewest_of_all(np.ascontiguousarray(arcs, dtype=np.int64))
+    masks = np.ascontiguousarray(arcs, dtype=np.int64)
+    expect(len(masks) * layering(masks.shape[1]))
+    return _fewest_of_all(masks)
 
 
 def layers_of_links(arcs: Ints) -> tuple[Ints, Ints]:
@@ -313,5 +316,6 @@ def layers_of_links(arcs: Ints) -> tuple[Ints, Ints]:
     """
     masks = np.ascontiguousarray(arcs, dtype=np.int64)
     chosen, layer_of = np.zeros(len(masks), np.int64), np.zeros(len(masks), np.int64)
+    expect(layering(len(masks)))
     _fewest(masks, chosen, layer_of, _STEPS)
     return chosen, layer_of

@@ -20,6 +20,7 @@ import numpy as np
 from enumerate.contracted.graphs import decode
 from enumerate.kernel.compiled import compiled, doubled
 from enumerate.kernel.labelling import canonical_labels
+from enumerate.kernel.words import minus, plus
 from graphs.types import Bytes, Flags, Ints, Words
 
 _GUARD = np.uint64(0x8080808080808080)
@@ -89,7 +90,7 @@ def slots(adjacency: Bytes, n: int) -> tuple[Bytes, Ints]:
     m = 0
     for a in range(n):
         for b in range(a):
-            m += adjacency[a, b]
+            m += int(adjacency[a, b])
     ends = np.zeros((m, 2), np.uint8)
     first = np.zeros(m, np.int64)
     k = 0
@@ -141,7 +142,7 @@ def rigid_sets(adjacency: Bytes, n: int) -> tuple[Ints, Ints]:
             degree = 0
             for k in range(below):
                 if (s >> ends[k]) & 1:
-                    degree += adjacency[top, ends[k]]
+                    degree += int(adjacency[top, ends[k]])
             score[s] = score[s - (1 << top)] + 2 * degree - 3
             need = np.int64(score[s]) + 4
             if s == whole or (need > 0 and degree > 1 and _says_more(adjacency, n, s, int(need), found[:count])):
@@ -163,7 +164,7 @@ def _says_more(adjacency: Bytes, n: int, s: int, need: int, found: Ints) -> bool
             degree = 0
             for u in range(n):
                 if (s >> u) & 1:
-                    degree += adjacency[u, v]
+                    degree += int(adjacency[u, v])
             if degree < 2 or not _connected(adjacency, n, s & ~(1 << v)):
                 return False
     return True
@@ -289,7 +290,7 @@ def place(
             if fixed and depth >= len(prefix):
                 found = _note(x, fixed, out, fixing, found)
         if depth == 0:
-            return found
+            return int(found)
         depth -= 1  # take the last unit back and look for the next place for it
         v = at[depth]
         x[v] -= 1
@@ -313,7 +314,7 @@ def _next(
     while v < stop:
         broken = np.uint64(0)
         for k in range(words):
-            broken |= ~(left[depth, k] + inside[v, k] - due)
+            broken |= ~minus(plus(left[depth, k], inside[v, k]), due)
         if broken & _GUARD:  # what is due does not fit inside some set any more, nor outside
             return stop
         if x[v] < most and (first[v] == v or x[v] < x[v - 1]):
@@ -440,7 +441,7 @@ def joints_of_all(frame: Frame, x: Bytes) -> Ints:
     rows, m = x.shape
     binary = 0
     for e in range(m):
-        binary += x[0, e]
+        binary += int(x[0, e])
     joints = np.empty((rows, m + binary, 2), np.int64)
     for r in range(rows):
         link, k = frame.links, 0
@@ -492,7 +493,7 @@ def link_symmetries(frame: Frame, links: int, x: Bytes) -> Ints:
             f = moved[a, e]
             turned = automorphisms[a, ends[e, 0]] != ends[f, 0]
             for i in range(x[e]):
-                found[k, offset[e] + i] = offset[f] + (x[e] - 1 - i if turned else i)
+                found[k, offset[e] + i] = offset[f] + (int(x[e]) - 1 - i if turned else i)
         k += 1
     for e in range(1, m):
         if first[e] != e and x[e] == x[e - 1]:

@@ -20,6 +20,7 @@ import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled, empty_set, insert
 from enumerate.kernel.labelling import canonical_labels
+from enumerate.machine_code.weights import expect, placing
 from graphs.errors import InvariantError
 from graphs.types import Bytes, Ints
 
@@ -52,7 +53,7 @@ def contracted_graphs(loops: int) -> Iterator[tuple[int, Bytes]]:
     >>> {links: len(codes) for links, codes in contracted_graphs(4)}
     {6: 5, 5: 4, 4: 5, 3: 2, 2: 1}
     """
-    yield from _growth().levels(loops)
+    yield from _growth(loops).levels(loops)
 
 
 def cubic_graphs(loops: int) -> Bytes:
@@ -80,10 +81,12 @@ def cubic_graphs(loops: int) -> Bytes:
     >>> [len(cubic_graphs(loops)) for loops in (2, 3, 4, 5)]
     [1, 2, 5, 16]
     """
-    return _growth().cubic(loops)
+    return _growth(loops).cubic(loops)
 
 
-def _growth() -> Growth:
+def _growth(loops: int) -> Growth:
+    """Return how contracted graphs of so many loops come from each other, and use machine code where it pays."""
+    expect(placing(loops, 1))
     two_links_with_three_joints = np.zeros((1, 3), np.uint8)
     return Growth(MOST_LOOPS, two_links_with_three_joints, _extend_all, _contract_all)
 
@@ -106,7 +109,7 @@ def _ends(place: int) -> tuple[int, int]:
     while place >= first + row:
         first += row
         row += 1
-    return row, place - first
+    return row, int(place) - first
 
 
 @compiled
@@ -126,7 +129,7 @@ def graph_key(adjacency: Bytes, n: int) -> Bytes:
     joints = 0
     for i in range(n):
         for j in range(i):
-            joints += adjacency[i, j]
+            joints += int(adjacency[i, j])
     code = np.empty(joints, np.uint8)
     order, _ = canonical_labels(adjacency, n)
     encode(adjacency, order, code)
@@ -294,8 +297,8 @@ def _bridge(adjacency: Bytes, n: int, place: int, other: int, twice: bool) -> By
 @compiled
 def _add(adjacency: Bytes, u: int, v: int, joints: int) -> None:
     """Add joints between two links."""
-    adjacency[u, v] += joints
-    adjacency[v, u] += joints
+    adjacency[u, v] = int(adjacency[u, v]) + joints
+    adjacency[v, u] = int(adjacency[v, u]) + joints
 
 
 class Growth(NamedTuple):
@@ -436,7 +439,7 @@ def _halves(adjacency: Bytes, n: int, u: int, v: int, numbers: Ints) -> Ints:
         link, other = (u, v) if k == 0 else (v, u)
         joints = 0
         for w in range(n):
-            joints += adjacency[link, w]
+            joints += int(adjacency[link, w])
         if joints != 3:
             continue
         at = 0

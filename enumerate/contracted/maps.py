@@ -19,6 +19,7 @@ from enumerate.contracted.binary_links import Frame, rigid_sets
 from enumerate.contracted.graphs import Growth, cheapest_degree
 from enumerate.kernel.compiled import compiled, empty_set, insert
 from enumerate.kernel.maps import END, JOINT, canonical_map, decode_map, faces_of, from_turns, symmetries_of_map
+from enumerate.machine_code.weights import expect, placing
 from graphs.types import Bytes, Ints
 
 MOST_MAP_LOOPS = 9
@@ -51,7 +52,7 @@ def contracted_maps(loops: int) -> Iterator[tuple[int, Bytes]]:
     >>> {links: len(codes) for links, codes in contracted_maps(4)}
     {6: 4, 5: 4, 4: 5, 3: 2, 2: 1}
     """
-    yield from _growth().levels(loops)
+    yield from _growth(loops).levels(loops)
 
 
 def cubic_maps(loops: int) -> Bytes:
@@ -76,10 +77,12 @@ def cubic_maps(loops: int) -> Bytes:
     >>> [len(cubic_maps(loops)) for loops in (2, 3, 4, 5)]
     [1, 2, 4, 14]
     """
-    return _growth().cubic(loops)
+    return _growth(loops).cubic(loops)
 
 
-def _growth() -> Growth:
+def _growth(loops: int) -> Growth:
+    """Return how contracted maps of so many loops come from each other, and use machine code where it pays."""
+    expect(placing(loops, 1))
     return Growth(MOST_MAP_LOOPS, _theta(), _extend_all, _contract_all)
 
 
@@ -293,7 +296,7 @@ def expanded(code: Bytes, n: int, x: Bytes) -> tuple[Ints, Ints, Ints]:
     offset = np.empty(m, np.int64)
     for e in range(m):
         offset[e] = 0 if e == 0 else offset[e - 1] + x[e - 1] + 1
-        joints += x[e]
+        joints += int(x[e])
     image = np.empty(2 * m, np.int64)
     for e in range(m):
         image[2 * e] = 2 * offset[e]

@@ -15,6 +15,7 @@ import numpy as np
 
 from enumerate.contracted.binary_links import Frame
 from enumerate.kernel.compiled import compiled, doubled
+from enumerate.kernel.words import GOLDEN, mixed, times
 from graphs.types import Bytes, Ints, Words
 
 
@@ -201,7 +202,6 @@ GROUP = np.uint64(32)
 
 GROUPS = np.uint64(0xFFFF << 32)
 _UNITS = np.uint64(0xFFFFFFFF)
-_MIX = np.uint64(0x9E3779B97F4A7C15)
 
 
 class StateTable(NamedTuple):
@@ -243,10 +243,9 @@ def _slot(slots: Ints, words: Words, row: Words) -> np.int64:
     """Return where a row is in a hash table of rows, or the free slot where it belongs."""
     word = np.uint64(0)
     for part in row:
-        word = (word ^ part) * _MIX
-        word ^= word >> np.uint64(32)
+        word = mixed(word, part, np.uint64(0), np.uint64(32))
     mask = len(slots) - 1
-    slot = np.int64((word * _MIX) >> np.uint64(34)) & mask
+    slot = np.int64(times(word, GOLDEN) >> np.uint64(34)) & mask
     while slots[slot] >= 0:
         other = slots[slot]
         k = 0

@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from enumerate.kernel.compiled import compiled
+from enumerate.kernel.words import lowest_in, number_in
 from graphs.types import Ints
 
 MOST_NODES = 62
@@ -100,26 +101,11 @@ def _numbered(adjacent: Ints, cells: _Cells, automorphisms: int) -> bool:
             regions[depth] = component
         # If each cell that is split is one orbit of the stabiliser of the vertices before it, the product of their
         # sizes is the order of the group (orbit-stabiliser); otherwise it is greater.
-        choices *= _size(cells.at[chosen])
+        choices *= number_in(cells.at[chosen])
         if choices > automorphisms:
             return False
         _single_out(cells, chosen)
         _refine(adjacent, cells)
-
-
-@compiled
-def _size(members: int) -> int:
-    """Return how many there are in a set."""
-    members -= (members >> 1) & 0x5555555555555555
-    members = (members & 0x3333333333333333) + ((members >> 2) & 0x3333333333333333)
-    members = (members + (members >> 4)) & 0x0F0F0F0F0F0F0F0F
-    return (members * 0x0101010101010101) >> 56
-
-
-@compiled
-def _lowest(members: int) -> int:
-    """Return the least in a set that is not empty."""
-    return _size((members & -members) - 1)
 
 
 @compiled
@@ -134,13 +120,13 @@ def _begin(adjacent: Ints, cells: _Cells) -> None:
     n = len(adjacent)
     for v in range(n):
         cells.at[v] = 0
-        cells.parts[_size(adjacent[v])] |= 1 << v
+        cells.parts[number_in(adjacent[v])] |= 1 << v
     cells.state[_BEGIN] = cells.state[_WAITING] = cells.state[_NUMBER] = 0
     p = 0
     for degree in range(n):
         if cells.parts[degree]:
             _set_cell(cells, p, cells.parts[degree])
-            p += _size(cells.parts[degree])
+            p += number_in(cells.parts[degree])
             cells.parts[degree] = 0
     for p in range(n):
         if cells.at[p]:
@@ -153,7 +139,7 @@ def _set_cell(cells: _Cells, p: int, members: int) -> None:
     cells.state[_NUMBER] += cells.at[p] == 0
     cells.at[p] = members
     while members:
-        cells.place[_lowest(members)] = p
+        cells.place[lowest_in(members)] = p
         members &= members - 1
 
 
@@ -166,7 +152,7 @@ def _add(cells: _Cells, p: int, single: bool) -> None:
         cells.state[_BEGIN] = begin
         cells.queue[begin] = p
     else:
-        cells.queue[(begin + _size(waiting)) % _QUEUE] = p
+        cells.queue[(begin + number_in(waiting)) % _QUEUE] = p
     cells.state[_WAITING] = waiting | (1 << p)
 
 
@@ -181,11 +167,11 @@ def _refine(adjacent: Ints, cells: _Cells) -> None:
         splitter = left = cells.at[p]
         beside = 0
         while left:
-            beside |= adjacent[_lowest(left)]
+            beside |= adjacent[lowest_in(left)]
             left &= left - 1
         touched = _places(cells, beside)
         while touched:
-            _split(adjacent, cells, _lowest(touched), splitter)
+            _split(adjacent, cells, lowest_in(touched), splitter)
             touched &= touched - 1
 
 
@@ -194,7 +180,7 @@ def _places(cells: _Cells, members: int) -> int:
     """Return the places of the cells, of two vertices or more, that hold some vertices."""
     places = 0
     while members:
-        p = cells.place[_lowest(members)]
+        p = cells.place[lowest_in(members)]
         if not _is_single(cells.at[p]):
             places |= 1 << p
         members &= ~cells.at[p]
@@ -207,17 +193,17 @@ def _split(adjacent: Ints, cells: _Cells, p: int, splitter: int) -> None:
     parts, left, most = cells.parts, cells.at[p], 0
     waits = (cells.state[_WAITING] >> p) & 1
     if _is_single(splitter):
-        beside = adjacent[_lowest(splitter)]
+        beside = adjacent[lowest_in(splitter)]
         parts[0], parts[1], most, left = left & ~beside, left & beside, 1, 0
     while left:
-        count = _size(adjacent[_lowest(left)] & splitter)
+        count = number_in(adjacent[lowest_in(left)] & splitter)
         parts[count] |= left & -left
         most = max(most, count)
         left &= left - 1
     if parts[most] == cells.at[p]:
         parts[most] = 0
         return
-    largest, first, end = -1, p, p + _size(cells.at[p])
+    largest, first, end = -1, p, p + number_in(cells.at[p])
     for count in range(most + 1):
         if parts[count] == 0:
             continue
@@ -227,7 +213,7 @@ def _split(adjacent: Ints, cells: _Cells, p: int, splitter: int) -> None:
             _add(cells, p, p == end - 1)  # for bliss, it still holds the vertices behind it
         elif not waits:
             largest = _passed_over(cells, largest, p, most)
-        p += _size(cells.at[p])
+        p += number_in(cells.at[p])
     if not waits and _is_single(cells.at[largest]):
         _add(cells, largest, True)
 
@@ -237,7 +223,7 @@ def _passed_over(cells: _Cells, largest: int, p: int, most: int) -> int:
     """Let a new cell wait, or the largest up to now if it is larger than that; return which does not."""
     if largest < 0:
         return p
-    size, other = _size(cells.at[p]), _size(cells.at[largest])
+    size, other = number_in(cells.at[p]), number_in(cells.at[largest])
     if size > other or (size == other and most == 1):  # with two numbers of neighbours, 0 and 1, the first waits
         _add(cells, largest, other == 1)
         return p
@@ -258,13 +244,13 @@ def _chosen_cell(adjacent: Ints, cells: _Cells, region: int) -> tuple[int, int]:
     found = todo = 1 << first
     chosen, most, component = first, -1, 0
     while todo:
-        p = _lowest(todo)
+        p = lowest_in(todo)
         todo &= todo - 1
         component |= cells.at[p]
-        beside = adjacent[_lowest(cells.at[p])]
+        beside = adjacent[lowest_in(cells.at[p])]
         near, number = _places(cells, beside), 0
         while near:
-            q = _lowest(near)
+            q = lowest_in(near)
             near &= near - 1
             if cells.at[q] & ~beside:
                 number += 1
@@ -280,7 +266,7 @@ def _single_out(cells: _Cells, p: int) -> None:
     """Give one vertex of a cell a cell of its own, behind the others."""
     members = cells.at[p]
     vertex = members & -members
-    last = p + _size(members) - 1
+    last = p + number_in(members) - 1
     _set_cell(cells, p, members & ~vertex)
     _set_cell(cells, last, vertex)
     if _is_single(cells.at[p]):

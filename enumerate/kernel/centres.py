@@ -12,6 +12,7 @@ docs/theory/exact-mobility.md.
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
+from enumerate.kernel.words import GOLDEN, has_several, plus, times
 from graphs.types import Ints, Words
 
 OUTER, FINITE, INFINITE, SPATIAL = 0, 1, 2, 3
@@ -67,8 +68,7 @@ def classes_of(around: Words, labels: Ints) -> tuple[Ints, int]:
 @compiled
 def _one_class(common: np.uint64, label: int, other: int) -> bool:
     """Tell whether two classes with these joints in common must be one."""
-    two = common & (common - np.uint64(1)) != 0
-    return two or (common != 0 and label == INFINITE and other == INFINITE)
+    return has_several(common) or (common != 0 and label == INFINITE and other == INFINITE)
 
 
 @compiled
@@ -169,10 +169,10 @@ def _minus(value: np.uint64, which: int) -> np.uint64:
 @compiled
 def _random(state: Words, which: int) -> np.uint64:
     """Return the next number of a sequence that begins anew for each graph (splitmix64)."""
-    state[0] += np.uint64(0x9E3779B97F4A7C15)
+    state[0] = plus(state[0], GOLDEN)
     z = state[0]
-    z = (z ^ (z >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
-    z = (z ^ (z >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    z = times(z ^ (z >> np.uint64(30)), np.uint64(0xBF58476D1CE4E5B9))
+    z = times(z ^ (z >> np.uint64(27)), np.uint64(0x94D049BB133111EB))
     return _mod((z ^ (z >> np.uint64(31))) >> np.uint64(1), which)
 
 

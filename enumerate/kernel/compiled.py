@@ -1,35 +1,16 @@
-"""What compiled code shares: the one decorator, arrays and sets of rows that grow, orbits by Burnside's lemma."""
+"""What kernels share: the one decorator, arrays and sets of rows that grow, orbits by Burnside's lemma."""
 
-from collections.abc import Callable, Sequence
-from typing import Any, TypeVar, cast
+from collections.abc import Sequence
+from typing import TypeVar
 
-import numba
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.machine_code.cache import KeptCode, fingerprint
+from enumerate.kernel.words import mixed
+from enumerate.machine_code.kernels import compiled as compiled  # noqa: PLC0414 - others take it from here
 from graphs.types import Bytes, Ints
 
 T = TypeVar("T", bound=np.generic)
-F = TypeVar("F", bound=Callable[..., object])
-
-
-kernels: list[Callable[..., object]] = []
-"""All functions compiled or to be compiled, of the modules imported so far."""
-
-
-def compiled(function: F) -> F:
-    """Compile a function of numbers and arrays when it is first called, and keep the machine code on disk.
-
-    The code is kept for this user in ``~/.cache/synthedra``, or where ``SYNTHEDRA_CACHE`` or ``XDG_CACHE_HOME``
-    says, and is renewed when the function's module changes or any own module that it imports. Other threads run
-    meanwhile.
-    """
-    kernel: Any = numba.njit(nogil=True)(function)
-    if fingerprint(function.__module__) and hasattr(kernel, "enable_caching"):  # without, numba compiles nothing
-        kernel._cache = KeptCode(function)
-    kernels.append(kernel)
-    return cast(F, kernel)
 
 
 @compiled
@@ -63,8 +44,7 @@ def slot_of(table: Ints, rows: Bytes | Ints, row: Bytes | Ints) -> np.int64:
     """
     word = np.uint64(0)
     for value in row:
-        word = (word ^ np.uint64(value)) * np.uint64(0x9E3779B97F4A7C15)
-        word ^= word >> np.uint64(32)
+        word = mixed(word, np.uint64(value), np.uint64(0), np.uint64(32))
     slot = np.int64(word & np.uint64(len(table) - 1))
     while table[slot] >= 0:
         other = rows[table[slot]]
@@ -119,4 +99,4 @@ def number_of_orbits(fixed: int, symmetries: int) -> int:
     """
     if fixed % symmetries:
         raise ArithmeticError("Burnside's lemma gives no whole number of orbits")
-    return fixed // symmetries
+    return int(fixed // symmetries)

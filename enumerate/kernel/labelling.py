@@ -13,6 +13,7 @@ Source: McKay and Piperno, *Practical graph isomorphism, II*, J. Symb. Comput. 6
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
+from enumerate.kernel.words import mixed, plus
 from graphs.types import Bytes, Words
 
 MOST_VERTICES = 22
@@ -57,7 +58,7 @@ def refine(
         for v in range(n):
             total = np.uint64(0)
             for k in range(count[v]):
-                total += _MIX[colour[ends[v, k]], joints[v, k]]
+                total = plus(total, _MIX[colour[ends[v, k]], joints[v, k]])
             sums[v] = total
         new_cells = 1
         i = 0
@@ -80,8 +81,7 @@ def refine(
                 previous_colour, previous_sum, start = colour[v], sums[v], i
                 new_cells += 1
             colour[v] = start
-            trace = (trace ^ sums[v]) * np.uint64(0x9E3779B97F4A7C15) + np.uint64(start)
-            trace ^= trace >> np.uint64(29)
+            trace = mixed(trace, sums[v], np.uint64(start), np.uint64(29))
         if new_cells in (cells, n):  # sums split no cell any more: the colouring is equitable
             return trace
         cells = new_cells

@@ -1,5 +1,5 @@
-"""Where machine code is kept between runs, what it is made of, and a word to the user when it has to be made.
+"""Kernels, interpreted or as machine code; where that is kept between runs, and a word when it has to be made.
 
-`enumerate.kernel.compiled` decorates what is compiled; a numba function asks here first. Without numba are
-``notice`` and ``folders``, which the command line uses.
+``kernels`` decorates what is compiled, and ``weights`` says when that pays; a numba function asks ``cache`` first.
+All but that load without numba.
 """

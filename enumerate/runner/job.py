@@ -145,6 +145,12 @@ class Listing(Job, Protocol):
     def number(self, payload: Any) -> int:
         """Return the number of rows of a unit."""
 
+    def interpreted(self, weight: int) -> float:
+        """Return about how many seconds the job takes with kernels interpreted, its units having so much weight.
+
+        Before there are units, weight is 0. A job without this method is taken to need no kernels.
+        """
+
 
 @dataclass(frozen=True)
 class RowCount(Counting):
@@ -160,6 +166,10 @@ class RowCount(Counting):
     def work(self, payload: Any) -> list[Row]:
         """Return the number of rows of a unit."""
         return [(self.rows.number(payload),)]
+
+    def interpreted(self, weight: int) -> float:
+        """Return what the job says."""
+        return self.rows.interpreted(weight)
 
 
 def packed(parts: Iterable[tuple[Any, int]], size: int) -> Iterator[Unit]:

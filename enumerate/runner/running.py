@@ -15,6 +15,8 @@ from typing import Any, TypeVar
 
 import networkx as nx
 
+from enumerate.machine_code.kernels import uses_machine_code
+from enumerate.machine_code.weights import expect
 from enumerate.runner.job import Job, Progress, Row, Sink, Unit, row_as_dict
 from enumerate.runner.stopping import interruptible
 from enumerate.runner.workers import Cluster, LocalWorkers, Workers, timed
@@ -139,8 +141,17 @@ class _UnitsOnce:
     def units(self) -> Sequence[Unit]:
         """Return the units of the job, worked out when they are first needed."""
         if self._units is None:
-            self._units = self._job.units()
+            self._units = _units_of(self._job)
         return self._units
+
+
+def _units_of(job: Job) -> Sequence[Unit]:
+    """Return the units of a job, with machine code where that pays, for them or for what is done with them."""
+    interpreted: Callable[[int], float] = getattr(job, "interpreted", lambda weight: 0.0)
+    expect(interpreted(0))
+    units = job.units()
+    expect(interpreted(sum(unit.weight for unit in units)))
+    return units
 
 
 @contextmanager
@@ -213,7 +224,7 @@ def total_of(job: Job, *, workers: int = 1) -> int:
 
 def tuples_of(job: Job, *, workers: int = 1) -> Iterator[Row]:
     """Yield the rows of a job as they are, in order. Arguments: `rows_of`."""
-    with closing(_results(job, dict(enumerate(job.units())), workers, None, lambda: None)) as results:
+    with closing(_results(job, dict(enumerate(_units_of(job))), workers, None, lambda: None)) as results:
         for _, rows, _ in results:
             yield from rows
 
@@ -226,7 +237,7 @@ def _results(
     if cluster is None and (workers <= 1 or small):
         for number, unit in units.items():
             check()
-            yield number, *timed(job, unit.payload)
+            yield number, *timed(job, unit.payload, uses_machine_code())
     elif cluster is not None:
         yield from _in_order(job, units, cluster, check)
     else:

@@ -14,6 +14,8 @@ from multiprocessing.process import BaseProcess
 from typing import Any, Protocol
 
 from enumerate.machine_code.folders import heard_by, to_workers
+from enumerate.machine_code.kernels import use_machine_code, uses_machine_code
+from enumerate.machine_code.weights import interpreting
 from enumerate.runner.job import Job, Row
 from enumerate.runner.stopping import heard_again, unheard
 from graphs.errors import StoreError
@@ -41,10 +43,13 @@ class Workers(Protocol):
         """Let them go; at once, if nobody waits for what they work on."""
 
 
-def timed(job: Job, payload: Any) -> tuple[list[Row], float]:
-    """Return the rows of a unit, and the seconds they took."""
+def timed(job: Job, payload: Any, machine_code: bool) -> tuple[list[Row], float]:
+    """Return the rows of a unit and the seconds they took; with machine code if whoever started the job has it."""
+    if machine_code:
+        use_machine_code()
     begin = time.perf_counter()
-    rows = job.work(payload)
+    with interpreting():
+        rows = job.work(payload)
     return rows, time.perf_counter() - begin
 
 
@@ -68,7 +73,7 @@ class LocalWorkers:
     def submit(self, job: Job, payload: Any) -> Future[tuple[list[Row], float]]:
         """Give a unit to a process."""
         with unheard():  # the processes, which start with the first units, have our handlers for a moment
-            return self._executor.submit(timed, job, payload)
+            return self._executor.submit(timed, job, payload, uses_machine_code())
 
     def check(self) -> None:
         """Raise `BrokenProcessPool` if a process died."""
@@ -169,7 +174,7 @@ class Cluster:
                 lost = isinstance(error, (CancelledError, OSError)) and done.status != "error"
                 answer.set_exception(self._lost() if lost else error)  # "error": the unit itself raised it
 
-        self._client.submit(timed, job, payload, pure=False).add_done_callback(hand_over)
+        self._client.submit(timed, job, payload, uses_machine_code(), pure=False).add_done_callback(hand_over)
         return answer
 
     def check(self) -> None:

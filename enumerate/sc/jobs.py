@@ -25,6 +25,7 @@ from enumerate.contracted.binary_links import EVERY, PlacementRange
 from enumerate.contracted.graphs import graph_key
 from enumerate.contracted.maps import contracted_maps, joint_matrix, outer_faces
 from enumerate.kernel.maps import END, JOINT, OPEN, decode_map
+from enumerate.machine_code.weights import drawing, placing
 from enumerate.runner.job import (
     ANY_NUMBER,
     Column,
@@ -219,6 +220,10 @@ class SCJob(QueryJob[SCQuery]):
         """Return the rows of a unit."""
         return _rows_of_maps(self.query, payload)
 
+    def interpreted(self, weight: int) -> float:
+        """Return about how many seconds the job takes with kernels interpreted, for so many drawn chains."""
+        return placing(self.query.loops, self.query.dof) + drawing(weight, plain=self.query.plain)
+
     def number(self, payload: Maps) -> int:
         """Return the number of SC graphs of a unit, without their attributes."""
         return sum(len(drawn_of(self.query, part).x) for part in payload)
@@ -247,6 +252,11 @@ class SCCountJob(QueryCount[SCQuery]):
     def units(self) -> Sequence[Unit]:
         """Units of some hundreds of maps each."""
         return [Unit((n, some), len(some)) for n, codes in maps_for(self.query) for some in batches(codes, _MAPS)]
+
+    def interpreted(self, weight: int) -> float:
+        """Return about how many seconds the job takes with kernels interpreted, whatever its units weigh."""
+        del weight
+        return placing(self.query.loops, self.query.dof)
 
     def work(self, payload: tuple[int, Bytes]) -> list[Row]:
         """Return the number of SC graphs of a unit."""
@@ -327,6 +337,10 @@ class FormJob(QueryJob[SCQuery]):
                 count = sum(_number_in(self.query, part, part.only, part.prefix) for part in maps)
                 if count:
                     yield tuple(maps), count
+
+    def interpreted(self, weight: int) -> float:
+        """Return about how many seconds the job takes with kernels interpreted, for so many drawn chains."""
+        return placing(self.query.loops, self.query.dof) + drawing(weight, plain=self.query.plain)
 
     def work(self, payload: tuple[Maps, ...]) -> list[Row]:
         """Return the rows of a unit."""

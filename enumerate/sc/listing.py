@@ -65,7 +65,7 @@ def count_drawn(codes: Bytes, n: int, links: int, most: int, outside: bool) -> i
         for f in range(faces.shape[1]):
             if faces[:, f].min() == f:  # the first of its orbit
                 total += count_in(with_symmetries(frame, faces[:, f] == f), wanted, nowhere)
-    return total
+    return int(total)
 
 
 @compiled
@@ -82,7 +82,7 @@ def count_drawn_by_burnside(codes: Bytes, n: int, links: int, most: int, outside
             if kept or not outside:
                 fixed += count_fixed(frame, frame.moved[a], links, most) * (kept if outside else 1)
         total += number_of_orbits(fixed, len(faces))
-    return total
+    return int(total)
 
 
 @compiled
@@ -312,9 +312,9 @@ def _in_sum(loops: Words, owner: Ints, cycle: np.uint64) -> int:
             continue
         target, mask = cycle, 0
         for i in range(used):  # each row clears its lowest joint from the later ones and from the cycle
-            low = rows[i] & (~rows[i] + np.uint64(1))
-            if low == 0:
+            if rows[i] == 0:
                 continue
+            low = rows[i] & ~(rows[i] - np.uint64(1))
             for k in range(i + 1, used):
                 if rows[k] & low:
                     rows[k] ^= rows[i]

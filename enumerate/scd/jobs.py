@@ -13,6 +13,7 @@ import numpy as np
 
 from enumerate.chains.rows import SIZE_COLUMNS, chain_ids
 from enumerate.kernel.centres import FINITE, MOST_JOINTS, OUTER, SPATIAL
+from enumerate.machine_code.weights import PLACEMENT
 from enumerate.runner.job import ANY_NUMBER, Column, ListColumn, QueryCount, QueryJob, Row, Unit
 from enumerate.runner.running import graphs_of, rows_of, total_of
 from enumerate.sc.jobs import CENTRE_COLUMNS, LABEL_LETTERS, UNIT_ROWS, map_ids
@@ -138,6 +139,10 @@ class SCDJob(QueryJob[Mechanisms]):
         query, dof = self.query.placements, self.query.dof
         return [row for part in payload for which in part.each() for row in _rows_on(query, dof, *which)]
 
+    def interpreted(self, weight: int) -> float:
+        """Return about how many seconds the job takes with kernels interpreted, for so many placements."""
+        return self.query.interpreted + PLACEMENT * weight
+
     def number(self, payload: tuple[_Placements, ...]) -> int:
         """Return the number of rows of a unit."""
         query, dof = self.query.placements, self.query.dof
@@ -220,6 +225,10 @@ class SCDCountJob(QueryCount[Mechanisms]):
         if self.method == "orbits":
             return list(_units(self.query, _PLACEMENTS))
         return list(self.query.sources(_MECHANISMS))
+
+    def interpreted(self, weight: int) -> float:
+        """Return about how many seconds the job takes with kernels interpreted, for units of so much weight."""
+        return self.query.interpreted + PLACEMENT * weight
 
     def work(self, payload: Any) -> list[Row]:
         """Return the number of placements of a unit."""

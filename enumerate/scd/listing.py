@@ -107,7 +107,8 @@ def _list_choice(
         total = 0
         for d in range(len(vertex)):
             if states[d] != CLOSED:
-                placement[d] = (states[d] == OPENED) + rows[offset[vertex[d]] + digit[vertex[d]], place[d]]
+                things = int(rows[offset[vertex[d]] + digit[vertex[d]], place[d]])
+                placement[d] = (states[d] == OPENED) + things
                 total += placement[d]
         fixed = symmetries_fixing(placement, symmetries)
         if fixed > symmetric:

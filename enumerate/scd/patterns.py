@@ -25,6 +25,7 @@ from enumerate.kernel.centres import (
 )
 from enumerate.kernel.compiled import compiled, doubled
 from enumerate.kernel.maps import decode_map, faces_of, symmetries_of_map
+from enumerate.kernel.words import has_several
 from graphs.types import Bytes, Ints, Words
 
 CLOSED, OPENED, ANY = 0, 1, 2
@@ -163,17 +164,11 @@ def _keeps_apart(turn: Ints, vertex: Ints, face: Ints, number: Ints, pattern: By
             if points[k, end] >= 0:
                 on_axis[k] |= np.uint64(1) << np.uint64(points[k, end])
         for i in range(k):
-            if _several(on_axis[k] & on_axis[i]):
+            if has_several(on_axis[k] & on_axis[i]):
                 return False
         for side in range(2):
             at_link[vertex[2 * k + side]] |= on_axis[k]
     return _links_apart(vertex, on_axis, at_link)
-
-
-@compiled
-def _several(points: np.uint64) -> bool:
-    """Tell whether a set of points has two members or more."""
-    return bool(points & (points - np.uint64(1)))
 
 
 @compiled
@@ -190,7 +185,7 @@ def _links_apart(vertex: Ints, on_axis: Words, at_link: Words) -> bool:
                 if (a == u and b == v) or (a == v and b == u):
                     joined = True
                     fits |= common & ~on_axis[k] == 0
-            if (joined and not fits) or (not joined and _several(common)):
+            if (joined and not fits) or (not joined and has_several(common)):
                 return False
     return True
 
@@ -360,4 +355,4 @@ def outline(code: Bytes, labels: Ints) -> tuple[Bytes, Ints, int, int]:
         if number[f] == classes:  # classes are numbered as they come
             classes += 1
             infinite += kinds[f] == INFINITE
-    return text, vertex.reshape(-1, 2), classes, infinite
+    return text, vertex.reshape(-1, 2), classes, int(infinite)

@@ -9,6 +9,7 @@ from typing import Any, TypedDict
 import numpy as np
 
 from enumerate.contracted.maps import plane_trees
+from enumerate.machine_code.weights import growing, placing
 from enumerate.runner.job import ANY_NUMBER, LimitField, LimitsLike, Query, Unit, batches
 from enumerate.sc.jobs import Maps, drawn_of, map_units
 from enumerate.sc.listing import codes_of_all
@@ -160,6 +161,11 @@ class SCDQuery:
             **self.placements.key,
         }
 
+    @property
+    def interpreted(self) -> float:
+        """About how many seconds it takes to list the mechanisms with kernels interpreted."""
+        return growing(self.links) if self.tree else placing(self.sc.loops, self.dof)
+
     def sources(self, size: int) -> Iterator[Unit]:
         """Yield units of about so many mechanisms: contracted maps, without listing mechanisms, or trees."""
         if not self.tree:
@@ -202,6 +208,11 @@ class OneMechanism:
         """Yield the mechanism."""
         del source
         yield self.source
+
+    @property
+    def interpreted(self) -> float:
+        """No seconds: the mechanism is there."""
+        return 0.0
 
 
 Mechanisms = SCDQuery | OneMechanism

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from enumerate.conical.query import ConicalQuery, Portion
+from enumerate.machine_code.weights import PLACED, SIGNS
 from enumerate.runner.job import Column, Counting, Row, Unit
 from enumerate.runner.running import rows_of
 from graphs.errors import InvariantError, UnsolvableError, shown
@@ -171,6 +172,12 @@ class CandidateJob:
     def _orders_at_once(self) -> int:
         return _SETS if self.opposites else max(_SETS >> (len(self.chain.joints) - 1), 1)
 
+    def interpreted(self, weight: int) -> float:
+        """Return about how many seconds the job takes with kernels interpreted, for so many placements."""
+        if self.placed:
+            return PLACED * weight * (self.samples or 1)
+        return SIGNS * weight * (1 if self.opposites else 2.0 ** (len(self.chain.joints) - 1))
+
     def work(self, payload: Portion) -> list[Row]:
         """Return the rows of a unit."""
         slots, symmetry = self.query.placements(payload)
@@ -256,6 +263,10 @@ class CandidateCountJob(Counting):
     def units(self) -> list[Unit]:
         """Return the units of the job."""
         return self.rows.units()
+
+    def interpreted(self, weight: int) -> float:
+        """Return what the job says."""
+        return self.rows.interpreted(weight)
 
     def work(self, payload: Portion) -> list[Row]:
         """Return the number of rows of a unit."""

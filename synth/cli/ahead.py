@@ -1,4 +1,4 @@
-"""``python -m synth.cli.ahead``: compile the code of enumerations on all cores, before their first use."""
+"""``python -m synth.cli.ahead``: compile the code of large enumerations on all cores, before their first use."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from contextlib import contextmanager, redirect_stdout
 from multiprocessing import active_children
 from pathlib import Path
 from time import monotonic
-from typing import Any
 
 import synth
 from enumerate.machine_code.folders import writable_base
+from enumerate.machine_code.kernels import compiled_here, use_machine_code
 from graphs.errors import numbered
 from synth.cli.main import main
 from synth.cli.runner import cores
@@ -64,27 +64,21 @@ def _deaf_to_interrupts() -> Iterator[None]:
 
 
 def _run(command: str) -> int:
-    before = _compiled()
+    use_machine_code()
+    before = compiled_here()
     workers = ["--workers", "1"] if command.startswith("enumerate") else []
     with Path(os.devnull).open("w", encoding="utf-8") as nowhere, redirect_stdout(nowhere):
         main([*command.split(), *workers], standalone_mode=False)
-    return _compiled() - before
+    return compiled_here() - before
 
 
 def _positions() -> int:
     """Compile the search for assembly modes, for which commands need a file."""
     from synth.patterns.hinged_rings import spherical_ring
 
-    before = _compiled()
+    before = compiled_here()
     synth.positions(spherical_ring([1.0, 1.2, 0.9, 1.4]), drive={0: 0.1}, circuits=False)
-    return _compiled() - before
-
-
-def _compiled() -> int:
-    from enumerate.kernel.compiled import kernels
-
-    dispatchers: list[Any] = list(kernels)
-    return sum(sum(dispatcher.stats.cache_misses.values()) for dispatcher in dispatchers)
+    return compiled_here() - before
 
 
 def _main() -> None:

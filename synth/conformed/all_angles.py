@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from enumerate.conical.rounds import fewest_layers, layers_of_links
+from enumerate.machine_code.weights import SIGNS, expect
 from graphs.errors import NumericalError, UnsolvableError
 from graphs.tolerances import DOUBLE
 from graphs.types import Flags, Floats, Ints, Signs
@@ -161,6 +162,7 @@ def over_angles(
 
 def _over_angles(formulas: RateFormulas, slots: Ints, samples: int) -> OverAngles:
     """Return what orders with opposites int64[r, J] allow: by signs that are certain, by refuting, by samples."""
+    expect(len(slots) * SIGNS)
     relations, moving = formulas.relations, formulas.moving
     middle = slots * (np.pi / slots.shape[-1])
     sines = np.sign(np.sin(middle[:, :, np.newaxis] - middle[:, np.newaxis, :]).round(9)).astype(np.int8)

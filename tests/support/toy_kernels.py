@@ -32,10 +32,11 @@ def edit(file: Path, before: str, after: str) -> None:
     file.write_text(text.replace(before, after))
 
 
-def run(code: str, folder: Path, cache: Path):
+def run(code: str, folder: Path, cache: Path, machine_code: str = "always"):
     """Run Python with the toy package in reach; return what it printed as JSON, and standard error."""
     path = os.pathsep.join([str(folder), str(ROOT)])
     environment = {**os.environ, "PYTHONPATH": path, "SYNTHEDRA_CACHE": str(cache), "PYTHONDONTWRITEBYTECODE": "1"}
+    environment["SYNTHEDRA_MACHINE_CODE"] = machine_code
     done = subprocess.run(
         [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False
     )

@@ -21,8 +21,8 @@ FIRST = [
 
 
 def synth(*words, cache):
-    """Run ``synth`` as a process, with a place for its machine code."""
-    environment = {**os.environ, "SYNTHEDRA_CACHE": str(cache)}
+    """Run ``synth`` as a process that uses machine code, with a place for it."""
+    environment = {**os.environ, "SYNTHEDRA_CACHE": str(cache), "SYNTHEDRA_MACHINE_CODE": "always"}
     line = [sys.executable, "-m", *words]
     return subprocess.run(line, env=environment, capture_output=True, text=True, check=True)
 

@@ -1,0 +1,105 @@
+"""When machine code pays: what jobs take while kernels are interpreted, against the price of machine code.
+
+Whole processes, seconds of processor time on one core, one worker; kernels interpreted, and with machine code that
+is kept; where nothing is kept, machine code takes about three minutes of processor time for all kernels:
+
+    synth enumerate                                 interpreted   kept
+    chains --links 8 --dof 1 --count                        0.6    1.9
+    chains --links 10 --dof 1 --count                       0.7    1.8
+    chains --links 12 --dof 1 --count                       1.9    1.9
+    chains --links 10 --dof 1                               1.2    2.0
+    sc --links 6 --dof 1                                    0.6    2.1
+    sc --links 10 --dof 1                                   6.7    2.1
+    scd --links 6 --dof 1 --max-degree 4                    0.6    2.2
+    conical --chain watt --ground 0 --slots 8               2.3    2.1
+
+So kept machine code is the quicker way from about a second of interpretation on, and code that has to be made
+from about a minute on. `_EXPECTED` lies between: where nothing is kept, no small job waits a minute, and where all
+is, none loses more than two seconds. What a job takes is known from the numbers of loops and freedoms, before it
+begins, and from the number of rows, once its units are there; where both were wrong, units show it (`_SPENT`).
+"""
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from math import inf
+
+from enumerate.machine_code.kernels import use_machine_code, uses_machine_code
+
+_EXPECTED = 3.0
+"""Seconds that a job may be interpreted for, as it says itself."""
+
+_SPENT = 10.0
+"""Seconds of processor time that units may take in one process, of whatever jobs, before machine code is used."""
+
+_LEVELS = {1: 0.0, 2: 0.005, 3: 0.05, 4: 0.3, 5: 1.5}
+"""Seconds to make the contracted graphs, or maps, with so many loops, and to count chains with M = 1 on them."""
+
+CHAIN = 0.0015
+"""Seconds for the row of a chain."""
+
+PLACEMENT = 1 / 3_000
+"""Seconds for a placement of open edges, symmetric ones counted apart."""
+
+ROUND = 1 / 10_000
+"""Seconds for a placement of joints round a circle, symmetric ones counted apart."""
+
+SIGNS = 1 / 5_000
+"""Seconds for what one order of joints with opposites allows, of a chain of six links."""
+
+PLACED = 1 / 2_000
+"""Seconds for the row of a linkage of six links on slots."""
+
+_DRAWN = 0.003
+_LABELLED = 0.05
+"""Seconds for the row of a drawn chain, and for those with all labels of its faces."""
+
+_TREE = 1 / 100_000
+"""Seconds for one of 3^N ways to grow a plane tree of N links."""
+
+
+class _Units:
+    """What the units of this process have taken, while kernels were interpreted."""
+
+    seconds = 0.0
+
+
+def expect(seconds: float) -> None:
+    """Use machine code from here on if what follows takes too long while kernels are interpreted."""
+    if seconds > _EXPECTED:
+        use_machine_code()
+
+
+@contextmanager
+def interpreting() -> Iterator[None]:
+    """Look at the clock while a unit is worked on; use machine code if the units before it took too long."""
+    if _Units.seconds > _SPENT:
+        use_machine_code()
+    begin = time.thread_time()
+    yield
+    if not uses_machine_code():
+        _Units.seconds += time.thread_time() - begin
+
+
+def placing(loops: int, dof: int) -> float:
+    """Return the seconds that binary links take to be placed, and counted, on all contracted graphs or maps.
+
+    With the freedoms strings become longer: placements were counted in 0.05 s with one freedom and three loops, in
+    0.5 s with nine, in 1.2 s with fourteen.
+    """
+    return 0.0 if loops < 1 else _LEVELS.get(loops, inf) * (1.0 + dof * dof / 8.0)
+
+
+def drawing(number: int, *, plain: bool) -> float:
+    """Return the seconds that so many drawn chains take, with centres of one kind only (`plain`) or of all."""
+    return number * (_DRAWN if plain else _LABELLED)
+
+
+def layering(links: int) -> float:
+    """Return the seconds that it takes to put so many links in layers, about."""
+    return 2.0**links / 200_000
+
+
+def growing(links: int) -> float:
+    """Return the seconds that all plane trees with so many links take."""
+    return _TREE * 3.0**links
