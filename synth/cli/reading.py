@@ -30,7 +30,7 @@ LOOK = "M=#c1272d,..."
 """How pairs are shown in the help."""
 
 
-def _keep(ctx: click.Context, what: str, words: tuple[str, ...]) -> None:
+def keep_looks(ctx: click.Context, what: str, words: tuple[str, ...]) -> None:
     """Keep pairs LETTER=TEXT for the drawings that will be read."""
     kept = ctx.meta.setdefault(_LOOKS, {}).setdefault(what, {})
     for word in (part for text in words for part in _COMMA.split(text)):
@@ -41,21 +41,16 @@ def _keep(ctx: click.Context, what: str, words: tuple[str, ...]) -> None:
         kept.setdefault(letter.strip(), []).append(text.strip())
 
 
-def keep_looks(ctx: click.Context, words: tuple[str, ...]) -> None:
-    """Keep pairs of an assignment and a look for the drawings that will be read."""
-    _keep(ctx, "colours", words)
-
-
 COLOUR = options.repeated(
     "--colour", LOOK,
     "For a drawing (.svg, .dxf): assignment of lines by their colour, their dash pattern or both, such as "
     "'V=dashed #000000'. M mountain, V valley, B border, C cut, F flat, U unassigned; - leaves lines out.",
-    expose_value=False, callback=lambda ctx, _parameter, words: keep_looks(ctx, words),
+    expose_value=False, callback=lambda ctx, _parameter, words: keep_looks(ctx, "colours", words),
 )  # fmt: skip
 LAYER = options.repeated(
     "--layer", "M=NAME,...",
     "For a drawing (.svg, .dxf): assignment of lines by their layer or group, with the same letters.",
-    expose_value=False, callback=lambda ctx, _parameter, words: _keep(ctx, "layers", words),
+    expose_value=False, callback=lambda ctx, _parameter, words: keep_looks(ctx, "layers", words),
 )  # fmt: skip
 
 
@@ -64,14 +59,16 @@ def DRAWN(command: Callable[..., Any]) -> Callable[..., Any]:
     return COLOUR(LAYER(command))
 
 
-def _keep_precision(ctx: click.Context, _parameter: click.Parameter, length: float | None) -> None:
-    ctx.meta[_PRECISION] = length
+def MECHANISM(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the argument FILE of a mechanism, and the options on drawings."""
+    return options.FILE(DRAWN(command))
 
 
 PRECISION = options.value(
     "--precision", "LENGTH",
     "Largest error of a coordinate, in the unit of the file; 0 means exact. By default it is estimated from the "
-    "file.", type=options.LENGTH_OR_NONE, expose_value=False, callback=_keep_precision,
+    "file.", type=options.LENGTH_OR_NONE, expose_value=False,
+    callback=lambda ctx, _parameter, length: ctx.meta.update({_PRECISION: length}),
 )  # fmt: skip
 """The option of commands that take files with coordinates; `precise` applies it."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from math import radians
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -13,7 +13,7 @@ import synth.moving
 from graphs.errors import UnsolvableError
 from synth.cli import options
 from synth.cli.output import about, console, plain, print_json, print_result, progress_line, table, tell_written
-from synth.cli.reading import DRAWN, PRECISION, precise, read
+from synth.cli.reading import MECHANISM, PRECISION, precise, read
 
 if TYPE_CHECKING:
     from graphs.convert import Mechanism
@@ -21,8 +21,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@options.FILE
-@DRAWN
+@MECHANISM
 @options.repeated("--drive", "JOINT=DEGREES", "Fold a crease to this angle; may be repeated.")
 @options.repeated("--along", "JOINT=RATE", "Initial joint rates; the motion keeps their direction if it can.")
 @options.repeated(
@@ -44,8 +43,8 @@ if TYPE_CHECKING:
 @options.JSON
 @PRECISION
 def fold(
-    file: str, drive: tuple[str, ...], along: tuple[str, ...], whole: bool, branch: int | str | None, listed: bool,
-    frames: int, points: tuple[str, ...], collisions: bool, output: str | None, force: bool, as_json: bool,
+    file: str, drive: tuple[str, ...], along: tuple[str, ...], whole: bool, listed: bool, frames: int,
+    points: tuple[str, ...], output: str | None, force: bool, as_json: bool, **how: Any,
 ) -> None:  # fmt: skip
     """Fold a crease pattern, or move another linkage, with rigid panels and closed loops.
 
@@ -80,8 +79,8 @@ def fold(
         with progress_line() as show:
             motion = synth.move(
                 at, drive=options.driven_angles(graph, drive),
-                along=options.numbers_of_joints(graph, along, "--along", "JOINT=RATE"), branch=branch,
-                frames=frames, collisions=collisions, report=lambda n: show(f"{n} of {frames + 1} frames"),
+                along=options.numbers_of_joints(graph, along, "--along", "JOINT=RATE"),
+                frames=frames, report=lambda n: show(f"{n} of {frames + 1} frames"), **how,
             )  # fmt: skip
         curves = {text: motion.path_of(*_point(graph, text)).tolist() for text in points}
         written = [] if output is None else write_motion(motion, output, force=force)
@@ -104,6 +103,11 @@ def fold(
     tell_written(*written)
 
 
+def _graph(mechanism: Any) -> synth.SCGraph:
+    """Return the graph of a mechanism at its configuration, whose links and joints are named."""
+    return synth.moving.configuration_of(mechanism).linkage.graph
+
+
 def _point(graph: synth.SCGraph, text: str) -> tuple[LinkId, list[float]]:
     """Return a link and the coordinates of a point, as they were typed."""
     name, place = options.named_value(text, "--point", "LINK=X,Y or LINK=X,Y,Z", (2, 3))
@@ -111,8 +115,7 @@ def _point(graph: synth.SCGraph, text: str) -> tuple[LinkId, list[float]]:
 
 
 @click.command()
-@options.FILE
-@DRAWN
+@MECHANISM
 @options.repeated(
     "--drive", "JOINT=DEGREES",
     "Angle of a driven joint in degrees, or length of a prismatic one; once for each degree of freedom."
@@ -152,8 +155,7 @@ def positions(file: str, drive: tuple[str, ...], circuits: bool, seed: int, as_j
 
 
 @click.command()
-@options.FILE
-@DRAWN
+@MECHANISM
 @options.JSON
 @PRECISION
 def explain(file: str, as_json: bool) -> None:
@@ -176,8 +178,7 @@ def explain(file: str, as_json: bool) -> None:
 
 
 @click.command()
-@options.FILE
-@DRAWN
+@MECHANISM
 @options.number("--freedoms", "K", "Number of degrees of freedom to reach.", 0, required=True)
 @options.branch(
     "Folding branch from a flat state, by its number or its signs; `synth fold --branches` lists them.", "B"
@@ -199,8 +200,8 @@ def explain(file: str, as_json: bool) -> None:
 @options.JSON
 @PRECISION
 def advise(
-    file: str, freedoms: int, branch: int | str | None, weight: tuple[str, ...], protect_joint: tuple[str, ...],
-    protect_link: tuple[str, ...], flaps: bool, limit: int, size: int | None, leave_out: bool, as_json: bool,
+    file: str, freedoms: int, weight: tuple[str, ...], protect_joint: tuple[str, ...],
+    protect_link: tuple[str, ...], as_json: bool, **how: Any,
 ) -> None:  # fmt: skip
     """Find joints to lock, or panels to crease along diagonals, so that K degrees of freedom are left.
 
@@ -225,17 +226,12 @@ def advise(
     with about(file):
         mechanism = precise(mechanism)
         sheet = sheet_of(mechanism)
-        graph = (
-            synth.moving.configuration_of(mechanism).linkage.graph
-            if sheet is None
-            else mechanism_of_sheet(sheet).sc
-        )
+        graph = _graph(mechanism) if sheet is None else mechanism_of_sheet(sheet).sc
         advice = synth.advise(
-            mechanism, freedoms, branch=branch,
+            mechanism, freedoms,
             weights=options.numbers_of_joints(graph, weight, "--weight", "JOINT=W"),
             joints=[options.joint_of(graph, name) for name in protect_joint],
-            links=[options.link_of(graph, name) for name in protect_link],
-            flaps=flaps, limit=limit, size=size, leave_out=leave_out,
+            links=[options.link_of(graph, name) for name in protect_link], **how,
         )  # fmt: skip
     print_result(advice, {"file": file}, as_json=as_json)
     if advice.wanted > advice.freedoms and not advice.creases:
@@ -243,8 +239,7 @@ def advise(
 
 
 @click.command()
-@options.FILE
-@DRAWN
+@MECHANISM
 @options.repeated("--joint joints", "JOINT", "Compliant joint; may be repeated.")
 @options.repeated("--link links", "LINK", "Compliant link; may be repeated.")
 @options.repeated(
@@ -283,7 +278,7 @@ def states(
     mechanism = read(file)
     with about(file):
         mechanism = precise(mechanism)
-        graph = synth.moving.configuration_of(mechanism).linkage.graph
+        graph = _graph(mechanism)
         springs = synth.compliance.Springs(
             options.numbers_of_joints(graph, stiffness, "--stiffness", "JOINT=K"),
             options.driven_angles(graph, rest, "--rest"),
@@ -337,8 +332,7 @@ def _mass(graph: synth.SCGraph, word: str) -> synth.compliance.Mass:
 
 
 @click.command()
-@options.FILE
-@DRAWN
+@MECHANISM
 @options.repeated(
     "--keep", "LINK", "Link that belongs to the mechanism proper, not to a ride-along; may be repeated."
 )
@@ -359,6 +353,6 @@ def limits(file: str, keep: tuple[str, ...], as_json: bool) -> None:
     mechanism = read(file)
     with about(file):
         mechanism = precise(mechanism)
-        graph = synth.moving.configuration_of(mechanism).linkage.graph
+        graph = _graph(mechanism)
         joint_limits = synth.compliance.limits(mechanism, keep=[options.link_of(graph, name) for name in keep])
     print_result(joint_limits, {"file": file}, as_json=as_json)

@@ -35,17 +35,12 @@ Kind = Literal["cone", "cylinder"]
 _Command = Callable[..., None]
 
 
-class _Arc(click.ParamType):  # type: ignore[type-arg,unused-ignore]
-    """A link and the joint at which its arc begins, ``4=1``."""
-
-    name = "arc"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the names of link and joint."""
-        link, sign, joint = str(value).partition("=")
-        if not (link and sign and joint):
-            self.fail(f"{plain(value)!r} is not LINK=JOINT, such as 4=1", param, ctx)
-        return link, joint
+def _arc(word: str) -> tuple[str, str]:
+    """Return the names of a link and of the joint at which its arc begins, ``4=1``."""
+    link, _, joint = word.partition("=")
+    if not (link and joint):
+        raise ValueError(f"{plain(word)!r} is not LINK=JOINT, such as 4=1")
+    return link, joint
 
 
 @dataclass(frozen=True)
@@ -124,8 +119,8 @@ def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _C
     metavar, measure = ("DEGREES", "angle") if kind == "cone" else ("R", "radius")
     every = [
         click.argument("file", required=False, metavar="[FILE]", type=options.FILE_NAME),
-        options.value(f"{sizes} sizes", "A,B,...", what, type=options.NumberList()),
-        options.value("--steps", "A,B,...", steps, type=options.NumberList()),
+        options.value(f"{sizes} sizes", "A,B,...", what, type=options.NUMBERS),
+        options.value("--steps", "A,B,...", steps, type=options.NUMBERS),
         options.value(f"{size} surface_size", metavar, f"{kind.title()} {measure}, with --steps.", type=float),
     ]
     if arcs:
@@ -133,7 +128,7 @@ def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _C
             "For a link that spans half a turn: the joint at which its arc begins, in the direction of "
             "increasing azimuth. May be repeated."
         )
-        every.append(options.repeated("--arc arcs", "LINK=JOINT", text, type=_Arc()))
+        every.append(options.repeated("--arc arcs", "LINK=JOINT", text, type=options.WordType("arc", _arc)))
 
     def decorated(command: _Command) -> _Command:
         @wraps(command)
@@ -153,14 +148,9 @@ _GROUND = options.value("--ground", "LINK", "Fixed link. By default the first (1
 
 
 def map_answer(
-    chosen: LinkageOptions,
-    *,
-    tolerance: float,
-    by_sizes: bool,
-    output: str | None,
-    number: int | None,
+    chosen: LinkageOptions, output: str | None, *, tolerance: float, by_sizes: bool, number: int | None,
     force: bool,
-) -> synth.surfaces.ConeMap | synth.surfaces.CylinderMap | synth.surfaces.LinkageMap:
+) -> synth.surfaces.ConeMap | synth.surfaces.CylinderMap | synth.surfaces.LinkageMap:  # fmt: skip
     """Return every surface on which a linkage lies; write or draw the output.
 
     A picture of a loop by its link sizes shows loop sums, unless the number of a surface is chosen.
@@ -172,9 +162,8 @@ def map_answer(
     (check_output if _is_linkage(output) else check_picture)(output, force=force)
     with chosen.about():
         if chosen.sizes is not None:
-            mapped = (synth.map_to_cones if chosen.kind == "cone" else synth.map_to_cylinders)(
-                chosen.linkage_sizes
-            )
+            map_sizes = synth.map_to_cones if chosen.kind == "cone" else synth.map_to_cylinders
+            mapped = map_sizes(chosen.linkage_sizes)
             if output is not None and number is None and not _is_linkage(output):
                 synth.drawing.draw_loop_sums(mapped).save(output, force=force)
                 return mapped
@@ -182,11 +171,11 @@ def map_answer(
                 return mapped
         linkage = chosen.linkage()
         linkage = synth.surfaces.by_sizes(linkage) if by_sizes else linkage
-        answer = mapped if chosen.sizes is not None else synth.map_linkage(linkage, tolerance)
+        answer = mapped if chosen.sizes is not None else synth.map_linkage(linkage, radians(tolerance))
         if output is not None and number is None and _is_linkage(output):
             _write(linkage, output, force=force)
         elif output is not None:
-            placed = synth.conformed.linkage_on_surfaces(linkage, tolerance=tolerance)
+            placed = synth.conformed.linkage_on_surfaces(linkage, tolerance=radians(tolerance))
             _write(surface_of_number(placed, number, linkage.kind), output, force=force)
     return answer
 
@@ -277,8 +266,8 @@ def map_command(kind: Kind) -> click.Command:
     @options.FORCE
     @options.JSON
     def command(
-        chosen: LinkageOptions, tolerance: float, by_sizes: bool, output: str | None, number: int | None,
-        force: bool, as_json: bool, supplementary: bool = False,
+        chosen: LinkageOptions, by_sizes: bool, output: str | None, as_json: bool, supplementary: bool = False,
+        **settings: Any,
     ) -> None:  # fmt: skip
         if by_sizes and chosen.sizes is not None:
             raise click.UsageError(f"--by-{sizes} requires a FILE or --steps")
@@ -287,9 +276,7 @@ def map_command(kind: Kind) -> click.Command:
                 raise click.UsageError("--supplementary lists linkages for --angles, and writes none")
             answer: Any = synth.surfaces.supplementary_linkages(chosen.linkage_sizes)
         else:
-            answer = map_answer(
-                chosen, tolerance=radians(tolerance), by_sizes=by_sizes, output=output, number=number, force=force
-            )
+            answer = map_answer(chosen, output, by_sizes=by_sizes, **settings)
         print_result(answer, {}, as_json=as_json, written=[output])
 
     return command
@@ -370,7 +357,7 @@ def move_command(kind: Kind) -> click.Command:
     @options.value("--driver", "JOINT", "Driving joint. By default the first joint of the fixed link.")
     @options.value(
         "--at", "A,B,...", "Angles of the driving joint at which to list configurations, in degrees.",
-        type=options.NumberList(),
+        type=options.NUMBERS,
     )  # fmt: skip
     @options.repeated(
         "--point points", "LINK,AZIMUTH[,ALONG]",
