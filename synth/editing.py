@@ -40,8 +40,17 @@ NewLoop: TypeAlias = tuple[LinkId, LinkId, int] | tuple[LinkId, LinkId, int, Seq
 
 @dataclass(frozen=True, repr=False)
 class EditedMechanism(Printed):
-    """A mechanism after edits: the last result, and the edits, each with the mechanism before and after it.
+    """A mechanism after edits.
 
+    Attributes
+    ----------
+    mechanism : SCGraph or Sheet
+        The last result.
+    edits : tuple of Edit or SheetEdit
+        Each with the mechanism before and after it, and the change of mobility predicted and counted.
+
+    Examples
+    --------
     >>> edit("k1:Cr", add_ride_along=[(0, 1)], lock=[0]).mechanism
     <SCGraph: 5 links, 6 joints, 2 centres>
     """

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
+from functools import wraps
 from math import radians
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +20,29 @@ from synth.cli.reading import MECHANISM, PRECISION, precise, read
 if TYPE_CHECKING:
     from graphs.convert import Mechanism
     from graphs.types import LinkId
+
+
+def _answering(
+    no: Callable[[Any], bool] = lambda _answer: False,
+) -> Callable[[Callable[..., Any]], Callable[..., None]]:
+    """Return what makes a command of a function of a mechanism: it reads FILE, and prints the answer.
+
+    With the answer "no" the exit status is 1.
+    """
+
+    def decorated(answer_of: Callable[..., Any]) -> Callable[..., None]:
+        @wraps(answer_of)
+        def run_command(file: str, as_json: bool, **values: Any) -> None:
+            mechanism = read(file)
+            with about(file):
+                answer = answer_of(precise(mechanism), **values)
+            print_result(answer, {"file": file}, as_json=as_json)
+            if no(answer):
+                sys.exit(1)
+
+        return options.JSON(PRECISION(run_command))
+
+    return decorated
 
 
 @click.command()
@@ -124,9 +149,8 @@ def _point(graph: synth.SCGraph, text: str) -> tuple[LinkId, list[float]]:
     "--circuits/--no-circuits", "Sort the assembly modes by circuit and branch of the circuit.", default=True
 )
 @options.seed("Random seed.")
-@options.JSON
-@PRECISION
-def positions(file: str, drive: tuple[str, ...], circuits: bool, seed: int, as_json: bool) -> None:
+@_answering(no=lambda modes: not modes.positions or not modes.exhaustive)
+def positions(mechanism: Any, drive: tuple[str, ...], **how: Any) -> Any:
     """Find all assembly modes of a linkage of spherical and planar loops at given inputs.
 
     Crease angles are measured from flat, other joint angles from the configuration of the file, in degrees; a
@@ -142,23 +166,17 @@ def positions(file: str, drive: tuple[str, ...], circuits: bool, seed: int, as_j
 
     Exit status 1: the linkage has no assembly mode at these inputs, or not all were found.
     """
-    mechanism = read(file)
-    with about(file):
-        at = synth.moving.configuration_of(precise(mechanism), slides=True)
-        slides = {joint for place, joint in enumerate(at.joints) if place in at.linkage.slides}
-        values = options.numbers_of_joints(at.linkage.graph, drive, "--drive", "JOINT=DEGREES")
-        inputs = {joint: value if joint in slides else radians(value) for joint, value in values.items()}
-        modes = synth.positions(at, drive=inputs, circuits=circuits, seed=seed)
-    print_result(modes, {"file": file}, as_json=as_json)
-    if not modes.positions or not modes.exhaustive:
-        sys.exit(1)
+    at = synth.moving.configuration_of(mechanism, slides=True)
+    slides = {joint for place, joint in enumerate(at.joints) if place in at.linkage.slides}
+    values = options.numbers_of_joints(at.linkage.graph, drive, "--drive", "JOINT=DEGREES")
+    inputs = {joint: value if joint in slides else radians(value) for joint, value in values.items()}
+    return synth.positions(at, drive=inputs, **how)
 
 
 @click.command()
 @MECHANISM
-@options.JSON
-@PRECISION
-def explain(file: str, as_json: bool) -> None:
+@_answering()
+def explain(mechanism: Any) -> Any:
     """Find the redundant closure equations, the geometry that causes them, and the axis errors they tolerate.
 
     The analysis is at the configuration of the file; fold a flat pattern first. Axis errors are for one axis at a
@@ -171,10 +189,7 @@ def explain(file: str, as_json: bool) -> None:
       synth generate miura --rows 4 --columns 4 --fold 60 -o miura.fold
       synth explain miura.fold
     """
-    mechanism = read(file)
-    with about(file):
-        explanation = synth.explain(precise(mechanism))
-    print_result(explanation, {"file": file}, as_json=as_json)
+    return synth.explain(mechanism)
 
 
 @click.command()
@@ -197,12 +212,11 @@ def explain(file: str, as_json: bool) -> None:
 @options.number("--limit", "N", "Largest number of sets to list.", most=10_000, default=20)
 @options.number("--size", "N", "Largest number of diagonals in a set. By default K - M + 1.")
 @options.flag("--leave-out", "For a flat sheet: also report its degrees of freedom without the locked creases.")
-@options.JSON
-@PRECISION
+@_answering(no=lambda advice: advice.wanted > advice.freedoms and not advice.creases)
 def advise(
-    file: str, freedoms: int, weight: tuple[str, ...], protect_joint: tuple[str, ...],
-    protect_link: tuple[str, ...], as_json: bool, **how: Any,
-) -> None:  # fmt: skip
+    mechanism: Any, freedoms: int, weight: tuple[str, ...], protect_joint: tuple[str, ...],
+    protect_link: tuple[str, ...], **how: Any,
+) -> Any:  # fmt: skip
     """Find joints to lock, or panels to crease along diagonals, so that K degrees of freedom are left.
 
     To lower M degrees of freedom to K, M - K joints have to be locked: all such sets are listed, cheapest first.
@@ -222,20 +236,14 @@ def advise(
     from graphs.convert import mechanism_of_sheet
     from synth.moving.made import sheet_of
 
-    mechanism = read(file)
-    with about(file):
-        mechanism = precise(mechanism)
-        sheet = sheet_of(mechanism)
-        graph = _graph(mechanism) if sheet is None else mechanism_of_sheet(sheet).sc
-        advice = synth.advise(
-            mechanism, freedoms,
-            weights=options.numbers_of_joints(graph, weight, "--weight", "JOINT=W"),
-            joints=[options.joint_of(graph, name) for name in protect_joint],
-            links=[options.link_of(graph, name) for name in protect_link], **how,
-        )  # fmt: skip
-    print_result(advice, {"file": file}, as_json=as_json)
-    if advice.wanted > advice.freedoms and not advice.creases:
-        sys.exit(1)
+    sheet = sheet_of(mechanism)
+    graph = _graph(mechanism) if sheet is None else mechanism_of_sheet(sheet).sc
+    return synth.advise(
+        mechanism, freedoms,
+        weights=options.numbers_of_joints(graph, weight, "--weight", "JOINT=W"),
+        joints=[options.joint_of(graph, name) for name in protect_joint],
+        links=[options.link_of(graph, name) for name in protect_link], **how,
+    )  # fmt: skip
 
 
 @click.command()
@@ -255,13 +263,12 @@ def advise(
 @options.repeated("--mass", "LINK=M@X,Y,Z", "Point mass on a link; may be repeated.")
 @options.value("--density", "D", "For a sheet: mass per unit area of its panels.", type=options.LENGTH)
 @options.value("--ground", "LINK", "Fixed link, for frequencies.")
-@options.JSON
-@PRECISION
+@_answering()
 def states(
-    file: str, joints: tuple[str, ...], links: tuple[str, ...], stiffness: tuple[str, ...], rest: tuple[str, ...],
-    moment: tuple[str, ...], drive: str | None, frames: int, mass: tuple[str, ...], density: float | None,
-    ground: str | None, as_json: bool,
-) -> None:  # fmt: skip
+    mechanism: Any, joints: tuple[str, ...], links: tuple[str, ...], stiffness: tuple[str, ...],
+    rest: tuple[str, ...], moment: tuple[str, ...], drive: str | None, frames: int, mass: tuple[str, ...],
+    density: float | None, ground: str | None,
+) -> Any:  # fmt: skip
     """Check whether a mechanism moves with its compliant members at rest, and with some of them active.
 
     A member at rest is rigid, an active one is released. With springs, the answer has their equilibrium, the
@@ -275,28 +282,24 @@ def states(
       synth states four-bar.json --joint 0 --joint 2
       synth states four-bar.json --stiffness 1=2 --drive 0=40 --frames 8
     """
-    mechanism = read(file)
-    with about(file):
-        mechanism = precise(mechanism)
-        graph = _graph(mechanism)
-        springs = synth.compliance.Springs(
-            options.numbers_of_joints(graph, stiffness, "--stiffness", "JOINT=K"),
-            options.driven_angles(graph, rest, "--rest"),
-            options.numbers_of_joints(graph, moment, "--moment", "JOINT=M"),
-        )
-        load_path = None
-        if drive is not None:
-            [(joint, angle)] = options.driven_angles(graph, (drive,)).items()
-            load_path = synth.compliance.DrivenJoint(joint, angle, frames)
-        report = synth.states(
-            mechanism,
-            joints=[options.joint_of(graph, name) for name in joints],
-            links=[options.link_of(graph, name) for name in links],
-            springs=springs if stiffness or rest or moment else None,
-            drive=load_path,
-            masses=_masses(mechanism, graph, mass, density, ground),
-        )
-    print_result(report, {"file": file}, as_json=as_json)
+    graph = _graph(mechanism)
+    springs = synth.compliance.Springs(
+        options.numbers_of_joints(graph, stiffness, "--stiffness", "JOINT=K"),
+        options.driven_angles(graph, rest, "--rest"),
+        options.numbers_of_joints(graph, moment, "--moment", "JOINT=M"),
+    )
+    load_path = None
+    if drive is not None:
+        [(joint, angle)] = options.driven_angles(graph, (drive,)).items()
+        load_path = synth.compliance.DrivenJoint(joint, angle, frames)
+    return synth.states(
+        mechanism,
+        joints=[options.joint_of(graph, name) for name in joints],
+        links=[options.link_of(graph, name) for name in links],
+        springs=springs if stiffness or rest or moment else None,
+        drive=load_path,
+        masses=_masses(mechanism, graph, mass, density, ground),
+    )
 
 
 def _masses(
@@ -336,9 +339,8 @@ def _mass(graph: synth.SCGraph, word: str) -> synth.compliance.Mass:
 @options.repeated(
     "--keep", "LINK", "Link that belongs to the mechanism proper, not to a ride-along; may be repeated."
 )
-@options.JSON
-@PRECISION
-def limits(file: str, keep: tuple[str, ...], as_json: bool) -> None:
+@_answering()
+def limits(mechanism: Any, keep: tuple[str, ...]) -> Any:
     """Find the joint limits that ride-alongs impose, and the mobility while one is held straight.
 
     The analysis starts at the configuration of the file. A ride-along stops its joint where its own two links are
@@ -350,9 +352,5 @@ def limits(file: str, keep: tuple[str, ...], as_json: bool) -> None:
       synth generate deployable-cylinder --pleats 3 -o cylinder.fold
       synth limits cylinder.fold
     """
-    mechanism = read(file)
-    with about(file):
-        mechanism = precise(mechanism)
-        graph = _graph(mechanism)
-        joint_limits = synth.compliance.limits(mechanism, keep=[options.link_of(graph, name) for name in keep])
-    print_result(joint_limits, {"file": file}, as_json=as_json)
+    graph = _graph(mechanism)
+    return synth.compliance.limits(mechanism, keep=[options.link_of(graph, name) for name in keep])
