@@ -73,15 +73,8 @@ class _Graphs:
     prefix: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
 
 
-@dataclass(frozen=True, slots=True)
-class _Glued:
-    """Chains put together from blocks."""
-
-    choices: tuple[tuple[Block, ...], ...]
-
-
-Payload = _Graphs | _Glued | None
-"""None: the chain of one loop, a ring."""
+Payload = _Graphs | tuple[tuple[Block, ...], ...] | None
+"""Contracted graphs; choices of blocks, of which chains are put together; None: the chain of one loop, a ring."""
 
 
 def _graphs(query: ChainQuery) -> Iterator[tuple[int, Bytes]]:
@@ -144,25 +137,21 @@ class ChainJob(QueryJob[ChainQuery]):
             if weight and weight + count > _ROWS:
                 yield Unit(_Graphs(n, codes[start:i]), weight)
                 start, weight = i, 0
-            if count > 2 * _ROWS:
-                yield from self._parts(n, code)
+            if count > 2 * _ROWS:  # the placements are split by where their first units lie
+                number = partial(count_of_graph, code, n, query.links, query.most)
+                for only, prefix, part in beginnings(number, query.links - n, len(code), _ROWS):
+                    yield Unit(_Graphs(n, code[None], only, prefix), part)
                 start = i + 1
             else:
                 weight += count
         if weight:
             yield Unit(_Graphs(n, codes[start:]), weight)
 
-    def _parts(self, n: int, code: Bytes) -> Iterator[Unit]:
-        """Split the placements on one contracted graph by where their first units lie."""
-        number = partial(count_of_graph, code, n, self.query.links, self.query.most)
-        for only, prefix, count in beginnings(number, self.query.links - n, len(code), _ROWS):
-            yield Unit(_Graphs(n, code[None], only, prefix), count)
-
     def _fractionated_units(self) -> Iterator[Unit]:
         for shape in shapes(self.query.links, self.query.dof):
             choices = block_choices(shape, _blocks)
             while batch := tuple(islice(choices, _CHOICES)):
-                yield Unit(_Glued(batch), len(batch))
+                yield Unit(batch, len(batch))
 
     def work(self, payload: Payload) -> list[Row]:
         """Return the rows of a unit."""
@@ -172,7 +161,7 @@ class ChainJob(QueryJob[ChainQuery]):
         if payload is None:
             ring = [(i, (i + 1) % query.links) for i in range(query.links)]
             return rows_of_joints(query, ring, self.bare)
-        chains = (joints for blocks in payload.choices for joints in glued(blocks))
+        chains = (joints for blocks in payload for joints in glued(blocks))
         return [row for joints in chains for row in rows_of_joints(query, joints, self.bare)]
 
     def _chains(self, payload: _Graphs) -> Iterator[GraphChains]:
@@ -221,6 +210,10 @@ def _blocks(links: int, dof: int) -> Iterator[Block]:
         yield links, tuple(sorted(chain_from_id(row["code"]).edges()))
 
 
+_COUNT_COLUMNS: dict[str, Column] = {"count": int, "contracted_links": int}
+"""A number, and the number of links of the contracted graphs that it belongs to."""
+
+
 @dataclass(frozen=True)
 class CountJob(QueryCount[ChainQuery]):
     """The number of chains of a query; each row is a number to be added.
@@ -235,11 +228,7 @@ class CountJob(QueryCount[ChainQuery]):
 
     streamed: bool = False
     counted = "chains"
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """A number, and the number of links of the contracted graphs that it belongs to."""
-        return {"count": int, "contracted_links": int}
+    columns = _COUNT_COLUMNS
 
     @property
     def details(self) -> dict[str, Any]:
@@ -355,18 +344,13 @@ def chains(links: int, dof: int, *, workers: int = 1, **options: Unpack[ChainOpt
     workers : int
         Processes.
     **options
-        Other fields of `ChainQuery`: ``fractionated``, ``assortment``, ``planar``, ``longest_string``,
-        ``symmetry``.
+        Other fields of `ChainQuery`, with its errors: ``fractionated``, ``assortment``, ``planar``,
+        ``longest_string``, ``symmetry``.
 
     Yields
     ------
     ChainGraph
         Links are 0 to N - 1, numbered canonically. Graph attributes hold the row of `chain_rows`.
-
-    Raises
-    ------
-    InvariantError
-        If a number is out of its range.
 
     Examples
     --------
@@ -418,16 +402,9 @@ def count_chains(
         As for `chain_rows`.
     method : {"orbits", "burnside"}
         Two ways that share the contracted graphs and the conditions of rigidity only: ``orbits`` compares each
-        placement with its images, ``burnside`` compares none.
+        placement with its images, ``burnside`` compares none. UnsolvableError as of `count_job`.
     workers : int
         Processes.
-
-    Raises
-    ------
-    InvariantError
-        If a number is out of its range.
-    UnsolvableError
-        If Burnside's lemma cannot count by all that the query limits.
 
     Examples
     --------

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from enumerate.kernel.compiled import compiled
+from enumerate.kernel.compiled import compiled, number_of_bits
 from graphs.types import Ints
 
 MOST_NODES = 62
@@ -100,7 +100,7 @@ def _numbered(adjacent: Ints, cells: _Cells, automorphisms: int) -> bool:
             regions[depth] = component
         # If each cell that is split is one orbit of the stabiliser of the vertices before it, the product of their
         # sizes is the order of the group (orbit-stabiliser); otherwise it is greater.
-        choices *= _size(cells.at[chosen])
+        choices *= number_of_bits(cells.at[chosen])
         if choices > automorphisms:
             return False
         _single_out(cells, chosen)
@@ -108,18 +108,9 @@ def _numbered(adjacent: Ints, cells: _Cells, automorphisms: int) -> bool:
 
 
 @compiled
-def _size(members: int) -> int:
-    """Return how many there are in a set."""
-    members -= (members >> 1) & 0x5555555555555555
-    members = (members & 0x3333333333333333) + ((members >> 2) & 0x3333333333333333)
-    members = (members + (members >> 4)) & 0x0F0F0F0F0F0F0F0F
-    return (members * 0x0101010101010101) >> 56
-
-
-@compiled
 def _lowest(members: int) -> int:
     """Return the least in a set that is not empty."""
-    return _size((members & -members) - 1)
+    return number_of_bits((members & -members) - 1)
 
 
 @compiled
@@ -134,13 +125,13 @@ def _begin(adjacent: Ints, cells: _Cells) -> None:
     n = len(adjacent)
     for v in range(n):
         cells.at[v] = 0
-        cells.parts[_size(adjacent[v])] |= 1 << v
+        cells.parts[number_of_bits(adjacent[v])] |= 1 << v
     cells.state[_BEGIN] = cells.state[_WAITING] = cells.state[_NUMBER] = 0
     p = 0
     for degree in range(n):
         if cells.parts[degree]:
             _set_cell(cells, p, cells.parts[degree])
-            p += _size(cells.parts[degree])
+            p += number_of_bits(cells.parts[degree])
             cells.parts[degree] = 0
     for p in range(n):
         if cells.at[p]:
@@ -166,7 +157,7 @@ def _add(cells: _Cells, p: int, single: bool) -> None:
         cells.state[_BEGIN] = begin
         cells.queue[begin] = p
     else:
-        cells.queue[(begin + _size(waiting)) % _QUEUE] = p
+        cells.queue[(begin + number_of_bits(waiting)) % _QUEUE] = p
     cells.state[_WAITING] = waiting | (1 << p)
 
 
@@ -210,14 +201,14 @@ def _split(adjacent: Ints, cells: _Cells, p: int, splitter: int) -> None:
         beside = adjacent[_lowest(splitter)]
         parts[0], parts[1], most, left = left & ~beside, left & beside, 1, 0
     while left:
-        count = _size(adjacent[_lowest(left)] & splitter)
+        count = number_of_bits(adjacent[_lowest(left)] & splitter)
         parts[count] |= left & -left
         most = max(most, count)
         left &= left - 1
     if parts[most] == cells.at[p]:
         parts[most] = 0
         return
-    largest, first, end = -1, p, p + _size(cells.at[p])
+    largest, first, end = -1, p, p + number_of_bits(cells.at[p])
     for count in range(most + 1):
         if parts[count] == 0:
             continue
@@ -227,7 +218,7 @@ def _split(adjacent: Ints, cells: _Cells, p: int, splitter: int) -> None:
             _add(cells, p, p == end - 1)  # for bliss, it still holds the vertices behind it
         elif not waits:
             largest = _passed_over(cells, largest, p, most)
-        p += _size(cells.at[p])
+        p += number_of_bits(cells.at[p])
     if not waits and _is_single(cells.at[largest]):
         _add(cells, largest, True)
 
@@ -237,7 +228,7 @@ def _passed_over(cells: _Cells, largest: int, p: int, most: int) -> int:
     """Let a new cell wait, or the largest up to now if it is larger than that; return which does not."""
     if largest < 0:
         return p
-    size, other = _size(cells.at[p]), _size(cells.at[largest])
+    size, other = number_of_bits(cells.at[p]), number_of_bits(cells.at[largest])
     if size > other or (size == other and most == 1):  # with two numbers of neighbours, 0 and 1, the first waits
         _add(cells, largest, other == 1)
         return p
@@ -280,7 +271,7 @@ def _single_out(cells: _Cells, p: int) -> None:
     """Give one vertex of a cell a cell of its own, behind the others."""
     members = cells.at[p]
     vertex = members & -members
-    last = p + _size(members) - 1
+    last = p + number_of_bits(members) - 1
     _set_cell(cells, p, members & ~vertex)
     _set_cell(cells, last, vertex)
     if _is_single(cells.at[p]):

@@ -95,6 +95,15 @@ def insert(table: Ints, rows: Bytes, used: int, row: Bytes) -> tuple[Ints, Bytes
     return table, rows, used
 
 
+@compiled
+def number_of_bits(members: int) -> int:
+    """Return how many bits of a word are set, of its lowest 62: how many there are in a set."""
+    members -= (members >> 1) & 0x5555555555555555
+    members = (members & 0x3333333333333333) + ((members >> 2) & 0x3333333333333333)
+    members = (members + (members >> 4)) & 0x0F0F0F0F0F0F0F0F
+    return (members * 0x0101010101010101) >> 56
+
+
 def cycles(permutation: Sequence[int]) -> list[list[int]]:
     """Return the cycles of a permutation of 0 to n - 1."""
     seen = [False] * len(permutation)

@@ -8,14 +8,14 @@ A store is looked through before a run goes on with it, and each unit when it is
 
 import sqlite3
 import warnings
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.job import Column, Job, ListColumn, Row, stored, unstored
+from enumerate.runner.job import Job, ListColumn, Row, stored, unstored
 from enumerate.runner.store_units import (
     FORMAT,
     PATIENCE,
@@ -71,18 +71,13 @@ class SqliteSink:
         self._rows: dict[int, int] = {}
         self._complete = False
         self._next, self._first = 0, 1
-        self._lists: list[tuple[int, Callable[[Any], str | None]]] = []
+        self._lists: list[tuple[int, Callable[[Any], Any]]] = []
 
     def start(self, job: Job) -> Collection[int]:
         """Make the file, or look through it; return the numbers of the units that it holds.
 
-        A damaged store is repaired first, with a message.
-
-        Raises
-        ------
-        StoreError
-            If there is a file and it is not to be resumed, is no store or that of another job, or cannot be
-            opened.
+        A damaged store is repaired first, with a message. Raises `StoreError` if there is a file and it is not to
+        be resumed, is no store or that of another job, or cannot be opened.
         """
         check_place(self.path, force=True)  # a file only, in a folder that is there
         if self.path.exists() and not (self._resume or self._force):
@@ -103,7 +98,7 @@ class SqliteSink:
                 with self._transaction():
                     make_tables(self._connection, _meta_of(job))
             self._rows = dict(self._connection.execute("SELECT id, rows FROM unit ORDER BY id"))
-        self._lists = _texts_of_lists(job.columns)
+        self._lists = _remembering(stored, _lists_in(job), job.columns)
         return self._rows.keys()
 
     def _remove(self) -> None:
@@ -137,15 +132,13 @@ class SqliteSink:
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Store a unit and its rows in one transaction; they come in the order of their numbers.
 
-        Raises
-        ------
-        StoreError
-            If they cannot be written; the file is as it was before.
+        Raises `StoreError` if they cannot be written; the file is as it was before.
         """
         assert self._units is not None
         first = self._first_row_of(number)
         with naming(self.path), self._transaction():
-            self._units.add(number, first, self._with_texts(rows), round(seconds, 6))
+            texts = list(_replaced(rows, self._lists)) if self._lists else rows
+            self._units.add(number, first, texts, round(seconds, 6))
         self._rows[number] = len(rows)
 
     def _first_row_of(self, number: int) -> int:
@@ -155,19 +148,11 @@ class SqliteSink:
             self._next += 1
         return self._first
 
-    def _with_texts(self, rows: list[Row]) -> list[Row]:
-        """Return rows with lists as JSON text."""
-        return list(_replaced(rows, self._lists)) if self._lists else rows
-
     def finish(self) -> None:
         """Mark the store complete, after a look that every unit is there with its rows.
 
         Others who read it do not hinder that; only then its files stay as they are during a run, with a message.
-
-        Raises
-        ------
-        StoreError
-            If rows are missing.
+        Raises `StoreError` if rows are missing.
         """
         assert self._connection is not None
         with naming(self.path):
@@ -272,8 +257,7 @@ def read_rows(path: str | Path) -> Iterator[Row]:
     path = Path(path)
     with reading(path) as connection:
         meta = meta_in(connection, path)
-        places = [place for place, name in enumerate(meta["columns"]) if name in meta["lists"]]
-        lists = [(place, lru_cache(_REMEMBERED)(unstored)) for place in places]
+        lists = _remembering(unstored, meta["lists"], meta["columns"])
         units = UnitTable(connection, meta["columns"])
         for number in units.numbers():
             rows = units.rows(number)
@@ -307,19 +291,21 @@ def _meta_of(job: Job) -> dict[str, Any]:
         "version": VERSION,
         "synthedra": version("synthedra"),
         "columns": list(job.columns),
-        "lists": [name for name, kind in job.columns.items() if isinstance(kind, ListColumn)],
+        "lists": _lists_in(job),
         "job": job.key,
         "complete": False,
     }
 
 
-def _texts_of_lists(columns: Mapping[str, Column]) -> list[tuple[int, Callable[[Any], str | None]]]:
-    """Return the place of each column of lists, and what makes text of them.
+def _lists_in(job: Job) -> list[str]:
+    return [name for name, kind in job.columns.items() if isinstance(kind, ListColumn)]
+
+
+def _remembering(
+    function: Callable[[Any], Any], lists: Collection[str], columns: Iterable[str]
+) -> list[tuple[int, Callable[[Any], Any]]]:
+    """Return the place of each column of lists, and a function of their values.
 
     Each column remembers its own: lists that are equal, of numbers of different types, are not one text.
     """
-    return [
-        (place, lru_cache(_REMEMBERED)(stored))
-        for place, kind in enumerate(columns.values())
-        if isinstance(kind, ListColumn)
-    ]
+    return [(place, lru_cache(_REMEMBERED)(function)) for place, name in enumerate(columns) if name in lists]

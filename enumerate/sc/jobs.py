@@ -306,6 +306,9 @@ class FormJob(QueryJob[SCQuery]):
     """One row for each planar chain: how many SC graphs it has, and one with the most centres.
 
     ``centres`` of the query limits what counts as a form: chains without such SC graphs have no row.
+
+    >>> [(row["name"], row["centres"]) for row in rows_of(FormJob(SCQuery(6, 1)))]
+    [('watt', 2), ('stephenson', 1)]
     """
 
     columns = _COLUMNS
@@ -358,18 +361,13 @@ def sc_graphs(links: int, dof: int, *, workers: int = 1, **options: Unpack[SCOpt
     workers : int
         Processes.
     **options
-        Other fields of `SCQuery`: ``spatial``, ``infinite``, ``centres``, ``symmetry``, ``assortment``,
-        ``longest_string``.
+        Other fields of `SCQuery`, with its errors: ``spatial``, ``infinite``, ``centres``, ``symmetry``,
+        ``assortment``, ``longest_string``.
 
     Yields
     ------
     SCGraph
         The loops are the bounded faces. Graph attributes hold the row of `sc_rows`.
-
-    Raises
-    ------
-    InvariantError
-        If a number is out of its range.
 
     Examples
     --------
@@ -401,24 +399,6 @@ def sc_rows(links: int, dof: int, *, workers: int = 1, **options: Unpack[SCOptio
     yield from rows_of(SCJob(SCQuery(links, dof, **options)), workers=workers)
 
 
-def chain_forms(
-    links: int, dof: int, *, workers: int = 1, **options: Unpack[SCOptions]
-) -> Iterator[dict[str, Any]]:
-    """Yield a dictionary for each planar chain: its number of SC graphs, and one with the most centres.
-
-    Parameters
-    ----------
-    links, dof, workers, **options
-        As for `sc_graphs`.
-
-    Examples
-    --------
-    >>> [(row["name"], row["centres"]) for row in chain_forms(6, 1)]
-    [('watt', 2), ('stephenson', 1)]
-    """
-    yield from rows_of(FormJob(SCQuery(links, dof, **options)), workers=workers)
-
-
 def count_sc_graphs(
     links: int,
     dof: int,
@@ -435,18 +415,12 @@ def count_sc_graphs(
     links, dof, **options
         As for `sc_graphs`.
     method : {"orbits", "burnside"}
-        Two ways that share the contracted maps and the conditions of rigidity only.
+        Two ways that share the contracted maps and the conditions of rigidity only. UnsolvableError as of
+        `sc_count_job`.
     outside : bool
         Whether an outer face is chosen; without it, embeddings of the chains in the sphere are counted.
     workers : int
         Processes.
-
-    Raises
-    ------
-    InvariantError
-        If a number is out of its range.
-    UnsolvableError
-        If the method cannot count by all that the options limit.
 
     Examples
     --------

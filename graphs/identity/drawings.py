@@ -239,12 +239,8 @@ def _loops(
     code: str, labels: str, rotation: Rotation, faces: Sequence[Any], left_of: Mapping[tuple[JointId, LinkId], int]
 ) -> list[Loop]:
     """Return the loops of the bounded faces, in the order in which an id meets them."""
-    met = list(
-        dict.fromkeys(
-            left_of[side, link] for link, sides in rotation.items() for side in sides if side is not None
-        )
-    )
-    bounded = met[1:]
+    met = (left_of[side, link] for link, sides in rotation.items() for side in sides if side is not None)
+    _, *bounded = dict.fromkeys(met)
     kinds = {letter: centre for centre, letter in _LABELS.items()}
     if labels and (len(labels) != len(bounded) or not set(labels) <= set(kinds)):
         raise InvariantError("id", f"the labels {shown(labels)} of {shown(code)}", f"{len(bounded)} of f, i, s")

@@ -12,7 +12,7 @@ from typing import Any
 
 from enumerate.runner.job import Column, Job, Row, Unit
 from enumerate.runner.sinks import FolderSink
-from graphs.errors import FileError, SynthedraError, UnsolvableError, numbered
+from graphs.errors import SynthedraError, UnsolvableError, numbered
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import plain
 from synth.atlas.columns import COLUMNS, damaged
@@ -239,20 +239,15 @@ class SiteSink(FolderSink):
         Raise FileError if something is at its place, or it cannot be made.
         """
         there = super().start(job)
-        assert self._folder is not None
         for name in ("types", "pictures"):
-            (self._folder.path / name).mkdir()
+            (self._begun.path / name).mkdir()
         self.take(0, list(self._first.items()), 0.0)
         return there
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Write the files of a unit: a row is a name and a text."""
-        assert self._folder is not None
-        for name, text in rows:
-            try:
-                (self._folder.path / name).write_text(text, encoding="utf-8")
-            except OSError as error:
-                raise FileError(self._path, "", f"cannot be written: {error.strerror}") from None
+        for row in rows:
+            self._write(*row)
 
 
 def site_of(atlas: Atlas, condition: str = "", title: str = "") -> tuple[Site, dict[str, str]]:

@@ -152,10 +152,6 @@ def realise_on_cone(
         Largest number of linkages that are tried. The first that moves as its type does, with all loops open,
         is chosen, or else the best.
 
-    Returns
-    -------
-    ConeRealisation
-
     Raises
     ------
     UnsolvableError

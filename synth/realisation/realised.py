@@ -296,10 +296,7 @@ def realise(
         raise InvariantError("string", "an R/- string that is flat-foldable or symmetric", "an SCD graph")
     if mode and not isinstance(source, ChainString):
         raise InvariantError("mode", f"the mode {shown(mode)} for {source!r}", "an R/- string with it")
-    if isinstance(source, ChainString):
-        scd, notes = drawn_string(source, mode)
-    else:
-        scd, notes = simplest_drawn(source)
+    scd, notes = drawn_string(source, mode) if isinstance(source, ChainString) else simplest_drawn(source)
     pattern = pattern_of(scd)
     lift: Lift = lifted
     if kind == "sheet":

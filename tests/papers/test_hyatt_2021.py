@@ -364,7 +364,7 @@ def test_the_twelve_cases_come_out_of_the_enumeration_of_candidates():
         assert set(told) == {"one way" if ROWS[case][0].startswith("Y") else "both ways"}
     pair = np.array([[0, 1, 2, 3], [3, 2, 1, 0], [1, 0, 3, 2], [2, 3, 0, 1]])  # symmetries that keep {CO, AB}
     assert (
-        count_rounds_by_burnside(Rounds.opposites(4), pair) == len(placements(Rounds.opposites(4), pair)[0]) == 12
+        count_rounds_by_burnside(Rounds(4, 2 * 4, 4), pair) == len(placements(Rounds(4, 2 * 4, 4), pair)[0]) == 12
     )
     # the same by angles: all four-bars on 11 slots, none of which lies opposite to another
     placed = CandidateJob(FOUR_BAR, (0,), slots=11)

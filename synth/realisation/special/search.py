@@ -279,11 +279,8 @@ def search_special(mechanism: Mechanism, wishes: SpecialWishes) -> SpecialSearch
     range, `UnsolvableError` if no family has the name in `wishes`, or the type has no loop.
     """
     check_argument("realise", mechanism, Mechanism)
-    graph: SCGraph
-    if isinstance(mechanism, SCGraph | HingedSolids):
-        graph = mechanism if isinstance(mechanism, SCGraph) else to_sc(mechanism)
-    else:
-        graph = to_scd(mechanism)
+    converted = to_sc if isinstance(mechanism, HingedSolids) else to_scd
+    graph = mechanism if isinstance(mechanism, SCGraph) else converted(mechanism)
     if wishes.freedoms < 1:
         raise InvariantError("freedoms", f"{wishes.freedoms} freedoms", "1 or more")
     check_search(wishes.seed, wishes.tries)

@@ -103,14 +103,14 @@ def orbits_by_brute_force(graph, rounds, ground=None):
 @pytest.mark.parametrize(
     ("name", "rounds"),
     [
-        ("four-bar", Rounds.orders(4)),
-        ("four-bar", Rounds.opposites(4)),
-        ("four-bar", Rounds.on_slots(4, 7)),
-        ("four-bar", Rounds.on_slots(4, 8)),
-        ("five-bar", Rounds.orders(5)),
-        ("five-bar", Rounds.opposites(5)),
-        ("watt", Rounds.orders(7)),
-        ("stephenson", Rounds.orders(7)),
+        ("four-bar", Rounds(4, 4, 4)),
+        ("four-bar", Rounds(4, 2 * 4, 4)),
+        ("four-bar", Rounds(4, 7, 7)),
+        ("four-bar", Rounds(4, 8, 8)),
+        ("five-bar", Rounds(5, 5, 5)),
+        ("five-bar", Rounds(5, 2 * 5, 5)),
+        ("watt", Rounds(7, 7, 7)),
+        ("stephenson", Rounds(7, 7, 7)),
     ],
 )
 def test_orbits_by_brute_force(name, rounds):
@@ -140,7 +140,7 @@ def test_orbits_by_brute_force(name, rounds):
 @pytest.mark.parametrize("name", ["watt", "stephenson"])
 def test_portions_hold_every_placement_once(name):
     graph = chain_from_id(chain_named(name))
-    for rounds in (Rounds.orders(7), Rounds.opposites(7), Rounds.on_slots(7, 9)):
+    for rounds in (Rounds(7, 7, 7), Rounds(7, 2 * 7, 7), Rounds(7, 9, 9)):
         symmetries = joint_symmetries(joints_of(graph))
         whole = placements(rounds, symmetries)[0].tolist()
         for most in (1, 30, 1000):

@@ -9,9 +9,9 @@ from embeddings import face_code, spherical_embeddings
 from rigidity import chains_by_geng
 
 from enumerate.chains.jobs import chain_rows
-from enumerate.runner.running import run
+from enumerate.runner.running import rows_of, run
 from enumerate.runner.sinks import RowSink
-from enumerate.sc.jobs import SCJob, chain_forms, count_sc_graphs, sc_graphs, sc_rows
+from enumerate.sc.jobs import FormJob, SCJob, count_sc_graphs, sc_graphs, sc_rows
 from enumerate.sc.query import SCQuery
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.identity.chains import automorphisms_of, chain_id
@@ -160,7 +160,7 @@ def test_centres_of_all_twelve_link_graphs():
 
 
 def test_most_general_forms():
-    forms = {links: list(chain_forms(links, 1)) for links in (4, 6, 8, 10)}
+    forms = {links: list(rows_of(FormJob(SCQuery(links, 1)))) for links in (4, 6, 8, 10)}
     assert [(row["name"], row["centres"]) for row in forms[6]] == [("watt", 2), ("stephenson", 1)]
     assert Counter(row["centres"] for row in forms[8]) == {1: 9, 2: 4, 3: 3}
     for links, rows in forms.items():

@@ -81,9 +81,9 @@ def test_orders_with_opposites_are_those_that_are_enumerated(name):
     """2^(J - 1) of each cyclic order: together all placements on 2 J slots, one of each two opposite ones."""
     joints = len(CHAINS[name].joints)
     identity = np.arange(joints)[None]
-    orders = placements(Rounds.orders(joints), identity)[0]
+    orders = placements(Rounds(joints, joints, joints), identity)[0]
     found = orders_with_opposites(orders).reshape(-1, joints)
-    listed = placements(Rounds.opposites(joints), identity)[0]
+    listed = placements(Rounds(joints, 2 * joints, joints), identity)[0]
     both = np.concatenate([found, np.remainder(-found, 2 * joints)])
     assert len(found) == len(orders) * 2 ** (joints - 1) == len(listed)
     assert set(map(tuple, listed.tolist())) <= set(map(tuple, both.tolist()))

@@ -6,8 +6,9 @@ from dataclasses import replace
 import pytest
 from commands import run
 from measured import lines_of_svg
+from read_strings import string_of_chain
 
-from enumerate.strings.panel_strings import ChainString, string_of_chain, strings
+from enumerate.strings.panel_strings import ChainString, strings
 from graphs.convert.table import to_scd
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
