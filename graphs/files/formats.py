@@ -288,14 +288,14 @@ def _read_back(written: Path, suffix: str, lost: tuple[str, ...]) -> Mechanism:
 
 
 def _because(lost: tuple[str, ...]) -> str:
-    return f", for it cannot hold {', '.join(lost)}" if lost else ""
+    return f"; it cannot hold {', '.join(lost)}" if lost else ""
 
 
 def _check_type(again: Mechanism, suffix: str, mechanism: Mechanism, lost: tuple[str, ...]) -> None:
     """Refuse a mechanism of another type than the written one."""
     change = change_of_type(mechanism, again)
     if change is not None:
-        wrong = f"a {suffix} file would be of another type: {change}{_because(lost)}"
+        wrong = f"a {suffix} file would be read back as another type: {change}{_because(lost)}"
         raise UnsolvableError(f"{wrong}; try --lossy (in Python lossy=True)")
 
 

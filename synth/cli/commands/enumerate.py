@@ -188,7 +188,7 @@ def chains(
     )  # fmt: skip
     _say_if_odd(links, dof)
     if only_count:
-        run_count(count_job(query, method or "orbits", running.kept_job()), running)
+        run_count(count_job(query, method or "orbits", running.stored_job()), running)
     else:
         graph6 = running.output is not None and running.output.lower().endswith(".g6")
         run_rows(ChainJob(query, bare=graph6 and not (query.inversions or query.inputs)), running)

@@ -363,7 +363,9 @@ def move_command(kind: Kind) -> click.Command:
     """
 
     @click.command(
-        "move", help=text, short_help=f"Find how far a linkage moves from its {kind}, and to which side."
+        "move",
+        help=text,
+        short_help=f"Find how far a linkage moves from its {kind}, inward and outward.",
     )
     @linkage_options(kind)
     @_GROUND
@@ -436,7 +438,7 @@ def _pair(linkage: synth.conformed.OnSurface, text: str) -> tuple[LinkId, LinkId
 def _group(kind: Kind) -> click.Group:
     linkages = "spherical" if kind == "cone" else "planar"
     sizes, *_ = _EXAMPLE[kind]
-    text = f"""Map {linkages} linkages to right circular {kind}s, and find to which side their links move.
+    text = f"""Map {linkages} linkages to right circular {kind}s, and find which links move inward or outward.
 
     \b
     Examples:

@@ -80,7 +80,7 @@ def test_what_is_no_linkage_on_a_cone_is_refused_in_one_line(data, tmp_path):
 def test_a_string_becomes_a_strip_of_panels(tmp_path):
     told = run("realise", "RR-R-RRR", "-o", tmp_path / "ups.fold").output
     assert "joints UPS" in told
-    assert "6 first-order freedoms" in told
+    assert "6 infinitesimal degrees of freedom" in told
     assert len(read(tmp_path / "ups.fold").faces) == 7
     for words, why in ((("RR--R",), "without a crease"), (("RR-R", "--as", "cone"), "has no loop")):
         output = run("realise", *words, code=2).output
