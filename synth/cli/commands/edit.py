@@ -172,13 +172,15 @@ EDITS = (
     EditOption(
         "--implicit",
         "LOOP",
-        "For an SCD graph: make the centre of a loop implicit, so that no link reaches it. LOOP is an index.",
+        "For an SCD graph: make the centre of a loop implicit, so that no link reaches it. "
+        "LOOP is the number of the loop, from 0.",
         of_graph=partial(_change_centre, option="--implicit"),
     ),
     EditOption(
         "--explicit",
         "LOOP",
-        "For an SCD graph: make the centre of a loop explicit, so that its links reach it. LOOP is an index.",
+        "For an SCD graph: make the centre of a loop explicit, so that its links reach it. "
+        "LOOP is the number of the loop, from 0.",
         of_graph=partial(_change_centre, option="--explicit"),
     ),
     EditOption(
@@ -250,7 +252,7 @@ def edit(
         else:
             edits = list(_edits_of_graph(graph_of(mechanism), words))
         if not edits:
-            raise click.UsageError("no edit; try --add-ride-along A,B or another")
+            raise click.UsageError("no edit; try --add-ride-along A,B or another option that edits")
         last = edits[-1]
         result = last.graph if isinstance(last, graphs.edit.Edit) else last.sheet
         lost = () if output is None else synth.write(result, output, force=force, lossy=lossy)

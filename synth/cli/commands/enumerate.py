@@ -304,7 +304,7 @@ def scd(
         with about(file):
             mechanisms = mechanism_of(graph, max_degree, **filters)
     elif links is None or dof is None:
-        raise click.UsageError("expected --links and --dof, or --of FILE")
+        raise click.UsageError("--links and --dof, or --of FILE, are required")
     else:
         mechanisms = all_mechanisms(links, dof, max_degree, spatial=spatial, infinite=infinite, **filters)
         if not mechanisms.tree:

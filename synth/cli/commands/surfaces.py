@@ -62,7 +62,7 @@ class LinkageOptions:
     def __post_init__(self) -> None:
         size, sizes = ("lambda", "angles") if self.kind == "cone" else ("radius", "lengths")
         if sum(source is not None for source in (self.file, self.sizes, self.steps)) != 1:
-            raise click.UsageError(f"expected one of --{sizes}, --steps (of one loop) and FILE")
+            raise click.UsageError(f"one of --{sizes}, --steps and FILE is required")
         if self.surface_size is not None and self.sizes is not None:
             raise click.UsageError(f"--{sizes} determine the {self.kind}; leave out --{size}")
 
