@@ -92,8 +92,8 @@ def _admitted(query: ChainQuery, levels: Iterable[tuple[int, Bytes]]) -> Iterato
         if query.assortment is None and query.planar is None:
             yield n, codes
         else:
-            kept = [query.admits_graph(code, n) for code in codes]
-            yield n, codes[np.array(kept, bool)]
+            admitted = [query.admits_graph(code, n) for code in codes]
+            yield n, codes[np.array(admitted, bool)]
 
 
 @dataclass(frozen=True)

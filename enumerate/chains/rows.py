@@ -77,10 +77,10 @@ class GraphChains:
         """List them, or those that begin in one way (`enumerate.chains.counting.count_of_graph`)."""
         frame = frame_of(code, n)
         x, order = list_placements(frame, PlacementRange(query.links, query.most, only), prefix)
-        kept = query.symmetry.admitted(order)
+        admitted = query.symmetry.admitted(order)
         if query.longest_string.least > 0:  # the greatest length was seen to when they were placed
-            kept &= x.max(axis=1, initial=0) >= query.longest_string.least
-        return cls(code, frame, x[kept], order[kept])
+            admitted &= x.max(axis=1, initial=0) >= query.longest_string.least
+        return cls(code, frame, x[admitted], order[admitted])
 
     def inversions(self, links: int) -> Ints:
         """Return the orbits of links of each chain: int64[r, links], the least link of the orbit of each."""

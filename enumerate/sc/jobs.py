@@ -110,12 +110,12 @@ def drawn_of(query: SCQuery, part: MapPart) -> DrawnChains:
     strings = PlacementRange(query.links, query.chains.most, part.only)
     centres = Centres(query.dof, query.spatial, query.infinite)
     x, labels, order = list_drawn(part.code, part.n, part.outer, strings, part.prefix, centres)
-    kept = query.symmetry.admitted(order)
+    admitted = query.symmetry.admitted(order)
     if len(part.code) and query.longest_string.least > 0:
-        kept &= x.max(axis=1, initial=0) >= query.longest_string.least
+        admitted &= x.max(axis=1, initial=0) >= query.longest_string.least
     if query.centres != ANY_NUMBER:
-        kept &= query.centres.admitted(centres_of_all(part.code, part.n, query.links, x, labels))
-    return DrawnChains(x[kept], labels[kept], order[kept])
+        admitted &= query.centres.admitted(centres_of_all(part.code, part.n, query.links, x, labels))
+    return DrawnChains(x[admitted], labels[admitted], order[admitted])
 
 
 def _rows_of_maps(query: SCQuery, maps: Maps) -> list[Row]:
@@ -133,8 +133,8 @@ def _rows(query: SCQuery, part: MapPart, drawn: DrawnChains) -> list[Row]:
     chains, _ = chain_ids(query.links, joints)
     whole = (1 << query.chains.joints) - 1  # without ride-alongs, all joints are left: the chain itself
     reduced = [
-        chain if kept == whole else _reduced(joints[i], kept)
-        for i, (chain, kept) in enumerate(zip(chains, left.tolist(), strict=True))
+        chain if mask == whole else _reduced(joints[i], mask)
+        for i, (chain, mask) in enumerate(zip(chains, left.tolist(), strict=True))
     ]
     common = query.links, query.chains.joints, query.dof, query.loops, query.spatial
     assortment = assortment_of(Counter(np.bincount(joints[0].ravel()).tolist()))
@@ -144,9 +144,9 @@ def _rows(query: SCQuery, part: MapPart, drawn: DrawnChains) -> list[Row]:
     return list(zip(ids, chains, *map(repeat, common), *columns, strict=False))
 
 
-def _reduced(joints: Ints, kept: int) -> str:
-    """Return the id of the chain of some of the joints."""
-    pairs = [pair for k, pair in enumerate(joints.tolist()) if kept >> k & 1]
+def _reduced(joints: Ints, mask: int) -> str:
+    """Return the id of the chain of the joints whose bits are set."""
+    pairs = [pair for k, pair in enumerate(joints.tolist()) if mask >> k & 1]
     number: dict[int, int] = {}
     named = [[number.setdefault(link, len(number)) for link in pair] for pair in pairs]
     return chain_ids(len(number), np.array([named], np.int64))[0][0]

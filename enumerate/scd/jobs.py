@@ -64,8 +64,8 @@ def placements_on(
     )
     if query.vertices == ANY_NUMBER:
         return codes, lengths, facts
-    kept = query.vertices.admitted(facts[:, 1])
-    return codes[kept], lengths[kept], facts[kept]
+    admitted = query.vertices.admitted(facts[:, 1])
+    return codes[admitted], lengths[admitted], facts[admitted]
 
 
 def _rows_on(query: PlacementQuery, dof: int, code: Bytes, labels: Ints, first: int, last: int) -> list[Row]:

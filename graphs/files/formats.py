@@ -265,7 +265,7 @@ def write_converted(
             again = _read_back(beside.closed(), written.suffix, lost)
             change = None if lossy else change_of_type(mechanism if made_of is None else made_of, again)
             if change is not None:
-                wrong = f"a {written.suffix} file would be of another type: {change}{_because(lost)}"
+                wrong = f"a {written.suffix} file would be read back as another type: {change}{_because(lost)}"
                 raise UnsolvableError(f"{wrong}; try --lossy (in Python lossy=True)")
         beside.commit()
     finally:
@@ -283,7 +283,7 @@ def _read_back(written: Path, suffix: str, lost: tuple[str, ...]) -> Mechanism:
 
 
 def _because(lost: tuple[str, ...]) -> str:
-    return f", for it cannot hold {', '.join(lost)}" if lost else ""
+    return f"; it cannot hold {', '.join(lost)}" if lost else ""
 
 
 def _reader(path: Path, legend: Legend) -> Reader:

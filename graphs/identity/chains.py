@@ -180,12 +180,13 @@ def chain_from_id(code: str) -> nx.Graph:
     """
     text = code.removeprefix(_PREFIX)
     if text == code:
-        raise InvariantError("id", f"the id {code!r}", f"one that begins with {_PREFIX}")
+        raise InvariantError("id", f"{shown(code)} is not the id of a chain", f"an id that begins with {_PREFIX}")
     try:
         data = text.encode("ascii")
         return nx.from_sparse6_bytes(data) if text.startswith(":") else nx.from_graph6_bytes(data)
     except (nx.NetworkXError, ValueError, IndexError):
-        raise InvariantError("id", f"the id {shown(code)}", "graph6 or sparse6 after k1:") from None
+        wrong = f"{shown(code)} is not the id of a chain"
+        raise InvariantError("id", wrong, "graph6 or sparse6 after k1:") from None
 
 
 def class_code(sc: SCGraph, marked: Collection[LinkId] = ()) -> tuple[Any, ...]:

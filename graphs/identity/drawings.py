@@ -172,7 +172,8 @@ def symbols_of(code: str) -> tuple[list[int], str]:
     """Return the symbols and the labels of an id; raises `InvariantError` if it is not an id."""
     text, _, labels = code.removeprefix(_PREFIX).partition(";")
     if not code.startswith(_PREFIX):
-        raise InvariantError("id", f"the id {shown(code)}", f"one that begins with {_PREFIX}")
+        wrong = f"{shown(code)} is not the id of a drawing"
+        raise InvariantError("id", wrong, f"an id that begins with {_PREFIX}")
     symbols = []
     for link in text.split("."):
         for side in link.split(",") if any(c.isdigit() for c in text) else link:

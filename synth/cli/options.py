@@ -174,7 +174,7 @@ JSON = flag("--json as_json", "Print the answer as JSON.")
 WORKERS = number("--workers", "N", "Number of processes. By default one per core.")
 NUMBER_OF_SURFACE = number(
     "--cone --cylinder number", "K",
-    "For a linkage that lies on several cones or cylinders: number of the one to take.",
+    "For a linkage that lies on several cones or cylinders: number of the cone or cylinder to use, from 1.",
 )  # fmt: skip
 
 

@@ -32,13 +32,13 @@ LOOK = "M=#c1272d,..."
 
 def keep_looks(ctx: click.Context, what: str, words: tuple[str, ...]) -> None:
     """Keep pairs LETTER=TEXT for the drawings that will be read."""
-    kept = ctx.meta.setdefault(_LOOKS, {}).setdefault(what, {})
+    looks = ctx.meta.setdefault(_LOOKS, {}).setdefault(what, {})
     for word in (part for text in words for part in _COMMA.split(text)):
         letter, equals, text = word.partition("=")
         if not equals or not text.strip():
             option = "--colour" if what == "colours" else "--layer"
             raise click.BadParameter(f"{plain(word)!r} is not LETTER=TEXT, such as M=red", param_hint=option)
-        kept.setdefault(letter.strip(), []).append(text.strip())
+        looks.setdefault(letter.strip(), []).append(text.strip())
 
 
 COLOUR = options.repeated(
@@ -84,8 +84,8 @@ MODE = options.value(
 def stated() -> dict[str, Any]:
     """Return the values of --colour and --layer, as keywords of `graphs.files.read`."""
     context = click.get_current_context(silent=True)
-    kept = {} if context is None else context.meta.get(_LOOKS, {})
-    return {what: pairs for what, pairs in kept.items() if pairs}
+    looks = {} if context is None else context.meta.get(_LOOKS, {})
+    return {what: pairs for what, pairs in looks.items() if pairs}
 
 
 def read(file: str, *, warn: bool = True) -> Mechanism:

@@ -48,7 +48,7 @@ class RunOptions:
         if self.output is not None and self.as_json and not self.counting:
             raise click.UsageError("-o and --json exclude each other; try one of them")
 
-    def kept_job(self) -> dict[str, Any] | None:
+    def stored_job(self) -> dict[str, Any] | None:
         """Return the key of the job to continue; None if there is none yet."""
         if not self.resume or self.output is None:
             return None

@@ -237,7 +237,7 @@ _RINGS = (
     *(
         Generator(
             f"{word}-bar", f"Spherical {word}-bar", _of_arcs, _arcs(links), lambda v: len(v) - 3,
-            "axes through one point", "three equations a loop",
+            "axes through one point", "three equations per loop",
             relations="no arc is longer than the others together, no three by more than 360 degrees" + more,
         )
         for word, links, more in (("four", 4, ""), ("five", 5, _FIVE), ("six", 6, _FIVE))

@@ -36,7 +36,7 @@ class Generated(Printed):
         Largest fold angle, radians; None if the mechanism is not folded.
     mechanism : Sheet, HingedSolids or JointedLinkage
     freedoms : int
-        Of finite motion, by the source.
+        Of finite motion, according to the source.
     count : int or None
         Mobility by count of a generic realisation of its type.
 
@@ -85,7 +85,7 @@ class Generated(Printed):
             lines.append(f"folded to {degrees(self.fold):g} degrees")
         freedoms = numbered(self.freedoms, "degree of freedom", "degrees of freedom")
         count = "not known" if self.count is None else f"{self.count}, h = {self.overconstraint}"
-        lines.append(f"{freedoms} of finite motion, by the source; count of its type M = {count}")
+        lines.append(f"{freedoms} of finite motion, according to the source; by count M = {count}")
         return [*lines, f"conditions: {self.generator.conditions}", f"source: {self.generator.source}"]
 
     def __repr__(self) -> str:

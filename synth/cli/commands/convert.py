@@ -111,12 +111,14 @@ def convert(
         else:
             from graphs.files.formats import write_converted
 
-            made_of = original if kind == "sheet" and form is None else None  # a sheet holds less than others
-            lost = write_converted(mechanism, target, made_of, lossy=lossy, force=force)
+            source_sheet = original if kind == "sheet" and form is None else None  # a sheet holds less than others
+            lost = write_converted(mechanism, target, source_sheet, lossy=lossy, force=force)
     if as_json:
         print_json({"input": source, "output": target, "kind": type(mechanism).__name__, "lost": list(lost)})
         return
-    click.echo(f"{plain(target, 4096)}: from {type(mechanism).__name__}")
+    from graphs.convert.table import kind_in_words
+
+    click.echo(f"written: {plain(target, 4096)} (from: {kind_in_words(mechanism)})")
     tell_lost(lost)
 
 

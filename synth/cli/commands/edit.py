@@ -105,12 +105,14 @@ _WORDS = {
     ),
     "implicit": _EditWords(
         "LOOP",
-        "For an SCD graph: make the centre of a loop implicit, so that no link reaches it. LOOP is an index.",
+        "For an SCD graph: make the centre of a loop implicit, so that no link reaches it. "
+        "LOOP is the number of the loop, from 0.",
         _centre,
     ),
     "explicit": _EditWords(
         "LOOP",
-        "For an SCD graph: make the centre of a loop explicit, so that its links reach it. LOOP is an index.",
+        "For an SCD graph: make the centre of a loop explicit, so that its links reach it. "
+        "LOOP is the number of the loop, from 0.",
         _centre,
     ),
     "lock": _EditWords(
@@ -179,7 +181,7 @@ def edit(
         branches = () if assign_branch is None else (assign_branch,)
         edited = with_edits(mechanism, {"assign_branch": branches, **words}, value_of=value_of, spelled=_spelled)
         if not edited.edits:
-            raise click.UsageError("no edit; try --add-ride-along A,B or another")
+            raise click.UsageError("no edit; try --add-ride-along A,B or another option that edits")
         lost = () if output is None else synth.write(edited.mechanism, output, force=force, lossy=lossy)
     keys = {"file": file, "output": output, "lost": list(lost)}
     out.print_result(edited, keys, as_json=as_json, written=[output], lost=lost)

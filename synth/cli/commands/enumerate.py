@@ -183,7 +183,7 @@ def chains(
     query = ChainQuery(links, dof, **options.stated_values(properties))
     _say_if_odd(links, dof)
     if only_count:
-        run_count(count_job(query, method or "orbits", running.kept_job()), running)
+        run_count(count_job(query, method or "orbits", running.stored_job()), running)
     else:
         graph6 = running.output is not None and running.output.lower().endswith(".g6")
         run_rows(ChainJob(query, bare=graph6 and not (query.inversions or query.inputs)), running)
@@ -288,7 +288,7 @@ def scd(
         with about(file):
             mechanisms = mechanism_of(graph, max_degree, **filters)
     elif links is None or dof is None:
-        raise click.UsageError("expected --links and --dof, or --of FILE")
+        raise click.UsageError("--links and --dof, or --of FILE, are required")
     else:
         mechanisms = all_mechanisms(links, dof, max_degree, spatial=spatial, infinite=infinite, **filters)
         if not mechanisms.tree:

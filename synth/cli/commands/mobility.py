@@ -124,4 +124,4 @@ def _print_table(out: Console, answers: list[tuple[str, synth.verdict.JudgedMobi
     for note in sorted(common):
         out.print(f"note, for all: {note}")
     if any(answer.repairs or set(answer.warnings) - common for _, answer in answers):
-        out.print("for the notes of a file, try that file alone")
+        out.print("notes are printed for a file on its own")

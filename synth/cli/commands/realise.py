@@ -132,12 +132,12 @@ def _command(generator: synth.patterns.Generator) -> click.Command:
     for parameter in generator.parameters:
         metavar = {"count": "N", "length": "LENGTH", "angle": "DEGREES"}[parameter.unit]
         meaning = (
-            f"{parameter.meaning[0].upper()}{parameter.meaning[1:]}, from {parameter.in_words(parameter.least)} "
-            f"to {parameter.in_words(parameter.most)}.  [default: {parameter.in_words(parameter.default)}]"
+            f"{parameter.meaning[0].upper()}{parameter.meaning[1:]}, {parameter.limits}.  "
+            f"[default: {parameter.in_words(parameter.default)}]"
         )
         kind = int if parameter.unit == "count" else float
         options.value(f"--{parameter.name}", metavar, meaning, type=kind)(command)
-    written = ".json, or .fold if it has panels"
+    written = ".json, or .fold if the mechanism has panels"
     if generator.foldable:
         written = ".fold, .obj or another format"
         meaning = "Fold the crease that moves most to this angle; equivalent creases fold alike if they can."
@@ -216,8 +216,8 @@ def realise(
       synth realise RR-R-RRR --mode D -o ups.fold
       synth realise data/wiener/six-bar.json --as space -o six-bar.obj
       synth realise data/wiener/stephenson.json --as cone --lambda 25 -o stephenson.json
-      synth realise types.sqlite --as space -o things
-      synth realise k1:Cr --freedoms 1 --as space
+      synth realise types.sqlite --as space -o realised
+      synth realise data/wiener/six-bar-loop-spatial.json --freedoms 1 --as space
       synth realise data/linkages/bennett.json --freedoms 1 -o bennett.json --mark type.json
     """
     from synth.drawing.catalogue import is_catalogue

@@ -57,7 +57,7 @@ class LinkageOptions:
     def __post_init__(self) -> None:
         size, sizes = ("lambda", "angles") if self.kind == "cone" else ("radius", "lengths")
         if sum(source is not None for source in (self.file, self.sizes, self.steps)) != 1:
-            raise click.UsageError(f"expected one of --{sizes}, --steps (of one loop) and FILE")
+            raise click.UsageError(f"one of --{sizes}, --steps and FILE is required")
         if self.surface_size is not None and self.sizes is not None:
             raise click.UsageError(f"--{sizes} determine the {self.kind}; leave out --{size}")
 
@@ -350,7 +350,9 @@ def move_command(kind: Kind) -> click.Command:
     """
 
     @click.command(
-        "move", help=text, short_help=f"Find how far a linkage moves from its {kind}, and to which side."
+        "move",
+        help=text,
+        short_help=f"Find how far a linkage moves from its {kind}, inward and outward.",
     )
     @linkage_options(kind)
     @_GROUND
@@ -423,7 +425,7 @@ def _pair(linkage: synth.conformed.OnSurface, text: str) -> tuple[LinkId, LinkId
 def _group(kind: Kind) -> click.Group:
     linkages = "spherical" if kind == "cone" else "planar"
     sizes, *_ = _EXAMPLE[kind]
-    text = f"""Map {linkages} linkages to right circular {kind}s, and find to which side their links move.
+    text = f"""Map {linkages} linkages to right circular {kind}s, and find which links move inward or outward.
 
     \b
     Examples:

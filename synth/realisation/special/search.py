@@ -290,8 +290,9 @@ def search_special(mechanism: Mechanism, wishes: SpecialWishes) -> SpecialSearch
         raise UnsolvableError(f"the type has {graph.components} parts; expected a connected type")
     general = exact_mobility(graph).mobility
     if general >= wishes.freedoms:
-        what = f"a generic realisation of the type has {general} already"
-        raise InvariantError("freedoms", what, f"more than {general}, or no number of freedoms")
+        freedoms = numbered(general, "degree of freedom", "degrees of freedom")
+        what = f"a generic realisation of the type already has {freedoms}"
+        raise InvariantError("freedoms", what, f"more than {general}")
     equations = sum(6 if loop.centre is Centre.NONE else 3 for loop in independent_cycles(graph))
     proof = _rigid_loop(graph) if wishes.all_joints else None
     trials: list[FamilyTrial] = []

@@ -275,7 +275,7 @@ def test_the_command_line(tmp_path, data):
     assert "'99' is no joint" in run("fold", bird, "--drive", "99=1", code=2).stderr
     assert "JOINT=DEGREES" in run("fold", bird, "--drive", "1", code=2).stderr
     assert "exclude each other" in run("fold", bird, "--drive", "1=5", "--all", code=2).stderr
-    assert "needs coordinates" in run("fold", data / "wiener" / "watt.json", code=2).stderr
+    assert "requires coordinates" in run("fold", data / "wiener" / "watt.json", code=2).stderr
 
 
 def test_all_is_what_is_done_without_drive():

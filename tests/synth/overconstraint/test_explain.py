@@ -76,7 +76,7 @@ def test_a_general_linkage_has_nothing_idle():
     found = explain(generate("four-bar").mechanism)
     assert (found.freedoms, found.count, found.idle, found.sets) == (1, 1, 0, ())
     assert "no closure equation is redundant" in str(found)
-    with pytest.raises(UnsolvableError, match="needs coordinates"):
+    with pytest.raises(UnsolvableError, match="requires coordinates"):
         explain(synth.read("k1:Cr"))
 
 
@@ -171,4 +171,4 @@ def test_the_command(tmp_path, data):
     assert {one["joint"] for one in told["tolerances"]} == {0, 1, 2, 3}
     printed = run("explain", data / "linkages" / "bennett.json").stdout
     assert "3 redundant equations in 1 loop of joints 3, 0, 1, 2: opposite links equal" in printed
-    assert "needs coordinates" in run("explain", "k1:Cr", code=2).stderr
+    assert "requires coordinates" in run("explain", "k1:Cr", code=2).stderr

@@ -186,7 +186,7 @@ def test_kinds_and_colourings_that_are_none():
 
 @pytest.mark.parametrize("look", [{"colour": "verdict"}, {"graph": True}])
 def test_colours_of_a_pattern_are_not_left_out_in_silence(look):
-    with pytest.raises(UnsolvableError, match="require a picture of the kind pattern, not chain"):
+    with pytest.raises(UnsolvableError, match="require a picture of kind pattern, not chain"):
         draw(read("k1:Cr"), **look)
 
 
