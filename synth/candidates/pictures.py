@@ -79,13 +79,12 @@ class PictureSink(FolderSink):
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Draw the rows and pass them on; UnsolvableError if there are too many."""
-        assert self._folder is not None
         for row in rows:
             self._number += 1
             if self._number > _MOST:
                 raise UnsolvableError(f"more than {_MOST} pictures; try fewer candidates")
             scene = picture_of_row(self._job, row_as_dict(self._job.columns, row))
-            scene.save(self._folder.path / f"{self._number:05d}.png")
+            scene.save(self._begun.path / f"{self._number:05d}.png")
         self._inner.take(number, rows, seconds)
 
     def finish(self) -> None:
