@@ -47,8 +47,12 @@ def _answering(
 
 @click.command()
 @MECHANISM
-@options.repeated("--drive", "JOINT=DEGREES", "Fold a crease to this angle; may be repeated.")
-@options.repeated("--along", "JOINT=RATE", "Initial joint rates; the motion keeps their direction if it can.")
+@options.repeated(
+    "--drive", "JOINT=DEGREES", "Fold a crease to this angle, or rotate another joint by it; may be repeated."
+)
+@options.repeated(
+    "--along", "JOINT=RATE", "Initial joint rates; the motion keeps their direction if it can. May be repeated."
+)
 @options.repeated(
     "--point points", "LINK=X,Y[,Z]",
     "Print the position of this point of a link in each frame (a coupler curve); may be repeated."
