@@ -30,7 +30,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 _HOW = {"deadline": None, "derandomize": True, "suppress_health_check": [HealthCheck.too_slow]}
-settings.register_profile("quick", max_examples=50, **_HOW)
+settings.register_profile("quick", max_examples=25, **_HOW)
 settings.register_profile("full", max_examples=100, **_HOW)
 
 
