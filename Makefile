@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 # One process per core. Each takes tests from its own part of the list first, so that what one test compiled or
 # listed serves its neighbours; who is done takes from the others. PARALLEL= runs them in one process.
-PARALLEL ?= -n logical --dist loadgroup
+PARALLEL ?= -n logical --dist worksteal
 # Byte code is kept, whatever the shell says: the tests start many processes, and pytest rewrites every file.
 unexport PYTHONDONTWRITEBYTECODE
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from conical import random_lengths, random_link_angles, random_linkages
+from sizes import slow
 
 from graphs.errors import InvariantError
 from graphs.geometry import angles_between
@@ -178,8 +179,9 @@ def test_supplementary_linkages_have_the_same_joint_lines(rng):
     assert np.isfinite(found.crossed).all()
 
 
-def test_hemispheres_against_many_directions(rng):
-    axes = rng.normal(size=(500, 4, 3))
+@pytest.mark.parametrize("number", [100, slow(500)])
+def test_hemispheres_against_many_directions(number, rng):
+    axes = rng.normal(size=(number, 4, 3))
     axes /= np.linalg.norm(axes, axis=-1, keepdims=True)
     poles = rng.normal(size=(20_000, 3))
     by_search = ((axes @ poles.T) > 0).all(axis=1).any(axis=1)

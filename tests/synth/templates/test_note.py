@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from commands import run
 from measured import lines_of_svg
+from sizes import slow
 
 from graphs.files.formats import read
 from graphs.mechanism.precision import lies_flat
@@ -47,7 +48,7 @@ def test_what_a_drawing_for_machines_does_not_hold_is_told(vertex, tmp_path):
     assert run("template", vertex, "--size", 150, "--no-note", "-o", tmp_path / "b.dxf").stderr == ""
 
 
-@pytest.mark.parametrize(("wide", "high"), [(210, 297), (297, 210), (130, 130)])
+@pytest.mark.parametrize(("wide", "high"), [(210, 297), slow(297, 210), slow(130, 130)])
 def test_the_picture_lies_on_the_page_below_the_steps(wide, high):
     sheet = generate("box-pop-up").mechanism
     template, why = pictured(template_of(sheet, size=400), sheet)

@@ -7,6 +7,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from commands import run
+from sizes import slow
 
 from graphs.convert.panels import scd_from_panels
 from graphs.errors import InvariantError, UnsolvableError
@@ -206,7 +207,7 @@ def test_a_linkage_round_a_cone_lies_on_it():
         draw(read("k1:Cr"), "cone")
 
 
-@pytest.mark.parametrize("name", ["tipparthi", "crank-rocker"])
+@pytest.mark.parametrize("name", ["tipparthi", slow("crank-rocker")])
 def test_files_of_orientations_are_drawn_as_maps_of_the_sphere(tmp_path, name):
     run("draw", DATA / "orientations" / f"{name}.json", "-o", tmp_path / "a.svg")
     root = ElementTree.parse(tmp_path / "a.svg").getroot()
