@@ -18,10 +18,10 @@ from graphs.mechanism.sheet import FLAT, Sheet, with_all_edges
 from graphs.mechanism.surfaces import Surface
 from graphs.types import Floats
 from synth.conformed.linkages import OnSurface
-from synth.templates.on_surface import Dimensions, layered, solids_on_surface
+from synth.templates.on_surface import Dimensions, LayeredLinkage, solids_on_surface
 from synth.templates.pieces import GRID, united
 from synth.templates.template import GREATEST, millimetres, scale_of
-from synth.templates.unfolding import Panels, Plane, panels_of
+from synth.templates.unfolding import Panels, Plane
 
 _RIGID = 1e-4
 """Largest change of the shape of a moving panel, as part of its extent."""
@@ -68,7 +68,7 @@ def plates_of(sheet: Sheet, places: Floats, *, thickness: float, gap: float) -> 
         raise InvariantError("thickness", f"thickness {thickness!r}", f"a positive number, at most {GREATEST:g}")
     if not 0 <= gap <= GREATEST:
         raise InvariantError("gap", f"gap {gap!r}", f"a number from 0 to {GREATEST:g}")
-    panels = panels_of(sheet, places)
+    panels = Panels(sheet, places)
     meshes, faces = [], []
     for face in range(len(sheet.faces)):
         for number, polygon in enumerate(_without_hinges(panels, face, gap / 2)):
@@ -94,8 +94,8 @@ def _without_hinges(panels: Panels, face: int, width: float) -> list[Any]:
     whole = rest.area
     strips = [
         shapely.LineString(corners[list(panels.ends(face, edge))]).buffer(width, cap_style="square")
-        for edge in panels.shared_by(face)
-        if panels.sheet.assignments[edge] not in FLAT
+        for edge, faces in (*panels.joins.items(), *panels.slits.items())
+        if face in faces and panels.sheet.assignments[edge] not in FLAT
     ]
     if width and strips:
         rest = shapely.difference(rest, united(strips), grid_size=GRID).simplify(_STRAIGHT)
@@ -116,9 +116,8 @@ def _plate(polygon: Any, thickness: float, name: str) -> Mesh:
         [index[tuple(corner)] for corner in shapely.orient_polygons(triangle).exterior.coords[:-1]]
         for triangle in shapely.constrained_delaunay_triangles(polygon).geoms
     ]
-    triangles = [[corner + count for corner in triangle] for triangle in top] + [
-        triangle[::-1] for triangle in top
-    ]
+    triangles = [[corner + count for corner in triangle] for triangle in top]
+    triangles += [triangle[::-1] for triangle in top]
     for here in range(count):
         after = (here + 1) % count
         triangles += [[here, after, after + count], [here, after + count, here + count]]
@@ -262,6 +261,5 @@ def write_linkage_on_surface(
     gap.
     """
     check_writable(path, SOLIDS, force=force)
-    return write_as(
-        Solids(solids_on_surface(layered(linkage, surface, dimensions), gap)), path, SOLIDS, force=force
-    )
+    meshes = solids_on_surface(LayeredLinkage(linkage, surface, dimensions), gap)
+    return write_as(Solids(meshes), path, SOLIDS, force=force)
