@@ -1,7 +1,6 @@
 """Panels as thin solids with open hinges, written to STL, 3MF, OBJ, and glTF with the motion."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -29,16 +28,28 @@ _STRAIGHT = 1e-6
 """Corners this close to a straight line, in millimetres, are left out."""
 
 
-@dataclass(frozen=True)
 class Plates:
-    """Panels as solids, each in the frame of its plane at the pose from which the plates are made.
+    """The panels of a sheet with all edges listed as plates of a thickness, with a gap at each hinge.
 
-    `faces` gives the panel of each mesh: a panel whose middle is cut off by its hinges has several.
+    Each is in the frame of its plane at the places, float[vertices, 3], from which they are made; all in
+    millimetres. `faces` gives the panel of each mesh: a panel whose middle is cut off by its hinges has several.
+    Raise InvariantError if the thickness is not positive, the gap negative, or one of them larger than 1e6 mm;
+    UnsolvableError if a panel is not planar, or narrower than the gap.
     """
 
-    meshes: tuple[Mesh, ...]
-    faces: tuple[int, ...]
-    planes: tuple[Plane, ...]
+    def __init__(self, sheet: Sheet, places: Floats, *, thickness: float, gap: float) -> None:
+        if not 0 < thickness <= GREATEST:
+            expected = f"a positive number, at most {GREATEST:g}"
+            raise InvariantError("thickness", f"thickness {thickness!r}", expected)
+        if not 0 <= gap <= GREATEST:
+            raise InvariantError("gap", f"gap {gap!r}", f"a number from 0 to {GREATEST:g}")
+        panels = Panels(sheet, places)
+        self.planes, self.meshes, self.faces = panels.planes, list[Mesh](), list[int]()
+        for face in range(len(sheet.faces)):
+            for number, polygon in enumerate(_without_hinges(panels, face, gap / 2)):
+                name = f"panel {face}" + (f" part {number}" if number else "")
+                self.meshes.append(_plate(polygon, thickness, name))
+                self.faces.append(face)
 
     def motions(self, sheet: Sheet, poses: Floats) -> tuple[Floats, Floats]:
         """Return rotations, float[poses, meshes, 3, 3], and translations, float[poses, meshes, 3], of plates.
@@ -55,27 +66,6 @@ class Plates:
                     corners, self.planes[face], f"{face} in pose {pose}"
                 )
         return turns, shifts
-
-
-def plates_of(sheet: Sheet, places: Floats, *, thickness: float, gap: float) -> Plates:
-    """Return the panels of a sheet with all edges listed as plates of a thickness, with a gap at each hinge.
-
-    The places are float[vertices, 3]; all in millimetres. Raise InvariantError if the thickness is not positive,
-    the gap negative, or one of them larger than 1e6 mm; UnsolvableError if a panel is not planar, or narrower than
-    the gap.
-    """
-    if not 0 < thickness <= GREATEST:
-        raise InvariantError("thickness", f"thickness {thickness!r}", f"a positive number, at most {GREATEST:g}")
-    if not 0 <= gap <= GREATEST:
-        raise InvariantError("gap", f"gap {gap!r}", f"a number from 0 to {GREATEST:g}")
-    panels = Panels(sheet, places)
-    meshes, faces = [], []
-    for face in range(len(sheet.faces)):
-        for number, polygon in enumerate(_without_hinges(panels, face, gap / 2)):
-            name = f"panel {face}" + (f" part {number}" if number else "")
-            meshes.append(_plate(polygon, thickness, name))
-            faces.append(face)
-    return Plates(tuple(meshes), tuple(faces), panels.planes)
 
 
 def plates_in_space(plates: Plates) -> list[Mesh]:
@@ -236,7 +226,7 @@ def write_solids(
     check_writable(path, SOLIDS, force=force)
     whole, poses, left_out = poses_of(sheet)
     poses = poses * millimetres(poses[0], scale_of(sheet, scale, size), size)
-    plates = plates_of(whole, poses[0], thickness=thickness, gap=2 * thickness if gap is None else gap)
+    plates = Plates(whole, poses[0], thickness=thickness, gap=2 * thickness if gap is None else gap)
     if Path(path).suffix.lower() == ".gltf":
         solids = Solids(plates.meshes, whole.title, plates.motions(whole, poses), left_out)
     else:

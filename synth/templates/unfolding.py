@@ -5,7 +5,6 @@ Theory: docs/theory/templates.md.
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from heapq import heappop, heappush
 from math import atan2
 from typing import Any
@@ -98,15 +97,35 @@ class Panels:
         return -atan2(along @ np.cross(normal, other), normal @ other)
 
 
-@dataclass(frozen=True)
 class Net:
-    """Panels laid out beside each other: the corners, float[corners, 2], of each face.
+    """Panels laid out beside each other, from one on over those that are left: the corners of each face.
 
-    `turned`: the face is seen from behind, as one whose corners go round the other way than its neighbour's.
+    `corners` are float[corners, 2]; `turned`: the face is seen from behind, as one whose corners go the other way
+    round than its neighbour's.
     """
 
-    corners: Mapping[int, Floats]
-    turned: Mapping[int, bool]
+    def __init__(self, panels: Panels, root: int, left: set[int], edges_at: Mapping[int, Sequence[int]]) -> None:
+        self.corners, self.turned = {root: panels.planes[root].flat}, {root: False}
+        polygons = self.polygons()
+        waiting: list[tuple[tuple[bool, float, int], int, int]] = []
+
+        def reach(face: int) -> None:
+            for edge in edges_at[face]:
+                heappush(waiting, (_rank(panels, edge), edge, face))
+
+        reach(root)
+        while waiting:
+            _, edge, face = heappop(waiting)
+            other = sum(panels.joins[edge]) - face
+            if other not in left or other in self.corners:
+                continue
+            laid, flipped = laid_across(panels, edge, face, self.corners[face], turned=self.turned[face])
+            polygon = shapely.Polygon(laid)
+            if lies_over(polygon, polygons):
+                continue
+            self.corners[other], self.turned[other] = laid, flipped
+            polygons.append(polygon)
+            reach(other)
 
     def polygons(self) -> list[Any]:
         """Return the panels as shapely polygons."""
@@ -129,36 +148,10 @@ def nets_of(panels: Panels) -> list[Net]:
     while left:
         faces_left = sorted(left)
         root = faces_left[leading(areas[faces_left])]
-        net = _grown(panels, root, left, edges_at)
+        net = Net(panels, root, left, edges_at)
         left -= set(net.corners)
         nets.append(net)
     return nets
-
-
-def _grown(panels: Panels, root: int, left: set[int], edges_at: Mapping[int, Sequence[int]]) -> Net:
-    """Return the net that grows from a panel over those that are left."""
-    corners, turned = {root: panels.planes[root].flat}, {root: False}
-    polygons = [shapely.Polygon(panels.planes[root].flat)]
-    waiting: list[tuple[tuple[bool, float, int], int, int]] = []
-
-    def reach(face: int) -> None:
-        for edge in edges_at[face]:
-            heappush(waiting, (_rank(panels, edge), edge, face))
-
-    reach(root)
-    while waiting:
-        _, edge, face = heappop(waiting)
-        other = sum(panels.joins[edge]) - face
-        if other not in left or other in corners:
-            continue
-        laid, flipped = laid_across(panels, edge, face, corners[face], turned=turned[face])
-        polygon = shapely.Polygon(laid)
-        if lies_over(polygon, polygons):
-            continue
-        corners[other], turned[other] = laid, flipped
-        polygons.append(polygon)
-        reach(other)
-    return Net(corners, turned)
 
 
 def _rank(panels: Panels, edge: int) -> tuple[bool, float, int]:
