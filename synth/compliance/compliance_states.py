@@ -389,13 +389,12 @@ class _SpringAnalysis:
         [driver], goal = goals_of(joints, {drive.joint: drive.to}, float_info.max)
         values = np.linspace(pose.angles[driver], goal[0], drive.frames + 1)[1:]
         path = load_path(bending, pose.angles, driver, values)
-        poses = tuple(PathPose(at, self.state_at(at.angles)) for at in path.poses)
+        poses = tuple(
+            PathPose(at, state_of(moved(self.linkage, at.angles), self.compliant, self.active(at.angles)))
+            for at in path.poses
+        )
         passed = tuple(self.rests_passed(bending, path))
         return Elastic(joints, pose, drive.joint, poses, passed, path.stopped, modes)
-
-    def state_at(self, angles: Floats) -> State:
-        """Return the state at a pose, where members that are off their rest are active."""
-        return state_of(moved(self.linkage, angles), self.compliant, self.active(angles))
 
     def rests_passed(self, bending: ElasticLinkage, path: LoadPath) -> Iterator[RestPassed]:
         """Yield where compliant joints come to rest after the beginning."""

@@ -15,7 +15,7 @@ from graphs.geometry import across, rotated, sectors, unit
 from graphs.mechanism.surfaces import checked_cone_angle, joint_axes
 from graphs.types import Floats
 from synth.fourbar.position import output_spherical
-from synth.surfaces.circuit import azimuths, link_angles
+from synth.surfaces.circuit import azimuths, link_angles, wrapped
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,19 +169,15 @@ def poses_from_conformed(steps: npt.ArrayLike, cone_angle: float, turns: npt.Arr
     theta0, xi0, psi0 = float(dihedral[0]), float(dihedral[1]), float(np.pi - dihedral[3])
     links = link_angles(np.roll(signed, 1), lam)
     both = np.array([output_spherical(links, theta0, branch) for branch in (1, -1)])
-    branch = 1 if abs(_turned(both[0] - psi0)) <= abs(_turned(both[1] - psi0)) else -1
+    branch = 1 if abs(wrapped(both[0] - psi0)) <= abs(wrapped(both[1] - psi0)) else -1
     theta = theta0 + np.asarray(turns, dtype=float)
-    psi = psi0 + _turned(output_spherical(links, theta, branch) - psi0)
+    psi = psi0 + wrapped(output_spherical(links, theta, branch) - psi0)
     a = rotated(a0, o, theta - theta0)
     b_by_output = rotated(b0, c, psi - psi0)
     loop = np.stack(np.broadcast_arrays(o, a, b_by_output, c), axis=-2)
-    xi = xi0 + _turned(measured_dihedral_angles(loop)[..., 1] - xi0)
+    xi = xi0 + wrapped(measured_dihedral_angles(loop)[..., 1] - xi0)
     b = rotated(rotated(b0, o, theta - theta0), a, xi - xi0)
     axes = np.stack(np.broadcast_arrays(o, a, b, c), axis=-2)
     axes = np.where(np.isnan(psi)[..., np.newaxis, np.newaxis], np.nan, axes)
     residual = np.linalg.norm(b - b_by_output, axis=-1)
     return FourBarPoses(theta, psi, xi, (theta0, psi0, xi0), axes, residual)
-
-
-def _turned(angle: npt.ArrayLike) -> Floats:
-    return np.asarray(np.remainder(np.asarray(angle) + np.pi, 2 * np.pi) - np.pi)

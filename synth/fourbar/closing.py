@@ -221,14 +221,8 @@ def _caution(links: Floats, zeros: npt.NDArray[np.bool_]) -> str:
 
 
 def _named(input_: str, output: str) -> str:
-    names = {
-        ("crank", "crank"): "double-crank",
-        ("crank", "rocker"): "crank-rocker",
-        ("rocker", "crank"): "rocker-crank",
-        ("rocker", "rocker"): "double-rocker",
-    }
-    if (input_, output) in names:
-        return names[input_, output]
+    if {input_, output} <= {"crank", "rocker"}:
+        return f"double-{input_}" if input_ == output else f"{input_}-{output}"
     short = {"0-rocker": "0", "pi-rocker": "pi"}
     both = input_ in short and output in short
     return f"{short[input_]}-{short[output]} double-rocker" if both else f"{input_} and {output}"
@@ -363,9 +357,8 @@ def minimal_supplementary(angles: npt.ArrayLike) -> Floats:
     """
     every = supplementary(angles)
     sums = every.sum(axis=-1)
-    least = (sums <= sums.min(axis=-1, keepdims=True) + rounding_of(every)).argmax(
-        axis=-1
-    )  # the first of equal ones
+    is_least = sums <= sums.min(axis=-1, keepdims=True) + rounding_of(every)
+    least = is_least.argmax(axis=-1)  # the first of equal ones
     return np.take_along_axis(every, least[..., np.newaxis, np.newaxis], axis=-2)[..., 0, :]
 
 

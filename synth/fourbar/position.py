@@ -62,9 +62,7 @@ def output_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.Ar
 
 def _two_branches(x: Floats, y: Floats, c: Floats, branch: npt.ArrayLike) -> Floats:
     """Solve x cos(psi) + y sin(psi) = c."""
-    ratio = c / np.hypot(x, y)
-    ratio = np.where(np.abs(ratio) <= 1 + DOUBLE.closed, np.clip(ratio, -1, 1), np.nan)
-    psi = np.arctan2(y, x) + np.asarray(branch) * np.arccos(ratio)
+    psi = np.arctan2(y, x) + np.asarray(branch) * _within(c / np.hypot(x, y))
     return np.asarray(np.pi - np.remainder(np.pi - psi, 2 * np.pi))
 
 

@@ -16,13 +16,6 @@ from synth.patterns.catalogue import GENERATORS
 from synth.patterns.generator import FOLD, Generator
 
 
-def folded(sheet: Sheet, angle: float) -> Sheet:
-    """Return a flat sheet folded on the branch of its assignment up to a largest fold angle, radians."""
-    last_frame = fold_to(sheet, angle).frames()[-1]
-    assert isinstance(last_frame, Sheet)
-    return last_frame
-
-
 @dataclass(frozen=True, slots=True, repr=False)
 class Generated(Printed):
     """A mechanism that a generator makes. It prints as ``synth generate`` does.
@@ -128,6 +121,8 @@ def generate(name: str, *, fold: float | None = None, **parameters: float) -> Ge
                 f"{name} is not a flat pattern, so it is not folded: its parameters set its shape"
             )
         fold = FOLD.checked(fold)
-        mechanism = folded(mechanism, fold)
+        last_frame = fold_to(mechanism, fold).frames()[-1]  # on the branch of its assignment
+        assert isinstance(last_frame, Sheet)
+        mechanism = last_frame
     by_count = mobility(mechanism, exact=False, pose=False).mobility
     return Generated(generator, values, fold, mechanism, generator.freedoms(values), by_count)

@@ -301,12 +301,21 @@ class CommonFamily:
     caution: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class _Cycle:
     """A closed run of joints, neighbours on one link: numbers of the pairs, and +1 or -1 by their order."""
 
-    pairs: npt.NDArray[np.intp]
-    turned: npt.NDArray[np.int8]
+    def __init__(self, joints: Sequence[JointId], pairs: Mapping[Pair, int], what: str) -> None:
+        numbers, turned = [], []
+        for a, b in zip(joints, [*joints[1:], joints[0]], strict=True):
+            if (a, b) not in pairs and (b, a) not in pairs:
+                raise InvariantError(
+                    "sizes of links",
+                    f"no {what} between joints {shown(a)} and {shown(b)}",
+                    "one, as they follow each other in a loop",
+                )
+            numbers.append(pairs.get((a, b), pairs.get((b, a), 0)))
+            turned.append(1 if (a, b) in pairs else -1)
+        self.pairs, self.turned = np.array(numbers), np.array(turned, dtype=np.int8)
 
 
 def common_surfaces(
@@ -398,29 +407,15 @@ def _checked_pairs(
 
 def _cycles(chain: SCGraph, pairs: Mapping[Pair, int], what: str) -> list[_Cycle]:
     """Return the loops of the chain as cycles of pairs, then cycles of pairs within a link."""
-    cycles = [_cycle(loop.joints, pairs, what) for loop in chain.loops]
+    cycles = [_Cycle(loop.joints, pairs, what) for loop in chain.loops]
     links = link_pairs(chain)
     within: dict[object, nx.Graph] = {}
     for pair in pairs:
         link = links.get(pair, links.get(pair[::-1]))
         within.setdefault(link, nx.Graph()).add_edge(*pair)
     for graph in within.values():
-        cycles += [_cycle(tuple(joints), pairs, what) for joints in nx.cycle_basis(graph)]
+        cycles += [_Cycle(tuple(joints), pairs, what) for joints in nx.cycle_basis(graph)]
     return cycles
-
-
-def _cycle(joints: Sequence[JointId], pairs: Mapping[Pair, int], what: str) -> _Cycle:
-    numbers, turned = [], []
-    for a, b in zip(joints, [*joints[1:], joints[0]], strict=True):
-        if (a, b) not in pairs and (b, a) not in pairs:
-            raise InvariantError(
-                "sizes of links",
-                f"no {what} between joints {shown(a)} and {shown(b)}",
-                "one, as they follow each other in a loop",
-            )
-        numbers.append(pairs.get((a, b), pairs.get((b, a), 0)))
-        turned.append(1 if (a, b) in pairs else -1)
-    return _Cycle(np.array(numbers), np.array(turned, dtype=np.int8))
 
 
 def _candidates(roots: Iterable[LoopRoots], end: float, links: SizedLinks) -> list[float]:

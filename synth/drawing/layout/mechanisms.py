@@ -23,7 +23,7 @@ from synth.drawing.layout.embedding import (
     same_cycle,
     swaps_of,
 )
-from synth.drawing.layout.plane import barycentric, plane_graph, pulled, springs_of
+from synth.drawing.layout.plane import PlaneGraph, barycentric, pulled
 
 Place = tuple[float, float]
 _GAP = 1.0
@@ -158,10 +158,8 @@ def _drawings(
 
 def _if_reversed(kept: Neighbours, swap: Mapping[Node, Node]) -> Neighbours | None:
     """Return rotations if a symmetry reverses them all."""
-    for node, row in kept.items():
-        if row and not same_cycle([swap[other] for other in reversed(row)], kept[swap[node]]):
-            return None
-    return kept
+    images = (([swap[other] for other in reversed(row)], kept[swap[node]]) for node, row in kept.items() if row)
+    return kept if all(same_cycle(*both) for both in images) else None
 
 
 def _outer_faces(skeleton: Skeleton, joints: Joints, outer: Sequence[JointId]) -> list[tuple[Node, ...]]:
@@ -181,11 +179,8 @@ def _outer_faces(skeleton: Skeleton, joints: Joints, outer: Sequence[JointId]) -
             if len(face) > 2 and (same_cycle(image[::-1], face) or same_cycle(image, face))
         ]
     fit = [face for face in faces if _shared(face, joints, skeleton, outer) == len(outer)]
-
-    def preferred(face: tuple[Node, ...]) -> tuple[bool, int]:
-        return same_cycle(_joints_of_face(face, joints, skeleton), outer), len(face)
-
-    return sorted(fit, key=preferred, reverse=True)
+    keys = [(same_cycle(_joints_of_face(face, joints, skeleton), outer), len(face)) for face in fit]
+    return [fit[i] for i in sorted(range(len(fit)), key=keys.__getitem__, reverse=True)]
 
 
 def _shared(face: Sequence[Node], joints: Joints, skeleton: Skeleton, outer: Sequence[JointId]) -> int:
@@ -198,7 +193,7 @@ def _is_body(face: Sequence[Node], skeleton: Skeleton) -> bool:
 
 
 def _drawn_plane(skeleton: Skeleton, outer: tuple[Node, ...]) -> _Part:
-    graph = plane_graph(skeleton.around, outer)
+    graph = PlaneGraph(skeleton.around, outer)
     number = {node: i for i, node in enumerate(graph.nodes)}
     bodies_of = [[number[node] for node in row] for row in skeleton.outlines.values() if len(row) > 2]
     inside = {
@@ -206,7 +201,7 @@ def _drawn_plane(skeleton: Skeleton, outer: tuple[Node, ...]) -> _Part:
     }
     sides = [(a, b) for a, b in graph.edges.tolist() if (a, b) not in inside]
     start = barycentric(graph, skeleton.mirror)
-    places = pulled(graph, start, springs_of(sides, bodies_of), skeleton.mirror)
+    places = pulled(graph, start, sides, bodies_of, skeleton.mirror)
     faces = []
     for face, hub in zip(graph.faces, graph.hub_of, strict=True):
         row = tuple(graph.nodes[i] for i in face)

@@ -12,7 +12,7 @@ from graphs.errors import UnsolvableError
 from graphs.mechanism.surfaces import Cone, Cylinder
 from synth.candidates.job import CandidateJob
 from synth.conformed.linkages import OnSurface, loop_of_steps
-from synth.templates.on_surface import Dimensions, layered, solids_on_surface
+from synth.templates.on_surface import Dimensions, LayeredLinkage, solids_on_surface
 
 LAMBDA = np.radians(28)
 SIZES = Dimensions(size=90, thickness=1.0)
@@ -22,7 +22,10 @@ SIZES = Dimensions(size=90, thickness=1.0)
 def linkages():
     job = CandidateJob(STEPHENSON)
     rows = job.rows()[::34]
-    return [layered(OnSurface(STEPHENSON, job.places(row).tolist(), LAMBDA), Cone(LAMBDA), SIZES) for row in rows]
+    return [
+        LayeredLinkage(OnSurface(STEPHENSON, job.places(row).tolist(), LAMBDA), Cone(LAMBDA), SIZES)
+        for row in rows
+    ]
 
 
 def volume_of(linkage, link, gap):
@@ -67,7 +70,7 @@ def test_layers_are_apart_and_so_are_neighbours_in_a_layer(linkages):
 
 
 def test_a_cylinder_is_closed_and_what_has_no_room_for_the_gap_is_refused():
-    made = layered(loop_of_steps(np.radians([40, 50, 50])), Cylinder(30.0), SIZES)
+    made = LayeredLinkage(loop_of_steps(np.radians([40, 50, 50])), Cylinder(30.0), SIZES)
     for mesh in solids_on_surface(made, 2.0):
         assert is_watertight(mesh)
         assert volume_of_mesh(mesh) > 0

@@ -1,6 +1,5 @@
 """Copies with errors of a known size: verdicts as those of the patterns, whatever was done to the coordinates."""
 
-from collections import Counter
 from dataclasses import replace
 
 import numpy as np
@@ -110,17 +109,19 @@ def test_fifty_copies_of_each(name):
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [*MOVING, *RIGID])
 def test_fifty_copies_whose_precision_is_estimated(name):
-    verdicts, near = [], 0
+    verdicts, near, estimated = [], 0, 0
     for seed in range(50):
         sheet, size = copy_of(name, 10.0 ** np.random.default_rng((seed, 7)).uniform(-8, -3), seed)
         configuration = configuration_of_sheet(sheet)
-        near += size / 3 <= configuration.precision.size <= 3 * size
+        if configuration.precision.evidence != BY_DIGITS:
+            estimated += 1
+            near += size / 3 <= configuration.precision.size <= 3 * size
         verdicts.append(verdict_of_motion(configuration))
     agreeing = sum(agrees(name, verdict) for verdict in verdicts)
-    print(f"{name}: {agreeing} agree, {near} estimates within a factor of 3, {Counter(map(sentence, verdicts))}")
+    print(f"{name}: {agreeing} agree, {near} of {estimated} estimates within a factor of 3")
     assert not any(wrongly_proved(name, verdict) for verdict in verdicts)
     assert agreeing >= 45 or (name in RIGID and all(sentence(verdict) != "moves" for verdict in verdicts))
-    assert near >= 30
+    assert near >= 0.9 * estimated
 
 
 @pytest.mark.parametrize(
