@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.errors import InvariantError, UnsolvableError, numbered
-from graphs.mechanism.surfaces import Cylinder, checked_cone_angle
+from graphs.errors import numbered
+from graphs.mechanism.surfaces import Cylinder
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
@@ -121,39 +121,6 @@ class ConeMap(Printed):
             document["class"] = self.solutions
             document["supplementary"] = None if self.supplementary is None else self.supplementary.to_json()
         return document
-
-
-def projected_angles(angles: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
-    """Return the unsigned projected angles of links, phi_0 in [0, pi] (Hyatt et al. 2020, Eq. 7; 2021, Eq. 9).
-
-    cos(phi_0) = (cos(phi) - sin(lambda)^2) / cos(lambda)^2, float[...].
-
-    Parameters
-    ----------
-    angles, cone_angle : float[...]
-        Link angles phi in [0, pi] and lambda, radians, broadcast against each other.
-
-    Raises
-    ------
-    InvariantError, UnsolvableError
-        If a cone angle is out of range; if a link does not fit on its cone: lambda is more than pi / 2 - phi / 2.
-
-    Examples
-    --------
-    >>> float(np.degrees(projected_angles(np.radians(60), np.radians(60))).round(5))
-    180.0
-    """
-    phi, lam = np.broadcast_arrays(np.asarray(angles, dtype=float), checked_cone_angle(cone_angle))
-    beyond = lam - largest_cone_angle(phi)
-    if (beyond > rounding_of(np.stack([lam, phi / 2, np.full_like(phi, np.pi / 2)], axis=-1))).any():
-        worst = np.unravel_index(beyond.argmax(), beyond.shape)
-        numbers = [f"{np.degrees(value[worst]).round(9):.12g}" for value in (phi, lam, largest_cone_angle(phi))]
-        raise UnsolvableError(
-            f"a link of {numbers[0]} degrees does not fit on a cone of {numbers[1]}; "
-            f"{numbers[2]} is the largest cone angle"
-        )
-    other = np.maximum(np.sin((np.pi - phi) / 2 - lam) * np.sin((np.pi - phi) / 2 + lam), 0.0)
-    return np.asarray(2.0 * np.arctan2(np.sin(phi / 2), np.sqrt(other)))
 
 
 def largest_cone_angle(angles: npt.ArrayLike) -> Floats:
@@ -323,27 +290,6 @@ def joint_coordinates(radius: float, places: npt.ArrayLike) -> Floats:
     """Return where joints at azimuths float[J] are across a cylinder's axis: (R sin t, R cos t), float[J, 2]."""
     points, _ = Cylinder(radius).axes(places)
     return np.where(np.abs(points) > DOUBLE.same_point * radius, points, 0.0)[:, ::2]
-
-
-def central_angles(lengths: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:
-    """Return the angles that links span round the axis, psi = 2 asin(length / 2 R) (Hyatt et al. 2021, Eq. 19).
-
-    Parameters
-    ----------
-    lengths, radius : float[...]
-        Any one unit; `InvariantError` if a link is longer than the diameter.
-
-    Examples
-    --------
-    >>> float(np.degrees(central_angles(1.0, 1.0)).round(9))
-    60.0
-    """
-    ratio = np.asarray(lengths, dtype=float) / (2.0 * np.asarray(radius, dtype=float))
-    if not ((ratio >= 0) & (ratio <= 1)).all():
-        raise InvariantError(
-            "radius", "a link is longer than the diameter, or the radius is not positive", "2 R >= every length"
-        )
-    return np.asarray(2.0 * np.arcsin(ratio))
 
 
 def chords(steps: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from conical import FOUR_BAR, crosses, random_link_angles, random_linkages
 from conical_rows import canonical_row
+from four_bar_poses import poses_from_conformed
 from golden_numbers import golden_numbers
 from memberships import memberships
+from paper_formulas import projected_angles, table1
 from second_methods import pole_axes
 from sizes import slow
 
@@ -17,13 +19,13 @@ from enumerate.conical.query import Portion
 from graphs.count.report import mobility_report
 from graphs.files.formats import read, read_linkage
 from graphs.geometry import rotated
-from graphs.mechanism.surfaces import Cone
+from graphs.mechanism.surfaces import Cone, joint_axes
 from synth.candidates.job import CandidateJob
-from synth.conformed.pose import dihedral_angles, joint_axes, poses_from_conformed
+from synth.conformed.pose import dihedral_angles
 from synth.conformed.rates import ConformedChain, first_order
 from synth.fourbar.closing import grashof_class, kind_of_spherical, spherical_differences, supplementary
-from synth.surfaces.circuit import azimuths, circuits, link_angles, link_pairs, loop_steps, table1
-from synth.surfaces.loop_maps import largest_cone_angle, map_to_cones, projected_angles
+from synth.surfaces.circuit import azimuths, circuits, link_angles, link_pairs, loop_steps
+from synth.surfaces.loop_maps import largest_cone_angle, map_to_cones
 from synth.surfaces.loop_sums import circumradii, cone_angles, loop_roots
 
 DATA = Path(__file__).resolve().parents[2] / "data"

@@ -26,11 +26,10 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.geometry import angles_between
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.surfaces import Cone, Cylinder
+from graphs.mechanism.surfaces import Cone, Cylinder, joint_axes
 from synth.candidates.job import CandidateJob, Filter
 from synth.candidates.rows import four_bar_classes
 from synth.conformed.behaviours import link_arcs
-from synth.conformed.pose import joint_axes
 from synth.conformed.rates import ConformedChain, loops_of_chain
 from synth.surfaces.circuit import link_angles, link_pairs, loop_steps
 from synth.surfaces.linkages import common_surfaces

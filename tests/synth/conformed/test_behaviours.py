@@ -5,21 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from conical import FOUR_BAR, STEPHENSON, WATT, random_linkages, steps_of
+from four_bar_poses import poses_from_conformed
 from second_methods import pole_axes, shadow_allows
 from sizes import slow
 
 from graphs.errors import InvariantError
 from graphs.mechanism.sc import SCGraph
-from synth.conformed.behaviours import (
-    Way,
-    behaviour,
-    icrl,
-    instant_centres,
-    link_arcs,
-    table4,
-    table_row,
-)
-from synth.conformed.pose import joint_axes, poses_from_conformed
+from graphs.mechanism.surfaces import joint_axes
+from synth.conformed.behaviours import Way, behaviour, icrl, instant_centres, link_arcs, table4, table_row
 from synth.conformed.rates import ConformedChain, first_order
 
 COUNT = 10_000

@@ -5,15 +5,15 @@ import json
 import numpy as np
 import pytest
 from commands import run
+from four_bar_poses import poses_from_conformed
 from sizes import first_quick, slow
 
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.geometry import rotated
-from graphs.mechanism.surfaces import Cone
+from graphs.mechanism.surfaces import Cone, joint_axes
 from synth.conformed.behaviours import Way, behaviour
 from synth.conformed.linkages import linkage_on_surfaces, loop_of_steps, loop_on_cones, loop_on_cylinders
-from synth.conformed.pose import joint_axes, poses_from_conformed
 from synth.fourbar.position import input_limits_spherical
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import link_motions

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from synth.conformed.pose import joint_axes
+from graphs.mechanism.surfaces import joint_axes
 
 DOCS = Path(__file__).resolve().parents[3] / "docs"
 

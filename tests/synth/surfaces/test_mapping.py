@@ -10,21 +10,20 @@ from by_coordinates import (
     quadrilaterals_by_coordinates,
 )
 from conical import random_lengths, random_link_angles, random_linkages
+from four_bar_poses import check_pose
+from paper_formulas import central_angles, projected_angles
 from scipy.optimize import brentq, minimize_scalar
 from sizes import first_quick, slow, slow_but
 
 from graphs.errors import InvariantError, UnsolvableError
-from synth.conformed.pose import check_pose
 from synth.fourbar.closing import can_close, planar_differences, spherical_differences
 from synth.surfaces.circuit import circuits, link_angles
 from synth.surfaces.loop_maps import (
-    central_angles,
     chords,
     cone_reach,
     cylinder_reach,
     map_to_cones,
     map_to_cylinders,
-    projected_angles,
     solution_class,
 )
 from synth.surfaces.loop_sums import (

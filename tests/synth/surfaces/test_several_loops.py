@@ -17,8 +17,7 @@ from graphs.files.formats import read_linkage, write
 from graphs.geometry import angles_between
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.surfaces import SurfaceLinkage, places_of_steps
-from synth.conformed.pose import joint_axes
+from graphs.mechanism.surfaces import SurfaceLinkage, joint_axes, places_of_steps
 from synth.surfaces.circuit import link_angles, link_pairs, loop_steps
 from synth.surfaces.linkages import common_surfaces
 from synth.surfaces.loop_maps import map_to_cones
