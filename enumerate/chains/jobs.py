@@ -18,27 +18,13 @@ from typing import Any, Literal, Unpack
 import networkx as nx
 import numpy as np
 
-from enumerate.chains.counting import (
-    count_by_burnside,
-    count_by_orbits,
-    count_of_graph,
-)
+from enumerate.chains import counting
 from enumerate.chains.fractionated import Block, block_choices, count_connected, glued, shapes
 from enumerate.chains.query import ChainOptions, ChainQuery
 from enumerate.chains.rows import GraphChains, columns_of, rows_of_graph, rows_of_joints
 from enumerate.contracted.binary_links import EVERY
 from enumerate.contracted.graphs import contracted_graphs, cubic_graphs, descendants
-from enumerate.runner.job import (
-    ANY_NUMBER,
-    ONE_OR_MORE,
-    Column,
-    QueryCount,
-    QueryJob,
-    Row,
-    RowCount,
-    Unit,
-    batches,
-)
+from enumerate.runner import job
 from enumerate.runner.running import graphs_of, rows_of, total_of
 from graphs.errors import UnsolvableError
 from graphs.identity.chains import chain_from_id
@@ -97,7 +83,7 @@ def _admitted(query: ChainQuery, levels: Iterable[tuple[int, Bytes]]) -> Iterato
 
 
 @dataclass(frozen=True)
-class ChainJob(QueryJob[ChainQuery]):
+class ChainJob(job.QueryJob[ChainQuery]):
     """All chains of a query, as rows.
 
     Attributes
@@ -111,49 +97,49 @@ class ChainJob(QueryJob[ChainQuery]):
     listed = "chains"
 
     @cached_property
-    def columns(self) -> dict[str, Column]:
+    def columns(self) -> dict[str, job.Column]:
         """Names and types of the values of a row."""
         return columns_of(self.query, self.bare)
 
-    def units(self) -> list[Unit]:
+    def units(self) -> list[job.Unit]:
         """Units of some thousands of rows each: chains that nothing cuts, then fractionated ones."""
-        units: list[Unit] = []
+        units: list[job.Unit] = []
         if not self.query.possible:
             return units
         if self.query.loops == 1:
-            units.append(Unit(None))
+            units.append(job.Unit(None))
         for n, codes in _graphs(self.query):
             units += self._units_of_level(n, codes)
         if self.query.fractionated:
             units += self._fractionated_units()
         return units
 
-    def _units_of_level(self, n: int, codes: Bytes) -> Iterator[Unit]:
+    def _units_of_level(self, n: int, codes: Bytes) -> Iterator[job.Unit]:
         """Split the contracted graphs of n links by the numbers of their chains."""
         query = self.query
         start = weight = 0
         for i, code in zip(range(len(codes)), codes, strict=True):
-            count = count_of_graph(code, n, query.links, query.most, EVERY, np.zeros(0, np.int64))
+            count = counting.count_of_graph(code, n, query.links, query.most, EVERY, np.zeros(0, np.int64))
             if weight and weight + count > _ROWS:
-                yield Unit(_Graphs(n, codes[start:i]), weight)
+                yield job.Unit(_Graphs(n, codes[start:i]), weight)
                 start, weight = i, 0
             if count > 2 * _ROWS:  # the placements are split by where their first units lie
-                number = partial(count_of_graph, code, n, query.links, query.most)
+                number = partial(counting.count_of_graph, code, n, query.links, query.most)
                 for only, prefix, part in beginnings(number, query.links - n, len(code), _ROWS):
-                    yield Unit(_Graphs(n, code[None], only, prefix), part)
+                    yield job.Unit(_Graphs(n, code[None], only, prefix), part)
                 start = i + 1
             else:
                 weight += count
         if weight:
-            yield Unit(_Graphs(n, codes[start:]), weight)
+            yield job.Unit(_Graphs(n, codes[start:]), weight)
 
-    def _fractionated_units(self) -> Iterator[Unit]:
+    def _fractionated_units(self) -> Iterator[job.Unit]:
         for shape in shapes(self.query.links, self.query.dof):
             choices = block_choices(shape, _blocks)
             while batch := tuple(islice(choices, _CHOICES)):
-                yield Unit(batch, len(batch))
+                yield job.Unit(batch, len(batch))
 
-    def work(self, payload: Payload) -> list[Row]:
+    def work(self, payload: Payload) -> list[job.Row]:
         """Return the rows of a unit."""
         query = self.query
         if isinstance(payload, _Graphs):
@@ -210,12 +196,12 @@ def _blocks(links: int, dof: int) -> Iterator[Block]:
         yield links, tuple(sorted(chain_from_id(row["code"]).edges()))
 
 
-_COUNT_COLUMNS: dict[str, Column] = {"count": int, "contracted_links": int}
+_COUNT_COLUMNS: dict[str, job.Column] = {"count": int, "contracted_links": int}
 """A number, and the number of links of the contracted graphs that it belongs to."""
 
 
 @dataclass(frozen=True)
-class CountJob(QueryCount[ChainQuery]):
+class CountJob(job.QueryCount[ChainQuery]):
     """The number of chains of a query; each row is a number to be added.
 
     Attributes
@@ -235,13 +221,17 @@ class CountJob(QueryCount[ChainQuery]):
         """How large the units are."""
         return {"cubic_graphs_of_a_unit": _ANCESTORS} if self.streamed else {"graphs_of_a_unit": _GRAPHS}
 
-    def units(self) -> Sequence[Unit]:
+    def units(self) -> Sequence[job.Unit]:
         """Units of some hundreds of contracted graphs each, or of those that come from some cubic graphs."""
         if self.streamed:
             return self._streamed_units()
-        return [Unit((n, some), len(some)) for n, codes in _graphs(self.query) for some in batches(codes, _GRAPHS)]
+        return [
+            job.Unit((n, some), len(some))
+            for n, codes in _graphs(self.query)
+            for some in job.batches(codes, _GRAPHS)
+        ]
 
-    def _streamed_units(self) -> list[Unit]:
+    def _streamed_units(self) -> list[job.Unit]:
         """Deal the cubic graphs out: of those that are neighbours about equally many others come."""
         query = self.query
         if not query.possible or query.loops < 2:
@@ -249,9 +239,9 @@ class CountJob(QueryCount[ChainQuery]):
         codes = cubic_graphs(query.loops)
         units = -(-len(codes) // _ANCESTORS)
         dealt = (codes[i::units] for i in range(units))
-        return [Unit((2 * (query.loops - 1), each), _DESCENDANTS * len(each)) for each in dealt]
+        return [job.Unit((2 * (query.loops - 1), each), _DESCENDANTS * len(each)) for each in dealt]
 
-    def work(self, payload: tuple[int, Bytes]) -> list[Row]:
+    def work(self, payload: tuple[int, Bytes]) -> list[job.Row]:
         """Return the numbers of chains of a unit, by the size of contracted graphs."""
         n, codes = payload
         levels = _admitted(self.query, descendants(codes, n)) if self.streamed else [(n, codes)]
@@ -259,28 +249,28 @@ class CountJob(QueryCount[ChainQuery]):
 
     def _number(self, codes: Bytes, n: int) -> int:
         query = self.query
-        count = count_by_burnside if self.method == "burnside" else count_by_orbits
+        count = counting.count_by_burnside if self.method == "burnside" else counting.count_by_orbits
         return query.number_within(lambda most: count(codes, n, query.links, most, query.inversions))
 
 
 @dataclass(frozen=True)
-class _ConnectedCountJob(QueryCount[ChainQuery]):
+class _ConnectedCountJob(job.QueryCount[ChainQuery]):
     """The number of chains, fractionated ones too, from cycle indices: one unit."""
 
     counted = "chains"
 
-    def units(self) -> Sequence[Unit]:
+    def units(self) -> Sequence[job.Unit]:
         """One unit."""
-        return [Unit(None)] if self.query.possible else []
+        return [job.Unit(None)] if self.query.possible else []
 
-    def work(self, payload: None) -> list[Row]:
+    def work(self, payload: None) -> list[job.Row]:
         """Return the number."""
         return [(count_connected(self.query.links, self.query.dof),)]
 
 
 def count_job(
     query: ChainQuery, method: str, kept: Mapping[str, Any] | None = None
-) -> CountJob | RowCount | _ConnectedCountJob:
+) -> CountJob | job.RowCount | _ConnectedCountJob:
     """Return the job that counts the chains of a query: its rows are numbers to be added.
 
     Parameters
@@ -301,11 +291,13 @@ def count_job(
     >>> [total_of(count_job(ChainQuery(8, 1), method)) for method in ("orbits", "burnside")]
     [16, 16]
     """
-    by_rows = RowCount(ChainJob(query), {"count": "chains", **query.key})
-    plain = query.symmetry == ONE_OR_MORE and not query.inputs
+    by_rows = job.RowCount(ChainJob(query), {"count": "chains", **query.key})
+    plain = query.symmetry == job.ONE_OR_MORE and not query.inputs
     streamed = query.loops >= _STREAMED and "graphs_of_a_unit" not in (kept or {})
     if method == "burnside":
-        filtered = query.assortment is not None or query.planar is not None or query.longest_string != ANY_NUMBER
+        filtered = (
+            query.assortment is not None or query.planar is not None or query.longest_string != job.ANY_NUMBER
+        )
         if not plain or (query.fractionated and (filtered or query.inversions)):
             raise UnsolvableError(
                 "Burnside's lemma cannot count by input joints or symmetries, nor a part of fractionated chains; "

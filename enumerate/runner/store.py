@@ -15,19 +15,8 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from enumerate.runner import store_units
 from enumerate.runner.job import Job, ListColumn, Row, stored, unstored
-from enumerate.runner.store_units import (
-    FORMAT,
-    PATIENCE,
-    VERSION,
-    UnitTable,
-    examine_store,
-    make_tables,
-    meta_in,
-    naming,
-    reading,
-    rebuild_store,
-)
 from graphs.errors import StoreError
 from graphs.files.atomic import check_place, remove_left
 
@@ -67,7 +56,7 @@ class SqliteSink:
         self.path, self._resume, self._force = Path(path), resume, force
         self._tell, self._looking = tell or _warn, looking
         self._connection: sqlite3.Connection | None = None
-        self._units: UnitTable | None = None
+        self._units: store_units.UnitTable | None = None
         self._rows: dict[int, int] = {}
         self._complete = False
         self._next, self._first = 0, 1
@@ -89,14 +78,14 @@ class SqliteSink:
         remove_left(self.path)  # of a repair that was killed
         if self.path.exists() and _has_tables(self.path):
             self._look_through(job)
-        with naming(self.path):
-            self._connection = sqlite3.connect(self.path, isolation_level=None, timeout=PATIENCE)
-            self._units = UnitTable(self._connection, list(job.columns))
+        with store_units.naming(self.path):
+            self._connection = sqlite3.connect(self.path, isolation_level=None, timeout=store_units.PATIENCE)
+            self._units = store_units.UnitTable(self._connection, list(job.columns))
             if not self._complete:  # else there is nothing to write
                 self._connection.execute("PRAGMA journal_mode=WAL")
                 self._connection.execute("PRAGMA synchronous=NORMAL")
                 with self._transaction():
-                    make_tables(self._connection, _meta_of(job))
+                    store_units.make_tables(self._connection, _meta_of(job))
             self._rows = dict(self._connection.execute("SELECT id, rows FROM unit ORDER BY id"))
         self._lists = _remembering(stored, _lists_in(job), job.columns)
         return self._rows.keys()
@@ -115,10 +104,10 @@ class SqliteSink:
             theirs = ", ".join(f"{key}={value}" for key, value in meta["job"].items())
             raise StoreError(f"{self.path}: holds another run ({theirs}); try another file name")
         units = len(job.units())
-        findings = examine_store(self.path, units, self._looking)
+        findings = store_units.examine_store(self.path, units, self._looking)
         self._complete = findings.sound and meta["complete"]
         if not findings.sound:
-            rebuild_store(self.path, findings)
+            store_units.rebuild_store(self.path, findings)
             whole = len(findings.whole)
             self._tell(f"{self.path}: repaired a damaged store; kept {whole} of {units} units")
 
@@ -136,7 +125,7 @@ class SqliteSink:
         """
         assert self._units is not None
         first = self._first_row_of(number)
-        with naming(self.path), self._transaction():
+        with store_units.naming(self.path), self._transaction():
             texts = list(_replaced(rows, self._lists)) if self._lists else rows
             self._units.add(number, first, texts, round(seconds, 6))
         self._rows[number] = len(rows)
@@ -155,7 +144,7 @@ class SqliteSink:
         Raises `StoreError` if rows are missing.
         """
         assert self._connection is not None
-        with naming(self.path):
+        with store_units.naming(self.path):
             if not self._complete:
                 self._mark_complete(self._connection)
             self._make_one_file(self._connection)
@@ -214,8 +203,8 @@ def read_meta(path: str | Path) -> dict[str, Any]:
     >>> meta["columns"], meta["complete"]
     (['code'], True)
     """
-    with reading(Path(path)) as connection:
-        return meta_in(connection, Path(path))
+    with store_units.reading(Path(path)) as connection:
+        return store_units.meta_in(connection, Path(path))
 
 
 def job_in(path: str | Path) -> dict[str, Any] | None:
@@ -255,10 +244,10 @@ def read_rows(path: str | Path) -> Iterator[Row]:
     ('k1:E`hW',) ('k1:E@zO',)
     """
     path = Path(path)
-    with reading(path) as connection:
-        meta = meta_in(connection, path)
+    with store_units.reading(path) as connection:
+        meta = store_units.meta_in(connection, path)
         lists = _remembering(unstored, meta["lists"], meta["columns"])
-        units = UnitTable(connection, meta["columns"])
+        units = store_units.UnitTable(connection, meta["columns"])
         for number in units.numbers():
             rows = units.rows(number)
             if rows is None:
@@ -281,14 +270,14 @@ def _warn(line: str) -> None:
 
 def _has_tables(path: Path) -> bool:
     """Return whether there is anything in a database: a run may have died before it made the tables."""
-    with reading(path) as connection:
+    with store_units.reading(path) as connection:
         return bool(connection.execute("SELECT count(*) FROM sqlite_master").fetchone()[0])
 
 
 def _meta_of(job: Job) -> dict[str, Any]:
     return {
-        "format": FORMAT,
-        "version": VERSION,
+        "format": store_units.FORMAT,
+        "version": store_units.VERSION,
         "synthedra": version("synthedra"),
         "columns": list(job.columns),
         "lists": _lists_in(job),

@@ -13,6 +13,7 @@ from typing import Any, TypeAlias
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.table import Mechanism, to_sc, to_sheet
 from graphs.errors import FileError, InvariantError, OpenError, UnsolvableError, check_argument, numbered
+from graphs.files import losses
 from graphs.files.atomic import Beside
 from graphs.files.bare import (
     as_linkage,
@@ -23,18 +24,6 @@ from graphs.files.bare import (
     read_edge_list,
     read_graph6,
     read_graphml,
-)
-from graphs.files.losses import (
-    change_of_type,
-    lost_as_bare_graph,
-    lost_as_cp,
-    lost_as_dxf,
-    lost_as_fold,
-    lost_as_graphml,
-    lost_as_json,
-    lost_as_nameless_graph,
-    lost_as_obj,
-    lost_as_svg,
 )
 from graphs.files.native import dumps, from_document
 from graphs.files.outputs import Format, Lost, format_of, formats_by_suffix, unknown_extension
@@ -263,7 +252,7 @@ def write_converted(
         made_for = written.suffix == ".json" or (written.suffix == ".fold" and isinstance(mechanism, Sheet))
         if (made_of is not None and not lossy) or not made_for:
             again = _read_back(beside.closed(), written.suffix, lost)
-            change = None if lossy else change_of_type(mechanism if made_of is None else made_of, again)
+            change = None if lossy else losses.change_of_type(mechanism if made_of is None else made_of, again)
             if change is not None:
                 wrong = f"a {written.suffix} file would be read back as another type: {change}{_because(lost)}"
                 raise UnsolvableError(f"{wrong}; try --lossy (in Python lossy=True)")
@@ -367,16 +356,16 @@ def _text_format(
 
 
 WRITERS = formats_by_suffix(
-    _text_format(".cp", "crease pattern", _of_sheet(_of_pattern("lines", "cp_text")), lost_as_cp),
-    _text_format(".dxf", "crease pattern, DXF R12", _of_sheet(_of_pattern("dxf", "dxf_text")), lost_as_dxf),
-    _text_format(".edges", "list of edges", lambda m: edge_list_text(to_sc(m)), lost_as_bare_graph),
-    _text_format(".fold", "crease pattern, FOLD", _of_sheet(fold_text), lost_as_fold),
-    _text_format(".g6", "graph6", lambda m: graph6_text(to_sc(m), sparse=False), lost_as_nameless_graph),
-    _text_format(".graphml", "GraphML", _graphml_text, lost_as_graphml),
-    _text_format(".json", "native", _json_text, lost_as_json),
-    _text_format(".obj", "surface, OBJ", _of_sheet(obj_text), lost_as_obj),
-    _text_format(".s6", "sparse6", lambda m: graph6_text(to_sc(m), sparse=True), lost_as_nameless_graph),
-    _text_format(".svg", "crease pattern, SVG", _of_sheet(_of_pattern("svg", "svg_text")), lost_as_svg),
-    _text_format(".txt", "list of edges", lambda m: edge_list_text(to_sc(m)), lost_as_bare_graph),
+    _text_format(".cp", "crease pattern", _of_sheet(_of_pattern("lines", "cp_text")), losses.lost_as_cp),
+    _text_format(".dxf", "crease pattern, DXF R12", _of_sheet(_of_pattern("dxf", "dxf_text")), losses.lost_as_dxf),
+    _text_format(".edges", "list of edges", lambda m: edge_list_text(to_sc(m)), losses.lost_as_bare_graph),
+    _text_format(".fold", "crease pattern, FOLD", _of_sheet(fold_text), losses.lost_as_fold),
+    _text_format(".g6", "graph6", lambda m: graph6_text(to_sc(m), sparse=False), losses.lost_as_nameless_graph),
+    _text_format(".graphml", "GraphML", _graphml_text, losses.lost_as_graphml),
+    _text_format(".json", "native", _json_text, losses.lost_as_json),
+    _text_format(".obj", "surface, OBJ", _of_sheet(obj_text), losses.lost_as_obj),
+    _text_format(".s6", "sparse6", lambda m: graph6_text(to_sc(m), sparse=True), losses.lost_as_nameless_graph),
+    _text_format(".svg", "crease pattern, SVG", _of_sheet(_of_pattern("svg", "svg_text")), losses.lost_as_svg),
+    _text_format(".txt", "list of edges", lambda m: edge_list_text(to_sc(m)), losses.lost_as_bare_graph),
 )
 """Suffix to the format in which mechanisms are written."""

@@ -16,16 +16,7 @@ import synth.drawing
 import synth.moving
 import synth.surfaces
 from graphs.printing import plain
-from synth.cli import options
-from synth.cli.output import (
-    about,
-    check_output,
-    check_picture,
-    print_answer,
-    print_json,
-    print_result,
-    tell_written,
-)
+from synth.cli import options, output as out
 
 if TYPE_CHECKING:
     from graphs.mechanism.surfaces import Surface
@@ -69,7 +60,7 @@ class LinkageOptions:
 
     def about(self) -> AbstractContextManager[None]:
         """Name the file in errors."""
-        return nullcontext() if self.file is None else about(self.file)
+        return nullcontext() if self.file is None else out.about(self.file)
 
     @cached_property
     def linkage_sizes(self) -> Sequence[float]:
@@ -159,7 +150,7 @@ def map_answer(
 
     if output is None and number is not None:
         raise click.UsageError(f"--{chosen.kind} requires -o")
-    (check_output if _is_linkage(output) else check_picture)(output, force=force)
+    (out.check_output if _is_linkage(output) else out.check_picture)(output, force=force)
     with chosen.about():
         if chosen.sizes is not None:
             map_sizes = synth.map_to_cones if chosen.kind == "cone" else synth.map_to_cylinders
@@ -277,7 +268,7 @@ def map_command(kind: Kind) -> click.Command:
             answer: Any = synth.surfaces.supplementary_linkages(chosen.linkage_sizes)
         else:
             answer = map_answer(chosen, output, by_sizes=by_sizes, **settings)
-        print_result(answer, {}, as_json=as_json, written=[output])
+        out.print_result(answer, {}, as_json=as_json, written=[output])
 
     return command
 
@@ -317,7 +308,7 @@ def behaviour_command(kind: Kind) -> click.Command:
     def command(
         chosen: LinkageOptions, ground: str | None, output: str | None, force: bool, as_json: bool
     ) -> None:
-        check_picture(output, force=force)
+        out.check_picture(output, force=force)
         with chosen.about():
             linkages = chosen.on_surfaces()
             behaviours = [linkage.behaviour(options.link_of(linkage.chain, ground)) for linkage in linkages]
@@ -327,7 +318,7 @@ def behaviour_command(kind: Kind) -> click.Command:
             _draw(linkages[0], output, behaviours[0].chain.links[0], force=force)
         _print_linkages(behaviours, kind, as_json=as_json)
         if not as_json:
-            tell_written(output)
+            out.tell_written(output)
 
     return command
 
@@ -394,10 +385,10 @@ def move_command(kind: Kind) -> click.Command:
 def _print_linkages(answers: Sequence[Any], kind: Kind, *, as_json: bool) -> None:
     """Print the answers about a linkage on each of its surfaces."""
     if as_json:
-        print_json({"linkages": [answer.to_json() for answer in answers]})
+        out.print_json({"linkages": [answer.to_json() for answer in answers]})
         return
     for answer in answers:
-        print_answer(answer)
+        out.print_answer(answer)
     if not answers:
         click.echo(f"no {kind}")
 

@@ -34,7 +34,7 @@ def test_the_last_page_of_a_pdf_and_a_file_beside_an_svg_say_what_to_do(vertex, 
     assert {path.name for path in tmp_path.iterdir()} == {"a.pdf", "a.svg", "a-note.svg"}
     note = (tmp_path / "a-note.svg").read_text(encoding="utf-8")
     assert "Print at 100 %" in note
-    assert "1 mountain (" in note
+    assert "3 mountains (" in note
     assert "Lay the pages" not in note  # it fits on a page
     assert note.count("data-link") >= 4  # every panel is in the picture
     lines, _, _ = lines_of_svg(tmp_path / "a-note.svg")
