@@ -6,30 +6,30 @@ USER   := $(VENV)/.installed-for-users
 STAMP  := $(VENV)/.installed
 # One process per core. Each takes tests from its own part of the list first, so that what one test compiled or
 # listed serves its neighbours; who is done takes from the others. PARALLEL= runs them in one process.
-PARALLEL ?= -n logical --dist loadgroup
+PARALLEL ?= -n logical --dist worksteal
 # Byte code is kept, whatever the shell says: the tests start many processes, and pytest rewrites every file.
 unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: demo compiled test test-unit test-slow test-night durations test-web test-machines page check data pictures docs examples release clean help
 
 help:
-	@echo "make demo       install into $(VENV) what users need, and ask some mechanisms for their mobility"
+	@echo "make demo       install into $(VENV) what users need, and run the first examples"
 	@echo "make compiled   compile what large enumerations need, before their first use: minutes"
-	@echo "make test       all tests but the slow ones"
-	@echo "make test-unit  the quickest of them, of single functions and classes: half a minute"
-	@echo "make test-slow  the slow tests too, at their full sizes: 90 minutes at most on two idle cores"
-	@echo "make test-night the slow tests of more than ten minutes each"
-	@echo "make durations  run all tests but those of the night and the web, and write what they take to tests/durations.json"
-	@echo "make test-web   what is shown in a notebook, which is run, and the tests of the page of synth view, in node and in Chromium"
+	@echo "make test       all tests except the slow ones"
+	@echo "make test-unit  the quickest of these tests, on single functions and classes: half a minute"
+	@echo "make test-slow  the slow tests too, at full size: at most 90 minutes on two idle cores"
+	@echo "make test-night the slow tests that take more than ten minutes each"
+	@echo "make durations  run all tests except those of the night and the web, and write their durations to tests/durations.json"
+	@echo "make test-web   run a notebook and test its displays, and test the page of synth view in node and in Chromium"
 	@echo "make test-machines  check that answers are the same under other BLAS kernels, threads, hash seeds, and without AVX2"
 	@echo "make page       build the script of that page, if its sources have changed"
 	@echo "make check      ruff and mypy"
-	@echo "make data       make the files under data/ anew, and name those that change"
-	@echo "make pictures   make the pictures of README.md and docs/ anew, and name those that change"
+	@echo "make data       write the files under data/ anew, and list those that change"
+	@echo "make pictures   draw the pictures of README.md and docs/ anew, and list those that change"
 	@echo "make docs       build the site of docs/ in docs/_build from the committed files, without a warning"
 	@echo "make release    build sdist and wheel in dist/, check them, and install them in clean environments"
-	@echo "make examples   write the output of the commands in README.md and docs/ into them anew, and name those that change"
-	@echo "make clean      remove $(VENV) and what tools keep here; machine code stays in ~/.cache/synthedra"
+	@echo "make examples   write the output of the commands in README.md and docs/ anew, and list the documents that change"
+	@echo "make clean      remove $(VENV) and the caches of tools; machine code stays in ~/.cache/synthedra"
 
 # An environment with what users need; everything else comes with the first target that needs it.
 $(USER): pyproject.toml

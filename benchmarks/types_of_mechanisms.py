@@ -64,7 +64,7 @@ def scd_compiled(mechanisms: SCDQuery) -> int:
     for source in mechanisms.sources(UNIT_ROWS):
         for drawn in mechanisms.drawn(source.payload):
             for code, labels in drawn.each():
-                total += len(placements_on(mechanisms.placements, code, labels, mechanisms.dof, 0, 1 << 62)[0])
+                total += len(placements_on(mechanisms.placements, mechanisms.dof, code, labels, 0, 1 << 62)[0])
     return total
 
 

@@ -33,7 +33,7 @@ def fourbar_vertex() -> Sheet:
     directions = _folded_vertex(sectors, 30 * pi / 180)
     points: list[Point] = [(0.0, 0.0, 0.0), *directions]
     faces = [(0, 1 + k, 1 + (k + 1) % 4) for k in range(4)]
-    letters = {frozenset((0, 1 + k)): letter for k, letter in enumerate("VMVV")}
+    letters = {frozenset((0, 1 + k)): letter for k, letter in enumerate("VMMM")}
     title = "A flat-foldable vertex of degree four, partly folded"
     return sheet_of_faces(points, faces, title, letters)
 

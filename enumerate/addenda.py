@@ -176,8 +176,8 @@ class AddendumJob:
     def work(self, payload: Sequence[tuple[LinkId, LinkId]]) -> list[Row]:
         """Return the rows of a unit."""
         before = exact_mobility(self.mechanism).mobility
-        found = (addendum for a, b in payload for addendum in self._between(a, b, before))
-        return [_row(addendum) if self.as_rows else (addendum,) for addendum in found]
+        addenda = (addendum for a, b in payload for addendum in self._between(a, b, before))
+        return [_row(addendum) if self.as_rows else (addendum,) for addendum in addenda]
 
     def interpreted(self, weight: int) -> float:
         """Return no seconds: kernels find orbits only."""

@@ -1,11 +1,11 @@
 """Several edits in one call, as `synth edit` makes them; one by one: `graphs.edit` and `graphs.creasing`."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TypeAlias, cast
+from typing import Any, NamedTuple, TypeAlias, cast
 
-from graphs.convert.table import graph_of
+from graphs.convert.table import Mechanism, graph_of
 from graphs.creasing.edits import SheetEdit, crease_sheet, joint_of_sheet_named, lock_crease, remove_crease
 from graphs.edit.edits import (
     Edit,
@@ -25,7 +25,7 @@ from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet, with_all_edges
-from graphs.printing import Block, Printed, TableBlock
+from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.types import JointId, LinkId
 from synth.folding.motion import assign_branch as branch_assigned
 
@@ -65,10 +65,8 @@ class EditedMechanism(Printed):
     def blocks(self) -> list[Block]:
         """Return the table that is printed."""
         columns = ("edit", "by", "dM predicted", "counted", "M")
-        rows = [
-            (each.what, each.equation, str(each.predicted), str(each.counted), str(each.to_json()["mobility"]))
-            for each in self.edits
-        ]
+        keys = ("what", "equation", "predicted", "counted", "mobility")
+        rows = [[plain(edit[key]) for key in keys] for edit in (each.to_json() for each in self.edits)]
         return [TableBlock(columns, rows, columns[2:])]
 
     def __repr__(self) -> str:
@@ -133,56 +131,69 @@ def edit(
     >>> edited.edits[0].predicted, edited.edits[0].counted
     (-1, -1)
     """
-    source = mechanism_for("edit", mechanism)
-    of_sheet: list[Callable[[Sheet], SheetEdit]] = (
-        [] if assign_branch is None else [partial(_assigned, assign_branch)]
-    )
-    locks, creases = list(lock), list(add_crease)
-    gone = list(remove_crease)
-    of_graph: list[Callable[[SCGraph], Edit]] = [
-        *(partial(_with_loop, loop, Centre.FINITE) for loop in add_loop),
-        *(partial(_with_loop, loop, "none") for loop in add_spatial_loop),
-        *(partial(_with_ride_along, pair) for pair in add_ride_along),
-        *(partial(_with_centre, make_implicit, loop) for loop in implicit),
-        *(partial(_with_centre, make_explicit, loop) for loop in explicit),
-    ]
-    if isinstance(source, Sheet) and not of_graph:
-        of_sheet += [partial(_locked_crease, joint) for joint in locks]
-        of_sheet += [partial(_creased_sheet, crease) for crease in creases]
-        of_sheet += [partial(_without_crease, ends) for ends in _ends_of(source, gone)]
-        return _edited_sheet(source, of_sheet)
-    if gone or assign_branch is not None:
-        option = "remove_crease" if gone else "assign_branch"
-        raise UnsolvableError(f"{option} requires a crease pattern, and no edits that add links")
-    of_graph = [*(partial(_creased, crease) for crease in creases), *of_graph]
-    return _edited_graph(graph_of(source), [*of_graph, *(partial(_locked, joint) for joint in locks)])
-
-
-def _edited_graph(graph: SCGraph, steps: Sequence[Callable[[SCGraph], Edit]]) -> EditedMechanism:
-    """Make the edits of a graph, each to the last result."""
-    edits: list[Edit] = []
-    for step in steps:
-        edits.append(step(graph))
-        graph = edits[-1].graph
-    return _checked(graph, edits)
-
-
-def _edited_sheet(sheet: Sheet, steps: Sequence[Callable[[Sheet], SheetEdit]]) -> EditedMechanism:
-    """Make the edits of a pattern, each to the last result."""
-    edits: list[SheetEdit] = []
-    for step in steps:
-        edits.append(step(sheet))
-        sheet = edits[-1].sheet
-    return _checked(sheet, edits)
-
-
-def _checked(mechanism: SCGraph | Sheet, edits: Sequence[Edit | SheetEdit]) -> EditedMechanism:
-    if not edits:
+    values = {
+        "assign_branch": () if assign_branch is None else (assign_branch,),
+        "add_crease": add_crease,
+        "remove_crease": remove_crease,
+        "add_loop": add_loop,
+        "add_spatial_loop": add_spatial_loop,
+        "add_ride_along": add_ride_along,
+        "implicit": implicit,
+        "explicit": explicit,
+        "lock": lock,
+    }
+    answer = with_edits(mechanism_for("edit", mechanism), {key: list(some) for key, some in values.items()})
+    if not answer.edits:
         raise InvariantError("edit", "no edit", "one or more, such as lock=[joint]")
-    return EditedMechanism(mechanism, tuple(edits))
+    return answer
 
 
-def _creased(crease: NewCrease, graph: SCGraph) -> Edit:
+def with_edits(
+    mechanism: Mechanism,
+    values: Mapping[str, Sequence[Any]],
+    *,
+    value_of: Callable[[str, Any, Any], Any] = lambda _key, _mechanism, value: value,
+    spelled: Callable[[str], str] = str,
+) -> EditedMechanism:
+    """Return a mechanism after edits: for each key of `EDITS` some values, for each value an edit.
+
+    `value_of` reads what stands for a value, with its key and the mechanism just before the edit, since names may
+    be of parts that an earlier edit added; `spelled` spells a key in messages.
+    """
+    keys = [key for key in EDITS if values[key]]
+    if isinstance(mechanism, Sheet) and all(EDITS[key].of_sheet for key in keys):
+        of_sheet = list(_edits_of_sheet(mechanism, values, value_of))
+        return EditedMechanism(of_sheet[-1].sheet if of_sheet else mechanism, tuple(of_sheet))
+    for key in ("remove_crease", "assign_branch"):
+        if key in keys:
+            raise UnsolvableError(f"{spelled(key)} requires a crease pattern, and no edits that add links")
+    graph = graph_of(mechanism)
+    edits: list[Edit] = []
+    for key in keys:
+        change = EDITS[key].of_graph
+        assert change is not None
+        for value in values[key]:
+            edits.append(change(graph, value_of(key, graph, value)))
+            graph = edits[-1].graph
+    return EditedMechanism(graph, tuple(edits))
+
+
+def _edits_of_sheet(
+    sheet: Sheet, values: Mapping[str, Sequence[Any]], value_of: Callable[[str, Any, Any], Any]
+) -> Iterator[SheetEdit]:
+    """Yield the edits of a pattern, each made to the last result."""
+    for key in ("assign_branch", "lock", "add_crease", "remove_crease"):
+        change, some = EDITS[key].of_sheet, values[key]
+        assert change is not None
+        if key == "remove_crease":
+            some = _ends_of(sheet, some)
+        for value in some:
+            edit = change(sheet, value_of(key, sheet, value))
+            sheet = edit.sheet
+            yield edit
+
+
+def _creased(graph: SCGraph, crease: NewCrease) -> Edit:
     link, *rest = crease
     if not isinstance(graph, SCDGraph):
         joints = rest[0] if len(rest) == 1 and not isinstance(rest[0], int | str) else rest
@@ -192,50 +203,62 @@ def _creased(crease: NewCrease, graph: SCGraph) -> Edit:
     return crease_link(graph, link, *rest)
 
 
-def _with_loop(loop: NewLoop, centre: Centre | str, graph: SCGraph) -> Edit:
+def _with_loop(graph: SCGraph, loop: NewLoop, *, centre: Centre | str = Centre.FINITE) -> Edit:
     first, second, links, *through = loop
     bare = graph.sc_graph() if isinstance(graph, SCDGraph) else graph
     return with_loop(bare, first, second, links, centre=centre, through=through[0] if through else None)
 
 
-def _with_ride_along(pair: tuple[LinkId, LinkId], graph: SCGraph) -> Edit:
+def _with_ride_along(graph: SCGraph, pair: tuple[LinkId, LinkId]) -> Edit:
     first, second = pair
     if isinstance(graph, SCDGraph) and graph.has_edge(first, second):
         return ride_along(graph, next(iter(graph[first][second])))
     return with_ride_along(graph, first, second)
 
 
-def _with_centre(change: Callable[[SCDGraph, int], Edit], loop: int, graph: SCGraph) -> Edit:
+def _with_centre(change: Callable[[SCDGraph, int], Edit], graph: SCGraph, loop: int) -> Edit:
     if not isinstance(graph, SCDGraph):
         raise UnsolvableError("implicit and explicit require an SCD graph, which has the sides of the links")
     return change(graph, loop)
 
 
-def _locked(joint: JointId, graph: SCGraph) -> Edit:
-    return lock_hinge(graph, joint) if isinstance(graph, SCDGraph) else lock_joint(graph, joint)
-
-
-def _assigned(branch: int | str, sheet: Sheet) -> SheetEdit:
-    return branch_assigned(sheet, branch)
-
-
-def _locked_crease(joint: JointId, sheet: Sheet) -> SheetEdit:
-    return lock_crease(sheet, joint_of_sheet_named(sheet, str(joint)))
-
-
-def _creased_sheet(crease: NewCrease, sheet: Sheet) -> SheetEdit:
+def _creased_sheet(sheet: Sheet, crease: NewCrease) -> SheetEdit:
     if len(crease) != 2:
         raise InvariantError("edit", f"the crease {shown(crease)}", "two vertices or points of the pattern")
     start, end = cast("tuple[End, End]", crease)
     return crease_sheet(sheet, start, end)
 
 
-def _ends_of(sheet: Sheet, edges: Sequence[int]) -> list[set[int]]:
+def _ends_of(sheet: Sheet, edges: Sequence[int | str]) -> list[set[int]]:
     """Return the ends of edges: removing one moves those after it up, and ends stay."""
     whole = with_all_edges(sheet)
     return [set(whole.edges[joint_of_sheet_named(sheet, str(edge))]) for edge in edges]
 
 
-def _without_crease(ends: set[int], sheet: Sheet) -> SheetEdit:
-    number = [set(edge) for edge in with_all_edges(sheet).edges].index(ends)
+def _without_crease(sheet: Sheet, ends: set[int]) -> SheetEdit:
+    number = next((i for i, edge in enumerate(with_all_edges(sheet).edges) if set(edge) == ends), -1)
     return remove_crease(sheet, joint_of_sheet_named(sheet, str(number)))
+
+
+class MechanismEdits(NamedTuple):
+    """How one value edits a graph, and a crease pattern; None where the edit does not apply."""
+
+    of_graph: Callable[[SCGraph, Any], Edit] | None = None
+    of_sheet: Callable[[Sheet, Any], SheetEdit] | None = None
+
+
+EDITS = {
+    "assign_branch": MechanismEdits(of_sheet=branch_assigned),
+    "add_crease": MechanismEdits(_creased, _creased_sheet),
+    "remove_crease": MechanismEdits(of_sheet=_without_crease),
+    "add_loop": MechanismEdits(_with_loop),
+    "add_spatial_loop": MechanismEdits(partial(_with_loop, centre="none")),
+    "add_ride_along": MechanismEdits(_with_ride_along),
+    "implicit": MechanismEdits(partial(_with_centre, make_implicit)),
+    "explicit": MechanismEdits(partial(_with_centre, make_explicit)),
+    "lock": MechanismEdits(
+        lambda graph, joint: (lock_hinge if isinstance(graph, SCDGraph) else lock_joint)(graph, joint),
+        lambda sheet, joint: lock_crease(sheet, joint_of_sheet_named(sheet, str(joint))),
+    ),
+}
+"""The edits by their keys, in the order in which graphs are edited."""

@@ -6,6 +6,7 @@ import doctest
 from pathlib import Path
 
 import pytest
+from sizes import slow
 
 from tests.support.examples import agree, commands_of, fences_of, printed_by
 
@@ -15,6 +16,8 @@ DOCUMENTS = [
     *sorted((ROOT / "docs").glob("*.md")),
     *sorted((ROOT / "docs" / "guides").glob("*.md")),
 ]
+HEAVY = ("tutorial.md", "does-it-fold.md")
+"""Pages whose examples take seconds."""
 WITH_EXAMPLES = [
     path for path in DOCUMENTS if {"console", "python"} & {one.language for one in fences_of(path.read_text())}
 ]
@@ -28,7 +31,11 @@ def beside_the_data(tmp_path, monkeypatch):
 
 
 @pytest.mark.usefixtures("beside_the_data")
-@pytest.mark.parametrize("path", WITH_EXAMPLES, ids=lambda path: str(path.relative_to(ROOT)))
+@pytest.mark.parametrize(
+    "path",
+    [slow(path) if path.name in HEAVY else path for path in WITH_EXAMPLES],
+    ids=lambda path: str(path.relative_to(ROOT)),
+)
 def test_examples(path):
     runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE)
     names: dict[str, object] = {}

@@ -4,6 +4,7 @@ from inspect import signature
 from pathlib import Path
 
 import pytest
+from sizes import slow
 
 import synth
 
@@ -23,8 +24,9 @@ def test_every_verb_reads_a_path(verb, path):
         getattr(synth, verb)(path, **VERBS[verb])
 
 
-def test_the_answer_for_a_path_is_that_for_its_mechanism(data):
-    path = data / "patterns" / "bird-base.fold"
+@pytest.mark.parametrize("name", ["four-bar-vertex", slow("bird-base")])
+def test_the_answer_for_a_path_is_that_for_its_mechanism(name, data):
+    path = data / "patterns" / f"{name}.fold"
     sheet = synth.read(path)
     assert synth.fold(path, frames=2).to_json() == synth.fold(sheet, frames=2).to_json()
     assert synth.mobility(str(path)).to_json() == synth.mobility(sheet).to_json()

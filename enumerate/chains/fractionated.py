@@ -21,8 +21,8 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import cache, reduce
-from itertools import combinations_with_replacement, groupby, product
-from math import factorial
+from itertools import chain, combinations_with_replacement, groupby, product
+from math import factorial, prod
 
 import numpy as np
 import numpy.typing as npt
@@ -110,7 +110,8 @@ def glued(blocks: Sequence[Block]) -> list[Joints]:
                     ends = sum(count for block, count in zip(kinds, rest, strict=True) if block != _BRIDGE_BLOCK)
                     for joints, links in partial.items():
                         for form in _attached((links, joints), kinds[kind]):
-                            if _loose_ends(links + kinds[kind][0] - 1, form) <= ends:
+                            # links with one joint: each needs a block with a loop yet
+                            if [*Counter(chain.from_iterable(form)).values()].count(1) <= ends:
                                 forms_of_rest[form] = links + kinds[kind][0] - 1
         forms = grown
     [result] = forms.values()
@@ -141,15 +142,6 @@ def _representatives(block: Block) -> list[int]:
     moves = np.array([range(links), *generators], np.int64)
     representatives: list[int] = np.flatnonzero(orbits_of(moves) == moves[0]).tolist()
     return representatives
-
-
-def _loose_ends(links: int, joints: Joints) -> int:
-    """Return the number of links with one joint: each needs a block with a loop yet."""
-    degrees = [0] * links
-    for a, b in joints:
-        degrees[a] += 1
-        degrees[b] += 1
-    return degrees.count(1)
 
 
 Monomial = tuple[tuple[int, int], ...]
@@ -292,22 +284,13 @@ def _partitions(k: int, most: int | None = None) -> Iterator[tuple[int, ...]]:
 
 def _centraliser(parts: Sequence[int]) -> int:
     """Return how many permutations commute with one of this cycle type: the inverse of its share of the group."""
-    size = 1
-    for part, count in Counter(parts).items():
-        size *= part**count * factorial(count)
-    return size
+    return prod(part**count * factorial(count) for part, count in Counter(parts).items())
 
 
 def _derivative(index: dict[Monomial, Fraction]) -> dict[Monomial, Fraction]:
     """Return the derivative by p_1."""
-    derivative = {}
-    for monomial, value in index.items():
-        lengths = Counter(dict(monomial))
-        if lengths[1]:
-            factor = lengths[1]
-            lengths[1] -= 1
-            derivative[_monomial(lengths)] = value * factor
-    return derivative
+    terms = ((Counter(dict(monomial)), value) for monomial, value in index.items())
+    return {_monomial(lengths - Counter([1])): value * lengths[1] for lengths, value in terms if lengths[1]}
 
 
 def _substituted(blocks: dict[tuple[int, int], dict[Monomial, Fraction]], rooted: Series) -> Series:

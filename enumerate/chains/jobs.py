@@ -18,28 +18,14 @@ from typing import Any, Literal, Unpack
 import networkx as nx
 import numpy as np
 
-from enumerate.chains.counting import (
-    count_by_burnside,
-    count_by_orbits,
-    count_of_graph,
-)
+from enumerate.chains import counting
 from enumerate.chains.fractionated import Block, block_choices, count_connected, glued, shapes
 from enumerate.chains.query import ChainOptions, ChainQuery
 from enumerate.chains.rows import GraphChains, columns_of, rows_of_graph, rows_of_joints
 from enumerate.contracted.binary_links import EVERY
 from enumerate.contracted.graphs import contracted_graphs, cubic_graphs, descendants
 from enumerate.machine_code.weights import CHAIN, placing
-from enumerate.runner.job import (
-    ANY_NUMBER,
-    ONE_OR_MORE,
-    Column,
-    QueryCount,
-    QueryJob,
-    Row,
-    RowCount,
-    Unit,
-    batches,
-)
+from enumerate.runner import job
 from enumerate.runner.running import graphs_of, rows_of, total_of
 from graphs.errors import UnsolvableError
 from graphs.identity.chains import chain_from_id
@@ -74,15 +60,8 @@ class _Graphs:
     prefix: Ints = field(default_factory=lambda: np.zeros(0, np.int64))
 
 
-@dataclass(frozen=True, slots=True)
-class _Glued:
-    """Chains put together from blocks."""
-
-    choices: tuple[tuple[Block, ...], ...]
-
-
-Payload = _Graphs | _Glued | None
-"""None: the chain of one loop, a ring."""
+Payload = _Graphs | tuple[tuple[Block, ...], ...] | None
+"""Contracted graphs; choices of blocks, of which chains are put together; None: the chain of one loop, a ring."""
 
 
 def _graphs(query: ChainQuery) -> Iterator[tuple[int, Bytes]]:
@@ -100,12 +79,12 @@ def _admitted(query: ChainQuery, levels: Iterable[tuple[int, Bytes]]) -> Iterato
         if query.assortment is None and query.planar is None:
             yield n, codes
         else:
-            kept = [query.admits_graph(code, n) for code in codes]
-            yield n, codes[np.array(kept, bool)]
+            admitted = [query.admits_graph(code, n) for code in codes]
+            yield n, codes[np.array(admitted, bool)]
 
 
 @dataclass(frozen=True)
-class ChainJob(QueryJob[ChainQuery]):
+class ChainJob(job.QueryJob[ChainQuery]):
     """All chains of a query, as rows.
 
     Attributes
@@ -119,53 +98,49 @@ class ChainJob(QueryJob[ChainQuery]):
     listed = "chains"
 
     @cached_property
-    def columns(self) -> dict[str, Column]:
+    def columns(self) -> dict[str, job.Column]:
         """Names and types of the values of a row."""
         return columns_of(self.query, self.bare)
 
-    def units(self) -> list[Unit]:
+    def units(self) -> list[job.Unit]:
         """Units of some thousands of rows each: chains that nothing cuts, then fractionated ones."""
-        units: list[Unit] = []
+        units: list[job.Unit] = []
         if not self.query.possible:
             return units
         if self.query.loops == 1:
-            units.append(Unit(None))
+            units.append(job.Unit(None))
         for n, codes in _graphs(self.query):
             units += self._units_of_level(n, codes)
         if self.query.fractionated:
             units += self._fractionated_units()
         return units
 
-    def _units_of_level(self, n: int, codes: Bytes) -> Iterator[Unit]:
+    def _units_of_level(self, n: int, codes: Bytes) -> Iterator[job.Unit]:
         """Split the contracted graphs of n links by the numbers of their chains."""
         query = self.query
         start = weight = 0
         for i, code in zip(range(len(codes)), codes, strict=True):
-            count = count_of_graph(code, n, query.links, query.most, EVERY, np.zeros(0, np.int64))
+            count = counting.count_of_graph(code, n, query.links, query.most, EVERY, np.zeros(0, np.int64))
             if weight and weight + count > _ROWS:
-                yield Unit(_Graphs(n, codes[start:i]), weight)
+                yield job.Unit(_Graphs(n, codes[start:i]), weight)
                 start, weight = i, 0
-            if count > 2 * _ROWS:
-                yield from self._parts(n, code)
+            if count > 2 * _ROWS:  # the placements are split by where their first units lie
+                number = partial(counting.count_of_graph, code, n, query.links, query.most)
+                for only, prefix, part in beginnings(number, query.links - n, len(code), _ROWS):
+                    yield job.Unit(_Graphs(n, code[None], only, prefix), part)
                 start = i + 1
             else:
                 weight += count
         if weight:
-            yield Unit(_Graphs(n, codes[start:]), weight)
+            yield job.Unit(_Graphs(n, codes[start:]), weight)
 
-    def _parts(self, n: int, code: Bytes) -> Iterator[Unit]:
-        """Split the placements on one contracted graph by where their first units lie."""
-        number = partial(count_of_graph, code, n, self.query.links, self.query.most)
-        for only, prefix, count in beginnings(number, self.query.links - n, len(code), _ROWS):
-            yield Unit(_Graphs(n, code[None], only, prefix), count)
-
-    def _fractionated_units(self) -> Iterator[Unit]:
+    def _fractionated_units(self) -> Iterator[job.Unit]:
         for shape in shapes(self.query.links, self.query.dof):
             choices = block_choices(shape, _blocks)
             while batch := tuple(islice(choices, _CHOICES)):
-                yield Unit(_Glued(batch), len(batch))
+                yield job.Unit(batch, len(batch))
 
-    def work(self, payload: Payload) -> list[Row]:
+    def work(self, payload: Payload) -> list[job.Row]:
         """Return the rows of a unit."""
         query = self.query
         if isinstance(payload, _Graphs):
@@ -173,7 +148,7 @@ class ChainJob(QueryJob[ChainQuery]):
         if payload is None:
             ring = [(i, (i + 1) % query.links) for i in range(query.links)]
             return rows_of_joints(query, ring, self.bare)
-        chains = (joints for blocks in payload.choices for joints in glued(blocks))
+        chains = (joints for blocks in payload for joints in glued(blocks))
         return [row for joints in chains for row in rows_of_joints(query, joints, self.bare)]
 
     def interpreted(self, weight: int) -> float:
@@ -226,8 +201,12 @@ def _blocks(links: int, dof: int) -> Iterator[Block]:
         yield links, tuple(sorted(chain_from_id(row["code"]).edges()))
 
 
+_COUNT_COLUMNS: dict[str, job.Column] = {"count": int, "contracted_links": int}
+"""A number, and the number of links of the contracted graphs that it belongs to."""
+
+
 @dataclass(frozen=True)
-class CountJob(QueryCount[ChainQuery]):
+class CountJob(job.QueryCount[ChainQuery]):
     """The number of chains of a query; each row is a number to be added.
 
     Attributes
@@ -240,24 +219,24 @@ class CountJob(QueryCount[ChainQuery]):
 
     streamed: bool = False
     counted = "chains"
-
-    @property
-    def columns(self) -> dict[str, type]:
-        """A number, and the number of links of the contracted graphs that it belongs to."""
-        return {"count": int, "contracted_links": int}
+    columns = _COUNT_COLUMNS
 
     @property
     def details(self) -> dict[str, Any]:
         """How large the units are."""
         return {"cubic_graphs_of_a_unit": _ANCESTORS} if self.streamed else {"graphs_of_a_unit": _GRAPHS}
 
-    def units(self) -> Sequence[Unit]:
+    def units(self) -> Sequence[job.Unit]:
         """Units of some hundreds of contracted graphs each, or of those that come from some cubic graphs."""
         if self.streamed:
             return self._streamed_units()
-        return [Unit((n, some), len(some)) for n, codes in _graphs(self.query) for some in batches(codes, _GRAPHS)]
+        return [
+            job.Unit((n, some), len(some))
+            for n, codes in _graphs(self.query)
+            for some in job.batches(codes, _GRAPHS)
+        ]
 
-    def _streamed_units(self) -> list[Unit]:
+    def _streamed_units(self) -> list[job.Unit]:
         """Deal the cubic graphs out: of those that are neighbours about equally many others come."""
         query = self.query
         if not query.possible or query.loops < 2:
@@ -265,9 +244,9 @@ class CountJob(QueryCount[ChainQuery]):
         codes = cubic_graphs(query.loops)
         units = -(-len(codes) // _ANCESTORS)
         dealt = (codes[i::units] for i in range(units))
-        return [Unit((2 * (query.loops - 1), each), _DESCENDANTS * len(each)) for each in dealt]
+        return [job.Unit((2 * (query.loops - 1), each), _DESCENDANTS * len(each)) for each in dealt]
 
-    def work(self, payload: tuple[int, Bytes]) -> list[Row]:
+    def work(self, payload: tuple[int, Bytes]) -> list[job.Row]:
         """Return the numbers of chains of a unit, by the size of contracted graphs."""
         n, codes = payload
         levels = _admitted(self.query, descendants(codes, n)) if self.streamed else [(n, codes)]
@@ -280,33 +259,33 @@ class CountJob(QueryCount[ChainQuery]):
 
     def _number(self, codes: Bytes, n: int) -> int:
         query = self.query
-        count = count_by_burnside if self.method == "burnside" else count_by_orbits
+        count = counting.count_by_burnside if self.method == "burnside" else counting.count_by_orbits
         return query.number_within(lambda most: count(codes, n, query.links, most, query.inversions))
 
 
 @dataclass(frozen=True)
-class _ConnectedCountJob(QueryCount[ChainQuery]):
+class _ConnectedCountJob(job.QueryCount[ChainQuery]):
     """The number of chains, fractionated ones too, from cycle indices: one unit."""
 
     counted = "chains"
 
-    def units(self) -> Sequence[Unit]:
+    def units(self) -> Sequence[job.Unit]:
         """One unit."""
-        return [Unit(None)] if self.query.possible else []
+        return [job.Unit(None)] if self.query.possible else []
 
     def interpreted(self, weight: int) -> float:
         """Return about how many seconds the job takes with kernels interpreted."""
         del weight
         return placing(self.query.loops, self.query.dof)
 
-    def work(self, payload: None) -> list[Row]:
+    def work(self, payload: None) -> list[job.Row]:
         """Return the number."""
         return [(count_connected(self.query.links, self.query.dof),)]
 
 
 def count_job(
     query: ChainQuery, method: str, kept: Mapping[str, Any] | None = None
-) -> CountJob | RowCount | _ConnectedCountJob:
+) -> CountJob | job.RowCount | _ConnectedCountJob:
     """Return the job that counts the chains of a query: its rows are numbers to be added.
 
     Parameters
@@ -327,11 +306,13 @@ def count_job(
     >>> [total_of(count_job(ChainQuery(8, 1), method)) for method in ("orbits", "burnside")]
     [16, 16]
     """
-    by_rows = RowCount(ChainJob(query), {"count": "chains", **query.key})
-    plain = query.symmetry == ONE_OR_MORE and not query.inputs
+    by_rows = job.RowCount(ChainJob(query), {"count": "chains", **query.key})
+    plain = query.symmetry == job.ONE_OR_MORE and not query.inputs
     streamed = query.loops >= _STREAMED and "graphs_of_a_unit" not in (kept or {})
     if method == "burnside":
-        filtered = query.assortment is not None or query.planar is not None or query.longest_string != ANY_NUMBER
+        filtered = (
+            query.assortment is not None or query.planar is not None or query.longest_string != job.ANY_NUMBER
+        )
         if not plain or (query.fractionated and (filtered or query.inversions)):
             raise UnsolvableError(
                 "Burnside's lemma cannot count by input joints or symmetries, nor a part of fractionated chains; "
@@ -370,18 +351,13 @@ def chains(links: int, dof: int, *, workers: int = 1, **options: Unpack[ChainOpt
     workers : int
         Processes.
     **options
-        Other fields of `ChainQuery`: ``fractionated``, ``assortment``, ``planar``, ``longest_string``,
-        ``symmetry``.
+        Other fields of `ChainQuery`, with its errors: ``fractionated``, ``assortment``, ``planar``,
+        ``longest_string``, ``symmetry``.
 
     Yields
     ------
     ChainGraph
         Links are 0 to N - 1, numbered canonically. Graph attributes hold the row of `chain_rows`.
-
-    Raises
-    ------
-    InvariantError
-        If a number is out of its range.
 
     Examples
     --------
@@ -433,16 +409,9 @@ def count_chains(
         As for `chain_rows`.
     method : {"orbits", "burnside"}
         Two ways that share the contracted graphs and the conditions of rigidity only: ``orbits`` compares each
-        placement with its images, ``burnside`` compares none.
+        placement with its images, ``burnside`` compares none. UnsolvableError as of `count_job`.
     workers : int
         Processes.
-
-    Raises
-    ------
-    InvariantError
-        If a number is out of its range.
-    UnsolvableError
-        If Burnside's lemma cannot count by all that the query limits.
 
     Examples
     --------

@@ -106,8 +106,7 @@ class ChainQuery(Query):
         """Tell whether a chain with these numbers of links (degree to number) has the assortment of the query."""
         if self.assortment is None:
             return True
-        assortment = {degree: count for degree, count in enumerate(self.assortment, 2) if count}
-        return assortment == {degree: count for degree, count in degrees.items() if count}
+        return Counter(dict(enumerate(self.assortment, 2))) == Counter(degrees)
 
     def admits_graph(self, code: Bytes, n: int) -> bool:
         """Tell whether the query may admit chains of a contracted graph."""
@@ -121,10 +120,6 @@ class ChainQuery(Query):
         """Return how many chains have a longest string within the limits, from how many have none longer."""
         least = self.longest_string.least
         return number_to(self.most) - (number_to(least - 1) if least > 0 else 0)
-
-    def admits(self, longest: int, symmetry: int) -> bool:
-        """Tell whether longest string and number of automorphisms are within the limits."""
-        return longest in self.longest_string and symmetry in self.symmetry
 
 
 def is_planar(adjacency: Bytes) -> bool:

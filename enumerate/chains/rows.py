@@ -77,10 +77,10 @@ class GraphChains:
         """List them, or those that begin in one way (`enumerate.chains.counting.count_of_graph`)."""
         frame = frame_of(code, n)
         x, order = list_placements(frame, PlacementRange(query.links, query.most, only), prefix)
-        kept = query.symmetry.admitted(order)
+        admitted = query.symmetry.admitted(order)
         if query.longest_string.least > 0:  # the greatest length was seen to when they were placed
-            kept &= x.max(axis=1, initial=0) >= query.longest_string.least
-        return cls(code, frame, x[kept], order[kept])
+            admitted &= x.max(axis=1, initial=0) >= query.longest_string.least
+        return cls(code, frame, x[admitted], order[admitted])
 
     def inversions(self, links: int) -> Ints:
         """Return the orbits of links of each chain: int64[r, links], the least link of the orbit of each."""
@@ -156,11 +156,13 @@ def rows_of_joints(query: ChainQuery, joints: Sequence[tuple[int, int]], bare: b
     graph = nx.Graph(joints)
     order, generators, symmetry = automorphisms_of(query.links, joints)
     degrees = Counter(degree for _, degree in graph.degree())
-    longest = _longest_string(graph)
+    binary = graph.subgraph(link for link, degree in graph.degree() if degree == 2)
+    longest = max(map(len, nx.connected_components(binary)), default=0)
     planar: bool = nx.check_planarity(graph)[0]
     if not (
         query.admits_assortment(degrees)
-        and query.admits(longest, symmetry)
+        and longest in query.longest_string
+        and symmetry in query.symmetry
         and (query.planar is None or planar == query.planar)
     ):
         return []
@@ -192,12 +194,6 @@ def rows_of_joints(query: ChainQuery, joints: Sequence[tuple[int, int]], bare: b
 def assortment_of(degrees: Mapping[int, int]) -> tuple[int, ...]:
     """Return the numbers of binary, ternary, ... links."""
     return tuple(degrees.get(degree, 0) for degree in range(2, max(degrees) + 1))
-
-
-def _longest_string(graph: nx.Graph) -> int:
-    """Return the number of links of the longest row of binary links."""
-    binary = graph.subgraph(link for link, degree in graph.degree() if degree == 2)
-    return max(map(len, nx.connected_components(binary)), default=0)
 
 
 Joint = tuple[int, int]

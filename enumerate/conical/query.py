@@ -16,7 +16,7 @@ import numpy as np
 from enumerate.conical.rounds import Rounds, count_rounds_by_burnside, count_rounds_by_orbits, placements, prefixes
 from enumerate.contracted.binary_links import orbits_of
 from enumerate.machine_code.weights import ROUND
-from enumerate.runner.job import Column, QueryCount, QueryJob, Row, Unit
+from enumerate.runner.job import Column, Query, QueryCount, QueryJob, Row, Unit
 from enumerate.runner.running import total_of, tuples_of
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.identity.chains import subdivided, symmetries_of
@@ -47,7 +47,7 @@ class Portion:
 
 
 @dataclass(frozen=True)
-class ConicalQuery:
+class ConicalQuery(Query):
     """Which candidates are to be enumerated.
 
     Attributes
@@ -87,18 +87,13 @@ class ConicalQuery:
         """What the enumeration runs over."""
         joints = len(self.chain)
         if self.slots is not None:
-            return Rounds.on_slots(joints, self.slots)
-        return Rounds.opposites(joints) if self.opposites else Rounds.orders(joints)
+            return Rounds(joints, self.slots, self.slots)
+        return Rounds(joints, 2 * joints if self.opposites else joints, joints)
 
     @property
     def key(self) -> dict[str, Any]:
         """The query in JSON values."""
-        return {
-            "chain": [[joint, *ends] for joint, ends in self.chain],
-            "grounds": list(self.grounds),
-            "slots": self.slots,
-            "opposites": self.opposites,
-        }
+        return super().key | {"chain": [[joint, *ends] for joint, ends in self.chain]}
 
     def symmetries(self, ground: LinkId | None) -> Ints:
         """Return the symmetries of the chain that leave the ground where it is: int64[g, J]."""
@@ -107,10 +102,7 @@ class ConicalQuery:
     def portions(self, most: int) -> Iterator[tuple[Portion, int]]:
         """Yield portions of at most so many placements, symmetric ones apart, if possible; and the numbers.
 
-        Raises
-        ------
-        UnsolvableError
-            If there are too many to list.
+        Raises `UnsolvableError` if there are too many to list.
         """
         rounds = self.rounds
         if rounds.completions(1) > _LISTED:

@@ -8,8 +8,6 @@ other: a link is an arc, or one of several, the set of gaps between joints that 
 arcs that share a gap lie in different layers. Theory: docs/theory/conical-candidates.md.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -25,7 +23,11 @@ from graphs.types import Ints
 
 @dataclass(frozen=True, slots=True)
 class Rounds:
-    """Where joints may lie: on slots, of which those equal modulo `classes` exclude each other."""
+    """Where joints may lie: on slots, of which those equal modulo `classes` exclude each other.
+
+    For J joints, cyclic orders have J slots and classes, those of joints and of the points opposite to them 2 J
+    slots, and different slots as many classes.
+    """
 
     joints: int
     slots: int
@@ -36,21 +38,6 @@ class Rounds:
             raise InvariantError("joints", f"{self.joints} joints", "three or more round a circle")
         if self.classes < self.joints:
             raise InvariantError("slots", f"{self.slots} slots for {self.joints} joints", "one for each, or more")
-
-    @classmethod
-    def orders(cls, joints: int) -> Rounds:
-        """Cyclic orders."""
-        return cls(joints, joints, joints)
-
-    @classmethod
-    def opposites(cls, joints: int) -> Rounds:
-        """Cyclic orders of joints and of the points opposite to them."""
-        return cls(joints, 2 * joints, joints)
-
-    @classmethod
-    def on_slots(cls, joints: int, slots: int) -> Rounds:
-        """Different slots."""
-        return cls(joints, slots, slots)
 
     def completions(self, placed: int) -> int:
         """Return how many placements begin with some joints placed."""
@@ -149,7 +136,7 @@ def prefixes(rounds: Rounds, most: int) -> Iterator[tuple[int, ...]]:
 
     Joint 1 is kept to one half of the circle: what lies in the other is a mirror image.
 
-    >>> list(prefixes(Rounds.orders(4), 1))
+    >>> list(prefixes(Rounds(4, 4, 4), 1))
     [(0, 1, 2), (0, 1, 3), (0, 2, 1), (0, 2, 3)]
     """
 
@@ -270,27 +257,14 @@ def _deepest(arcs: Ints) -> int:
     return deepest
 
 
-@compiled
-def _fewest_of_all(arcs: Ints) -> Ints:
-    found = np.empty(len(arcs), np.int64)
-    chosen, layer_of = np.zeros(arcs.shape[1], np.int64), np.zeros(arcs.shape[1], np.int64)
-    for i in range(len(arcs)):
-        found[i] = _fewest(arcs[i], chosen, layer_of, _WITHOUT_END)
-    return found
-
-
 def fewest_layers(arcs: Ints) -> Ints:
-    """Return the fewest layers in which links lie without overlapping.
+    """Return the fewest layers in which links lie without overlapping: int64[r].
 
     Parameters
     ----------
     arcs : int64[r, N, o]
         Masks of the arcs that each link can take, at least one each; 0 where there are fewer choices. All links
         cover something.
-
-    Returns
-    -------
-    int64[r]
 
     Examples
     --------
@@ -299,9 +273,10 @@ def fewest_layers(arcs: Ints) -> Ints:
     >>> fewest_layers(np.array([[[0b011], [0b110], [0b101]], [[0b001], [0b010], [0b100]]])).tolist()
     [3, 1]
     """
+    chosen, layer_of = np.zeros((2, arcs.shape[1]), np.int64)
     masks = np.ascontiguousarray(arcs, dtype=np.int64)
     expect(len(masks) * layering(masks.shape[1]))
-    return _fewest_of_all(masks)
+    return np.array([_fewest(row, chosen, layer_of, _WITHOUT_END) for row in masks], np.int64)
 
 
 def layers_of_links(arcs: Ints) -> tuple[Ints, Ints]:

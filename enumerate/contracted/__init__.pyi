@@ -3,10 +3,5 @@ from enumerate.contracted.graphs import (
     contracted_graphs as contracted_graphs,
     cubic_graphs as cubic_graphs,
     descendants as descendants,
-    streamed_graphs as streamed_graphs,
 )
-from enumerate.contracted.maps import (
-    MOST_MAP_LOOPS as MOST_MAP_LOOPS,
-    contracted_maps as contracted_maps,
-    cubic_maps as cubic_maps,
-)
+from enumerate.contracted.maps import MOST_MAP_LOOPS as MOST_MAP_LOOPS, contracted_maps as contracted_maps

@@ -87,10 +87,7 @@ def slots(adjacency: Bytes, n: int) -> tuple[Bytes, Ints]:
 
     Ends, uint8[m, 2], are links a > b; with them, int64[m], comes the first of the joints parallel to each.
     """
-    m = 0
-    for a in range(n):
-        for b in range(a):
-            m += int(adjacency[a, b])
+    m = int(adjacency.sum()) // 2
     ends = np.zeros((m, 2), np.uint8)
     first = np.zeros(m, np.int64)
     k = 0
@@ -388,21 +385,8 @@ def frame_of(code: Bytes, n: int) -> Frame:
 @compiled
 def with_symmetries(frame: Frame, kept: Flags) -> Frame:
     """Return a frame with some of its symmetries only."""
-    moved, automorphisms = _rows_kept(frame.moved, kept), _rows_kept(frame.automorphisms, kept)
+    moved, automorphisms = frame.moved[kept], frame.automorphisms[kept]
     return Frame(frame.ends, frame.first, moved, automorphisms, frame.sets, frame.needs, frame.links)
-
-
-@compiled
-def _rows_kept(rows: Bytes, kept: Flags) -> Bytes:
-    """Return some of the rows."""
-    found = np.empty((kept.sum(), rows.shape[1]), np.uint8)
-    used = 0
-    for a in range(len(rows)):
-        if kept[a]:
-            for k in range(rows.shape[1]):
-                found[used, k] = rows[a, k]
-            used += 1
-    return found[:used]
 
 
 @compiled
@@ -415,22 +399,17 @@ def list_placements(frame: Frame, wanted: PlacementRange, prefix: Ints) -> tuple
     cost = np.ones(m, np.int64)
     units = wanted.links - frame.links
     x, order = np.zeros((0, m), np.uint8), no_prefix()
-    used = 0
     for bound in range(max(frame.needs[-1], 0), min(units, 2 * m) + 1):
         if wanted.only not in (EVERY, bound):
             continue
         room, weight = conditions(frame.ends, frame.sets, frame.needs, bound)
         left = Units(bound, units - bound, wanted.most)
         count = place(room, weight, cost, frame.first, left, frame.moved, prefix, x[:0], order[:0])
-        more, fixing = np.zeros((used + count, m), np.uint8), np.zeros(used + count, np.int64)
-        for i in range(used):
-            fixing[i] = order[i]
-            for e in range(m):
-                more[i, e] = x[i, e]
+        more, fixing = np.zeros((count, m), np.uint8), np.zeros(count, np.int64)
         if count:
-            place(room, weight, cost, frame.first, left, frame.moved, prefix, more[used:], fixing[used:])
-        x, order, used = more, fixing, used + count
-    for i in range(used):
+            place(room, weight, cost, frame.first, left, frame.moved, prefix, more, fixing)
+        x, order = np.concatenate((x, more)), np.concatenate((order, fixing))
+    for i in range(len(x)):
         order[i] *= _parallel_swaps(frame.first, x[i])
     return x, order
 

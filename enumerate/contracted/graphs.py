@@ -57,7 +57,7 @@ def contracted_graphs(loops: int) -> Iterator[tuple[int, Bytes]]:
 
 
 def cubic_graphs(loops: int) -> Bytes:
-    """Return the codes of all 2-connected cubic multigraphs with 2 (L - 1) links, one row each.
+    """Return the codes of all 2-connected cubic multigraphs with 2 (L - 1) links, one row each: uint8[k, m].
 
     Each comes from one with two links less by subdividing two joints, or one joint twice, and joining the new
     links: the last ear of an ear decomposition of a cubic graph is a single joint.
@@ -65,16 +65,7 @@ def cubic_graphs(loops: int) -> Bytes:
     Parameters
     ----------
     loops : int
-        L, from 2 on.
-
-    Returns
-    -------
-    uint8[graphs, length]
-
-    Raises
-    ------
-    InvariantError
-        If there are too few or too many loops.
+        As for `contracted_graphs`, with its errors.
 
     Examples
     --------
@@ -126,11 +117,7 @@ def encode(adjacency: Bytes, order: Bytes, code: Bytes) -> None:
 @compiled
 def graph_key(adjacency: Bytes, n: int) -> Bytes:
     """Return the code of a contracted graph given by its matrix."""
-    joints = 0
-    for i in range(n):
-        for j in range(i):
-            joints += int(adjacency[i, j])
-    code = np.empty(joints, np.uint8)
+    code = np.empty(int(adjacency.sum()) // 2, np.uint8)
     order, _ = canonical_labels(adjacency, n)
     encode(adjacency, order, code)
     return code
@@ -140,19 +127,15 @@ def graph_key(adjacency: Bytes, n: int) -> Bytes:
 def _contract_all(parents: Bytes, n: int) -> Bytes:
     """Return the codes of the graphs that contracting a joint of a graph with n links gives, one row each."""
     table, rows, used = empty_set(parents.shape[1] - 1)
-    code = np.empty(parents.shape[1] - 1, np.uint8)
     for parent in range(len(parents)):
         adjacency = decode(parents[parent], n)
         _, automorphisms = canonical_labels(adjacency, n)
         degree = degrees(parents[parent], n)
         for u in range(n):
             for v in range(u):
-                if not is_contracted(adjacency, n, degree, automorphisms, u, v):
-                    continue
-                child = contract(adjacency, n, u, v)
-                order, _ = canonical_labels(child, n - 1)
-                encode(child, order, code)
-                table, rows, used = insert(table, rows, used, code)
+                if is_contracted(adjacency, n, degree, automorphisms, u, v):
+                    code = graph_key(contract(adjacency, n, u, v), n - 1)
+                    table, rows, used = insert(table, rows, used, code)
     return rows[:used].copy()
 
 
@@ -253,7 +236,6 @@ def contract(adjacency: Bytes, n: int, u: int, v: int) -> Bytes:
 def _extend_all(parents: Bytes, n: int) -> Bytes:
     """Return the codes of the cubic graphs with two links more than these with n links."""
     table, rows, used = empty_set(parents.shape[1] + 3)
-    code = np.empty(parents.shape[1] + 3, np.uint8)
     for parent in range(len(parents)):
         adjacency = decode(parents[parent], n + 2)
         for place in parents[parent]:
@@ -263,9 +245,7 @@ def _extend_all(parents: Bytes, n: int) -> Bytes:
                 for twice in range(2 if place == other else 1):
                     child = _bridge(adjacency, n, place, other, twice == 1)
                     if len(child):
-                        order, _ = canonical_labels(child, n + 2)
-                        encode(child, order, code)
-                        table, rows, used = insert(table, rows, used, code)
+                        table, rows, used = insert(table, rows, used, graph_key(child, n + 2))
     return rows[:used].copy()
 
 
@@ -334,41 +314,6 @@ class Growth(NamedTuple):
         for links in range(most, 2, -1):
             codes = self.contract(codes, links)
             yield links - 1, codes
-
-
-_ANCESTORS = 32
-"""Cubic graphs whose descendants are made together: some ten thousands of graphs with ten loops."""
-
-
-def streamed_graphs(loops: int) -> Iterator[tuple[int, Bytes]]:
-    """Yield all contracted graphs with a number of loops in batches; only the cubic ones are in memory at once.
-
-    Parameters
-    ----------
-    loops : int
-        Independent loops L, 2 to 11.
-
-    Yields
-    ------
-    links : int
-        n, which is that of many batches.
-    codes : uint8[k, n + L - 1]
-        One row a graph, no two isomorphic in all batches: the graphs of
-        `contracted_graphs`, in another order.
-
-    Raises
-    ------
-    InvariantError
-        If there are too few or too many loops.
-
-    Examples
-    --------
-    >>> sum(len(codes) for _, codes in streamed_graphs(5))
-    118
-    """
-    cubic = cubic_graphs(loops)
-    for start in range(0, len(cubic), _ANCESTORS):
-        yield from descendants(cubic[start : start + _ANCESTORS], 2 * (loops - 1))
 
 
 def descendants(codes: Bytes, n: int) -> Iterator[tuple[int, Bytes]]:

@@ -52,38 +52,11 @@ def contracted_maps(loops: int) -> Iterator[tuple[int, Bytes]]:
     >>> {links: len(codes) for links, codes in contracted_maps(4)}
     {6: 4, 5: 4, 4: 5, 3: 2, 2: 1}
     """
-    yield from _growth(loops).levels(loops)
-
-
-def cubic_maps(loops: int) -> Bytes:
-    """Return the codes of all 2-connected cubic maps with L + 1 faces, one row each.
-
-    Parameters
-    ----------
-    loops : int
-        L, from 2 on.
-
-    Returns
-    -------
-    uint8[maps, length]
-
-    Raises
-    ------
-    InvariantError
-        If there are too few or too many loops.
-
-    Examples
-    --------
-    >>> [len(cubic_maps(loops)) for loops in (2, 3, 4, 5)]
-    [1, 2, 4, 14]
-    """
-    return _growth(loops).cubic(loops)
-
-
-def _growth(loops: int) -> Growth:
-    """Return how contracted maps of so many loops come from each other, and use machine code where it pays."""
     expect(placing(loops, 1))
-    return Growth(MOST_MAP_LOOPS, _theta(), _extend_all, _contract_all)
+    two_links_with_three_joints = np.array([[JOINT, JOINT + 1, JOINT + 2, END, JOINT, JOINT + 2, JOINT + 1, END]])
+    yield from Growth(
+        MOST_MAP_LOOPS, two_links_with_three_joints.astype(np.uint8), _extend_all, _contract_all
+    ).levels(loops)
 
 
 @compiled
@@ -98,11 +71,8 @@ def _canonical(turn: Ints, vertex: Ints) -> tuple[Bytes, Ints, Ints]:
     """Return canonical code and readings; roots are picked by the degrees of the links and faces about a dart."""
     darts = len(vertex)
     # Any key that symmetries keep will do; with fewer roots of the least key, fewer readings are compared.
-    face, faces = faces_of(turn)
-    degree, length = np.zeros(darts, np.int64), np.zeros(faces, np.int64)
-    for d in range(darts):
-        degree[vertex[d]] += 1
-        length[face[d]] += 1
+    face, _ = faces_of(turn)
+    degree, length = np.bincount(vertex), np.bincount(face)
     key = np.zeros((2, darts), np.int64)
     for d in range(darts):
         ends = 256 * degree[vertex[d]] + degree[vertex[d ^ 1]]
@@ -111,14 +81,6 @@ def _canonical(turn: Ints, vertex: Ints) -> tuple[Bytes, Ints, Ints]:
         key[1, d] = 256 * (256 * ends + right) + left
     none = np.zeros(darts, np.int64)
     return canonical_map(turn, vertex, none, face, none[:0], key)
-
-
-@compiled
-def _theta() -> Bytes:
-    """Return the code of two links with three joints."""
-    vertex = np.array([0, 1, 0, 1, 0, 1])
-    code, _, _ = _canonical(from_turns(np.array([2, 5, 4, 1, 0, 3])), vertex)
-    return code.reshape(1, -1)
 
 
 @compiled
@@ -192,11 +154,9 @@ def _contract_all(parents: Bytes, links: int) -> Bytes:
         turn, vertex, _ = decode_map(parents[parent])
         darts = turn.shape[1]
         face, faces = faces_of(turn)
-        meets = np.zeros((faces, links), np.bool_)
-        degree = np.zeros(links, np.int64)
+        meets, degree = np.zeros((faces, links), np.bool_), np.bincount(vertex)
         for d in range(darts):
             meets[face[d], vertex[d]] = True
-            degree[vertex[d]] += 1
         for d in range(0, darts, 2):
             u, v = vertex[d], vertex[d ^ 1]
             if degree[u] != 3 and degree[v] != 3:
@@ -357,9 +317,7 @@ def _with_leaves(parents: Bytes, links: int, most: int) -> Bytes:
     table, rows, used = empty_set(parents.shape[1] + 3)
     for parent in range(len(parents)):
         turn, vertex, _ = decode_map(parents[parent])
-        degree = np.zeros(links, np.int64)
-        for d in range(len(vertex)):
-            degree[vertex[d]] += 1
+        degree = np.bincount(vertex)
         for d in range(len(vertex)):
             if degree[vertex[d]] < most:
                 after, ends = _with_leaf(turn, vertex, links, d)

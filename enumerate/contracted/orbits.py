@@ -184,10 +184,7 @@ def _group_of(tied: Ints, ties: int, groups: Words) -> tuple[Words, int]:
     for i in range(ties):
         words[0, tied[i, 0] // 64] |= np.uint64(1) << np.uint64(tied[i, 0] % 64)
     for g in range(1, len(groups)):
-        same = True
-        for k in range(groups.shape[1]):
-            same &= groups[g, k] == words[0, k]
-        if same:
+        if (groups[g] == words[0]).all():
             return groups, g
     return np.concatenate((groups, words)), len(groups)
 

@@ -289,14 +289,9 @@ def _put(
 @compiled
 def _grown(states: StateTable) -> StateTable:
     """Return a table of twice the size."""
-    rows, used = len(states.words), states.begin[-1]
-    words = np.zeros((2 * rows, states.words.shape[1]), np.uint64)
-    number, following = np.zeros((2 * rows, 2), np.int64), np.zeros(2 * rows, np.int64)
-    slots = np.full(8 * rows, -1, np.int64)
-    for i in range(used):
-        for k in range(words.shape[1]):
-            words[i, k] = states.words[i, k]
-        number[i, 0], number[i, 1] = states.number[i, 0], states.number[i, 1]
+    words, number = doubled(states.words), doubled(states.number)
+    following, slots = np.zeros(len(words), np.int64), np.full(4 * len(words), -1, np.int64)
+    for i in range(states.begin[-1]):
         following[i] = states.following[i]
         slots[_slot(slots, words, words[i])] = i
     return StateTable(slots, words, number, following, states.begin)

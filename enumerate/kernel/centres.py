@@ -12,7 +12,7 @@ docs/theory/exact-mobility.md.
 import numpy as np
 
 from enumerate.kernel.compiled import compiled, doubled
-from enumerate.kernel.words import GOLDEN, has_several, plus, times
+from enumerate.kernel.words import GOLDEN, has_several, number_in, plus, times
 from graphs.types import Ints, Words
 
 OUTER, FINITE, INFINITE, SPATIAL = 0, 1, 2, 3
@@ -94,7 +94,7 @@ def labellings(around: Words, outer: int, spatial: int, infinite: bool, moves: I
     labels = np.zeros(faces, np.int64)
     # A labelling is a set of spatial faces, then one of infinite ones; the least pair of an orbit is kept.
     for without in range(1 << faces):
-        if (without >> outer) & 1 or _size(without) != spatial:
+        if (without >> outer) & 1 or number_in(without) != spatial:
             continue
         for f in range(faces):
             labels[f] = OUTER if f == outer else SPATIAL if (without >> f) & 1 else FINITE
@@ -120,16 +120,6 @@ def labellings(around: Words, outer: int, spatial: int, infinite: bool, moves: I
                 found[used, faces] = keeping
                 used += 1
     return found[:used, :faces].copy(), found[:used, faces].copy()
-
-
-@compiled
-def _size(mask: int) -> int:
-    """Return the number of bits set."""
-    count = 0
-    while mask:
-        mask &= mask - 1
-        count += 1
-    return count
 
 
 @compiled
@@ -318,16 +308,7 @@ def _eliminate(matrix: Words, which: int, moving: bool) -> tuple[int, bool]:
         rank += 1
         if rank == rows:
             break
-    return rank, not moving or not _holds_still(matrix, rank)
-
-
-@compiled
-def _holds_still(matrix: Words, rank: int) -> bool:
-    """Tell whether some row of a reduced form has nothing but its pivot."""
-    for r in range(rank):
-        others = 0
-        for k in range(matrix.shape[1]):
-            others += matrix[r, k] != 0
-        if others == 1:
-            return True
-    return False
+    held = False
+    for r in range(rank if moving else 0):
+        held |= np.count_nonzero(matrix[r]) == 1
+    return rank, not held

@@ -9,8 +9,9 @@ them. JSON and Parquet get it as a list, a store as JSON text, and a table as th
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
+from types import MappingProxyType
 from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
 from graphs.errors import InvariantError
@@ -21,15 +22,23 @@ Row = tuple[Any, ...]
 Rows = TypeVar("Rows", Bytes, list[Any])
 
 
-class HasKey(Protocol):
-    """What says what is enumerated."""
+@dataclass(frozen=True)
+class Query:
+    """What queries have in common: they are as JSON values what their fields say."""
 
     @property
     def key(self) -> dict[str, Any]:
-        """What it says, in JSON values."""
+        """The query in JSON values; limits are least and greatest value."""
+        return {field.name: _key_of(getattr(self, field.name)) for field in fields(self)}
 
 
-Q_co = TypeVar("Q_co", bound=HasKey, covariant=True)
+def _key_of(value: object) -> object:
+    if isinstance(value, Limits):
+        return [value.least, value.most]
+    return list(value) if isinstance(value, tuple) else value
+
+
+Q_co = TypeVar("Q_co", bound=Query, covariant=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,6 +99,8 @@ class Job(Protocol):
 class Counting:
     """What jobs that count have in common: the first value of each row is a number to be added.
 
+    A job may have more columns, which say what the number is a part of.
+
     Attributes
     ----------
     columns : dict of str to type
@@ -101,10 +112,7 @@ class Counting:
     ['count', 'contracted_links']
     """
 
-    @property
-    def columns(self) -> dict[str, type]:
-        """The number; a job may have more columns, which say what it is a part of."""
-        return {"count": int}
+    columns: Mapping[str, Column] = MappingProxyType({"count": int})
 
 
 @dataclass(frozen=True)
@@ -172,16 +180,21 @@ class RowCount(Counting):
         return self.rows.interpreted(weight)
 
 
-def packed(parts: Iterable[tuple[Any, int]], size: int) -> Iterator[Unit]:
-    """Yield units of parts, which come with their weights: tuples of at most so much weight, or of one part."""
+def packed(
+    parts: Iterable[tuple[Any, int]], size: int, number_in: Callable[[Any], int] = lambda part: 0, most: int = 0
+) -> Iterator[Unit]:
+    """Yield units of parts, which come with their weights: tuples of at most so much weight, or of one part.
+
+    Where a part stands for a number of things, a unit has so many of these at most.
+    """
     held: list[Any] = []
-    weight = 0
+    weight = number = 0
     for part, count in parts:
-        if held and weight + count > size:
+        if held and (weight + count > size or number + number_in(part) > most):
             yield Unit(tuple(held), weight)
-            held, weight = [], 0
+            held, weight, number = [], 0, 0
         held.append(part)
-        weight += count
+        weight, number = weight + count, number + number_in(part)
     if held:
         yield Unit(tuple(held), weight)
 
@@ -394,19 +407,3 @@ class LimitField:
             wrong = f"the range {limits.least} to {limits.most}"
             raise InvariantError(self._name.replace("_", " "), wrong, "the smaller number first")
         query.__dict__[self._name] = limits
-
-
-@dataclass(frozen=True)
-class Query:
-    """What queries have in common: they are as JSON values what their fields say."""
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """The query in JSON values; limits are least and greatest value."""
-        return {field.name: _key_of(getattr(self, field.name)) for field in fields(self)}
-
-
-def _key_of(value: object) -> object:
-    if isinstance(value, Limits):
-        return [value.least, value.most]
-    return list(value) if isinstance(value, tuple) else value

@@ -10,7 +10,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, nullcontext
 from typing import Any, TypeVar
 
 import networkx as nx
@@ -80,7 +80,7 @@ def run(
     >>> done.rows
     2
     """
-    with interruptible() as check, _hired(scheduler) as cluster:
+    with interruptible() as check, nullcontext() if scheduler is None else _closing(Cluster(scheduler)) as cluster:
         try:
             units, progress = _begun(job, sink)
             begin = time.monotonic()
@@ -154,16 +154,6 @@ def _units_of(job: Job) -> Sequence[Unit]:
     return units
 
 
-@contextmanager
-def _hired(scheduler: str | None) -> Iterator[Cluster | None]:
-    """Give the cluster of a scheduler, if one is named: before anything is written."""
-    if scheduler is None:
-        yield None
-        return
-    with _closing(Cluster(scheduler)) as cluster:
-        yield cluster
-
-
 def rows_of(job: Job, *, workers: int = 1) -> Iterator[dict[str, Any]]:
     """Yield the rows of a job as dictionaries, in order, unit after unit as they are ready.
 
@@ -172,11 +162,7 @@ def rows_of(job: Job, *, workers: int = 1) -> Iterator[dict[str, Any]]:
     job : Job
     workers : int
         Local processes; 1 works in this one. They end with the last row, or when the generator is closed.
-
-    Raises
-    ------
-    StoreError
-        If workers die again and again.
+        StoreError if they die again and again.
 
     Examples
     --------
@@ -204,12 +190,7 @@ def total_of(job: Job, *, workers: int = 1) -> int:
     ----------
     job : Job
     workers : int
-        Local processes; 1 works in this one.
-
-    Raises
-    ------
-    StoreError
-        If workers die again and again.
+        As for `rows_of`.
 
     Examples
     --------

@@ -10,7 +10,7 @@ import json
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from enumerate.runner.job import Column, Job, ListColumn, Row, Sink, Unit, row_as_dict, stored
 from enumerate.runner.store import SqliteSink, read_rows
@@ -22,6 +22,8 @@ from graphs.files.outputs import unknown_extension
 from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
+
+B = TypeVar("B", Beside, FolderBeside)
 
 
 class RowSink:
@@ -101,10 +103,7 @@ class SortedSink:
     def start(self, job: Job) -> Collection[int]:
         """Look the column up.
 
-        Raises
-        ------
-        InvariantError
-            If there is no such column.
+        Raises `InvariantError` if there is no such column.
         """
         names = tuple(job.columns)
         name = self._column.removeprefix("-")
@@ -132,34 +131,43 @@ class SortedSink:
         self._inner.abort()
 
 
-class _FileSink:
-    """A file beside its place; what a unit becomes is the subclass's affair."""
+class _BesideSink(Sink, Generic[B]):
+    """A file or folder beside its place; what a unit becomes is the subclass's affair."""
 
-    def __init__(self, path: Path, *, force: bool = False) -> None:
-        self._path, self._force = path, force
+    def __init__(self, path: Path, begin: Callable[[], B]) -> None:
+        self._path = path
+        self._begin: Callable[[], B] = begin
         self._columns: tuple[str, ...] = ()
-        self._file: Beside | None = None
+        self._beside: B | None = None
 
     def start(self, job: Job) -> Collection[int]:
-        """Open the file."""
+        """Begin it; raises `FileError` if what is at its place must stay."""
         self._columns = tuple(job.columns)
         remove_left(self._path)
-        self._file = Beside(self._path, force=self._force)
+        self._beside = self._begin()
         return ()
 
-    def _write(self, lines: Iterable[str]) -> None:
-        assert self._file is not None
-        self._file.write("".join(lines).encode("utf-8"))
+    @property
+    def _begun(self) -> B:
+        assert self._beside is not None
+        return self._beside
 
     def finish(self) -> None:
-        """Move the file to its place."""
-        assert self._file is not None
-        self._file.commit()
+        """Move it to its place."""
+        self._begun.commit()
 
     def abort(self) -> None:
         """Remove what was written."""
-        if self._file is not None:
-            self._file.discard()
+        if self._beside is not None:
+            self._beside.discard()
+
+
+class _FileSink(_BesideSink[Beside]):
+    def __init__(self, path: Path, *, force: bool = False) -> None:
+        super().__init__(path, lambda: Beside(path, force=force))
+
+    def _write(self, lines: Iterable[str]) -> None:
+        self._begun.write("".join(lines).encode("utf-8"))
 
 
 class Graph6Sink(_FileSink):
@@ -225,11 +233,10 @@ class ParquetSink(_FileSink):
                 f"{self._path}: Parquet requires pyarrow; try pip install 'synthedra[parquet]'"
             ) from None
         super().start(job)
-        assert self._file is not None
         self._schema = arrow.schema([(column, _arrow_type(kind)) for column, kind in job.columns.items()])
         kinds = enumerate(job.columns.values())
         self._mixed = {i for i, kind in kinds if isinstance(kind, ListColumn) and kind.kind is None}
-        self._writer = parquet.ParquetWriter(self._file.stream, self._schema)
+        self._writer = parquet.ParquetWriter(self._begun.stream, self._schema)
         return ()
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
@@ -289,45 +296,32 @@ def mechanism_text(row: Mapping[str, Any]) -> str:
     return dumps(SCGraph(sc.nodes, sc.joints, sc.loops, ground=row.get("ground")))
 
 
-class FolderSink:
+class FolderSink(_BesideSink[FolderBeside]):
     """A folder with a native file for each row, named by its number.
 
     Its text is that of `mechanism_text`, or of the job's own function of this name.
     """
 
     def __init__(self, path: Path) -> None:
-        self._path = path
-        self._folder: FolderBeside | None = None
+        super().__init__(path, lambda: FolderBeside(path))
         self._number = 0
 
     def start(self, job: Job) -> Collection[int]:
         """Make a folder beside its place; raises `FileError` if there is something at its place."""
-        remove_left(self._path)
-        self._folder = FolderBeside(self._path)
-        self._columns = tuple(job.columns)
         self._text = getattr(job, "mechanism_text", mechanism_text)
-        return ()
+        return super().start(job)
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Write a file a row."""
-        assert self._folder is not None
         for row in rows:
             self._number += 1
-            text = self._text(row_as_dict(self._columns, row))
-            try:
-                (self._folder.path / f"{self._number:07d}.json").write_text(text, encoding="utf-8")
-            except OSError as error:
-                raise FileError(self._path, "", f"cannot be written: {error.strerror}") from None
+            self._write(f"{self._number:07d}.json", self._text(row_as_dict(self._columns, row)))
 
-    def finish(self) -> None:
-        """Move the folder to its place."""
-        assert self._folder is not None
-        self._folder.commit()
-
-    def abort(self) -> None:
-        """Remove what was written."""
-        if self._folder is not None:
-            self._folder.discard()
+    def _write(self, name: str, text: str) -> None:
+        try:
+            (self._begun.path / name).write_text(text, encoding="utf-8")
+        except OSError as error:
+            raise FileError(self._path, "", f"cannot be written: {error.strerror}") from None
 
 
 SINKS: dict[str, type[CsvSink | Graph6Sink | JsonLinesSink | ParquetSink]] = {

@@ -8,26 +8,15 @@ A store is looked through before a run goes on with it, and each unit when it is
 
 import sqlite3
 import warnings
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.job import Column, Job, ListColumn, Row, stored, unstored
-from enumerate.runner.store_units import (
-    FORMAT,
-    PATIENCE,
-    VERSION,
-    UnitTable,
-    examine_store,
-    make_tables,
-    meta_in,
-    naming,
-    reading,
-    rebuild_store,
-)
+from enumerate.runner import store_units
+from enumerate.runner.job import Job, ListColumn, Row, stored, unstored
 from graphs.errors import StoreError
 from graphs.files.atomic import check_place, remove_left
 
@@ -67,22 +56,17 @@ class SqliteSink:
         self.path, self._resume, self._force = Path(path), resume, force
         self._tell, self._looking = tell or _warn, looking
         self._connection: sqlite3.Connection | None = None
-        self._units: UnitTable | None = None
+        self._units: store_units.UnitTable | None = None
         self._rows: dict[int, int] = {}
         self._complete = False
         self._next, self._first = 0, 1
-        self._lists: list[tuple[int, Callable[[Any], str | None]]] = []
+        self._lists: list[tuple[int, Callable[[Any], Any]]] = []
 
     def start(self, job: Job) -> Collection[int]:
         """Make the file, or look through it; return the numbers of the units that it holds.
 
-        A damaged store is repaired first, with a message.
-
-        Raises
-        ------
-        StoreError
-            If there is a file and it is not to be resumed, is no store or that of another job, or cannot be
-            opened.
+        A damaged store is repaired first, with a message. Raises `StoreError` if there is a file and it is not to
+        be resumed, is no store or that of another job, or cannot be opened.
         """
         check_place(self.path, force=True)  # a file only, in a folder that is there
         if self.path.exists() and not (self._resume or self._force):
@@ -94,16 +78,16 @@ class SqliteSink:
         remove_left(self.path)  # of a repair that was killed
         if self.path.exists() and _has_tables(self.path):
             self._look_through(job)
-        with naming(self.path):
-            self._connection = sqlite3.connect(self.path, isolation_level=None, timeout=PATIENCE)
-            self._units = UnitTable(self._connection, list(job.columns))
+        with store_units.naming(self.path):
+            self._connection = sqlite3.connect(self.path, isolation_level=None, timeout=store_units.PATIENCE)
+            self._units = store_units.UnitTable(self._connection, list(job.columns))
             if not self._complete:  # else there is nothing to write
                 self._connection.execute("PRAGMA journal_mode=WAL")
                 self._connection.execute("PRAGMA synchronous=NORMAL")
                 with self._transaction():
-                    make_tables(self._connection, _meta_of(job))
+                    store_units.make_tables(self._connection, _meta_of(job))
             self._rows = dict(self._connection.execute("SELECT id, rows FROM unit ORDER BY id"))
-        self._lists = _texts_of_lists(job.columns)
+        self._lists = _remembering(stored, _lists_in(job), job.columns)
         return self._rows.keys()
 
     def _remove(self) -> None:
@@ -120,10 +104,10 @@ class SqliteSink:
             theirs = ", ".join(f"{key}={value}" for key, value in meta["job"].items())
             raise StoreError(f"{self.path}: holds another run ({theirs}); try another file name")
         units = len(job.units())
-        findings = examine_store(self.path, units, self._looking)
+        findings = store_units.examine_store(self.path, units, self._looking)
         self._complete = findings.sound and meta["complete"]
         if not findings.sound:
-            rebuild_store(self.path, findings)
+            store_units.rebuild_store(self.path, findings)
             whole = len(findings.whole)
             self._tell(f"{self.path}: repaired a damaged store; kept {whole} of {units} units")
 
@@ -137,15 +121,13 @@ class SqliteSink:
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Store a unit and its rows in one transaction; they come in the order of their numbers.
 
-        Raises
-        ------
-        StoreError
-            If they cannot be written; the file is as it was before.
+        Raises `StoreError` if they cannot be written; the file is as it was before.
         """
         assert self._units is not None
         first = self._first_row_of(number)
-        with naming(self.path), self._transaction():
-            self._units.add(number, first, self._with_texts(rows), round(seconds, 6))
+        with store_units.naming(self.path), self._transaction():
+            texts = list(_replaced(rows, self._lists)) if self._lists else rows
+            self._units.add(number, first, texts, round(seconds, 6))
         self._rows[number] = len(rows)
 
     def _first_row_of(self, number: int) -> int:
@@ -155,22 +137,14 @@ class SqliteSink:
             self._next += 1
         return self._first
 
-    def _with_texts(self, rows: list[Row]) -> list[Row]:
-        """Return rows with lists as JSON text."""
-        return list(_replaced(rows, self._lists)) if self._lists else rows
-
     def finish(self) -> None:
         """Mark the store complete, after a look that every unit is there with its rows.
 
         Others who read it do not hinder that; only then its files stay as they are during a run, with a message.
-
-        Raises
-        ------
-        StoreError
-            If rows are missing.
+        Raises `StoreError` if rows are missing.
         """
         assert self._connection is not None
-        with naming(self.path):
+        with store_units.naming(self.path):
             if not self._complete:
                 self._mark_complete(self._connection)
             self._make_one_file(self._connection)
@@ -229,8 +203,8 @@ def read_meta(path: str | Path) -> dict[str, Any]:
     >>> meta["columns"], meta["complete"]
     (['code'], True)
     """
-    with reading(Path(path)) as connection:
-        return meta_in(connection, Path(path))
+    with store_units.reading(Path(path)) as connection:
+        return store_units.meta_in(connection, Path(path))
 
 
 def job_in(path: str | Path) -> dict[str, Any] | None:
@@ -270,11 +244,10 @@ def read_rows(path: str | Path) -> Iterator[Row]:
     ('k1:E`hW',) ('k1:E@zO',)
     """
     path = Path(path)
-    with reading(path) as connection:
-        meta = meta_in(connection, path)
-        places = [place for place, name in enumerate(meta["columns"]) if name in meta["lists"]]
-        lists = [(place, lru_cache(_REMEMBERED)(unstored)) for place in places]
-        units = UnitTable(connection, meta["columns"])
+    with store_units.reading(path) as connection:
+        meta = store_units.meta_in(connection, path)
+        lists = _remembering(unstored, meta["lists"], meta["columns"])
+        units = store_units.UnitTable(connection, meta["columns"])
         for number in units.numbers():
             rows = units.rows(number)
             if rows is None:
@@ -297,29 +270,31 @@ def _warn(line: str) -> None:
 
 def _has_tables(path: Path) -> bool:
     """Return whether there is anything in a database: a run may have died before it made the tables."""
-    with reading(path) as connection:
+    with store_units.reading(path) as connection:
         return bool(connection.execute("SELECT count(*) FROM sqlite_master").fetchone()[0])
 
 
 def _meta_of(job: Job) -> dict[str, Any]:
     return {
-        "format": FORMAT,
-        "version": VERSION,
+        "format": store_units.FORMAT,
+        "version": store_units.VERSION,
         "synthedra": version("synthedra"),
         "columns": list(job.columns),
-        "lists": [name for name, kind in job.columns.items() if isinstance(kind, ListColumn)],
+        "lists": _lists_in(job),
         "job": job.key,
         "complete": False,
     }
 
 
-def _texts_of_lists(columns: Mapping[str, Column]) -> list[tuple[int, Callable[[Any], str | None]]]:
-    """Return the place of each column of lists, and what makes text of them.
+def _lists_in(job: Job) -> list[str]:
+    return [name for name, kind in job.columns.items() if isinstance(kind, ListColumn)]
+
+
+def _remembering(
+    function: Callable[[Any], Any], lists: Collection[str], columns: Iterable[str]
+) -> list[tuple[int, Callable[[Any], Any]]]:
+    """Return the place of each column of lists, and a function of their values.
 
     Each column remembers its own: lists that are equal, of numbers of different types, are not one text.
     """
-    return [
-        (place, lru_cache(_REMEMBERED)(stored))
-        for place, kind in enumerate(columns.values())
-        if isinstance(kind, ListColumn)
-    ]
+    return [(place, lru_cache(_REMEMBERED)(function)) for place, name in enumerate(columns) if name in lists]

@@ -106,8 +106,8 @@ class UnitTable:
         try:
             return self._rows_as_written(number)
         except sqlite3.OperationalError as error:
-            if _has_code(error):
-                raise
+            if getattr(error, "sqlite_errorcode", None) is not None:
+                raise  # SQLite itself complains, not Python of what it got
             return None  # text that is no UTF-8: SQLite gives it, Python cannot read it
 
     def _rows_as_written(self, number: int) -> list[Row] | None:
@@ -211,19 +211,6 @@ def _said(error: Exception) -> str:
     return text if text.isprintable() else ascii(text)[1:-1]
 
 
-def is_damage(error: Exception) -> bool:
-    """Return whether SQLite complains of what the file holds, not of locks, rights or room."""
-    return (
-        isinstance(error, UnicodeDecodeError)
-        or getattr(error, "sqlite_errorcode", sqlite3.SQLITE_OK) & 0xFF in _DAMAGE
-    )
-
-
-def _has_code(error: Exception) -> bool:
-    """Return whether SQLite itself complains, not Python of what it got."""
-    return getattr(error, "sqlite_errorcode", None) is not None
-
-
 @contextmanager
 def naming(path: Path) -> Iterator[None]:
     """Turn what SQLite says into one line that names the file."""
@@ -291,7 +278,8 @@ def _despite_damage(read: Callable[[], T], otherwise: T) -> T:
     try:
         return read()
     except COMPLAINTS as error:
-        if not is_damage(error):
+        code = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_OK) & 0xFF
+        if not isinstance(error, UnicodeDecodeError) and code not in _DAMAGE:  # of locks, rights or room
             raise
         return otherwise
 

@@ -1,7 +1,6 @@
 from enumerate.sc.jobs import (
     SCCountJob as SCCountJob,
     SCJob as SCJob,
-    chain_forms as chain_forms,
     count_sc_graphs as count_sc_graphs,
     sc_count_job as sc_count_job,
     sc_graphs as sc_graphs,

@@ -26,18 +26,7 @@ from enumerate.contracted.graphs import graph_key
 from enumerate.contracted.maps import contracted_maps, joint_matrix, outer_faces
 from enumerate.kernel.maps import END, JOINT, OPEN, decode_map
 from enumerate.machine_code.weights import drawing, placing
-from enumerate.runner.job import (
-    ANY_NUMBER,
-    Column,
-    ListColumn,
-    QueryCount,
-    QueryJob,
-    Row,
-    RowCount,
-    Unit,
-    batches,
-    packed,
-)
+from enumerate.runner import job
 from enumerate.runner.running import graphs_of, rows_of, total_of
 from enumerate.sc.listing import (
     Centres,
@@ -54,14 +43,14 @@ from graphs.identity.drawings import map_text, mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
 from graphs.types import Bytes, Ints
 
-CENTRE_COLUMNS: dict[str, Column] = dict.fromkeys(("spatial", "centres", "infinite"), int)
-SC_COLUMNS: dict[str, Column] = {
+CENTRE_COLUMNS: dict[str, job.Column] = dict.fromkeys(("spatial", "centres", "infinite"), int)
+SC_COLUMNS: dict[str, job.Column] = {
     "code": str,
     "chain": str,
     **SIZE_COLUMNS,
     **CENTRE_COLUMNS,
-    "assortment": ListColumn(","),
-    "loop_sizes": ListColumn(","),
+    "assortment": job.ListColumn(","),
+    "loop_sizes": job.ListColumn(","),
     "outer_size": int,
     "symmetry": int,
     "reduced": str,
@@ -111,19 +100,19 @@ def drawn_of(query: SCQuery, part: MapPart) -> DrawnChains:
     strings = PlacementRange(query.links, query.chains.most, part.only)
     centres = Centres(query.dof, query.spatial, query.infinite)
     x, labels, order = list_drawn(part.code, part.n, part.outer, strings, part.prefix, centres)
-    kept = query.symmetry.admitted(order)
+    admitted = query.symmetry.admitted(order)
     if len(part.code) and query.longest_string.least > 0:
-        kept &= x.max(axis=1, initial=0) >= query.longest_string.least
-    if query.centres != ANY_NUMBER:
-        kept &= query.centres.admitted(centres_of_all(part.code, part.n, query.links, x, labels))
-    return DrawnChains(x[kept], labels[kept], order[kept])
+        admitted &= x.max(axis=1, initial=0) >= query.longest_string.least
+    if query.centres != job.ANY_NUMBER:
+        admitted &= query.centres.admitted(centres_of_all(part.code, part.n, query.links, x, labels))
+    return DrawnChains(x[admitted], labels[admitted], order[admitted])
 
 
-def _rows_of_maps(query: SCQuery, maps: Maps) -> list[Row]:
+def _rows_of_maps(query: SCQuery, maps: Maps) -> list[job.Row]:
     return [row for part in maps for row in _rows(query, part, drawn_of(query, part))]
 
 
-def _rows(query: SCQuery, part: MapPart, drawn: DrawnChains) -> list[Row]:
+def _rows(query: SCQuery, part: MapPart, drawn: DrawnChains) -> list[job.Row]:
     """Return the rows of the SC graphs of a part; columns are `SC_COLUMNS`."""
     if not len(drawn.x):
         return []
@@ -134,8 +123,8 @@ def _rows(query: SCQuery, part: MapPart, drawn: DrawnChains) -> list[Row]:
     chains, _ = chain_ids(query.links, joints)
     whole = (1 << query.chains.joints) - 1  # without ride-alongs, all joints are left: the chain itself
     reduced = [
-        chain if kept == whole else _reduced(joints[i], kept)
-        for i, (chain, kept) in enumerate(zip(chains, left.tolist(), strict=True))
+        chain if mask == whole else _reduced(joints[i], mask)
+        for i, (chain, mask) in enumerate(zip(chains, left.tolist(), strict=True))
     ]
     common = query.links, query.chains.joints, query.dof, query.loops, query.spatial
     assortment = assortment_of(Counter(np.bincount(joints[0].ravel()).tolist()))
@@ -145,9 +134,9 @@ def _rows(query: SCQuery, part: MapPart, drawn: DrawnChains) -> list[Row]:
     return list(zip(ids, chains, *map(repeat, common), *columns, strict=False))
 
 
-def _reduced(joints: Ints, kept: int) -> str:
-    """Return the id of the chain of some of the joints."""
-    pairs = [pair for k, pair in enumerate(joints.tolist()) if kept >> k & 1]
+def _reduced(joints: Ints, mask: int) -> str:
+    """Return the id of the chain of the joints whose bits are set."""
+    pairs = [pair for k, pair in enumerate(joints.tolist()) if mask >> k & 1]
     number: dict[int, int] = {}
     named = [[number.setdefault(link, len(number)) for link in pair] for pair in pairs]
     return chain_ids(len(number), np.array([named], np.int64))[0][0]
@@ -172,13 +161,13 @@ def _admits(query: SCQuery, code: Bytes, n: int) -> bool:
     return query.chains.admits_assortment(degrees)
 
 
-def map_units(query: SCQuery, size: int = UNIT_ROWS) -> Iterator[Unit]:
+def map_units(query: SCQuery, size: int = UNIT_ROWS) -> Iterator[job.Unit]:
     """Yield units whose payloads are `Maps`; their weights are numbers of drawn chains, about ``size`` at most."""
     if query.possible and query.loops == 1:
         degrees = Counter({2: query.links})
         if query.links in query.longest_string and query.chains.admits_assortment(degrees):
-            yield Unit((MapPart(np.zeros(0, np.uint8), 0, 0),))
-    yield from packed(_parts(query, size), size)
+            yield job.Unit((MapPart(np.zeros(0, np.uint8), 0, 0),))
+    yield from job.packed(_parts(query, size), size)
 
 
 def _parts(query: SCQuery, size: int) -> Iterator[tuple[MapPart, int]]:
@@ -198,7 +187,7 @@ def _number_in(query: SCQuery, part: MapPart, only: int, prefix: Ints) -> int:
 
 
 @dataclass(frozen=True)
-class SCJob(QueryJob[SCQuery]):
+class SCJob(job.QueryJob[SCQuery]):
     """All SC graphs of a query, as rows.
 
     Attributes
@@ -212,11 +201,11 @@ class SCJob(QueryJob[SCQuery]):
     columns = SC_COLUMNS
     listed = "sc"
 
-    def units(self) -> list[Unit]:
+    def units(self) -> list[job.Unit]:
         """Units of some thousands of rows each."""
         return list(map_units(self.query, self.unit_rows))
 
-    def work(self, payload: Maps) -> list[Row]:
+    def work(self, payload: Maps) -> list[job.Row]:
         """Return the rows of a unit."""
         return _rows_of_maps(self.query, payload)
 
@@ -230,7 +219,7 @@ class SCJob(QueryJob[SCQuery]):
 
 
 @dataclass(frozen=True)
-class SCCountJob(QueryCount[SCQuery]):
+class SCCountJob(job.QueryCount[SCQuery]):
     """The number of SC graphs, chosen only by what their chains show; rows are numbers to be added.
 
     Attributes
@@ -249,23 +238,27 @@ class SCCountJob(QueryCount[SCQuery]):
         """Whether an outer face is chosen."""
         return {"outside": self.outside}
 
-    def units(self) -> Sequence[Unit]:
+    def units(self) -> Sequence[job.Unit]:
         """Units of some hundreds of maps each."""
-        return [Unit((n, some), len(some)) for n, codes in maps_for(self.query) for some in batches(codes, _MAPS)]
+        return [
+            job.Unit((n, some), len(some))
+            for n, codes in maps_for(self.query)
+            for some in job.batches(codes, _MAPS)
+        ]
 
     def interpreted(self, weight: int) -> float:
         """Return about how many seconds the job takes with kernels interpreted, whatever its units weigh."""
         del weight
         return placing(self.query.loops, self.query.dof)
 
-    def work(self, payload: tuple[int, Bytes]) -> list[Row]:
+    def work(self, payload: tuple[int, Bytes]) -> list[job.Row]:
         """Return the number of SC graphs of a unit."""
         (n, codes), query = payload, self.query
         count = count_drawn_by_burnside if self.method == "burnside" else count_drawn
         return [(query.chains.number_within(lambda most: count(codes, n, query.links, most, self.outside)),)]
 
 
-def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True) -> SCCountJob | RowCount:
+def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True) -> SCCountJob | job.RowCount:
     """Return the job that counts the SC graphs of a query: its rows are numbers to be added.
 
     Parameters
@@ -295,15 +288,15 @@ def sc_count_job(query: SCQuery, method: str = "orbits", *, outside: bool = True
         )
     if not outside and query.loops > 1:
         raise UnsolvableError("embeddings without an outer face have no centres by which to choose them")
-    return RowCount(SCJob(query), {"count": "sc", **query.key})
+    return job.RowCount(SCJob(query), {"count": "sc", **query.key})
 
 
-_COLUMNS: dict[str, Column] = {
+_COLUMNS: dict[str, job.Column] = {
     "code": str,
     "chain": str,
     "name": str,
     **SIZE_COLUMNS,
-    "assortment": ListColumn(","),
+    "assortment": job.ListColumn(","),
     "sc_graphs": int,
     "centres": int,
     "forms": int,
@@ -312,19 +305,22 @@ _CODE, _CHAIN, _CENTRES = (list(SC_COLUMNS).index(name) for name in ("code", "ch
 
 
 @dataclass(frozen=True)
-class FormJob(QueryJob[SCQuery]):
+class FormJob(job.QueryJob[SCQuery]):
     """One row for each planar chain: how many SC graphs it has, and one with the most centres.
 
     ``centres`` of the query limits what counts as a form: chains without such SC graphs have no row.
+
+    >>> [(row["name"], row["centres"]) for row in rows_of(FormJob(SCQuery(6, 1)))]
+    [('watt', 2), ('stephenson', 1)]
     """
 
     columns = _COLUMNS
     listed = "sc forms"
 
-    def units(self) -> Sequence[Unit]:
+    def units(self) -> Sequence[job.Unit]:
         """Units of whole contracted graphs: all drawings of a chain are in one."""
-        rings = [Unit((unit.payload,), unit.weight) for unit in map_units(self.query) if self.query.loops == 1]
-        return [*rings, *packed(self._graphs(), UNIT_ROWS)]
+        rings = [job.Unit((unit.payload,), unit.weight) for unit in map_units(self.query) if self.query.loops == 1]
+        return [*rings, *job.packed(self._graphs(), UNIT_ROWS)]
 
     def _graphs(self) -> Iterator[tuple[Maps, int]]:
         """Yield the maps of each contracted graph, with all their outer faces, and the number of SC graphs."""
@@ -342,13 +338,13 @@ class FormJob(QueryJob[SCQuery]):
         """Return about how many seconds the job takes with kernels interpreted, for so many drawn chains."""
         return placing(self.query.loops, self.query.dof) + drawing(weight, plain=self.query.plain)
 
-    def work(self, payload: tuple[Maps, ...]) -> list[Row]:
+    def work(self, payload: tuple[Maps, ...]) -> list[job.Row]:
         """Return the rows of a unit."""
         return [row for maps in payload for row in self._forms(maps)]
 
-    def _forms(self, maps: Maps) -> list[Row]:
+    def _forms(self, maps: Maps) -> list[job.Row]:
         """Return a row for each chain drawn in some maps."""
-        chains: dict[str, list[Row]] = {}
+        chains: dict[str, list[job.Row]] = {}
         for row in _rows_of_maps(self.query, maps):
             chains.setdefault(row[_CHAIN], []).append(row)
         rows = []
@@ -372,18 +368,13 @@ def sc_graphs(links: int, dof: int, *, workers: int = 1, **options: Unpack[SCOpt
     workers : int
         Processes.
     **options
-        Other fields of `SCQuery`: ``spatial``, ``infinite``, ``centres``, ``symmetry``, ``assortment``,
-        ``longest_string``.
+        Other fields of `SCQuery`, with its errors: ``spatial``, ``infinite``, ``centres``, ``symmetry``,
+        ``assortment``, ``longest_string``.
 
     Yields
     ------
     SCGraph
         The loops are the bounded faces. Graph attributes hold the row of `sc_rows`.
-
-    Raises
-    ------
-    InvariantError
-        If a number is out of its range.
 
     Examples
     --------
@@ -415,24 +406,6 @@ def sc_rows(links: int, dof: int, *, workers: int = 1, **options: Unpack[SCOptio
     yield from rows_of(SCJob(SCQuery(links, dof, **options)), workers=workers)
 
 
-def chain_forms(
-    links: int, dof: int, *, workers: int = 1, **options: Unpack[SCOptions]
-) -> Iterator[dict[str, Any]]:
-    """Yield a dictionary for each planar chain: its number of SC graphs, and one with the most centres.
-
-    Parameters
-    ----------
-    links, dof, workers, **options
-        As for `sc_graphs`.
-
-    Examples
-    --------
-    >>> [(row["name"], row["centres"]) for row in chain_forms(6, 1)]
-    [('watt', 2), ('stephenson', 1)]
-    """
-    yield from rows_of(FormJob(SCQuery(links, dof, **options)), workers=workers)
-
-
 def count_sc_graphs(
     links: int,
     dof: int,
@@ -449,18 +422,12 @@ def count_sc_graphs(
     links, dof, **options
         As for `sc_graphs`.
     method : {"orbits", "burnside"}
-        Two ways that share the contracted maps and the conditions of rigidity only.
+        Two ways that share the contracted maps and the conditions of rigidity only. UnsolvableError as of
+        `sc_count_job`.
     outside : bool
         Whether an outer face is chosen; without it, embeddings of the chains in the sphere are counted.
     workers : int
         Processes.
-
-    Raises
-    ------
-    InvariantError
-        If a number is out of its range.
-    UnsolvableError
-        If the method cannot count by all that the options limit.
 
     Examples
     --------

@@ -237,9 +237,7 @@ def reduced_joints(vertex: Ints, around: Words, number: Ints) -> np.uint64:
     owner = number.copy()
     joints = len(vertex) // 2
     alive = ~np.uint64(0) >> np.uint64(64 - joints)
-    degree = np.zeros(joints + 1, np.int64)
-    for d in range(len(vertex)):
-        degree[vertex[d]] += 1
+    degree = np.bincount(vertex)
     left = joints
     again = True
     while again and left > 4:

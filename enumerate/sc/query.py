@@ -37,10 +37,8 @@ class SCQuery(Query):
         Limits of the number of classes of loops with one centre.
     symmetry : Limits, (int, int or None) or int
         Limits of the number of symmetries.
-    assortment : tuple of int, optional
-        Numbers of binary, ternary, ... links; missing ones are 0.
-    longest_string : Limits, (int, int or None) or int
-        Limits of the number of binary links in the longest row of them; a ring of N links counts N.
+    assortment, longest_string
+        As for `enumerate.chains.query.ChainQuery`.
 
     Raises
     ------

@@ -13,12 +13,13 @@ import numpy as np
 
 from enumerate.chains.rows import SIZE_COLUMNS, chain_ids
 from enumerate.kernel.centres import FINITE, MOST_JOINTS, OUTER, SPATIAL
+from enumerate.kernel.maps import OPEN
 from enumerate.machine_code.weights import PLACEMENT
-from enumerate.runner.job import ANY_NUMBER, Column, ListColumn, QueryCount, QueryJob, Row, Unit
+from enumerate.runner.job import ANY_NUMBER, Column, ListColumn, QueryCount, QueryJob, Row, Unit, packed
 from enumerate.runner.running import graphs_of, rows_of, total_of
 from enumerate.sc.jobs import CENTRE_COLUMNS, LABEL_LETTERS, UNIT_ROWS, map_ids
 from enumerate.scd.listing import count_placements, list_placements_of, sides_of_all
-from enumerate.scd.patterns import numbers_of_placements, outline
+from enumerate.scd.patterns import number_of_placements, outline
 from enumerate.scd.query import (
     CodedMechanisms,
     Mechanisms,
@@ -53,7 +54,7 @@ SCD_COLUMNS: dict[str, Column] = {
 
 
 def placements_on(
-    query: PlacementQuery, code: Bytes, labels: Ints, dof: int, first: int, last: int
+    query: PlacementQuery, dof: int, code: Bytes, labels: Ints, first: int, last: int
 ) -> tuple[Bytes, Ints, Ints]:
     """Return the placements that a query asks for, as `enumerate.scd.listing.list_placements_of` does.
 
@@ -64,13 +65,13 @@ def placements_on(
     )
     if query.vertices == ANY_NUMBER:
         return codes, lengths, facts
-    kept = query.vertices.admitted(facts[:, 1])
-    return codes[kept], lengths[kept], facts[kept]
+    admitted = query.vertices.admitted(facts[:, 1])
+    return codes[admitted], lengths[admitted], facts[admitted]
 
 
 def _rows_on(query: PlacementQuery, dof: int, code: Bytes, labels: Ints, first: int, last: int) -> list[Row]:
     """Return the rows of the placements on a mechanism; columns are `SCD_COLUMNS`. Arguments: `placements_on`."""
-    codes, lengths, facts = placements_on(query, code, labels, dof, first, last)
+    codes, lengths, facts = placements_on(query, dof, code, labels, first, last)
     if not len(codes):
         return []
     faces = len(labels)
@@ -109,6 +110,10 @@ class _Placements:
     first: int = 0
     last: int = 1 << 62
 
+    def __len__(self) -> int:
+        """Return the number of mechanisms."""
+        return len(self.mechanisms)
+
     def each(self) -> Iterator[tuple[Bytes, Ints, int, int]]:
         """Yield code and labels of each mechanism, as compiled functions take them, and the range of numbers."""
         for code, labels in self.mechanisms.each():
@@ -132,7 +137,7 @@ class SCDJob(QueryJob[Mechanisms]):
 
     def units(self) -> list[Unit]:
         """Units of some thousands of placements each."""
-        return list(_units(self.query, self.unit_rows))
+        return _units(self.query, self.unit_rows)
 
     def work(self, payload: tuple[_Placements, ...]) -> list[Row]:
         """Return the rows of a unit."""
@@ -146,26 +151,12 @@ class SCDJob(QueryJob[Mechanisms]):
     def number(self, payload: tuple[_Placements, ...]) -> int:
         """Return the number of rows of a unit."""
         query, dof = self.query.placements, self.query.dof
-        return sum(
-            len(placements_on(query, code, labels, dof, first, last)[0])
-            for part in payload
-            for code, labels, first, last in part.each()
-        )
+        return sum(len(placements_on(query, dof, *which)[0]) for part in payload for which in part.each())
 
 
-def _units(mechanisms: Mechanisms, unit_rows: int) -> Iterator[Unit]:
-    """Yield units whose payloads are placements, packed from `_ranges`."""
-    held: list[_Placements] = []
-    weight = number = 0
-    for part, count in _ranges(mechanisms, unit_rows):
-        size = len(part.mechanisms)
-        if held and (weight + count > unit_rows or number + size > _MECHANISMS):
-            yield Unit(tuple(held), weight)
-            held, weight, number = [], 0, 0
-        held.append(part)
-        weight, number = weight + count, number + size
-    if held:
-        yield Unit(tuple(held), weight)
+def _units(mechanisms: Mechanisms, unit_rows: int) -> list[Unit]:
+    """Return units whose payloads are placements."""
+    return list(packed(_ranges(mechanisms, unit_rows), unit_rows, len, _MECHANISMS))
 
 
 def _ranges(mechanisms: Mechanisms, unit_rows: int) -> Iterator[tuple[_Placements, int]]:
@@ -173,7 +164,7 @@ def _ranges(mechanisms: Mechanisms, unit_rows: int) -> Iterator[tuple[_Placement
     most = mechanisms.placements.max_degree
     for source in mechanisms.sources(UNIT_ROWS):  # in other parts they would come in another order
         for drawn in mechanisms.drawn(source.payload):
-            counts = numbers_of_placements(drawn.codes, drawn.labels.astype(np.int64), most).tolist()
+            counts = [int(number_of_placements(code, labels, most)) for code, labels in drawn.each()]
             if min(counts, default=0) < 0:
                 raise UnsolvableError(
                     f"one mechanism has more than 10^18 placements of open edges for links of up to {most} sides; "
@@ -223,7 +214,7 @@ class SCDCountJob(QueryCount[Mechanisms]):
     def units(self) -> Sequence[Unit]:
         """Units of some thousands of mechanisms, or of placements."""
         if self.method == "orbits":
-            return list(_units(self.query, _PLACEMENTS))
+            return _units(self.query, _PLACEMENTS)
         return list(self.query.sources(_MECHANISMS))
 
     def interpreted(self, weight: int) -> float:
@@ -254,12 +245,8 @@ def scd_count_job(mechanisms: Mechanisms, method: str | None = None) -> SCDCount
     ----------
     mechanisms : SCDQuery or OneMechanism
     method : {"burnside", "orbits"}, optional
-        ``orbits`` makes the placements, ``burnside`` none.
-
-    Raises
-    ------
-    UnsolvableError
-        If Burnside's lemma cannot count by all that the query limits.
+        ``orbits`` makes the placements, ``burnside`` none; UnsolvableError if the lemma cannot count by all that
+        the query limits.
 
     Examples
     --------
@@ -272,9 +259,6 @@ def scd_count_job(mechanisms: Mechanisms, method: str | None = None) -> SCDCount
     if method == "burnside" and not counted:
         raise UnsolvableError("Burnside's lemma cannot count by vertices or symmetry; try --method orbits")
     return SCDCountJob(mechanisms, method or ("burnside" if counted else "orbits"))
-
-
-_OPEN = 0
 
 
 def scd_graphs(
@@ -291,13 +275,8 @@ def scd_graphs(
     workers : int
         Processes.
     **options
-        Other fields of `PlacementQuery` and `SCDQuery`: ``sheets``, ``symmetric``, ``vertices``, ``spatial``,
-        ``infinite``.
-
-    Raises
-    ------
-    InvariantError
-        If a number is out of its range.
+        Other fields of `PlacementQuery` and `SCDQuery`, with their errors: ``sheets``, ``symmetric``,
+        ``vertices``, ``spatial``, ``infinite``.
 
     Examples
     --------
@@ -315,14 +294,9 @@ def scd_graphs_of(
     Parameters
     ----------
     mechanism, max_degree, **options
-        As for `mechanism_of`.
+        As for `mechanism_of`, with its errors.
     workers : int
         Processes.
-
-    Raises
-    ------
-    UnsolvableError, InvariantError
-        As of `mechanism_of`.
 
     Examples
     --------
@@ -381,15 +355,9 @@ def count_scd_graphs(
         As for `scd_graphs`.
     method : {"burnside", "orbits"}, optional
         Two ways: ``orbits`` makes every placement and compares it with its images, ``burnside`` makes none.
+        UnsolvableError as of `scd_count_job`, or if one mechanism has more than 10^18.
     workers : int
         Processes.
-
-    Raises
-    ------
-    InvariantError
-        If a number is out of its range.
-    UnsolvableError
-        If the method cannot count by all that the options limit, or one mechanism has more than 10^18.
 
     Examples
     --------
@@ -413,12 +381,7 @@ def all_mechanisms(
     Parameters
     ----------
     links, dof, max_degree, spatial, infinite, **options
-        As for `scd_graphs`.
-
-    Raises
-    ------
-    InvariantError
-        If a number is out of its range.
+        As for `scd_graphs`, with its errors.
 
     Examples
     --------
@@ -446,7 +409,7 @@ def mechanism_of(mechanism: SCGraph, max_degree: int, **options: Unpack[Placemen
             f"{MOST_JOINTS} in all",
         )
     symbols, letters = map_code(mechanism)
-    code = np.array([symbol for symbol in symbols if symbol != _OPEN], np.uint8)
+    code = np.array([symbol for symbol in symbols if symbol != OPEN], np.uint8)
     faces = len(mechanism.joints) - len(mechanism) + 1
     labels = [OUTER, *(LABEL_LETTERS.index(letter) for letter in letters or faces * LABEL_LETTERS[FINITE])]
     dof = mobility_report(mechanism).mobility

@@ -89,9 +89,7 @@ def _undecided(turn: Ints, vertex: Ints, face: Ints, labels: Ints, number: Ints,
     common.
     """
     darts = len(vertex)
-    degree = np.zeros(darts, np.int64)
-    for d in range(darts):
-        degree[vertex[d]] += 1
+    degree = np.bincount(vertex)
     pattern = np.zeros(darts, np.uint8)
     free = np.zeros(darts, np.int64)
     unsure = 0
@@ -246,18 +244,14 @@ def corner_states(face: Ints, kinds: Ints, pattern: Bytes, explicit: int) -> Byt
 @compiled
 def room_of(vertex: Ints, states: Bytes, most: int) -> tuple[Ints, Ints, Ints]:
     """Return for each link the number of corners that take open edges, and limits of how many more they take."""
-    links = 0
-    for d in range(len(vertex)):
-        links = max(links, vertex[d] + 1)
+    links = vertex.max() + 1
     slots, low, high = np.zeros(links, np.int64), np.full(links, 3), np.full(links, most)
     for d in range(len(vertex)):
         taken = 1 + (states[d] == OPENED)
         slots[vertex[d]] += states[d] != CLOSED
         low[vertex[d]] -= taken
         high[vertex[d]] -= taken
-    for v in range(links):
-        low[v] = max(low[v], 0)
-    return slots, low, high
+    return slots, np.maximum(low, 0), high
 
 
 @compiled
@@ -315,11 +309,8 @@ def forced_mobility(turn: Ints, face: Ints, kinds: Ints, number: Ints, pattern: 
 
     Where there are spatial loops and some joint cannot move: -1.
     """
-    moving = False
-    for f in range(len(kinds)):
-        moving |= kinds[f] == SPATIAL
     points, count = points_of_pattern(turn, face, number, pattern)
-    return mobility_of(face, kinds, points, centres_at_infinity(kinds, number, count), moving)
+    return mobility_of(face, kinds, points, centres_at_infinity(kinds, number, count), (kinds == SPATIAL).any())
 
 
 @compiled
@@ -328,15 +319,6 @@ def all_explicit(kinds: Ints, explicit: int) -> bool:
     found = True
     for f in range(len(kinds)):
         found &= kinds[f] == OUTER or (explicit >> f) & 1 == 1
-    return found
-
-
-@compiled
-def numbers_of_placements(codes: Bytes, labels: Ints, most: int) -> Ints:
-    """Return `number_of_placements` of each of some mechanisms: int64[r]."""
-    found = np.zeros(len(codes), np.int64)
-    for r in range(len(codes)):
-        found[r] = number_of_placements(codes[r], labels[r], most)
     return found
 
 

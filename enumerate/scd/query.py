@@ -104,8 +104,8 @@ Source = Maps | CodedMechanisms
 """Where some mechanisms come from: contracted maps, or they are there themselves."""
 
 
-@dataclass(frozen=True, slots=True)
-class SCDQuery:
+@dataclass(frozen=True)
+class SCDQuery(Query):
     """The SCD graphs of N links and M degrees of freedom.
 
     Attributes
@@ -186,7 +186,7 @@ class SCDQuery:
 
 
 @dataclass(frozen=True)
-class OneMechanism:
+class OneMechanism(Query):
     """A mechanism of a file, by its id, and the placements on it."""
 
     name: str
@@ -199,14 +199,12 @@ class OneMechanism:
         """What it is, in JSON values."""
         return {"of": self.name, **self.placements.key}
 
-    def sources(self, size: int) -> Iterator[Unit]:
+    def sources(self, _size: int) -> Iterator[Unit]:
         """Yield the mechanism."""
-        del size
         yield Unit(self.source)
 
-    def drawn(self, source: Source) -> Iterator[CodedMechanisms]:
+    def drawn(self, _source: Source) -> Iterator[CodedMechanisms]:
         """Yield the mechanism."""
-        del source
         yield self.source
 
     @property

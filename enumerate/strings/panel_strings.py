@@ -12,14 +12,14 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise, product
+from itertools import product
+from math import comb
 
-from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.errors import InvariantError, numbered, shown
 from graphs.mechanism.drawing import Side
-from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.rank.realisation import PRIMES, PrimeField, join, null_vectors
-from graphs.types import JointId, LinkId
+from graphs.types import LinkId
 
 MAX_PANELS = 2
 """Rectangular panels in the strings of Table 8, at most."""
@@ -57,10 +57,7 @@ class ChainString:
     def parse(cls, text: str) -> ChainString:
         """Read an R/- string.
 
-        Raises
-        ------
-        InvariantError
-            With the position of what is wrong.
+        Raises `InvariantError` with the position of what is wrong.
 
         Examples
         --------
@@ -171,8 +168,7 @@ class ChainString:
                 runs.append(2)
         if max(runs) == self.creases > 1:
             return "all axes parallel"
-        several = [f"{run} axes parallel" for run in runs if run > 2]
-        return ", ".join(several)
+        return ", ".join(f"{run} axes parallel" for run in runs if run > 2)
 
     def modes(self) -> list[str]:
         """Return the modes: for each gap between right-angled vertices, same side (S) or diagonal (D).
@@ -278,8 +274,8 @@ def count_strings(
 ) -> int:
     """Return the number of strings by generating functions, without listing them.
 
-    Compositions of n into m parts of at most c have the generating function (x + ... + x^c)^m; up to reversal
-    there are half as many as compositions and palindromes together.
+    Compositions of n into m parts of at most c have the generating function (x + ... + x^c)^m, whose coefficients
+    are sums of binomials; up to reversal there are half as many as compositions and palindromes together.
 
     Parameters
     ----------
@@ -292,37 +288,21 @@ def count_strings(
     ([1, 2, 3, 4, 5, 5], True)
     """
     longest, largest = _limits(creases, max_panels, max_cluster)
-    total: int = 0
-    power = _Powers(creases, largest)
+    total = 0
     for parts in range(1, longest + 1):
-        half = power[parts // 2]
-        palindromes = 0
-        if parts % 2:
-            middles = range(1, min(largest, creases) + 1)
-            palindromes = sum(half[(creases - k) // 2] for k in middles if (creases - k) % 2 == 0)
-        elif creases % 2 == 0:
-            palindromes = half[creases // 2]
-        total += power[parts][creases] + palindromes
+        middles = range(1, min(largest, creases) + 1) if parts % 2 else (0,)
+        halves = ((creases - k) // 2 for k in middles if (creases - k) % 2 == 0)
+        total += _number_of_compositions(creases, parts, largest)
+        total += sum(_number_of_compositions(half, parts // 2, largest) for half in halves)  # palindromes
     return total // 2
 
 
-class _Powers:
-    """Coefficients of the powers of x + ... + x^c up to x^n, each made from the one before."""
-
-    def __init__(self, n: int, largest: int) -> None:
-        self.largest = largest
-        self.rows = [[1] + [0] * n]
-
-    def __getitem__(self, power: int) -> list[int]:
-        while len(self.rows) <= power:
-            before, row, window = self.rows[-1], [0], 0
-            for i in range(1, len(before)):
-                window += before[i - 1]
-                if i > self.largest:
-                    window -= before[i - 1 - self.largest]
-                row.append(window)
-            self.rows.append(row)
-        return self.rows[power]
+def _number_of_compositions(total: int, parts: int, largest: int) -> int:
+    """Return how many `_compositions` there are; those with parts that are too large are taken off in turn."""
+    if parts == 0:
+        return int(total == 0)
+    too_large = range(min((total - parts) // largest, parts) + 1)
+    return sum((-1) ** k * comb(parts, k) * comb(total - k * largest - 1, parts - 1) for k in too_large)
 
 
 def _limits(creases: int, max_panels: int | None, max_cluster: int | None) -> tuple[int, int]:
@@ -348,21 +328,6 @@ def _compositions(total: int, parts: int, largest: int) -> Iterator[tuple[int, .
     for first in range(least, min(largest, total - parts + 1) + 1):
         for rest in _compositions(total - first, parts - 1, largest):
             yield (first, *rest)
-
-
-def chain_sc(chain: ChainString) -> SCGraph:
-    """Return the SC graph of a chain between two bodies: links 0 and n, and n - 1 panels between them.
-
-    Parameters
-    ----------
-    chain : ChainString
-
-    Examples
-    --------
-    >>> len(chain_sc(ChainString.parse("RR-R-RRR")))
-    7
-    """
-    return SCGraph(chain.creases + 1, [(i, i + 1) for i in range(chain.creases)])
 
 
 def chain_scd(chain: ChainString, mode: str | None = None, ends: tuple[int, int] = (3, 3)) -> SCDGraph:
@@ -410,67 +375,3 @@ def chain_scd(chain: ChainString, mode: str | None = None, ends: tuple[int, int]
         crease += 1
     rotation[crease] = [crease - 1, *[None] * (ends[1] - 1)]
     return SCDGraph(crease + 1, [(i, i + 1) for i in range(crease)], rotation=rotation)
-
-
-def string_of_chain(scd: SCDGraph) -> tuple[ChainString, str]:
-    """Return the string and the mode of a chain of panels between two bodies.
-
-    Parameters
-    ----------
-    scd : SCDGraph
-        An open chain. Between its ends, a link whose two creases share a vertex belongs to a cluster; any
-        other is a panel.
-
-    Returns
-    -------
-    chain : ChainString
-        From the body that comes first in the graph.
-    mode : str
-
-    Raises
-    ------
-    UnsolvableError
-        If the graph is no open chain, or creases that meet one by one do not all meet in one point.
-
-    Examples
-    --------
-    >>> chain, mode = string_of_chain(chain_scd(ChainString.parse("RR-RRR"), "D"))
-    >>> chain.text, mode
-    ('RR-RRR', 'D')
-    """
-    path, creases = _walk(scd)
-    clusters, corners = [1], [-1]  # creases so far in each cluster, and the vertex in which they meet
-    sides: list[bool] = []
-    for before, link, after in zip(creases, path[1:-1], creases[1:], strict=False):
-        common = set(scd.drawing.ends_of_joint(before)) & set(scd.drawing.ends_of_joint(after))
-        if not common:
-            clusters.append(1)
-            corners.append(-1)
-            continue
-        (vertex,) = common
-        if clusters[-1] == 1:
-            row = scd.rotation[link]
-            sides.append(row[(row.index(before) - 1) % len(row)] == after)
-            corners[-1] = vertex
-        elif corners[-1] != vertex:
-            raise UnsolvableError(f"joint {shown(before)} meets the joints on its two sides in different points")
-        clusters[-1] += 1
-    mode = "".join("S" if before == after else "D" for before, after in pairwise(sides))
-    return ChainString(tuple(clusters)), mode
-
-
-def _walk(scd: SCDGraph) -> tuple[list[LinkId], list[JointId]]:
-    """Return the links of an open chain from end to end, and the joints between them."""
-    ends = [link for link in scd.nodes if scd.degree(link) == 1]
-    if scd.independent_loops or len(ends) != 2 or any(scd.degree(link) > 2 for link in scd.nodes):
-        raise UnsolvableError("the graph is not an open chain between two bodies")
-    path: list[LinkId] = [ends[0]]
-    creases: list[JointId] = []
-    while path[-1] != ends[1]:
-        here = path[-1]
-        ((joint, link),) = (
-            (joint, other) for _, other, joint in scd.edges(here, keys=True) if not creases or joint != creases[-1]
-        )
-        creases.append(joint)
-        path.append(link)
-    return path, creases

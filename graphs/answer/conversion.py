@@ -39,6 +39,4 @@ def convert(mechanism: MechanismLike, kind: str | None = None, *, form: str | No
             raise InvariantError(what, f"the {what} {shown(name)}", "one of " + ", ".join(known))
     if kind is not None:
         mechanism = CONVERSIONS[kind](mechanism)
-    if form is None:
-        return mechanism
-    return FORMS[form](graph_of(mechanism))
+    return mechanism if form is None else FORMS[form](graph_of(mechanism))

@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 
 from graphs.answer.report import MobilityAnswer, notes_of_pose
-from graphs.count.equations import loop_form, modified_cgk, spherical_system, traditional_cgk
+from graphs.count.equations import loop_form, traditional_cgk
 from graphs.count.report import EquationResult, MobilityReport, mobility_report
 from graphs.errors import numbered, shown
 from graphs.geometry import frame_about, unit
@@ -55,7 +55,7 @@ def report_of_joints(linkage: JointedLinkage) -> MobilityReport:
 def _by_wiener(linkage: JointedLinkage, report: MobilityReport, freedoms: list[int]) -> dict[str, EquationResult]:
     """Evaluate Wiener's Eqs. 1 to 4; their conditions are those of his Table 6, and the kinds of the joints."""
     chain = linkage.chain
-    links, joints = len(chain) - chain.components + 1, len(chain.joints)
+    links = len(chain) - chain.components + 1
     bare = report.equations
     space = 6 if report.mechanism_class == "spatial" else 3
     first = bare["traditional_cgk"]
@@ -64,12 +64,9 @@ def _by_wiener(linkage: JointedLinkage, report: MobilityReport, freedoms: list[i
         first = EquationResult(traditional_cgk(links, freedoms, space), True, why)
     elif first.value is not None:
         first = replace(first, value=traditional_cgk(links, freedoms, space))
-    single = all(one == 1 for one in freedoms)
     many = EquationResult(None, False, "for joints with one degree of freedom; these have more")
-    second = replace(bare["modified_cgk"], value=modified_cgk(links, joints, space)) if single else many
-    third = replace(bare["spherical_system"], value=spherical_system(links, joints)) if single else many
-    if bare["modified_cgk"].value is None and single:
-        second = bare["modified_cgk"]
+    single = all(freedom == 1 for freedom in freedoms)
+    second, third = (bare[name] if single else many for name in ("modified_cgk", "spherical_system"))
     fourth = EquationResult(None, False, "Eq. 4 is for revolute joints")
     return {"traditional_cgk": first, "modified_cgk": second, "spherical_system": third, "polyhedron": fourth}
 
@@ -163,7 +160,8 @@ def passive_freedoms(linkage: JointedLinkage) -> tuple[Passive, ...]:
         rank = spectrum(columns, DOUBLE.closed).rank
         if rank is not None and rank < columns.shape[1]:
             free = columns.shape[1] - rank
-            found.append(Passive(row, free, free == 1 and _spins(linkage, row)))
+            balls = sum(linkage.kinds[joint] is JointKind.SPHERICAL for joint in row)
+            found.append(Passive(row, free, free == 1 and balls == 2))
     return tuple(found)
 
 
@@ -196,11 +194,6 @@ def _passive_notes(passive: tuple[Passive, ...]) -> Iterator[str]:
             more = f" and {len(legs_) - _FEW} more" if len(legs_) > _FEW else ""
             freedoms = numbered(total, "passive degree of freedom", "passive degrees of freedom")
             yield f"{freedoms}: legs that {doing} (joints {names}{more})"
-
-
-def _spins(linkage: JointedLinkage, row: tuple[JointId, ...]) -> bool:
-    """Return whether a row that moves between held ends turns between two spherical joints."""
-    return sum(linkage.kinds[joint] is JointKind.SPHERICAL for joint in row) == 2
 
 
 def screws_of_joints(linkage: JointedLinkage) -> dict[JointId, Floats]:

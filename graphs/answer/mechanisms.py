@@ -3,9 +3,10 @@
 Theory: docs/theory/mobility-by-count.md, docs/theory/exact-mobility.md, docs/theory/pose.md.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 from math import pi
-from typing import Literal
+from typing import Any, Literal
 
 import networkx as nx
 import numpy as np
@@ -23,7 +24,7 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import Cone, Cylinder, SurfaceLinkage
-from graphs.rank.exact import diagnose, exact_mobility
+from graphs.rank.exact import ExactMobility, diagnose, exact_mobility
 from graphs.rank.pose import PoseMobility, pose_mobility, pose_mobility_of_axes, pose_mobility_of_model
 from graphs.rank.rods import exact_mobility_of_model
 from graphs.tolerances import DOUBLE
@@ -43,8 +44,9 @@ def with_exact(
 
     It is found whatever the size of the mechanism if it is demanded.
     """
+    rank: Callable[[Any], ExactMobility] = exact_mobility
     if isinstance(mechanism, PolyhedronModel):
-        size, unit, most = len(mechanism), "vertices", MOST_JOINTS // 3
+        size, unit, most, rank = len(mechanism), "vertices", MOST_JOINTS // 3, exact_mobility_of_model
     else:
         size, unit, most = len(mechanism.joints), "joints", MOST_JOINTS
     if size > most and not demanded:
@@ -52,10 +54,7 @@ def with_exact(
             warnings=[f"exact rank skipped: {size} {unit}, more than {most}; --exact computes it"]
         )
     try:
-        if isinstance(mechanism, PolyhedronModel):
-            exact = exact_mobility_of_model(mechanism)
-        else:
-            exact = exact_mobility(mechanism)
+        exact = rank(mechanism)
     except (UnsolvableError, NumericalError) as error:
         return answer.with_notes(warnings=[f"no exact rank: {error}"])
     answer = replace(answer, exact=exact)
@@ -204,12 +203,8 @@ def mobility(
 def _conformed(answer: MobilityAnswer, linkage: SurfaceLinkage) -> MobilityAnswer:
     """Add the freedoms at the conformed position, where the places of the joints are known."""
     cylinder = linkage.kind == "cylinder"
-    axes_note = (
-        "on a cylinder all joint axes are parallel"
-        if cylinder
-        else "on a cone all joint axes pass through its apex"
-    )
-    answer = answer.with_notes(warnings=[axes_note])
+    where = "are parallel" if cylinder else "pass through its apex"
+    answer = answer.with_notes(warnings=[f"on a {linkage.kind} all joint axes {where}"])
     if linkage.steps is None:
         return answer
     surface = linkage.surface or (Cylinder(1.0) if cylinder else _ANY_CONE)

@@ -118,7 +118,11 @@ class MobilityAnswer(MobilityReport, Printed):
         blocks.append(f"by count: mobility M = {plain(self.mobility)}   ({self.mechanism_class})")
         blocks.append(_equations_line(self, hint=not verbose))
         if verbose:
-            blocks.append(_equations_table(self))
+            rows = [
+                (_TITLES[name], plain(equation.value), "yes" if equation.applies else "no", equation.why)
+                for name, equation in self.equations.items()
+            ]
+            blocks.append(TableBlock(("equation", "M", "applies", "why"), rows, ["M"]))
         known = [
             ("links N", self.links),
             ("joints J", self.joints),
@@ -164,15 +168,6 @@ def _equations_line(answer: MobilityAnswer, *, hint: bool) -> str:
             names.append(f"{_TITLES[name]}{value}")
     every = f"   (--verbose: all {len(answer.equations)} equations)" if hint else ""
     return f"equations that apply: {'; '.join(names) or 'none'}{every}"
-
-
-def _equations_table(answer: MobilityAnswer) -> TableBlock:
-    """Return the table of all equations of mobility: value, whether it applies, and why."""
-    rows = [
-        (_TITLES[name], plain(equation.value), "yes" if equation.applies else "no", equation.why)
-        for name, equation in answer.equations.items()
-    ]
-    return TableBlock(("equation", "M", "applies", "why"), rows, ["M"])
 
 
 def power_of_ten(number: float) -> str:

@@ -27,10 +27,8 @@ def loops_with_centres(sheet: Sheet, cycles: Sequence[tuple[int, ...]], hinges: 
     points = in_space(sheet.coordinates or ())
     points = (points - points.mean(axis=0)) / (extent_of(points) or 1.0)
     tolerance = Tolerances.of(precision_as_written(sheet).size).meant
-    centres = [axes_meet(points, [hinges[joint] for joint in cycle], tolerance) for cycle in cycles]
-    return [
-        Loop(cycle, centre) for cycle, centre in zip(cycles, centres, strict=True) if centre is not Centre.NONE
-    ]
+    loops = (Loop(cycle, axes_meet(points, [hinges[joint] for joint in cycle], tolerance)) for cycle in cycles)
+    return [loop for loop in loops if loop.has_centre]
 
 
 def axes_meet(points: Floats, hinges: Sequence[Edge], tolerance: float) -> Centre:
@@ -92,16 +90,22 @@ def vertex_cycles(sheet: Sheet, hinged: HingedFaces) -> dict[tuple[int, ...], in
     return dict(list(distinct.values())[::-1])
 
 
-def _closed_fans(sheet: Sheet, faces_at: Mapping[Edge, Sequence[int]]) -> list[tuple[int, list[tuple[Edge, int]]]]:
-    """Return each vertex with faces all round, with its edges and the faces entered across them, in order."""
-    at_vertex: dict[int, list[tuple[int, Edge, Edge]]] = defaultdict(list)
+def _sides_of_corners(sheet: Sheet) -> dict[tuple[int, int], tuple[Edge, Edge]]:
+    """Return the two edges of each face, by its number, at each of its vertices."""
+    corners = {}
     for index, around in enumerate(sheet.faces):
         sides = [(a, b) if a < b else (b, a) for a, b in sides_of_face(around)]
-        for i, vertex in enumerate(around):
-            at_vertex[vertex].append((index, sides[i - 1], sides[i]))
+        corners.update({(index, vertex): (sides[i - 1], sides[i]) for i, vertex in enumerate(around)})
+    return corners
+
+
+def _closed_fans(sheet: Sheet, faces_at: Mapping[Edge, Sequence[int]]) -> list[tuple[int, list[tuple[Edge, int]]]]:
+    """Return each vertex with faces all round, with its edges and the faces entered across them, in order."""
+    at_vertex: dict[int, dict[int, tuple[Edge, Edge]]] = defaultdict(dict)
+    for (face, vertex), sides in _sides_of_corners(sheet).items():
+        at_vertex[vertex][face] = sides
     fans = []
-    for centre, corners in at_vertex.items():
-        sides_of = {face: (one, two) for face, one, two in corners}
+    for centre, sides_of in at_vertex.items():
         left = dict.fromkeys(sides_of)
         while left:
             start = next(iter(left))
@@ -156,11 +160,7 @@ def simple_cycles(walk: Sequence[tuple[int, int]]) -> list[tuple[int, ...]]:
 
 def boundary_cycles(sheet: Sheet, hinged: HingedFaces) -> list[tuple[int, ...]]:
     """Return the cycles of joints along boundaries, of holes, cuts and the whole, those of few joints first."""
-    edges_at: dict[tuple[int, int], tuple[Edge, Edge]] = {}
-    for index, around in enumerate(sheet.faces):
-        sides = [(a, b) if a < b else (b, a) for a, b in sides_of_face(around)]
-        for i, vertex in enumerate(around):
-            edges_at[index, vertex] = sides[i - 1], sides[i]
+    edges_at = _sides_of_corners(sheet)
     cycles = []
     seen: set[tuple[int, Edge]] = set()
     for edge, faces in hinged.faces_at.items():

@@ -99,7 +99,9 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, geometry: bool
         [Loop(cycles[i], Centre.FINITE) for i in kept],
         closing=[Loop(cycles[i], Centre.FINITE) for i in closing],
     )
-    ends = _hinge_ends(sheet, joint_of_edge)
+    pieces = _pieces(joint_of_edge)
+    places = sheet.coordinates or ((),) * sheet.vertices
+    ends = {joint: max(some, key=lambda ends: dist(*(places[v] for v in ends))) for joint, some in pieces.items()}
     if geometry and sheet.coordinates is not None and sc.spatial_loops:
         sc = _with_loops(sc, loops_with_centres(sheet, boundary_cycles(sheet, hinged), ends), notes)
     split = sum(joint is not None for joint in joint_of_edge.values()) - len(joints)
@@ -117,7 +119,7 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, geometry: bool
         tuple(centre_of[cycles[i]] for i in kept),
         (*sheet.repairs, *notes.repairs),
         tuple(notes.warnings),
-        _pieces(joint_of_edge),
+        pieces,
     )
 
 
@@ -150,18 +152,6 @@ def _with_loops(sc: SCGraph, loops: Sequence[Loop], notes: _Notes) -> SCGraph:
                 f"geometry: the axes of {numbered(added[centre], 'loop')} round holes or cuts {meet}"
             )
     return sc
-
-
-def _hinge_ends(sheet: Sheet, joint_of_edge: Mapping[Edge, int | None]) -> dict[int, Edge]:
-    """Return the ends of each joint; of a split hinge, those of its longest piece."""
-    ends: dict[int, tuple[float, Edge]] = {}
-    for (a, b), joint in joint_of_edge.items():
-        if joint is None:
-            continue
-        length = 0.0 if sheet.coordinates is None else dist(sheet.coordinates[a], sheet.coordinates[b])
-        if joint not in ends or length > ends[joint][0]:
-            ends[joint] = length, (a, b)
-    return {joint: edge for joint, (_, edge) in ends.items()}
 
 
 @dataclass
@@ -225,11 +215,8 @@ def _merge_flat(
     members: dict[int, list[int]] = {}
     for face in range(len(sheet.faces)):
         members.setdefault(merged[face], []).append(face)
-    panel_of_face = [0] * len(sheet.faces)
-    for panel, faces in enumerate(members.values()):
-        for face in faces:
-            panel_of_face[face] = panel
-    return panel_of_face, tuple(tuple(faces) for faces in members.values())
+    number = {root: panel for panel, root in enumerate(members)}
+    return [number[merged[face]] for face in range(len(sheet.faces))], tuple(map(tuple, members.values()))
 
 
 def _joints(

@@ -13,7 +13,7 @@ import numpy as np
 
 from graphs.errors import InvariantError
 from graphs.mechanism.precision import flattened
-from graphs.mechanism.sheet import COLLINEAR, HINGES, Edge, Sheet, sides_of_face
+from graphs.mechanism.sheet import COLLINEAR, HINGES, Sheet, sides_of_face
 from graphs.types import Floats
 
 _OVERLAP = 1e-6
@@ -23,9 +23,7 @@ _OVERLAP = 1e-6
 def creases_on_no_face(sheet: Sheet) -> int:
     """Return how many edges of hinges are no side of a face."""
     hinges = [edge for edge, letter in zip(sheet.edges, sheet.assignments, strict=True) if letter in HINGES]
-    sides: set[Edge] = set()
-    for face in sheet.faces:
-        sides.update(zip(face, (*face[1:], *face[:1]), strict=True))
+    sides = {side for face in sheet.faces for side in sides_of_face(face)}
     return sum((a, b) not in sides and (b, a) not in sides for a, b in hinges)
 
 

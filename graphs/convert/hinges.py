@@ -88,7 +88,7 @@ def lines_of_hinges(
             within = max(within, most)
             groups[i] = (tuple(range(bundle.size)),)
             continue
-        tight = bundle.cliques(bundle.deviation, COLLINEAR)
+        tight = bundle.groups(bundle.deviation, COLLINEAR)
         lines = _lines(bundle, tolerance, tight)
         apart = bundle.apart(lines)
         groups[i] = tuple(sorted(lines))
@@ -121,13 +121,9 @@ class _Bundle:
         merges: Floats = linkage(heights, method)
         return merges
 
-    def cliques(self, heights: Floats, tolerance: float) -> Groups:
-        """Group hinges that are within a tolerance of each other, each of each."""
-        return _cut(self.tree(heights), tolerance)
-
-    def rows(self, heights: Floats, tolerance: float) -> Groups:
-        """Group hinges connected by steps within a tolerance: also those of a curve."""
-        return _cut(self.tree(heights, "single"), tolerance)
+    def groups(self, heights: Floats, tolerance: float, method: str = "complete") -> Groups:
+        """Group hinges within a tolerance, each of each other; "single": connected by steps, as on a curve."""
+        return _cut(self.tree(heights, method), tolerance)
 
     def apart(self, groups: Groups) -> npt.NDArray[np.bool_]:
         """Return, for each pair, whether it is in two groups: bool[pairs]."""
@@ -139,7 +135,7 @@ class _Bundle:
 
     def unclear(self, lines: Groups, apart: npt.NDArray[np.bool_], tolerance: float) -> int:
         """Return how many hinges are apart from others that may be on their line."""
-        nearly = self.cliques(self.deviation, BENT) & self.rows(self.deviation, BENT)
+        nearly = self.groups(self.deviation, BENT) & self.groups(self.deviation, BENT, "single")
         bent_a_little = {hinge for group in nearly - lines for hinge in group}
         explained = self.pairs[:, apart & (self.excess <= tolerance)]
         return len(bent_a_little.union(explained.ravel().tolist()))
@@ -147,7 +143,7 @@ class _Bundle:
 
 def _lines(bundle: _Bundle, tolerance: float, tight: Groups) -> Groups:
     """Group the hinges of a bundle; where they fit in a row, but not all each other, take their tight groups."""
-    whole = bundle.cliques(bundle.excess, tolerance) & bundle.rows(bundle.excess, tolerance)
+    whole = bundle.groups(bundle.excess, tolerance) & bundle.groups(bundle.excess, tolerance, "single")
     there = {hinge for group in whole for hinge in group}
     return whole | {group for group in tight if there.isdisjoint(group)}
 

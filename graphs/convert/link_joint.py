@@ -24,12 +24,8 @@ class BlockCycles:
 def block_cycles(links: Iterable[LinkId], joints: Joints) -> list[BlockCycles]:
     """Return J - N + c independent cycles of a link-joint graph, by blocks; joints may be parallel."""
     simple, joint_of = _subdivided(links, joints)
-    blocks = []
-    for edges in nx.biconnected_component_edges(simple):
-        block = nx.Graph(edges)
-        if block.number_of_edges() >= len(block):
-            blocks.append(_cycles(block, joint_of))
-    return blocks
+    blocks = map(nx.Graph, nx.biconnected_component_edges(simple))
+    return [_cycles(block, joint_of) for block in blocks if block.number_of_edges() >= len(block)]
 
 
 def sc_from_link_joint_graph(

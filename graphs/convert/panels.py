@@ -71,16 +71,15 @@ def scd_from_panels(
         link: tuple(joint_at.get(frozenset(side)) for side in sides_of_face(vertices))
         for link, vertices in around.items()
     }
-    open_side = {
-        frozenset(side): (link, i)
-        for link, vertices in around.items()
+    open_sides = (
+        (link, i)
+        for link, vertices in (around if outer else {}).items()
         for i, side in enumerate(sides_of_face(vertices))
-        if rotation[link][i] is None
-    }
+        if set(side) == set(outer or ()) and rotation[link][i] is None
+    )
     ends = {joint: tuple(side) for side, joint in joint_at.items()}
     centred = None if remote is None else partial(remote, ends)
-    outer_side = None if outer is None else open_side.get(frozenset(outer))
-    return _with_faces(around, joints, rotation, outer_side, centred)
+    return _with_faces(around, joints, rotation, next(open_sides, None), centred)
 
 
 def oriented_panels(panels: Mapping[Any, Panel]) -> dict[LinkId, Panel]:
@@ -154,7 +153,7 @@ def _with_faces(
     joined = [face for face in faces if face.corners[0].leaving is not None]
     outer = max(joined, key=lambda face: face.open_edges).index
     if outer_side is not None and any(joint is not None for joint in rotation[outer_side[0]]):
-        outer = _face_of_side(joints, rotation, left_of, *outer_side)
+        outer = _face_of_side(rotation, left_of, *outer_side)
     elif not faces[outer].open_edges:
         outer = joined[-1].index  # a closed surface
     loops: list[Loop] = []
@@ -175,7 +174,6 @@ def _with_faces(
 
 
 def _face_of_side(
-    joints: Mapping[JointId, tuple[LinkId, LinkId]],
     rotation: Mapping[LinkId, Sequence[JointId | None]],
     left_of: Mapping[tuple[JointId, LinkId], int],
     link: LinkId,
@@ -185,9 +183,7 @@ def _face_of_side(
     sides = rotation[link]
     while sides[index] is None:
         index -= 1
-    joint = sides[index]
-    assert joint in joints
-    return left_of[joint, link]
+    return left_of[sides[index], link]
 
 
 def scd_of_placed_panels(sheet: Sheet) -> SCDGraph:
@@ -288,9 +284,7 @@ def vertex_steps(scd: SCDGraph) -> Iterator[VertexStep]:
 def internal_rods(around: tuple[int, ...]) -> list[tuple[int, int]]:
     """Return the 2n - 6 rods that make a body of n vertices and n sides rigid, in two fans (thesis 2.3.3)."""
     first, second = around[0], around[1]
-    from_first = [(first, other) for other in around[2:-1]]
-    from_second = [(second, other) for other in around[3:]]
-    return from_first + from_second
+    return [(first, other) for other in around[2:-1]] + [(second, other) for other in around[3:]]
 
 
 def polyhedron_of(scd: SCDGraph) -> PolyhedronModel:

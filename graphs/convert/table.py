@@ -1,5 +1,6 @@
 """From any object that a file may hold to any other; by the names of kinds and forms: `graphs.answer.convert`."""
 
+import re
 from collections import Counter
 from collections.abc import Callable
 
@@ -24,6 +25,18 @@ from graphs.types import JointId
 
 Mechanism = SCGraph | PolyhedronModel | VertexEdgeGraph | Sheet | SurfaceLinkage | HingedSolids | JointedLinkage
 """Any object that a file may hold (an SCDGraph is an SCGraph)."""
+
+
+def kind_in_words(mechanism: object) -> str:
+    """Return the kind of a mechanism as messages name it, from the name of its class.
+
+    Examples
+    --------
+    >>> kind_in_words(SCGraph(2, [(0, 1)]))
+    'SC graph'
+    """
+    words = re.findall(r"[A-Z]+(?![a-z])|[A-Z][a-z]+", type(mechanism).__name__)
+    return " ".join(word if word.isupper() else word.lower() for word in words)
 
 
 def to_sc(mechanism: Mechanism) -> SCGraph:

@@ -74,11 +74,6 @@ class Network:
     dangling: int = 0
     spread: float = 0.0
 
-    @property
-    def notes(self) -> Counter[str]:
-        """How many repairs of each kind there are."""
-        return Counter({kind: len(places) for kind, places in self.repairs.items()})
-
     def repaired(self, kind: RepairKind, places: Iterable[Floats]) -> None:
         """Note repairs, each by its points."""
         row = [tuple((float(x), float(y)) for x, y in place) for place in places]
@@ -415,17 +410,10 @@ class _TracedNetwork:
         """How many vertices have edges."""
         return len({v for edge in self.network.edges for v in edge})
 
-    @property
-    def surplus(self) -> int:
-        """Edges less vertices, which is the number of faces but for the parts."""
-        return len(self.network.edges) - self.vertices
-
     @cached_property
     def lengths(self) -> Floats:
         """The length of each edge."""
-        if not self.network.edges:
-            return np.zeros(0)
-        ends = self.network.points[np.array(list(self.network.edges))]
+        ends = self.network.points[np.array(list(self.network.edges), dtype=int).reshape(-1, 2)]
         lengths: Floats = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
         return lengths
 
@@ -461,7 +449,8 @@ def _standing(traced: Sequence[_TracedNetwork], short: float) -> _TracedNetwork:
 
 def _stablest(traced: Sequence[_TracedNetwork], short: float) -> _TracedNetwork:
     left = _least(traced, lambda candidate: candidate.network.dangling)
-    left = _commonest(left, lambda candidate: candidate.surplus)
+    # edges less vertices are the number of faces, but for the parts
+    left = _commonest(left, lambda candidate: len(candidate.network.edges) - candidate.vertices)
     left = _least(left, lambda candidate: candidate.signs_of_splits(short))
     left = _commonest(left, lambda candidate: candidate.vertices)
     return max(left, key=lambda candidate: candidate.gap)

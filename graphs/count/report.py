@@ -4,6 +4,7 @@ Source: Wiener 2016, Fig. 37 and Table 6; Wampler, Larson, Erdman 2007, Eqs. 5 t
 Theory: docs/theory/mobility-by-count.md.
 """
 
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Self
@@ -200,7 +201,7 @@ def _equations(sc: SCGraph, kind: str) -> dict[str, EquationResult]:
     one_space = kind in ("spherical", "planar", "spatial")
     modified = one_space or kind == "spherical system"
     system = kind in ("spherical", "planar", "spherical system")
-    results = {
+    return {
         "traditional_cgk": EquationResult(
             None if space is None else traditional_cgk(links, [1] * joints, space),
             one_space,
@@ -226,7 +227,6 @@ def _equations(sc: SCGraph, kind: str) -> dict[str, EquationResult]:
         ),
         "closed_surface": _closed_result(sc),
     }
-    return results
 
 
 def _why_no_system(sc: SCGraph, kind: str) -> str:
@@ -281,13 +281,8 @@ def _counts(sc: SCGraph) -> dict[str, int]:
         "closing_loops": len(sc.closing),
     }
     if isinstance(sc, SCDGraph):
-        counts |= {
-            "vertices": sc.counts.vertices,
-            "implicit_centres": sc.counts.implicit_centres,
-            "external_edges": sc.counts.external_edges,
-            "internal_edges": sc.counts.internal_edges,
-            "open_edges": sc.counts.open_edges,
-        }
+        names = ("vertices", "implicit_centres", "external_edges", "internal_edges", "open_edges")
+        counts |= {name: getattr(sc.counts, name) for name in names}
     return counts
 
 
@@ -306,10 +301,7 @@ def _warnings(sc: SCGraph) -> Iterable[str]:
     if pairs:
         two = f"{numbered(pairs, 'loop')} of two joints constrain{'s' * (pairs == 1)} 2 degrees of freedom"
         yield f"{two}, not 3 (1 if collinear): the count is low"
-    through: dict[object, int] = {}
-    for one in sc.centre_classes():
-        for joint in one.joints:
-            through[joint] = through.get(joint, 0) + 1
+    through = Counter(joint for one in sc.centre_classes() for joint in one.joints)
     lined_up = [joint for joint, number in through.items() if number >= _MANY]
     if lined_up:
         yield f"joint {shown(lined_up[0])} passes through three centres or more: these must be collinear"

@@ -40,6 +40,8 @@ class SheetEdit:
     what: str
     before: Sheet
     sheet: Sheet
+    equation = "Eq. 6"
+    """The equation that predicts the change of mobility."""
 
     @cached_property
     def of_mechanism(self) -> Edit:
@@ -47,11 +49,6 @@ class SheetEdit:
         before, after = (mechanism_of_sheet(sheet).sc for sheet in (self.before, self.sheet))
         predicted = relative_spherical_system(len(after) - len(before), len(after.joints) - len(before.joints))
         return Edit(self.what, before, after, predicted, self.equation)
-
-    @property
-    def equation(self) -> str:
-        """The equation that predicts the change of mobility."""
-        return "Eq. 6"
 
     @property
     def predicted(self) -> int:

@@ -4,6 +4,7 @@ All three change centres only: links, joints and loops stay. Source: Wiener 2016
 Theory: docs/theory/sc-graphs.md.
 """
 
+from collections.abc import Callable
 from typing import TypeVar
 
 from graphs.errors import UnsolvableError, numbered
@@ -16,16 +17,12 @@ G = TypeVar("G", bound=SCGraph)
 def planar_analogue(sc: G) -> G:
     """Make all axes parallel: every loop planar, one centre at infinity.
 
+    Raises `UnsolvableError` if a loop is spatial; `InvariantError` for an SCD graph with an explicit centre, which
+    cannot be at infinity.
+
     Parameters
     ----------
     sc : SCGraph or SCDGraph
-
-    Raises
-    ------
-    UnsolvableError
-        If a loop is spatial.
-    InvariantError
-        For an SCD graph with an explicit centre, which cannot be at infinity.
 
     Examples
     --------
@@ -68,22 +65,17 @@ def generalised_form(sc: G) -> G:
     >>> generalised_form(planar_analogue(ring)).loops[0].centre.value
     'finite'
     """
-
-    def general(loop: Loop) -> Loop:
-        return Loop(loop.joints, Centre.FINITE, loop.name) if loop.has_centre else loop
-
-    changed = sc.with_loops(map(general, sc.loops), map(general, sc.closing))
-    assert isinstance(changed, type(sc))
-    return changed
+    return _changed(sc, lambda x: Loop(x.joints, Centre.FINITE, x.name) if x.has_centre else x)
 
 
 def _recentred(sc: G, centre: Centre, at: str, kind: str) -> G:
     if sc.spatial_loops:
         loops = numbered(sc.spatial_loops, "spatial loop")
         raise UnsolvableError(f"a mechanism with {loops} has no {kind} analogue")
-    changed = sc.with_loops(
-        [Loop(x.joints, centre, x.name, at) for x in sc.loops],
-        [Loop(x.joints, centre, x.name, at) for x in sc.closing],
-    )
+    return _changed(sc, lambda x: Loop(x.joints, centre, x.name, at))
+
+
+def _changed(sc: G, change: Callable[[Loop], Loop]) -> G:
+    changed = sc.with_loops(map(change, sc.loops), map(change, sc.closing))
     assert isinstance(changed, type(sc))
     return changed

@@ -84,7 +84,9 @@ def add_loop(
 ) -> Edit:
     """Append a chain of new links between two links, and so close a loop.
 
-    dM = 3 k - 2 (k + 1) for k links and a loop with a centre (Eq. 6), k - 5 for a spatial one (Eq. 5).
+    dM = 3 k - 2 (k + 1) for k links and a loop with a centre (Eq. 6), k - 5 for a spatial one (Eq. 5). Raises
+    `InvariantError` if a or b is no link, or the loop is no cycle; `UnsolvableError` if a and b are not joined by
+    one joint, without ``through``.
 
     Parameters
     ----------
@@ -97,13 +99,6 @@ def add_loop(
         Of the new loop; ``"none"`` for a spatial one.
     through : sequence of joint ids, optional
         The rest of the loop, a path from a to b; by default the joint between them.
-
-    Raises
-    ------
-    InvariantError
-        If a or b is no link, or the loop is no cycle.
-    UnsolvableError
-        If a and b are not joined by one joint, without ``through``.
 
     Examples
     --------
@@ -283,7 +278,9 @@ _EQUATION = "Eq. 7"
 def crease_link(scd: SCDGraph, link: LinkId, start: int, end: int | None = None) -> Edit:
     """Crease a link between two of its vertices, or from one to the middle of an open edge (thesis 4.2.2).
 
-    dV = 0 and dE = -1 between vertices, dV = 1 and dE = 2 to an open edge.
+    dV = 0 and dE = -1 between vertices, dV = 1 and dE = 2 to an open edge. Raises `InvariantError` if there is no
+    such link or vertex, if the vertices are neighbours, or the result breaks a rule; `UnsolvableError` if no open
+    edge lies opposite.
 
     Parameters
     ----------
@@ -293,13 +290,6 @@ def crease_link(scd: SCDGraph, link: LinkId, start: int, end: int | None = None)
         Vertices of the link, as numbered in ``scd.vertices``. Without ``end`` the crease runs to the middle of the
         first open edge that does not end in ``start``.
 
-    Raises
-    ------
-    InvariantError
-        If there is no such link or vertex, if the vertices are neighbours, or the result breaks a rule.
-    UnsolvableError
-        If no open edge lies opposite.
-
     Examples
     --------
     >>> from graphs.convert.panels import scd_from_panels
@@ -308,7 +298,8 @@ def crease_link(scd: SCDGraph, link: LinkId, start: int, end: int | None = None)
     >>> edit.predicted, edit.counted
     (1, 1)
     """
-    sides, first = list(_sides(scd, link)), _place(scd, link, start)
+    _check_links(scd, link)
+    sides, first = list(scd.rotation[link]), _place(scd, link, start)
     if end is None:
         second = _opposite_open_edge(scd, link, start, first)
         sides.insert(second, None)  # the open edge in two: the crease ends between its halves
@@ -490,12 +481,6 @@ def _rebuilt(scd: SCDGraph, **changes: Any) -> SCDGraph:
     return SCDGraph(**({"links": scd.nodes} | {key: getattr(scd, key) for key in keys} | changes))
 
 
-def _sides(scd: SCDGraph, link: LinkId) -> tuple[Side, ...]:
-    if link not in scd:
-        raise InvariantError("edit", f"{shown(link)} is no link", "one of the links")
-    return scd.rotation[link]
-
-
 def _place(scd: SCDGraph, link: LinkId, vertex: int) -> int:
     if vertex not in scd.vertices[link]:
         known = " ".join(map(str, scd.vertices[link]))
@@ -533,21 +518,17 @@ def _with_ride_along(
     rotation[a][i] = au
     rotation[b][k] = vb
     new = {u: [uv, au, *[None] * (sides[0] - 2)], v: [vb, uv, *[None] * (sides[1] - 2)]}
+    side = "right" if scd.joints[joint][0] == a else "left"  # the face on the left when going from b to a
+    # the old name of the outer face may stand for the new loop now: it lies beyond the joint a-u
+    in_outer = scd.drawing.face_at(joint, side) == scd.drawing.outer_face
     return _rebuilt(
         scd,
         links=[*scd.nodes, u, v],
         joints={**scd.joints, au: (a, u), uv: (u, v), vb: (v, b)},
         loops=[*scd.loops, Loop((joint, au, uv, vb), Centre.FINITE)],
         rotation={**rotation, **new},
-        outer=_outer_after_ride_along(scd, joint, a, au),
+        outer=(au, "right") if in_outer else scd.outer,
     )
-
-
-def _outer_after_ride_along(scd: SCDGraph, joint: JointId, a: LinkId, au: JointId) -> tuple[JointId, str] | None:
-    """Name the outer face where its old name now stands for the new loop: it lies beyond the joint a-u."""
-    side = "right" if scd.joints[joint][0] == a else "left"  # the face on the left when going from b to a
-    in_outer = scd.drawing.face_at(joint, side) == scd.drawing.outer_face
-    return (au, "right") if in_outer else scd.outer
 
 
 def _other_side_of(scd: SCDGraph, joint: JointId) -> tuple[JointId, str] | None:

@@ -183,12 +183,12 @@ def write_text(path: Path, text: str, *, force: bool = False) -> None:
     write_chunks(path, [text], force=force)
 
 
-def write_chunks(path: Path, chunks: Iterable[str], *, force: bool = False) -> None:
-    """Write text piece by piece, as :func:`write_text` writes one piece."""
+def write_chunks(path: Path, chunks: Iterable[str | bytes], *, force: bool = False) -> None:
+    """Write text or bytes piece by piece, as :func:`write_text` writes one piece."""
     beside = Beside(path, force=force)
     try:
         for chunk in chunks:
-            beside.write(chunk.encode("utf-8"))
+            beside.write(chunk if isinstance(chunk, bytes) else chunk.encode("utf-8"))
         beside.commit()
     finally:
         beside.discard()

@@ -6,13 +6,14 @@ To add a format, enter a reader in ``READERS``, or a `Format` in ``WRITERS`` (do
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
+from importlib import import_module
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.table import Mechanism, to_sc, to_sheet
 from graphs.errors import FileError, InvariantError, OpenError, UnsolvableError, check_argument, numbered
+from graphs.files import losses
 from graphs.files.atomic import Beside
 from graphs.files.bare import (
     as_linkage,
@@ -23,18 +24,6 @@ from graphs.files.bare import (
     read_edge_list,
     read_graph6,
     read_graphml,
-)
-from graphs.files.losses import (
-    change_of_type,
-    lost_as_bare_graph,
-    lost_as_cp,
-    lost_as_dxf,
-    lost_as_fold,
-    lost_as_graphml,
-    lost_as_json,
-    lost_as_nameless_graph,
-    lost_as_obj,
-    lost_as_svg,
 )
 from graphs.files.native import dumps, from_document
 from graphs.files.outputs import Format, Lost, format_of, formats_by_suffix, unknown_extension
@@ -118,10 +107,6 @@ def read_all(path: str | Path, *, colours: Looks | None = None, layers: Looks | 
         ``chains.g6:7``.
     colours, layers : mapping of str to str or sequence of str, optional
         As in `read`.
-
-    Yields
-    ------
-    Entry
 
     Raises
     ------
@@ -263,19 +248,18 @@ def write_converted(
     beside = Beside(path, force=force)
     try:
         beside.write(data)
-        if (made_of is not None and not lossy) or not _holds_all(written.suffix, mechanism):
+        # the format made for a mechanism holds it all; the native file of a sheet is its mechanism
+        made_for = written.suffix == ".json" or (written.suffix == ".fold" and isinstance(mechanism, Sheet))
+        if (made_of is not None and not lossy) or not made_for:
             again = _read_back(beside.closed(), written.suffix, lost)
-            if not lossy:
-                _check_type(again, written.suffix, mechanism if made_of is None else made_of, lost)
+            change = None if lossy else losses.change_of_type(mechanism if made_of is None else made_of, again)
+            if change is not None:
+                wrong = f"a {written.suffix} file would be read back as another type: {change}{_because(lost)}"
+                raise UnsolvableError(f"{wrong}; try --lossy (in Python lossy=True)")
         beside.commit()
     finally:
         beside.discard()
     return lost
-
-
-def _holds_all(suffix: str, mechanism: Mechanism) -> bool:
-    """Return whether a format is the one made for a mechanism; the native file of a sheet is its mechanism."""
-    return suffix == ".json" or (suffix == ".fold" and isinstance(mechanism, Sheet))
 
 
 def _read_back(written: Path, suffix: str, lost: tuple[str, ...]) -> Mechanism:
@@ -288,15 +272,7 @@ def _read_back(written: Path, suffix: str, lost: tuple[str, ...]) -> Mechanism:
 
 
 def _because(lost: tuple[str, ...]) -> str:
-    return f", for it cannot hold {', '.join(lost)}" if lost else ""
-
-
-def _check_type(again: Mechanism, suffix: str, mechanism: Mechanism, lost: tuple[str, ...]) -> None:
-    """Refuse a mechanism of another type than the written one."""
-    change = change_of_type(mechanism, again)
-    if change is not None:
-        wrong = f"a {suffix} file would be of another type: {change}{_because(lost)}"
-        raise UnsolvableError(f"{wrong}; try --lossy (in Python lossy=True)")
+    return f"; it cannot hold {', '.join(lost)}" if lost else ""
 
 
 def _reader(path: Path, legend: Legend) -> Reader:
@@ -305,7 +281,7 @@ def _reader(path: Path, legend: Legend) -> Reader:
     if reader is not None and legend != UNSTATED:
         if suffix not in _DRAWINGS:
             raise FileError(path, "", "the file has no colours or layers", "an .svg or .dxf file")
-        return _one_of(partial(_DRAWINGS[suffix], legend=legend))
+        return _with_legend(suffix, legend)
     if reader is None and path.is_dir():
         raise OpenError(path, "", "a directory", "a file")
     if reader is None and not path.exists():
@@ -315,28 +291,13 @@ def _reader(path: Path, legend: Legend) -> Reader:
     return reader
 
 
-def _read_cp(path: Path) -> Mechanism:
-    from graphs.files.patterns.lines import sheet_from_cp  # tracing loads shapely, which takes time
+def _of_pattern(file: str, name: str) -> Callable[..., Any]:
+    """Return a function of `graphs.files.patterns`, imported when it is called: shapely takes time to load."""
 
-    return sheet_from_cp(path)
+    def function(*arguments: object) -> Any:
+        return getattr(import_module(f"graphs.files.patterns.{file}"), name)(*arguments)
 
-
-def _read_opx(path: Path) -> Mechanism:
-    from graphs.files.patterns.lines import sheet_from_opx
-
-    return sheet_from_opx(path)
-
-
-def _read_dxf(path: Path, legend: Legend = UNSTATED) -> Mechanism:
-    from graphs.files.patterns.dxf import sheet_from_dxf
-
-    return sheet_from_dxf(path, legend)
-
-
-def _read_svg(path: Path, legend: Legend = UNSTATED) -> Mechanism:
-    from graphs.files.patterns.svg import sheet_from_svg
-
-    return sheet_from_svg(path, legend)
+    return function
 
 
 def _read_graph6(path: Path) -> Iterator[tuple[str, Mechanism]]:
@@ -349,16 +310,22 @@ def _one_of(read_one: Callable[[Path], Mechanism]) -> Reader:
     return lambda path: iter([("", read_one(path))])
 
 
-_DRAWINGS: dict[str, Callable[..., Mechanism]] = {".svg": _read_svg, ".dxf": _read_dxf}
+def _with_legend(suffix: str, legend: Legend) -> Reader:
+    return _one_of(lambda path: _DRAWINGS[suffix](path, legend))
+
+
+_DRAWINGS: dict[str, Callable[[Path, Legend], Mechanism]] = {
+    ".svg": _of_pattern("svg", "sheet_from_svg"),
+    ".dxf": _of_pattern("dxf", "sheet_from_dxf"),
+}
 """Readers that take a legend too: the look of a line says what it is."""
 
 READERS: dict[str, Reader] = {
     ".json": _one_of(lambda path: from_document(load_json(path), path)),
     ".fold": _one_of(read_fold),
-    ".svg": _one_of(_read_svg),
-    ".cp": _one_of(_read_cp),
-    ".opx": _one_of(_read_opx),
-    ".dxf": _one_of(_read_dxf),
+    **{suffix: _with_legend(suffix, UNSTATED) for suffix in _DRAWINGS},
+    ".cp": _one_of(_of_pattern("lines", "sheet_from_cp")),
+    ".opx": _one_of(_of_pattern("lines", "sheet_from_opx")),
     ".obj": _one_of(sheet_from_obj),
     ".g6": _read_graph6,
     ".s6": _read_graph6,
@@ -372,28 +339,14 @@ def _json_text(mechanism: Mechanism) -> str:
     return dumps(to_sc(mechanism) if isinstance(mechanism, Sheet) else mechanism)
 
 
-def _cp_text(mechanism: Mechanism) -> str:
-    from graphs.files.patterns.lines import cp_text
-
-    return cp_text(to_sheet(mechanism))
-
-
-def _dxf_text(mechanism: Mechanism) -> str:
-    from graphs.files.patterns.dxf import dxf_text
-
-    return dxf_text(to_sheet(mechanism))
-
-
-def _svg_text(mechanism: Mechanism) -> str:
-    from graphs.files.patterns.svg import svg_text
-
-    return svg_text(to_sheet(mechanism))
-
-
 def _graphml_text(mechanism: Mechanism) -> str:
     if isinstance(mechanism, JointedLinkage):
         return graphml_text(mechanism.chain, mechanism.kinds)
     return graphml_text(to_sc(mechanism))
+
+
+def _of_sheet(text_of: Callable[[Sheet], str]) -> Callable[[Mechanism], str]:
+    return lambda mechanism: text_of(to_sheet(mechanism))
 
 
 def _text_format(
@@ -403,16 +356,16 @@ def _text_format(
 
 
 WRITERS = formats_by_suffix(
-    _text_format(".cp", "crease pattern", _cp_text, lost_as_cp),
-    _text_format(".dxf", "crease pattern, DXF R12", _dxf_text, lost_as_dxf),
-    _text_format(".edges", "list of edges", lambda m: edge_list_text(to_sc(m)), lost_as_bare_graph),
-    _text_format(".fold", "crease pattern, FOLD", lambda m: fold_text(to_sheet(m)), lost_as_fold),
-    _text_format(".g6", "graph6", lambda m: graph6_text(to_sc(m), sparse=False), lost_as_nameless_graph),
-    _text_format(".graphml", "GraphML", _graphml_text, lost_as_graphml),
-    _text_format(".json", "native", _json_text, lost_as_json),
-    _text_format(".obj", "surface, OBJ", lambda m: obj_text(to_sheet(m)), lost_as_obj),
-    _text_format(".s6", "sparse6", lambda m: graph6_text(to_sc(m), sparse=True), lost_as_nameless_graph),
-    _text_format(".svg", "crease pattern, SVG", _svg_text, lost_as_svg),
-    _text_format(".txt", "list of edges", lambda m: edge_list_text(to_sc(m)), lost_as_bare_graph),
+    _text_format(".cp", "crease pattern", _of_sheet(_of_pattern("lines", "cp_text")), losses.lost_as_cp),
+    _text_format(".dxf", "crease pattern, DXF R12", _of_sheet(_of_pattern("dxf", "dxf_text")), losses.lost_as_dxf),
+    _text_format(".edges", "list of edges", lambda m: edge_list_text(to_sc(m)), losses.lost_as_bare_graph),
+    _text_format(".fold", "crease pattern, FOLD", _of_sheet(fold_text), losses.lost_as_fold),
+    _text_format(".g6", "graph6", lambda m: graph6_text(to_sc(m), sparse=False), losses.lost_as_nameless_graph),
+    _text_format(".graphml", "GraphML", _graphml_text, losses.lost_as_graphml),
+    _text_format(".json", "native", _json_text, losses.lost_as_json),
+    _text_format(".obj", "surface, OBJ", _of_sheet(obj_text), losses.lost_as_obj),
+    _text_format(".s6", "sparse6", lambda m: graph6_text(to_sc(m), sparse=True), losses.lost_as_nameless_graph),
+    _text_format(".svg", "crease pattern, SVG", _of_sheet(_of_pattern("svg", "svg_text")), losses.lost_as_svg),
+    _text_format(".txt", "list of edges", lambda m: edge_list_text(to_sc(m)), losses.lost_as_bare_graph),
 )
 """Suffix to the format in which mechanisms are written."""

@@ -139,13 +139,14 @@ def _lost_as_sheet(mechanism: Mechanism) -> Lost:
     lost: list[str] = []
     if isinstance(mechanism, SCDGraph):
         lost += _some(mechanism.counts.implicit_centres, "implicit centre")
-    lost += _some(_loops_of(sc, Centre.INFINITE), "centre at infinity", "centres at infinity")
+    loops: tuple[Loop, ...] = (*sc.loops, *sc.closing)
+    infinite = sum(loop.centre is Centre.INFINITE for loop in loops)
+    lost += _some(infinite, "centre at infinity", "centres at infinity")
     if sc.ground is not None:
         lost.append("the ground link")
     lost += _places_of_joints(mechanism)
     if isinstance(mechanism, JointedLinkage):
         lost.append("the kinds of its joints")
-    loops: tuple[Loop, ...] = (*sc.loops, *sc.closing)
     lost += _some(sum(loop.at is not None for loop in loops), "named centre")
     lost += _some(sum(loop.name is not None for loop in loops), "name of a loop", "names of loops")
     return (*lost, *_names(sc))
@@ -158,7 +159,7 @@ def _places_of_joints(mechanism: Mechanism) -> Lost:
 
 
 def _model_as_sheet(model: PolyhedronModel) -> Lost:
-    lost = [
+    return (
         *_some(len(model.centres), "remote centre"),
         *_some(len(model.on_line), "point on a line", "points on lines"),
         *_some(len(model.on_plane), "point on a plane", "points on planes"),
@@ -166,12 +167,7 @@ def _model_as_sheet(model: PolyhedronModel) -> Lost:
         *([] if model.ground is None else ["the ground"]),
         *_some(0 if is_count(model.nodes) else len(model), "name of a vertex", "names of vertices"),
         *_some(0 if is_count(model.links) else len(model.links), "name of a link", "names of links"),
-    ]
-    return tuple(lost)
-
-
-def _loops_of(sc: SCGraph, centre: Centre) -> int:
-    return sum(loop.centre is centre for loop in (*sc.loops, *sc.closing))
+    )
 
 
 def _names(sc: SCGraph) -> Lost:
@@ -217,9 +213,8 @@ def _shapes(sheet: Sheet) -> Lost:
 
 def _angles(sheet: Sheet) -> Lost:
     pairs = zip(sheet.assignments, sheet.fold_angles or (), strict=False)
-    return _some(
-        sum(angle is not None and _is_informative(letter, angle) for letter, angle in pairs), "fold angle"
-    )
+    number = sum(angle is not None and _is_informative(letter, angle) for letter, angle in pairs)
+    return _some(number, "fold angle")
 
 
 def _is_informative(letter: str, angle: float) -> bool:

@@ -9,7 +9,7 @@ from math import degrees, inf, radians
 from pathlib import Path
 from typing import Any
 
-from graphs.errors import FileError, InvariantError, UnsolvableError, shown
+from graphs.errors import FileError, UnsolvableError, shown
 from graphs.files.text import Checker, json_text, load_json
 from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, kind_named
 from graphs.loops.loop import Centre, Loop
@@ -466,10 +466,7 @@ def _bare(item: Any) -> Any:
 
 
 def _kind(value: Any, place: str, check: Checker) -> JointKind:
-    try:
-        return kind_named(check.text(value, place))
-    except InvariantError as error:
-        raise FileError(check.path, place, error.offender, error.expected) from None
+    return check.build(lambda: kind_named(check.text(value, place)), place=place)
 
 
 def _place(item: Mapping[str, Any], place: str, check: Checker) -> JointPlace:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Generic, TypeAlias, TypeVar
 
 from graphs.errors import FileError, UnsolvableError
-from graphs.files.atomic import Beside, check_place
+from graphs.files.atomic import check_place, write_chunks
 
 Content = TypeVar("Content")
 Lost: TypeAlias = tuple[str, ...]
@@ -18,10 +18,6 @@ Lost: TypeAlias = tuple[str, ...]
 
 _EXTRAS = {"matplotlib": "draw", "reportlab": "draw", "pyarrow": "parquet"}
 """Package to the extra that installs it."""
-
-
-def _nothing(_content: object) -> Lost:
-    return ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +30,7 @@ class Format(Generic[Content]):
     suffix: str
     name: str
     to_bytes: Callable[[Content], bytes]
-    lost: Callable[[Content], Lost] = _nothing
+    lost: Callable[[Content], Lost] = lambda _content: ()
     needs: str = ""
 
 
@@ -101,15 +97,5 @@ def write_as(content: Content, path: str | Path, formats: Formats[Content], *, f
     """Write content in the format of the suffix, whole or not at all; return what the file does not hold."""
     check_writable(path, formats, force=force)
     format_ = format_of(path, formats)
-    write_bytes(Path(path), format_.to_bytes(content), force=force)
+    write_chunks(Path(path), [format_.to_bytes(content)], force=force)
     return format_.lost(content)
-
-
-def write_bytes(path: Path, data: bytes, *, force: bool = False) -> None:
-    """Write a file beside its place and move it there, as `graphs.files.atomic.write_text` does."""
-    beside = Beside(path, force=force)
-    try:
-        beside.write(data)
-        beside.commit()
-    finally:
-        beside.discard()

@@ -12,7 +12,6 @@ Where bliss is not installed, `graphs.identity.leaves` finds the same numbers, m
 """
 
 from collections.abc import Collection, Hashable, Iterable, Sequence
-from io import BytesIO
 from typing import Any
 
 import networkx as nx
@@ -156,12 +155,9 @@ def chain_id(graph: nx.Graph) -> str:
     named.add_nodes_from(range(len(number)))
     named.add_edges_from(sorted(sorted((number[a], number[b])) for a, b in graph.edges()))
     simple = nx.Graph(named)
-    if simple.number_of_edges() == named.number_of_edges():
-        line: bytes = nx.to_graph6_bytes(simple, header=False)
-        return _PREFIX + line.decode("ascii").rstrip("\n")
-    text = BytesIO()
-    nx.write_sparse6(named, text, header=False)
-    return _PREFIX + text.getvalue().decode("ascii").rstrip("\n")
+    several = simple.number_of_edges() < named.number_of_edges()
+    line: bytes = nx.to_sparse6_bytes(named, header=False) if several else nx.to_graph6_bytes(simple, header=False)
+    return _PREFIX + line.decode("ascii").rstrip("\n")
 
 
 def chain_from_id(code: str) -> nx.Graph:
@@ -184,12 +180,13 @@ def chain_from_id(code: str) -> nx.Graph:
     """
     text = code.removeprefix(_PREFIX)
     if text == code:
-        raise InvariantError("id", f"the id {code!r}", f"one that begins with {_PREFIX}")
+        raise InvariantError("id", f"{shown(code)} is not the id of a chain", f"an id that begins with {_PREFIX}")
     try:
         data = text.encode("ascii")
         return nx.from_sparse6_bytes(data) if text.startswith(":") else nx.from_graph6_bytes(data)
     except (nx.NetworkXError, ValueError, IndexError):
-        raise InvariantError("id", f"the id {shown(code)}", "graph6 or sparse6 after k1:") from None
+        wrong = f"{shown(code)} is not the id of a chain"
+        raise InvariantError("id", wrong, "graph6 or sparse6 after k1:") from None
 
 
 def class_code(sc: SCGraph, marked: Collection[LinkId] = ()) -> tuple[Any, ...]:

@@ -172,7 +172,8 @@ def symbols_of(code: str) -> tuple[list[int], str]:
     """Return the symbols and the labels of an id; raises `InvariantError` if it is not an id."""
     text, _, labels = code.removeprefix(_PREFIX).partition(";")
     if not code.startswith(_PREFIX):
-        raise InvariantError("id", f"the id {shown(code)}", f"one that begins with {_PREFIX}")
+        wrong = f"{shown(code)} is not the id of a drawing"
+        raise InvariantError("id", wrong, f"an id that begins with {_PREFIX}")
     symbols = []
     for link in text.split("."):
         for side in link.split(",") if any(c.isdigit() for c in text) else link:
@@ -239,12 +240,8 @@ def _loops(
     code: str, labels: str, rotation: Rotation, faces: Sequence[Any], left_of: Mapping[tuple[JointId, LinkId], int]
 ) -> list[Loop]:
     """Return the loops of the bounded faces, in the order in which an id meets them."""
-    met = list(
-        dict.fromkeys(
-            left_of[side, link] for link, sides in rotation.items() for side in sides if side is not None
-        )
-    )
-    bounded = met[1:]
+    met = (left_of[side, link] for link, sides in rotation.items() for side in sides if side is not None)
+    _, *bounded = dict.fromkeys(met)
     kinds = {letter: centre for centre, letter in _LABELS.items()}
     if labels and (len(labels) != len(bounded) or not set(labels) <= set(kinds)):
         raise InvariantError("id", f"the labels {shown(labels)} of {shown(code)}", f"{len(bounded)} of f, i, s")

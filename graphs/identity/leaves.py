@@ -64,10 +64,7 @@ class _Cells:
 
     def wait(self, place: int, size: int) -> None:
         """Let a cell wait: before all others if it is one vertex, else behind them."""
-        if size == 1:
-            self.waiting.appendleft(place)
-        else:
-            self.waiting.append(place)
+        (self.waiting.appendleft if size == 1 else self.waiting.append)(place)
 
     def single_out(self, place: int, vertex: int) -> None:
         """Give a vertex of a cell a cell of its own, behind the others; what is one vertex now waits."""

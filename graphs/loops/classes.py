@@ -77,8 +77,6 @@ class Merger:
     def check_kinds(self) -> None:
         """Refuse a finite and an infinite class that share two joints, once no more can be merged."""
         planar = {joint: root for root in self.members if not self._is_finite(root) for joint in self.joints[root]}
-        if not planar:
-            return
         for root in filter(self._is_finite, self.members):
             for other, number in Counter(planar[joint] for joint in self.joints[root] if joint in planar).items():
                 if number > 1:
@@ -98,13 +96,8 @@ class Merger:
         )
 
 
-def merge_spherical(merger: Merger) -> None:
-    """Merge classes with a finite centre that share two joints between them, in place, until no two do."""
-    _TwoInCommon(merger).close()
-
-
 class _TwoInCommon:
-    """Finds classes that share two joints, while classes merge.
+    """Finds classes with a finite centre that share two joints, while classes merge.
 
     Only joints of several classes count, and only classes with two such joints. Two joints that few classes pass
     are found by pairs of classes with what they share. A crowded joint has a table from every other joint to the
@@ -232,7 +225,7 @@ def centre_classes(loops: Sequence[Loop]) -> tuple[CentreClass, ...]:
     merged = Merger(loops)
     merged.merge_named()
     merged.merge_planar()
-    merge_spherical(merged)
+    _TwoInCommon(merged).close()
     merged.check_kinds()
     members = merged.members
     order = sorted(members, key=lambda root: min(members[root]))

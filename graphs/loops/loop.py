@@ -187,13 +187,8 @@ def dependent_loop(cycles: Sequence[Sequence[JointId]]) -> int | None:
     cover = Counter(joint for index in rest for joint in cycles[index])
     if set(cover.values()) == {2}:
         return rest[-1]  # a closed surface: the sum of all that is left vanishes
-    basis: dict[int, int] = {}
-    for index, row in zip(rest, _bit_rows([cycles[i] for i in rest]), strict=True):
-        left = _reduce(row, basis)
-        if not left:
-            return index
-        basis[left.bit_length()] = left
-    return None
+    independent = _are_independent([cycles[i] for i in rest])
+    return next((index for index, one in zip(rest, independent, strict=True) if not one), None)
 
 
 def split_dependent(cycles: Sequence[Sequence[JointId]]) -> tuple[list[int], list[int]]:
@@ -214,15 +209,8 @@ def added_independent(
 
     The cycles may depend on each other.
     """
-    basis: dict[int, int] = {}
-    added = []
-    for index, row in enumerate(_bit_rows([*cycles, *candidates])):
-        left = _reduce(row, basis)
-        if left:
-            basis[left.bit_length()] = left
-            if index >= len(cycles):
-                added.append(index - len(cycles))
-    return added
+    independent = list(_are_independent([*cycles, *candidates]))
+    return [index for index, one in enumerate(independent[len(cycles) :]) if one]
 
 
 def in_span_of(cycle: Collection[JointId], cycles: Sequence[Collection[JointId]]) -> tuple[int, ...] | None:
@@ -327,11 +315,12 @@ def _bit_rows(cycles: Sequence[Collection[JointId]]) -> list[int]:
     return [sum(1 << place.setdefault(joint, len(place)) for joint in cycle) for cycle in cycles]
 
 
-def _reduce(row: int, basis: Mapping[int, int]) -> int:
-    """Subtract basis rows (by leading bit) from a row until its leading bit is new, or nothing is left."""
-    while row:
-        pivot = basis.get(row.bit_length())
-        if pivot is None:
-            return row
-        row ^= pivot
-    return 0
+def _are_independent(cycles: Sequence[Collection[JointId]]) -> Iterator[bool]:
+    """Yield for each cycle whether it is no GF(2) sum of those before it."""
+    basis: dict[int, int] = {}  # by leading bit; a row is reduced until its own is new, or nothing is left
+    for left in _bit_rows(cycles):
+        while pivot := basis.get(left.bit_length()):
+            left ^= pivot  # noqa: PLW2901 - one step of the reduction
+        if left:
+            basis[left.bit_length()] = left
+        yield left > 0

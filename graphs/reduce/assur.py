@@ -82,7 +82,7 @@ class AssurReduction(Printed):
         for number, group in enumerate(self.groups, start=1):
             words = f"group {number}: links {_listed(group.links)}, joints {_listed(group.joints)}"
             words += f", input {_listed(group.inputs)}" if group.inputs else ""
-            lines.append(words + ("   (taken off)" if group.links in removed else ""))
+            lines.append(words + ("   (removed)" if group.links in removed else ""))
         return lines
 
     def __repr__(self) -> str:

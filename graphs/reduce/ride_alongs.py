@@ -89,7 +89,10 @@ def _choices(work: WorkingGraph, addenda: Sequence[TakenAddendum], protected: Co
 
 def _most_general(work: WorkingGraph, choice: _Choice) -> _Choice:
     """Keep the four-bars of the most general kind: of one class, unless several shared classes are equal."""
-    kinds = {which: (_is_planar(work, which), _is_shared(work, which)) for which in choice.classes}
+    classes = work.original.centre_classes()
+    # a class is shared if it has loops in several blocks, which a file says by naming their centre
+    blocks = {which: {work.block_of[joint] for joint in classes[which].joints} for which in choice.classes}
+    kinds = {which: (_is_planar(work, which), len(blocks[which]) > 1) for which in choice.classes}
     best = min(kinds.values())
     there = [one for one in choice.there if kinds[one.centre_class] == best]
     _, shared = best
@@ -98,11 +101,6 @@ def _most_general(work: WorkingGraph, choice: _Choice) -> _Choice:
 
 def _is_planar(work: WorkingGraph, which: int) -> bool:
     return work.original.centre_classes()[which].centre is Centre.INFINITE
-
-
-def _is_shared(work: WorkingGraph, which: int) -> bool:
-    """Return whether a class has loops in several blocks, which a file says by naming their centre."""
-    return len({work.block_of[joint] for joint in work.original.centre_classes()[which].joints}) > 1
 
 
 def _labels(work: WorkingGraph, choices: Sequence[_Choice], protected: Collection[LinkId]) -> Mapping[int, int]:

@@ -5,7 +5,7 @@ Loops are sets of joints here, so that changing a long loop costs as much as wha
 """
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -69,7 +69,7 @@ class WorkingGraph:
         self.loops_in_block: list[int] = []
         self._find_blocks(sc)
 
-    def _is_full(self, loops: Sequence[int], joints: Iterable[JointId]) -> bool:
+    def _is_full(self, loops: Sequence[int], joints: Collection[JointId]) -> bool:
         """Whether every cycle over the joints of a class is a sum of its loops."""
         if len(loops) == 1:
             return True
@@ -77,8 +77,7 @@ class WorkingGraph:
             return False
         part = nx.Graph()
         part.add_edges_from(self.joints[joint] for joint in joints)
-        number = sum(1 for _ in joints)
-        return bool(number - len(part) + nx.number_connected_components(part) == len(loops))
+        return bool(len(joints) - len(part) + nx.number_connected_components(part) == len(loops))
 
     def _find_blocks(self, graph: nx.MultiGraph) -> None:
         """Number the blocks of a graph, and the independent cycles of each."""
@@ -91,8 +90,6 @@ class WorkingGraph:
                     self.block_of[joint] = len(self.loops_in_block)
                     number += 1
             self.loops_in_block.append(number - len(links) + 1)
-
-    # ---- questions ----------------------------------------------------------------------------------
 
     def other_end(self, joint: JointId, link: LinkId) -> LinkId:
         """Return the link on the other side of a joint."""
@@ -145,8 +142,6 @@ class WorkingGraph:
             return None
         return min((members[i] for i in summands if members[i] in passing), key=lambda i: (i in self.closing, i))
 
-    # ---- changes ------------------------------------------------------------------------------------
-
     def remove(
         self,
         path: RideAlongPath,
@@ -156,14 +151,9 @@ class WorkingGraph:
     ) -> Removal:
         """Take out the two links within a path; ``deltas`` says how the other loops through it change."""
         _, before, u, middle, v, after, _ = path
-        removal = Removal(
-            (u, v),
-            (before, middle, after),
-            tuple(self.joints[joint] for joint in (before, middle, after)),
-            dropped,
-            tuple(deltas),
-            reopened,
-        )
+        joints = before, middle, after
+        ends = tuple(self.joints[joint] for joint in joints)
+        removal = Removal((u, v), joints, ends, dropped, tuple(deltas), reopened)
         self.repeat(removal)
         return removal
 
@@ -218,8 +208,6 @@ class WorkingGraph:
             self.through[joint].discard(index)
         if index in self.class_of:
             self._passing[joint, self.class_of[index]] += 1 if passes else -1
-
-    # ---- result -------------------------------------------------------------------------------------
 
     def kept_loops(self) -> tuple[list[int], list[int]]:
         """Return the independent loops that are left, and the closing ones that are none of these."""
@@ -334,13 +322,8 @@ def _cycles(work: WorkingGraph, path: RideAlongPath) -> list[_Cycle]:
 
 def _needs_elimination(work: WorkingGraph, middle: JointId, cycles: list[_Cycle]) -> bool:
     """Return whether only an elimination can decide if the two links of a joint are a ride-along."""
-    for _, cycle in cycles:
-        known, member = work.member_at_once(cycle, middle)
-        if not known:
-            return True
-        if member is not None:
-            return False
-    return False
+    answers = (work.member_at_once(cycle, middle) for _, cycle in cycles)
+    return next((not known for known, member in answers if not known or member is not None), False)
 
 
 def _take_ride_along(work: WorkingGraph, path: RideAlongPath, cycles: list[_Cycle]) -> TakenAddendum | None:

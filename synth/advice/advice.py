@@ -1,10 +1,10 @@
 """Joints to lock or panels to crease for a number of freedoms. Theory: docs/theory/advice.md."""
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from itertools import islice
 from math import inf, isfinite
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -68,15 +68,7 @@ class Locked:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
-        return {
-            "joints": list(self.joints),
-            "weight": self.weight,
-            "flaps": list(self.flaps),
-            "still": list(self.still),
-            "play": self.play,
-            "freedoms": self.freedoms,
-            "left_out": self.left_out,
-        }
+        return {name: list(value) if isinstance(value, tuple) else value for name, value in asdict(self).items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,7 +176,7 @@ class Advice(Printed):
                 f"{one.weight:g}",
                 _names(one.flaps),
                 _names(one.still),
-                _play(one.play),
+                f"> {_LOOSE:.0f}" if one.play > _LOOSE else f"{one.play:.3g}",
                 _number(one.freedoms),
                 _number(one.left_out),
             )
@@ -236,10 +228,6 @@ def _number(number: int | None) -> str:
     return "?" if number is None else str(number)
 
 
-def _play(play: float) -> str:
-    return f"> {_LOOSE:.0f}" if play > _LOOSE else f"{play:.3g}"
-
-
 _LIMIT = 20
 _WORK = 2_000_000_000
 """Numbers of matrices that a search goes through, be they few large or many small ones: some seconds."""
@@ -259,14 +247,6 @@ class _Protected:
     links: Collection[LinkId] = ()
     flaps: bool = False
     weights: Mapping[JointId, float] = field(default_factory=dict)
-
-
-class _Locks(NamedTuple):
-    """Sets of joints to lock, whether there are or may be more, and whether the search was ended."""
-
-    sets: tuple[Locked, ...]
-    more: bool
-    used_up: bool
 
 
 def advise(
@@ -339,30 +319,29 @@ def advise(
     pose = general_pose(at, branch)
     _check_names(pose, protected)
     every = list(pose.linkage.graph.joints)
-    flapping = tuple(every[place] for place in pose.flaps)
-    if freedoms <= pose.freedoms:
-        answer = _locks(pose, pose.freedoms - freedoms, protected, limit)
-        locks = tuple(_with_left_out(lock, sheet) for lock in answer.sets) if leave_out else answer.sets
-        return Advice(
-            at,
-            pose.freedoms,
-            freedoms,
-            pose.branch,
-            flapping,
-            locks,
-            more=answer.more,
-            used_up=answer.used_up,
-        )
-    largest = freedoms - pose.freedoms + _ONE_MORE if size is None else size
-    _check_number("size", largest, freedoms - pose.freedoms)
-    return _creased(at, pose, freedoms, protected, (largest, limit))
+    answer = Advice(at, pose.freedoms, freedoms, pose.branch, tuple(every[place] for place in pose.flaps))
+    if freedoms > pose.freedoms:
+        largest = freedoms - pose.freedoms + _ONE_MORE if size is None else size
+        _check_number("size", largest, freedoms - pose.freedoms)
+        return _with_creases(answer, pose, protected, (largest, limit))
+    if freedoms < pose.freedoms:
+        answer = _with_locks(answer, pose, protected, limit)
+    if leave_out:
+        answer = replace(answer, locks=tuple(_with_left_out(lock, sheet) for lock in answer.locks))
+    return answer
 
 
-def _locks(pose: GeneralPose, size: int, protected: _Protected, limit: int) -> _Locks:
-    """Return the cheapest sets of joints to lock."""
-    if not size:
-        return _Locks((), False, False)
-    allowed = _free_joints(pose, protected)
+def _with_locks(answer: Advice, pose: GeneralPose, protected: _Protected, limit: int) -> Advice:
+    """Return the answer with the cheapest sets of joints to lock."""
+    size = pose.freedoms - answer.wanted
+    flaps = set(pose.flaps)
+    allowed = [
+        place
+        for place, (joint, ends) in enumerate(pose.linkage.graph.joints.items())
+        if joint not in protected.joints
+        and not (protected.flaps and place in flaps)
+        and not set(ends) & set(protected.links)
+    ]
     most = held(pose.rates, allowed)
     if most < size:
         least = pose.freedoms - most
@@ -370,7 +349,6 @@ def _locks(pose: GeneralPose, size: int, protected: _Protected, limit: int) -> _
             f"at least {least} of {numbered(pose.freedoms, 'degree of freedom', 'degrees of freedom')} remain: "
             f"locking all joints that are not protected removes {most}, and {size} are to be removed"
         )
-    flaps = set(pose.flaps)
     moves = np.round((pose.rates**2).sum(axis=1), _DIGITS)
     costs: list[Cost] = [
         (protected.weights.get(joint, 1.0), float(place in flaps), -float(moves[place]))
@@ -378,8 +356,9 @@ def _locks(pose: GeneralPose, size: int, protected: _Protected, limit: int) -> _
     ]
     allowance = _allowance(pose.rates)
     first = list(islice(cheapest_sets(pose.rates, size, costs, allowed, allowance), limit + 1))
-    more = len(first) > limit or allowance.left < 0
-    return _Locks(tuple(_locked(pose, places, costs) for places in first[:limit]), more, allowance.left < 0)
+    locks = tuple(_locked(pose, places, costs) for places in first[:limit])
+    used_up = allowance.left < 0
+    return replace(answer, locks=locks, more=len(first) > limit or used_up, used_up=used_up)
 
 
 def _allowance(matrix: Floats) -> Allowance:
@@ -395,16 +374,6 @@ def _with_left_out(lock: Locked, sheet: Sheet | None) -> Locked:
     return replace(lock, left_out=freedoms_when_left_out(sheet, joints))
 
 
-def _free_joints(pose: GeneralPose, protected: _Protected) -> list[int]:
-    """Return the places of the joints that may be locked."""
-    flaps = set(pose.flaps) if protected.flaps else set()
-    return [
-        place
-        for place, (joint, ends) in enumerate(pose.linkage.graph.joints.items())
-        if joint not in protected.joints and place not in flaps and not set(ends) & set(protected.links)
-    ]
-
-
 def _locked(pose: GeneralPose, places: tuple[int, ...], costs: Sequence[Cost]) -> Locked:
     """Return a set of joints with what comes of locking them, its freedoms by a rank."""
     every = list(pose.linkage.graph.joints)
@@ -412,28 +381,22 @@ def _locked(pose: GeneralPose, places: tuple[int, ...], costs: Sequence[Cost]) -
     parts = split(pose.rates[list(places)])
     still = np.abs(pose.rates @ parts.right[len(places) :].T).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
     flaps = set(pose.flaps)
+    matrix: Floats = ClosureEquations(pose.linkage).at(pose.linkage.angles)[1].toarray()
+    others = np.delete(matrix, list(places), axis=1)
+    rank = spectrum(others, DOUBLE.derivative).rank
     return Locked(
         tuple(every[place] for place in places),
         sum(costs[place][0] for place in places),
         tuple(every[place] for place in places if place in flaps),
         tuple(joint for place, joint in enumerate(every) if place not in chosen and still[place]),
         float(1.0 / parts.values[-1]) if parts.values[-1] else inf,
-        _freedoms_without(pose, places),
+        None if rank is None else others.shape[1] - rank,
     )
 
 
-def _freedoms_without(pose: GeneralPose, places: tuple[int, ...]) -> int | None:
-    """Return the freedoms with joints locked: those left, less the rank of their closure equations."""
-    matrix: Floats = ClosureEquations(pose.linkage).at(pose.linkage.angles)[1].toarray()
-    others = np.delete(matrix, list(places), axis=1)
-    rank = spectrum(others, DOUBLE.derivative).rank
-    return None if rank is None else others.shape[1] - rank
-
-
-def _creased(
-    at: Configuration, pose: GeneralPose, freedoms: int, protected: _Protected, most: tuple[int, int]
-) -> Advice:
-    """Return the smallest sets of diagonals that bring the freedoms wanted."""
+def _with_creases(answer: Advice, pose: GeneralPose, protected: _Protected, most: tuple[int, int]) -> Advice:
+    """Return the answer with the smallest sets of diagonals that bring the freedoms wanted."""
+    at, freedoms = answer.configuration, answer.wanted
     if pose.sheet is None or not isinstance(at, SheetConfiguration):
         raise UnsolvableError(
             f"{numbered(pose.freedoms, 'degree of freedom', 'degrees of freedom')}, and {freedoms} required: "
@@ -454,13 +417,8 @@ def _creased(
         )
         for places in search.sets
     )
-    every = list(pose.linkage.graph.joints)
-    return Advice(
-        at,
-        pose.freedoms,
-        freedoms,
-        pose.branch,
-        tuple(every[place] for place in pose.flaps),
+    return replace(
+        answer,
         creases=creases,
         more=search.more,
         used_up=search.used_up,

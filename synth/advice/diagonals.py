@@ -113,7 +113,7 @@ def _points(pose: GeneralPose) -> Floats:
 
 def _column(pose: GeneralPose, diagonal: Diagonal) -> Floats:
     """Return the derivatives of all loops, six equations each, by the fold along a diagonal: float[6 L]."""
-    beyond = _beyond(pose, diagonal)
+    beyond = _joints_at(pose, _sides(pose, diagonal)[0])
     start, end = _points(pose)[list(diagonal.ends)]
     twist = _twist(start, (end - start) / float(np.linalg.norm(end - start)))
     return np.concatenate([np.zeros(0), *(_passes(pose.linkage, loop, diagonal.panel, beyond) * twist
@@ -129,11 +129,6 @@ def _passes(linkage: PosedLinkage, loop: PosedLoop, panel: LinkId, beyond: Colle
         if pairs[joint][1 if sign > 0 else 0] == panel:
             times += (after in beyond) - (joint in beyond)
     return times
-
-
-def _beyond(pose: GeneralPose, diagonal: Diagonal) -> set[int]:
-    """Return the places of the joints of a panel that are between the two corners of a diagonal."""
-    return _joints_at(pose, _sides(pose, diagonal)[0])
 
 
 def _parts_a_hinge(pose: GeneralPose, diagonal: Diagonal) -> bool:
@@ -208,12 +203,8 @@ class Candidates:
     loads: Floats
     allowance: Allowance
 
-    def dependent(self, size: int, rates: int) -> Iterator[tuple[int, ...]]:
-        """Yield the sets of a size, no two crossing, that bring so many rates or more."""
-        yield from self._grown((), self.loads, size - rates, size)
-
-    def _grown(self, chosen: tuple[int, ...], loads: Floats, rank: int, size: int) -> Iterator[tuple[int, ...]]:
-        """Yield sets that begin with some; loads across theirs are left, and so much rank at most."""
+    def grown(self, chosen: tuple[int, ...], loads: Floats, rank: int, size: int) -> Iterator[tuple[int, ...]]:
+        """Yield sets without crossings that begin with some; loads across theirs are left, and rank at most."""
         if len(chosen) == size:
             yield chosen
             return
@@ -225,10 +216,10 @@ class Candidates:
             load = loads[:, place]
             length = float(np.linalg.norm(load))
             if length <= DOUBLE.zero:
-                yield from self._grown((*chosen, place), loads, rank, size)
+                yield from self.grown((*chosen, place), loads, rank, size)
             elif rank:
                 along = load / length
-                yield from self._grown((*chosen, place), loads - np.outer(along, along @ loads), rank - 1, size)
+                yield from self.grown((*chosen, place), loads - np.outer(along, along @ loads), rank - 1, size)
 
 
 class Bounds(NamedTuple):
@@ -261,7 +252,8 @@ def smallest_sets(sheet: Sheet, candidates: Candidates, bounds: Bounds, limit: i
     for size in range(bounds.wanted - bounds.freedoms, bounds.largest + 1):
         sets: list[tuple[int, ...]] = []
         more = False
-        for folded, places in enumerate(candidates.dependent(size, bounds.wanted - bounds.rates)):
+        rank = size - (bounds.wanted - bounds.rates)  # more would leave fewer rates than are wanted
+        for folded, places in enumerate(candidates.grown((), candidates.loads, rank, size)):
             if len(sets) == limit or folded == MOST_FOLDED:
                 more = True
                 break

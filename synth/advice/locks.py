@@ -12,6 +12,7 @@ bases of its truncation: there the greedy choice is the cheapest (Edmonds 1971).
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
+from itertools import count
 from math import degrees
 
 import numpy as np
@@ -87,12 +88,10 @@ def general_pose(configuration: Configuration, branch: int | str | None = None) 
             "advice requires the motion branches, and for so large a mechanism not all are looked for"
         )
     sheet = configuration if isinstance(configuration, SheetConfiguration) else None
-    here: tuple[Sheet | None, SheetMechanism | None] = (None, None)
-    if sheet is not None:
-        here = sheet.sheet, sheet.mechanism
+    here = (None, None) if sheet is None else (sheet.sheet, sheet.mechanism)
     if branches.no_motion == "proved":
         rates = rates_at(configuration.closure, linkage.angles)
-        return GeneralPose(linkage, rates, None, sheet=here[0], mechanism=here[1], rigid=True)
+        return GeneralPose(linkage, rates, None, here[0], here[1], rigid=True)
     number, _ = beginning(configuration, BranchChoice(branch))
     chosen = branches.branches[number or 0]
     angles, rates = _regular(configuration, linkage.angles if number is None else chosen.sample, chosen.freedoms)
@@ -127,16 +126,6 @@ def _regular(configuration: Configuration, angles: Floats, freedoms: int | None)
 
 Cost = tuple[float, ...]
 """Weights, the first above all; compared as words are."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Choices:
-    """A part of all sets: those that hold the first joints of one, and not some others."""
-
-    cost: Cost
-    chosen: tuple[int, ...]
-    kept: tuple[int, ...]
-    left_out: frozenset[int]
 
 
 def held(rates: Floats, joints: Collection[int]) -> int:
@@ -175,25 +164,24 @@ def cheapest_sets(
     [(1, 2), (0, 2)]
     """
     order = sorted(allowed, key=lambda joint: (costs[joint], joint))
-    queue: list[tuple[Cost, tuple[int, ...], int, _Choices]] = []
-    entered = 0
+    # the cheapest set of each part, and the part: the sets that hold the joints kept, and none of those left out
+    queue: list[tuple[Cost, tuple[int, ...], int, tuple[int, ...], int, frozenset[int]]] = []
+    numbers = count()
 
     def enter(kept: tuple[int, ...], left_out: frozenset[int], allowance: Allowance | None) -> None:
-        nonlocal entered
         if len(order) - len(left_out) < size:
             return
         chosen = _greedy(rates, kept, [joint for joint in order if joint not in left_out], size, allowance)
         if len(chosen) == size:
             cost = tuple(map(sum, zip(*(costs[joint] for joint in chosen), strict=True)))
-            entered += 1
-            heappush(queue, (cost, tuple(sorted(chosen)), entered, _Choices(cost, chosen, kept, left_out)))
+            heappush(queue, (cost, tuple(sorted(chosen)), next(numbers), chosen, len(kept), left_out))
 
     enter((), frozenset(), None)
     while queue:
-        _, joints, _, best = heappop(queue)
+        _, joints, _, chosen, kept, left_out = heappop(queue)
         yield joints
-        for place in range(len(best.kept), size):
-            enter(best.chosen[:place], best.left_out | {best.chosen[place]}, allowance)
+        for place in range(kept, size):
+            enter(chosen[:place], left_out | {chosen[place]}, allowance)
             if allowance is not None and allowance.left < 0:
                 return
 

@@ -79,11 +79,6 @@ def filled(kind: str, listed: Mapping[str, Any], *, realised: bool) -> Values:
     return {"kind": kind, "name": name_of_type(kind, values["id"]), **values}
 
 
-def order_id(chain: str, order: tuple[str, ...]) -> str:
-    """Return the id of a cyclic order of joints, which are numbered as in the chain of the id."""
-    return f"{chain}:{'-'.join(order)}"
-
-
 def _of_chain(row: Mapping[str, Any]) -> Values:
     chain = mechanism_of_id(row["code"])
     links = len(chain)
@@ -135,7 +130,7 @@ def _of_order(row: Mapping[str, Any]) -> Values:
     loops = len(chain.joints) - len(chain) + 1
     return {
         **_common(row),
-        "id": order_id(row["chain"], row["order"]),
+        "id": f"{row['chain']}:{'-'.join(row['order'])}",  # joints are numbered as in the chain of the id
         "links": len(chain),
         "joints": len(chain.joints),
         "loops": loops,

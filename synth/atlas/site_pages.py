@@ -12,7 +12,7 @@ from typing import Any
 
 from enumerate.runner.job import Column, Job, Row, Unit
 from enumerate.runner.sinks import FolderSink
-from graphs.errors import FileError, SynthedraError, UnsolvableError, numbered
+from graphs.errors import SynthedraError, UnsolvableError, numbered
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import plain
 from synth.atlas.columns import COLUMNS, damaged
@@ -24,7 +24,7 @@ from synth.drawing.scene.writing import svg_text
 from synth.templates.pages import pages_of, paper_named
 from synth.templates.template import template_of
 from synth.viewer.building import BUILT
-from synth.viewer.pages import check_built, json_in_html
+from synth.viewer.pages import check_built, data_in_page, html_page, json_in_html
 from synth.viewer.shown import shown_of
 
 _POLICY = (
@@ -33,29 +33,15 @@ _POLICY = (
 )
 """Own scripts, styles and pictures, and nothing else; no requests to anywhere."""
 
-_DOCUMENT = """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="{policy}">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{title}</title>
-{styles}
-</head>
-<body>
-{body}
-</body>
-</html>
-"""
-
 
 def document(title: str, styles: Sequence[str], body: str) -> str:
     """Return a page of a site with an HTML body.
 
     The title is plain text, escaped here; style sheets are paths from the page.
     """
-    sheets = "\n".join(f'<link rel="stylesheet" href="{place}">' for place in styles)
-    return _DOCUMENT.format(policy=_POLICY, title=escape(plain(title, 200)), styles=sheets, body=body)
+    head = [f"<title>{escape(plain(title, 200))}</title>"]
+    head += [f'<link rel="stylesheet" href="{place}">' for place in styles]
+    return html_page(_POLICY, "\n".join(head), body)
 
 
 SEARCHED = (
@@ -131,7 +117,7 @@ def files_of_type(report: TypeReport, file: str, places: Mapping[str, str]) -> d
         links=_links(file, fold, template),
         facts="".join(_fact(name, value) for name, value in values.items() if name != "fold_file"),
         neighbours=_neighbours(report, places),
-        folding="" if sheet is None else _folding(sheet, values["id"]),
+        folding="" if sheet is None else _FOLDING.format(data=data_in_page([shown_of(sheet, values["id"])])),
     )
     graph = _picture(drawable_of_type(values["kind"], values["id"]))
     files = {
@@ -171,21 +157,13 @@ def _neighbours(report: TypeReport, places: Mapping[str, str]) -> str:
     if not rows:
         return ""
     lines = [
-        f"<tr><th>{_text(relation)}</th><td>{_linked(code, places)}</td><td>{_text(name)}</td></tr>"
+        f"<tr><th>{_text(relation)}</th><td>{linked}</td><td>{_text(name)}</td></tr>"
         for relation, code, name, _ in rows
+        for linked in [f'<a href="{places[code]}.html">{_text(code)}</a>' if code in places else _text(code)]
     ]
     more = report.more + unlisted
     last = f"<p>and {numbered(more, 'more related type')}</p>" if more else ""
     return f"<h2>Related types</h2><table>{''.join(lines)}</table>{last}"
-
-
-def _linked(code: str, places: Mapping[str, str]) -> str:
-    return f'<a href="{places[code]}.html">{_text(code)}</a>' if code in places else _text(code)
-
-
-def _folding(sheet: Sheet, code: str) -> str:
-    data = {"shown": [shown_of(sheet, code).to_json()], "workbench": False}
-    return _FOLDING.format(data=json_in_html(data))
 
 
 def _template(sheet: Sheet) -> str | None:
@@ -261,20 +239,15 @@ class SiteSink(FolderSink):
         Raise FileError if something is at its place, or it cannot be made.
         """
         there = super().start(job)
-        assert self._folder is not None
         for name in ("types", "pictures"):
-            (self._folder.path / name).mkdir()
+            (self._begun.path / name).mkdir()
         self.take(0, list(self._first.items()), 0.0)
         return there
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Write the files of a unit: a row is a name and a text."""
-        assert self._folder is not None
-        for name, text in rows:
-            try:
-                (self._folder.path / name).write_text(text, encoding="utf-8")
-            except OSError as error:
-                raise FileError(self._path, "", f"cannot be written: {error.strerror}") from None
+        for row in rows:
+            self._write(*row)
 
 
 def site_of(atlas: Atlas, condition: str = "", title: str = "") -> tuple[Site, dict[str, str]]:

@@ -125,10 +125,6 @@ def _entries(rows: AtlasRows) -> Iterator[CatalogueEntry]:
         yield CatalogueEntry(number, drawable, row["id"], ", ".join(filter(None, caption)))
 
 
-def _json_bytes(rows: AtlasRows) -> bytes:
-    return (json.dumps(rows.to_json(), indent=1, allow_nan=False) + "\n").encode("utf-8")
-
-
 def _table(suffix: str, name: str, needs: str = "") -> Format[AtlasRows]:
     """Return the format of a table that a sink of the runner writes."""
 
@@ -143,7 +139,7 @@ def _table(suffix: str, name: str, needs: str = "") -> Format[AtlasRows]:
 
 TABLES = formats_by_suffix(
     _table(".csv", "CSV"),
-    Format(".json", "JSON", _json_bytes),
+    Format(".json", "JSON", lambda rows: f"{json.dumps(rows.to_json(), indent=1, allow_nan=False)}\n".encode()),
     _table(".jsonl", "JSON lines"),
     _table(".parquet", "Parquet", needs="pyarrow"),
 )

@@ -70,7 +70,7 @@ def conical_candidates(
     >>> [row["circuits"] for row in conical_candidates("k1:Cr", grounds=[0])]
     [['crossed'], ['open'], ['crossed']]
     """
-    chain = _chain_of(mechanism_for("conical_candidates", mechanism))
+    chain = chain_of(mechanism_for("conical_candidates", mechanism))
     fixed = _fixed(chain, grounds)
     job = CandidateJob(chain, fixed, slots, opposites, samples, seed, surface, tuple(filters))
     return iter(rows_of(job, workers=workers))
@@ -105,13 +105,14 @@ def count_conical_candidates(
     >>> count_conical_candidates("k1:Cr", grounds=[0], slots=12)
     275
     """
-    chain = _chain_of(mechanism_for("count_conical_candidates", mechanism))
+    chain = chain_of(mechanism_for("count_conical_candidates", mechanism))
     job = CandidateJob(chain, _fixed(chain, grounds), slots, opposites, filters=tuple(filters))
     counted = CandidateCountJob(job) if job.filters else ConicalCountJob(job.query, method)
     return total_of(counted, workers=workers)
 
 
-def _chain_of(mechanism: Mechanism) -> SCGraph:
+def chain_of(mechanism: Mechanism) -> SCGraph:
+    """Return the chain of a mechanism; without loops each face of a drawing of it gets one."""
     chain = graph_of(mechanism)
     return chain if chain.loops else sc_from_link_joint_graph(chain)
 

@@ -5,9 +5,9 @@ from math import radians
 from pathlib import Path
 from typing import Any
 
-from enumerate.runner.job import Row, Sink, row_as_dict
+from enumerate.runner.job import Job, Row, Sink, row_as_dict
+from enumerate.runner.sinks import FolderSink
 from graphs.errors import UnsolvableError
-from graphs.files.atomic import FolderBeside, remove_left
 from graphs.mechanism.surfaces import Cone
 from synth.candidates.job import CandidateJob
 from synth.conformed.all_angles import links_in_layers
@@ -58,7 +58,7 @@ def title_of_picture(row: Mapping[str, Any], layers: int) -> str:
     return f"{' '.join(row['order'])}   {' '.join(row['circuits'])}   layers {layers}{every}"
 
 
-class PictureSink:
+class PictureSink(FolderSink):
     """A sink that draws each row to a new folder, then passes it on.
 
     Parameters
@@ -69,35 +69,30 @@ class PictureSink:
     """
 
     def __init__(self, inner: Sink, job: CandidateJob, folder: Path) -> None:
-        self._inner, self._job, self._place = inner, job, folder
-        self._folder: FolderBeside | None = None
-        self._number = 0
+        super().__init__(folder)
+        self._inner, self._job = inner, job
 
-    def start(self, job: Any) -> Collection[int]:
+    def start(self, job: Job) -> Collection[int]:
         """Make a folder beside its place; FileError if something is there, or it cannot be made."""
-        remove_left(self._place)
-        self._folder = FolderBeside(self._place)
+        super().start(job)
         return self._inner.start(job)
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
         """Draw the rows and pass them on; UnsolvableError if there are too many."""
-        assert self._folder is not None
         for row in rows:
             self._number += 1
             if self._number > _MOST:
                 raise UnsolvableError(f"more than {_MOST} pictures; try fewer candidates")
             scene = picture_of_row(self._job, row_as_dict(self._job.columns, row))
-            scene.save(self._folder.path / f"{self._number:05d}.png")
+            scene.save(self._begun.path / f"{self._number:05d}.png")
         self._inner.take(number, rows, seconds)
 
     def finish(self) -> None:
         """Move the folder to its place."""
-        assert self._folder is not None
         self._inner.finish()
-        self._folder.commit()
+        super().finish()
 
     def abort(self) -> None:
         """Remove the pictures."""
-        if self._folder is not None:
-            self._folder.discard()
+        super().abort()
         self._inner.abort()

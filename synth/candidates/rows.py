@@ -116,7 +116,7 @@ class CandidateChain:
     @cached_property
     def rate_formulas(self) -> RateFormulas:
         """The data of the analysis over all angles."""
-        return RateFormulas.of(self.chain)
+        return RateFormulas(self.chain)
 
     def ways_of_links(self, words: Sequence[str]) -> tuple[tuple[str, str], ...]:
         """Return (link, word) for each link, in the order of rows; words are in the order of the chain."""

@@ -39,9 +39,9 @@ def _say_compiling(folder: Path | None) -> None:
 
     from synth.cli.output import plain
 
-    kept = f"kept in {plain(folder, 200)}" if folder else "not kept; try a folder of yours in SYNTHEDRA_CACHE"
+    storage = f"kept in {plain(folder, 200)}" if folder else "not kept; try a folder of yours in SYNTHEDRA_CACHE"
     over = "\r" if sys.stderr.isatty() else ""  # the line of progress is overwritten: it is shorter
-    click.echo(f"{over}synth: compiling code for the first use, up to a minute ({kept})", err=True)
+    click.echo(f"{over}synth: compiling code for the first use, up to a minute ({storage})", err=True)
 
 
 if __name__ == "__main__":

@@ -82,8 +82,8 @@ def _positions() -> int:
 
 
 def _main() -> None:
-    kept = writable_base()
-    if kept is None:
+    folder = writable_base()
+    if folder is None:
         sys.exit("nothing is compiled ahead: no folder to keep it in; try a folder of yours in SYNTHEDRA_CACHE")
     begin = monotonic()
     what = f"Compiling the code of enumerations once, on {numbered(cores(), 'core')}: a minute or two."
@@ -92,7 +92,7 @@ def _main() -> None:
         new = compile_ahead()
     except KeyboardInterrupt:
         sys.exit("stopped; the rest is compiled at its first use")
-    print(f"{new or 'no'} functions were new; {monotonic() - begin:.0f} s; kept in {kept}")
+    print(f"{new or 'no'} functions were new; {monotonic() - begin:.0f} s; kept in {folder}")
 
 
 if __name__ == "__main__":

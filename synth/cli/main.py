@@ -49,8 +49,8 @@ _SECTIONS: dict[str, dict[str, str]] = {
         "atlas": "Build, query, show and find all types up to a size, in one file.",
     },
     "Cones and cylinders": {
-        "cone": "Map spherical linkages to cones; find to which side links move.",
-        "cylinder": "Map planar linkages to cylinders; find to which side links move.",
+        "cone": "Map spherical linkages to cones; find which links move inward or outward.",
+        "cylinder": "Map planar linkages to cylinders; find which links move inward or outward.",
     },
     "Guide a body through orientations": {
         "order": "Check whether a crank about a fixed axis guides a body through orientations in order.",
@@ -182,7 +182,7 @@ def _print_version(ctx: click.Context, _parameter: click.Parameter, requested: b
 )  # fmt: skip
 @options.flag("--debug", "Print the traceback if the program itself fails (or set SYNTHEDRA_DEBUG=1).")
 def main(debug: bool) -> None:
-    """Type synthesis of spherical-system linkages: origami, pop-ups, cartons, conical mechanisms.
+    """Analyse and enumerate spherical-system linkages: origami, pop-ups, cartons, conical mechanisms.
 
     \b
     Examples:
@@ -193,7 +193,7 @@ def main(debug: bool) -> None:
       synth cone map --angles 120,95,45,85
 
     Exit status: 0, done; 1, the answer is no; 2, bad input or usage, or output that cannot be written; 70, a fault
-    of the program, please report it; 128 + n, stopped by signal n (130: Ctrl-C).
+    of the program (please report it); 128 + n, stopped by signal n (130: Ctrl-C).
 
     \b
     Shell completion: add to ~/.bashrc (for zsh and fish: zsh_source, fish_source)

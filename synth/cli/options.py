@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from math import degrees, pi, radians
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -14,6 +15,7 @@ from graphs.printing import plain
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
 
+    from enumerate.runner import Limits
     from graphs.mechanism import SCGraph
     from graphs.mechanism.surfaces import Surface
     from graphs.types import JointId, LinkId
@@ -37,86 +39,74 @@ class _FileName(click.ParamType):  # type: ignore[type-arg,unused-ignore]
         return [CompletionItem(incomplete, type="file")]
 
 
-class _LengthType(click.ParamType):  # type: ignore[type-arg,unused-ignore]
-    """A length, or a factor for lengths, in the range that coordinates have; with ``zero`` also 0."""
+class WordType(click.ParamType):  # type: ignore[type-arg,unused-ignore]
+    """The values that a function reads from words; it raises ValueError with what is wrong with one."""
 
-    name = "length"
-
-    def __init__(self, *, zero: bool = False) -> None:
-        self._zero = zero
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Return the number."""
-        try:
-            length = float(value)
-        except ValueError:
-            self.fail(f"{plain(str(value), 100)!r} is not a number", param, ctx)
-        if not (LEAST <= length <= MOST or (self._zero and length == 0.0)):
-            also = "0, or " if self._zero else ""
-            self.fail(f"{length:g} is out of range; expected {also}{LEAST:g} to {MOST:g}", param, ctx)
-        return length
-
-
-class _BranchType(click.ParamType):  # type: ignore[type-arg,unused-ignore]
-    """A branch, as `synth fold --branches` lists them: its number, or its signs as text."""
-
-    name = "branch"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int | str:
-        """Return the number, or the signs."""
-        if isinstance(value, int) or not (value.isascii() and value.isdigit()):
-            return value  # type: ignore[no-any-return]
-        if len(value) > _MOST_DIGITS:
-            self.fail(f"no branch has a number of {len(value)} digits", param, ctx)
-        return int(value)
-
-
-class LimitsType(click.ParamType):  # type: ignore[type-arg,unused-ignore]
-    """A number or a range: ``2``, ``2..4``, ``2..``, ``..4``."""
-
-    name = "limits"
+    def __init__(self, name: str, read: Callable[[str], Any]) -> None:
+        self.name, self._read = name, read
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return limits."""
-        from enumerate.runner import Limits
-
-        if isinstance(value, Limits):
-            return value
-        low, dots, high = str(value).partition("..")
-        if not dots:
-            high = low
-        numbers = [part for part in (low, high) if part]
-        if not numbers or not all(part.isascii() and part.isdigit() and len(part) < 10 for part in numbers):
-            self.fail(f"{plain(value)!r} is neither a number nor a range such as 2..4, 2.. or ..4", param, ctx)
-        return Limits(int(low or 0), int(high) if high else None)
-
-
-class NumberList(click.ParamType):  # type: ignore[type-arg,unused-ignore]
-    """Numbers parted by commas, such as ``70,80,120,40``; for an axis exactly three."""
-
-    name = "numbers"
-
-    def __init__(self, *, axis: bool = False) -> None:
-        self._axis = axis
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return a tuple of numbers."""
-        if isinstance(value, tuple):
-            return value
+        """Return the value of a word; a default is one already."""
         try:
-            numbers = tuple(float(part) for part in str(value).split(","))
-        except ValueError:
-            numbers = ()
-        if not numbers or (self._axis and len(numbers) != 3):
-            expected = "three numbers such as 0,0,1" if self._axis else "a list of numbers such as 70,80,120,40"
-            self.fail(f"{plain(value)!r} is not {expected}", param, ctx)
-        return numbers
+            return self._read(value) if isinstance(value, str) else value
+        except ValueError as error:
+            self.fail(str(error), param, ctx)
 
 
-LENGTH = _LengthType()
+def _length(word: str, *, zero: bool = False) -> float:
+    """Return a length, or a factor for lengths, in the range that coordinates have; with `zero` also 0."""
+    try:
+        length = float(word)
+    except ValueError:
+        raise ValueError(f"{plain(word, 100)!r} is not a number") from None
+    if not (LEAST <= length <= MOST or (zero and length == 0.0)):
+        also = "0, or " if zero else ""
+        raise ValueError(f"{length:g} is out of range; expected {also}{LEAST:g} to {MOST:g}")
+    return length
+
+
+def _branch(word: str) -> int | str:
+    """Return the number of a branch, as `synth fold --branches` lists them, or its signs."""
+    if not (word.isascii() and word.isdigit()):
+        return word
+    if len(word) > _MOST_DIGITS:
+        raise ValueError(f"no branch has a number of {len(word)} digits")
+    return int(word)
+
+
+def limits_of(word: str) -> Limits:
+    """Return the limits of a number or a range: ``2``, ``2..4``, ``2..``, ``..4``; ValueError for another word."""
+    from enumerate.runner import Limits
+
+    low, dots, high = word.partition("..")
+    if not dots:
+        high = low
+    numbers = [part for part in (low, high) if part]
+    if not numbers or not all(part.isascii() and part.isdigit() and len(part) < 10 for part in numbers):
+        raise ValueError(f"{plain(word)!r} is neither a number nor a range such as 2..4, 2.. or ..4")
+    return Limits(int(low or 0), int(high) if high else None)
+
+
+def _numbers(word: str, *, axis: bool = False) -> tuple[float, ...]:
+    """Return numbers parted by commas, such as ``70,80,120,40``; for an axis exactly three."""
+    try:
+        numbers = tuple(float(part) for part in word.split(","))
+    except ValueError:
+        numbers = ()
+    if not numbers or (axis and len(numbers) != 3):
+        expected = "three numbers such as 0,0,1" if axis else "a list of numbers such as 70,80,120,40"
+        raise ValueError(f"{plain(word)!r} is not {expected}")
+    return numbers
+
+
+LENGTH = WordType("length", _length)
 """The type of --size, --scale, --thickness and the like."""
-LENGTH_OR_NONE = _LengthType(zero=True)
+LENGTH_OR_NONE = WordType("length", partial(_length, zero=True))
 """The type of lengths that may be 0, such as --gap."""
+NUMBERS = WordType("numbers", _numbers)
+AXIS = WordType("numbers", partial(_numbers, axis=True))
+BRANCH = WordType("branch", _branch)
+"""The type of options for a branch."""
 FILE_NAME = _FileName()
 """The type of arguments and options that name files."""
 
@@ -154,7 +144,7 @@ def number(
 
 def limits(names: str, text: str) -> Callable[[_Command], _Command]:
     """Return an option for a number or a range of numbers."""
-    return value(names, "K", text, type=LimitsType())
+    return value(names, "K", text, type=WordType("limits", limits_of))
 
 
 def choice(names: str, values: Sequence[str], text: str, **settings: Any) -> Callable[[_Command], _Command]:
@@ -174,9 +164,6 @@ def branch(text: str, metavar: str = "K") -> Callable[[_Command], _Command]:
     return value("--branch", metavar, text, type=BRANCH)
 
 
-BRANCH = _BranchType()
-"""The type of options for a branch."""
-
 FILE = click.argument("file", metavar="FILE", type=FILE_NAME)
 FILES = click.argument("files", metavar="FILE...", nargs=-1, required=True, type=FILE_NAME)
 FORCE = flag("--force", "Overwrite an existing file, but never a folder, symbolic link or device.")
@@ -186,14 +173,19 @@ LOSSY = flag("--lossy", "Write even if the output reads back as another type.")
 JSON = flag("--json as_json", "Print the answer as JSON.")
 WORKERS = number("--workers", "N", "Number of processes. By default one per core.")
 NUMBER_OF_SURFACE = number(
-    "--cone --cylinder cone", "K",
-    "For a linkage that lies on several cones or cylinders: number of the one to take.",
+    "--cone --cylinder number", "K",
+    "For a linkage that lies on several cones or cylinders: number of the cone or cylinder to use, from 1.",
 )  # fmt: skip
 
 
 def seed(text: str) -> Callable[[_Command], _Command]:
     """Return the option --seed."""
     return number("--seed", "N", text, 0, default=0)
+
+
+def stated_values(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the values of options that were stated: what takes them has defaults for the others."""
+    return {name: value for name, value in values.items() if value is not None}
 
 
 def in_radians(values: Sequence[float]) -> list[float]:

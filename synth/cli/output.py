@@ -177,30 +177,15 @@ class ReaderGoneError(OutputError):
     """The exit status of what the signal SIGPIPE stops."""
 
 
-class _Guarded(io.RawIOBase):
-    """The bytes of standard output (a descriptor, None if there is none).
+class _Guarded(io.FileIO):
+    """The bytes of standard output; its failures are reported once, as errors of their own, not of files.
 
-    Its failures are reported once, as errors of their own, not of files.
+    If it is `missing`, closed before we began, every write fails.
     """
 
-    def __init__(self, descriptor: int | None) -> None:
-        super().__init__()
-        self._descriptor = descriptor
-        self._failed = False
-
-    def writable(self) -> bool:
-        """Yes."""
-        return True
-
-    def isatty(self) -> bool:
-        """Return whether it is a terminal."""
-        return self._descriptor is not None and os.isatty(self._descriptor)
-
-    def fileno(self) -> int:
-        """Return the descriptor."""
-        if self._descriptor is None:
-            raise io.UnsupportedOperation("standard output is closed")
-        return self._descriptor
+    def __init__(self, descriptor: int, *, missing: bool) -> None:
+        super().__init__(descriptor, "w", closefd=False)
+        self._missing, self._failed = missing, False
 
     def write(self, data: Any) -> int:
         """Write; what is left after a failure is dropped.
@@ -210,9 +195,9 @@ class _Guarded(io.RawIOBase):
         if self._failed:
             return len(data)
         try:
-            if self._descriptor is None:
+            if self._missing:
                 raise OSError(0, "it is closed")
-            return os.write(self._descriptor, data)
+            return os.write(self.fileno(), data)
         except OSError as error:
             self._failed = True
             if isinstance(error, BrokenPipeError):
@@ -228,9 +213,8 @@ def guard_output() -> None:
         while (low := os.open(os.devnull, os.O_RDWR)) <= 2:
             pass
         os.close(low)
-        descriptor, encoding, errors = None, "utf-8", "strict"
+        raw, encoding, errors = _Guarded(1, missing=True), "utf-8", "strict"
     else:
-        descriptor, encoding, errors = sys.stdout.fileno(), sys.stdout.encoding, sys.stdout.errors or "strict"
-    raw = _Guarded(descriptor)
-    buffered = io.BufferedWriter(raw)
-    sys.stdout = io.TextIOWrapper(buffered, encoding, errors, line_buffering=raw.isatty())
+        raw = _Guarded(sys.stdout.fileno(), missing=False)
+        encoding, errors = sys.stdout.encoding, sys.stdout.errors or "strict"
+    sys.stdout = io.TextIOWrapper(io.BufferedWriter(raw), encoding, errors, line_buffering=raw.isatty())

@@ -30,32 +30,27 @@ LOOK = "M=#c1272d,..."
 """How pairs are shown in the help."""
 
 
-def _keep(ctx: click.Context, what: str, words: tuple[str, ...]) -> None:
+def keep_looks(ctx: click.Context, what: str, words: tuple[str, ...]) -> None:
     """Keep pairs LETTER=TEXT for the drawings that will be read."""
-    kept = ctx.meta.setdefault(_LOOKS, {}).setdefault(what, {})
+    looks = ctx.meta.setdefault(_LOOKS, {}).setdefault(what, {})
     for word in (part for text in words for part in _COMMA.split(text)):
         letter, equals, text = word.partition("=")
         if not equals or not text.strip():
             option = "--colour" if what == "colours" else "--layer"
             raise click.BadParameter(f"{plain(word)!r} is not LETTER=TEXT, such as M=red", param_hint=option)
-        kept.setdefault(letter.strip(), []).append(text.strip())
-
-
-def keep_looks(ctx: click.Context, words: tuple[str, ...]) -> None:
-    """Keep pairs of an assignment and a look for the drawings that will be read."""
-    _keep(ctx, "colours", words)
+        looks.setdefault(letter.strip(), []).append(text.strip())
 
 
 COLOUR = options.repeated(
     "--colour", LOOK,
     "For a drawing (.svg, .dxf): assignment of lines by their colour, their dash pattern or both, such as "
     "'V=dashed #000000'. M mountain, V valley, B border, C cut, F flat, U unassigned; - leaves lines out.",
-    expose_value=False, callback=lambda ctx, _parameter, words: keep_looks(ctx, words),
+    expose_value=False, callback=lambda ctx, _parameter, words: keep_looks(ctx, "colours", words),
 )  # fmt: skip
 LAYER = options.repeated(
     "--layer", "M=NAME,...",
     "For a drawing (.svg, .dxf): assignment of lines by their layer or group, with the same letters.",
-    expose_value=False, callback=lambda ctx, _parameter, words: _keep(ctx, "layers", words),
+    expose_value=False, callback=lambda ctx, _parameter, words: keep_looks(ctx, "layers", words),
 )  # fmt: skip
 
 
@@ -64,14 +59,16 @@ def DRAWN(command: Callable[..., Any]) -> Callable[..., Any]:
     return COLOUR(LAYER(command))
 
 
-def _keep_precision(ctx: click.Context, _parameter: click.Parameter, length: float | None) -> None:
-    ctx.meta[_PRECISION] = length
+def MECHANISM(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the argument FILE of a mechanism, and the options on drawings."""
+    return options.FILE(DRAWN(command))
 
 
 PRECISION = options.value(
     "--precision", "LENGTH",
     "Largest error of a coordinate, in the unit of the file; 0 means exact. By default it is estimated from the "
-    "file.", type=options.LENGTH_OR_NONE, expose_value=False, callback=_keep_precision,
+    "file.", type=options.LENGTH_OR_NONE, expose_value=False,
+    callback=lambda ctx, _parameter, length: ctx.meta.update({_PRECISION: length}),
 )  # fmt: skip
 """The option of commands that take files with coordinates; `precise` applies it."""
 
@@ -87,8 +84,8 @@ MODE = options.value(
 def stated() -> dict[str, Any]:
     """Return the values of --colour and --layer, as keywords of `graphs.files.read`."""
     context = click.get_current_context(silent=True)
-    kept = {} if context is None else context.meta.get(_LOOKS, {})
-    return {what: pairs for what, pairs in kept.items() if pairs}
+    looks = {} if context is None else context.meta.get(_LOOKS, {})
+    return {what: pairs for what, pairs in looks.items() if pairs}
 
 
 def read(file: str, *, warn: bool = True) -> Mechanism:

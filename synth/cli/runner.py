@@ -48,7 +48,7 @@ class RunOptions:
         if self.output is not None and self.as_json and not self.counting:
             raise click.UsageError("-o and --json exclude each other; try one of them")
 
-    def kept_job(self) -> dict[str, Any] | None:
+    def stored_job(self) -> dict[str, Any] | None:
         """Return the key of the job to continue; None if there is none yet."""
         if not self.resume or self.output is None:
             return None
@@ -104,14 +104,9 @@ def check_method(method: str | None, only_count: bool) -> None:
 def run_count(job: Job, running: RunOptions) -> None:
     """Run a job that counts, print the number, and keep the counts in the output, if there is one."""
     from enumerate.runner.sinks import CountSink
-    from enumerate.runner.store import SqliteSink
 
     meter = _Meter.of(running, counting=True)
-    store = None
-    if running.output is not None:
-        store = SqliteSink(
-            running.output, resume=running.resume, force=running.force, tell=meter.tell, looking=meter.look
-        )
+    store: Any = None if running.output is None else _output_of(running, meter)
     sink = CountSink(store)
     _run(job, sink, running, meter)
     if running.as_json:
@@ -126,14 +121,11 @@ def run_rows(job: Job, running: RunOptions, wrapped: Callable[[Sink], Sink] = la
 
     ``wrapped`` wraps the sink in another that handles the rows before it.
     """
-    from enumerate.runner.sinks import RowSink, sink_for
+    from enumerate.runner.sinks import RowSink
 
     meter = _Meter.of(running)
     if running.output is not None:
-        sink = sink_for(
-            running.output, resume=running.resume, force=running.force, tell=meter.tell, looking=meter.look
-        )
-        progress = _run(job, wrapped(sink), running, meter)
+        progress = _run(job, wrapped(_output_of(running, meter)), running, meter)
         if not running.quiet:
             click.echo(numbered(progress.rows, "new row" if running.resume else "row"))
             tell_written(running.output)
@@ -150,6 +142,14 @@ def run_rows(job: Job, running: RunOptions, wrapped: Callable[[Sink], Sink] = la
     printer = TablePrinter(job.columns)
     _run(job, wrapped(RowSink(printer.take)), running, meter)
     printer.finish()
+
+
+def _output_of(running: RunOptions, meter: _Meter) -> Sink:
+    from enumerate.runner.sinks import sink_for
+
+    assert running.output is not None
+    how: dict[str, Any] = {"tell": meter.tell, "looking": meter.look}
+    return sink_for(running.output, resume=running.resume, force=running.force, **how)
 
 
 def run_resumable(job: Job, sink_of: Callable[..., Sink], running: RunOptions) -> None:

@@ -51,7 +51,7 @@ class Transition:
 
     def line(self) -> str:
         """Return the transition as a line."""
-        return f"{self.name}: {_summary(self.before)} to {_summary(self.after)}"
+        return f"{self.name}: from {_summary(self.before)} to {_summary(self.after)}"
 
 
 class PathPose(NamedTuple):
@@ -129,12 +129,12 @@ class Elastic:
         """Return the lines and tables that are printed."""
         how = "stable" if self.pose.stable else "not stable"
         ends = ", ".join(
-            f"{shown(joint)} at {degrees(angle):.6g}"
+            f"{shown(joint)} = {degrees(angle):.6g}°"
             for joint, angle in zip(self.joints, self.pose.angles.tolist(), strict=True)
         )
-        summary = f"springs in balance, {how}, energy {self.pose.energy:.6g}"
+        summary = f"equilibrium of the springs: {how}, energy {self.pose.energy:.6g}"
         evidence = f"residual moments {self.pose.unbalanced:.0e}, loop-closure residual {self.pose.error:.0e}"
-        return [f"{summary}   ({evidence})", f"joints: {ends}", *self._load_path(), *self._small_motions()]
+        return [f"{summary}   ({evidence})", f"joint angles: {ends}", *self._load_path(), *self._small_motions()]
 
     def __repr__(self) -> str:
         return f"<Elastic: {numbered(len(self.path), 'pose')}, {numbered(len(self.modes or ()), 'mode')}>"
@@ -145,13 +145,13 @@ class Elastic:
         level = DOUBLE.zero * max(abs(float(point.pose.held[0])) for point in self.path)
         step = -(-len(self.path) // _LISTED)
         rows = [self._row(point, level) for point in (*self.path[:-1:step], self.path[-1])]
-        columns = ("driven, degrees", "moment", "energy", "stable", "freedoms", "state")
-        table = TableBlock(columns, rows, ("driven, degrees", "moment", "energy", "freedoms"))
+        columns = ("driven (deg)", "moment", "energy", "stable", "DOF", "state")
+        table = TableBlock(columns, rows, ("driven (deg)", "moment", "energy", "DOF"))
         lines: list[Block] = [f"load path of joint {shown(self.driver)}:", table]
         if len(rows) < len(self.path):
-            lines.append(f"{len(rows)} of {len(self.path)} poses")
+            lines.append(f"{len(rows)} of {len(self.path)} configurations")
         lines += [
-            f"joint {shown(rest.joint)} comes to rest at {degrees(rest.driven):.6g} degrees of the driven joint"
+            f"joint {shown(rest.joint)} comes to rest where the driven joint is at {degrees(rest.driven):.6g}°"
             for rest in self.passed
         ]
         return [*lines, *([f"stopped: {self.stopped}"] if self.stopped else [])]
@@ -178,7 +178,7 @@ class Elastic:
             rows.append((rate, moves))
         table = TableBlock(("frequency", "joints that move most"), rows, ("frequency",))
         more = len(self.modes) - len(rows)
-        return ["small motions about it:", table, *([f"and {more} faster ones"] if more else [])]
+        return ["small motions about the equilibrium:", table, *([f"and {more} faster modes"] if more else [])]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -233,23 +233,23 @@ class States(Printed):
     def blocks(self) -> list[Block]:
         """Return the lines and tables that are printed."""
         lines: list[Block] = [
+            f"at this configuration: {_summary(self.now)}   ({self.now.certainty})",
             f"compliant: {self.compliant}",
-            f"now {_summary(self.now)}   ({self.now.certainty})",
         ]
         chosen = _distinctive(self.sets)
         rows = [
             (str(state.active), number_or_unknown(state.freedoms), state.kind, state.certainty)
             for state in chosen[:_LISTED]
         ]
-        lines.append(TableBlock(("active", "freedoms", "state", "how known"), rows, ("freedoms",)))
+        lines.append(TableBlock(("active", "DOF", "state", "evidence"), rows, ("DOF",)))
         if len(self.sets) > len(rows):
             first = "" if len(rows) == len(chosen) else "the first of "
             lines.append(
-                f"{len(rows)} of {numbered(len(self.sets), 'set')}: {first}those to which one member less gives "
-                "other freedoms"
+                f"{len(rows)} of {numbered(len(self.sets), 'set')}: {first}those whose degrees of freedom change "
+                "whenever one active member is left out"
             )
         lines += [transition.line() for transition in self.transitions[:_LISTED]] or [
-            "no transition of a class at this pose"
+            "no transition of any class at this configuration"
         ]
         if len(self.transitions) > _LISTED:
             lines.append(f"and {len(self.transitions) - _LISTED} more transitions")
@@ -389,13 +389,12 @@ class _SpringAnalysis:
         [driver], goal = goals_of(joints, {drive.joint: drive.to}, float_info.max)
         values = np.linspace(pose.angles[driver], goal[0], drive.frames + 1)[1:]
         path = load_path(bending, pose.angles, driver, values)
-        poses = tuple(PathPose(at, self.state_at(at.angles)) for at in path.poses)
+        poses = tuple(
+            PathPose(at, state_of(moved(self.linkage, at.angles), self.compliant, self.active(at.angles)))
+            for at in path.poses
+        )
         passed = tuple(self.rests_passed(bending, path))
         return Elastic(joints, pose, drive.joint, poses, passed, path.stopped, modes)
-
-    def state_at(self, angles: Floats) -> State:
-        """Return the state at a pose, where members that are off their rest are active."""
-        return state_of(moved(self.linkage, angles), self.compliant, self.active(angles))
 
     def rests_passed(self, bending: ElasticLinkage, path: LoadPath) -> Iterator[RestPassed]:
         """Yield where compliant joints come to rest after the beginning."""

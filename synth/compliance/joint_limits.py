@@ -130,8 +130,8 @@ class JointLimits(Printed):
             )
             for ride_along in self.ride_alongs[:_LISTED]
         ]
-        columns = ("on joint", "joints", "from, degrees", "now", "to, degrees", "freedoms when rigid")
-        table = TableBlock(columns, rows, ("now", "freedoms when rigid"))
+        columns = ("on joint", "joints", "from (deg)", "now (deg)", "to (deg)", "DOF if held")
+        table = TableBlock(columns, rows, ("now (deg)", "DOF if held"))
         lines: list[Block] = [numbered(len(self.ride_alongs), "ride-along"), table]
         if len(rows) < len(self.ride_alongs):
             lines.append(f"and {len(self.ride_alongs) - len(rows)} more")
@@ -140,7 +140,7 @@ class JointLimits(Printed):
         evidence = f"rank {number_or_unknown(truss.rank)}, {number_or_unknown(truss.redundant)} redundant"
         return [
             *lines,
-            f"with all of them rigid at this pose: {freedoms_text(truss.freedoms)} ({parts}; {evidence})",
+            f"with all of them held at this configuration: {freedoms_text(truss.freedoms)} ({parts}; {evidence})",
         ]
 
     def __repr__(self) -> str:

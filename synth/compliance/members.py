@@ -163,7 +163,11 @@ _OF_A_BODY = 6
 
 def freedoms_text(freedoms: int | None) -> str:
     """Return a number of freedoms in words; None if it is unknown."""
-    return "degrees of freedom unknown" if freedoms is None else numbered(freedoms, "freedom")
+    return (
+        "degrees of freedom not known"
+        if freedoms is None
+        else numbered(freedoms, "degree of freedom", "degrees of freedom")
+    )
 
 
 def number_or_unknown(number: int | None) -> str:

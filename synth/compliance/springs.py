@@ -202,16 +202,6 @@ class LoadPath:
     poses: tuple[Equilibrium, ...]
     stopped: str
 
-    @property
-    def driven(self) -> Floats:
-        """Angles of the joint, radians: float[F]."""
-        return np.array([pose.angles[self.driver] for pose in self.poses])
-
-    @property
-    def moments(self) -> Floats:
-        """Moments that hold it there: float[F]."""
-        return np.array([float(pose.held[0]) for pose in self.poses])
-
 
 def equilibrium(elastic: ElasticLinkage, start: Floats | None = None, held: tuple[int, ...] = ()) -> Equilibrium:
     """Return the equilibrium that the energy falls to from a closed pose.

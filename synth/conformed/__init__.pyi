@@ -32,12 +32,7 @@ from synth.conformed.outward import (
     outward_rates as outward_rates,
 )
 from synth.conformed.pose import (
-    FourBarPoses as FourBarPoses,
-    PoseCheck as PoseCheck,
-    check_pose as check_pose,
     dihedral_angles as dihedral_angles,
-    measured_dihedral_angles as measured_dihedral_angles,
-    poses_from_conformed as poses_from_conformed,
 )
 from synth.conformed.rates import (
     ConformedChain as ConformedChain,

@@ -9,7 +9,7 @@ docs/theory/conical-candidates.md.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from functools import cache
@@ -53,26 +53,18 @@ class Allowed(IntEnum):
     UNKNOWN = 3
 
 
-@dataclass(frozen=True, slots=True)
 class RateFormulas:
     """A chain of one freedom with all that does not depend on the order of its joints.
 
     `formulas` are those of the outward rate of each joint, `rates` those of its rate; `moving` holds the joints of
-    each link that are not the ground's.
+    each link that are not the ground's. Raise `UnsolvableError` if it has not one freedom by its count.
     """
 
-    chain: ConformedChain
-    formulas: tuple[tuple[OutwardRate, ...], ...]
-    rates: tuple[tuple[OutwardRate, ...], ...]
-    relations: SignRelations
-    moving: tuple[tuple[int, ...], ...]
-
-    @classmethod
-    def of(cls, chain: ConformedChain) -> RateFormulas:
-        """Prepare a chain; raise `UnsolvableError` if it has not one freedom by its count."""
-        formulas = outward_rates(chain)
-        moving = tuple(tuple(joint for joint in joints if formulas[joint]) for joints in chain.joints_of)
-        return cls(chain, formulas, joint_rates(chain), SignRelations.of(chain), moving)
+    def __init__(self, chain: ConformedChain) -> None:
+        self.chain = chain
+        self.formulas, self.rates = outward_rates(chain), joint_rates(chain)
+        self.relations = SignRelations(chain)
+        self.moving = tuple(tuple(joint for joint in each if self.formulas[joint]) for each in chain.joints_of)
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,7 +143,7 @@ def over_angles(
     """
     slots = np.asarray(places, dtype=np.int64)
     shape = slots.shape[:-1]
-    formulas = chain if isinstance(chain, RateFormulas) else RateFormulas.of(chain)
+    formulas = chain if isinstance(chain, RateFormulas) else RateFormulas(chain)
     answer = _over_angles(formulas, slots.reshape(-1, slots.shape[-1]), samples)
     return OverAngles(
         answer.links.reshape(*shape, -1),
@@ -247,7 +239,7 @@ def never_singular(chain: ConformedChain | RateFormulas, places: npt.ArrayLike) 
     """
     t = np.asarray(places, dtype=float)
     sure = np.zeros(t.shape[:-1], bool)
-    given = chain if isinstance(chain, RateFormulas) else RateFormulas.of(chain)
+    given = chain if isinstance(chain, RateFormulas) else RateFormulas(chain)
     for formulas in given.rates:
         for formula in formulas:
             sure |= formula.signs(t) != 0
@@ -258,16 +250,14 @@ def _certain(formulas: tuple[OutwardRate, ...], slots: Ints) -> npt.NDArray[np.i
     """Return the sign of a joint's outward rate where one of its formulas decides, else 0."""
     middle = slots * (np.pi / slots.shape[-1])
     signs = np.zeros(len(slots), np.int8)
-    for formula in formulas:
+    tests: list[tuple[Callable[..., npt.NDArray[np.int8]], Floats | Ints]] = [
+        (one.signs, middle) for one in formulas
+    ]
+    for signs_of, places in [*tests, *((one.signs_by_chords, slots) for one in formulas[:_BY_CHORDS])]:
         left = signs == 0
         if not left.any():
             break
-        signs[left] = formula.signs(middle[left])
-    for formula in formulas[:_BY_CHORDS]:
-        left = signs == 0
-        if not left.any():
-            break
-        signs[left] = formula.signs_by_chords(slots[left])
+        signs[left] = signs_of(places[left])
     return signs
 
 

@@ -186,8 +186,11 @@ class LinkageBehaviour(Printed):
         choices = []
         for arcs in product(*halves.values()):
             chosen = dict(zip(halves, arcs, strict=True))
-            ways = self._ways_with(chosen)
-            both = self.behaviour.motion.freedoms == 1 and len(ways) == 1 and ways <= {Way.INWARD, Way.OUTWARD}
+            ways = [Way(int(way)) for way in self.behaviour.ways]
+            for number, arc in chosen.items():
+                ways[number] = self._way_over(number, arc)
+            moving = set(ways) - {Way.STILL}
+            both = self.behaviour.motion.freedoms == 1 and moving in ({Way.INWARD}, {Way.OUTWARD})
             choices.append(ArcChoice(chosen, both and not outward, both))
         return tuple(choices)
 
@@ -209,13 +212,6 @@ class LinkageBehaviour(Printed):
             for number, arcs in half_turn_arcs(self.chain, self.places).items()
             if number
         }
-
-    def _ways_with(self, arcs: Mapping[int, tuple[int, int]]) -> set[Way]:
-        """Return all ways of moving links with some arcs, in the sense of the behaviour's motion."""
-        ways = [Way(int(way)) for way in self.behaviour.ways]
-        for number, arc in arcs.items():
-            ways[number] = self._way_over(number, arc)
-        return {way for way in ways if way is not Way.STILL}
 
     def _way_over(self, number: int, arc: tuple[int, int]) -> Way:
         """Return the way of a link that spans half a turn over one of its arcs."""
@@ -320,7 +316,7 @@ class LinkageBehaviour(Printed):
                     "joints": [chain.joints[joint] for joint in chain.joints_of[number]],
                     "arc": None if arc is None else self._joints(arc),
                     "way": way,
-                    "icrl_deg": _finite(degrees(lines[number])),
+                    "icrl_deg": None if np.isnan(lines[number]) else degrees(lines[number]),
                     "instant_centre": _centre(motion.motions[number]),
                 }
                 for number, arc, way in self._rows()
@@ -338,10 +334,6 @@ class LinkageBehaviour(Printed):
 
     def _joints(self, arc: tuple[int, int]) -> list[JointId]:
         return [self.chain.joints[joint] for joint in arc]
-
-
-def _finite(value: float) -> float | None:
-    return value if abs(value) < float("inf") else None
 
 
 def _centre(motion: Floats) -> list[float] | None:

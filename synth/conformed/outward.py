@@ -63,10 +63,7 @@ class OutwardRate:
         total = np.zeros(t.shape[:-1])
         for factor, i, triples in self._terms:
             sine = np.ones(t.shape[:-1]) if i is None else np.sin(t[..., self.joint] - t[..., i])
-            term = factor * sine
-            for triple in triples:
-                term = term * brackets(t[..., triple])
-            total += term
+            total += _product(factor * sine, triples, t)
         return total
 
     def signs(self, places: npt.ArrayLike) -> npt.NDArray[np.int8]:
@@ -74,7 +71,9 @@ class OutwardRate:
 
         It is that of all linkages with the same order of joints and opposite points.
         """
-        return _common_sign(self._term_signs(np.asarray(places, dtype=float)))
+        signs = self._term_signs(np.asarray(places, dtype=float))
+        least, most = np.min(signs, axis=0), np.max(signs, axis=0)
+        return np.where(least == most, most, 0).astype(np.int8)
 
     def signs_by_chords(self, slots: Ints) -> npt.NDArray[np.int8]:
         """Return the sign of the rate where each term has a larger one of the other sign, else 0: int8[r].
@@ -115,6 +114,13 @@ def brackets(places: npt.ArrayLike) -> Floats:
     return np.asarray(4.0 * np.sin(b - a) * np.sin(c - b) * np.sin(c - a))
 
 
+def _product(term: Floats, triples: Iterable[Iterable[int]], t: Floats) -> Floats:
+    """Return a term times the brackets of triples of joints."""
+    for triple in triples:
+        term = term * brackets(t[..., list(triple)])
+    return term
+
+
 def _sign_of_brackets(factor: int, triples: Iterable[Iterable[int]], t: Floats) -> npt.NDArray[np.int8]:
     """Return the sign of a product of brackets: it follows from the cyclic order."""
     sign = np.full(t.shape[:-1], factor, np.int8)
@@ -122,12 +128,6 @@ def _sign_of_brackets(factor: int, triples: Iterable[Iterable[int]], t: Floats) 
         for i, j in ((a, b), (b, c), (a, c)):
             sign = sign * np.where(t[..., j] > t[..., i], 1, -1).astype(np.int8)
     return sign
-
-
-def _common_sign(signs: Sequence[npt.NDArray[np.int8]]) -> npt.NDArray[np.int8]:
-    """Return the sign that all have, else 0."""
-    least, most = np.min(signs, axis=0), np.max(signs, axis=0)
-    return np.where(least == most, most, 0).astype(np.int8)
 
 
 def joint_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
@@ -145,7 +145,7 @@ def joint_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     >>> [formulas[0].text(chain.joints) for formulas in joint_rates(chain)]
     ['[A B C]', '- [O B C]', '[O A C]', '- [O A B]']
     """
-    kernels = _kernels(_checked(chain))
+    kernels = _kernels(chain)
     formulas = []
     for joint in range(len(chain.joints)):
         choices = {tuple(kernel[joint]) for kernel in kernels if kernel[joint]}
@@ -154,16 +154,6 @@ def joint_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
             tuple(_rate(joint, [(factor, None, triples) for factor, triples in terms]) for terms in ordered)
         )
     return tuple(formulas)
-
-
-def _checked(chain: ConformedChain) -> ConformedChain:
-    loops, joints = len(chain.loops), len(chain.joints)
-    if joints != 3 * loops + 1:
-        raise UnsolvableError(
-            f"{joints} joints and {loops} independent loops do not have 1 degree of freedom; "
-            f"expected {3 * loops + 1} joints"
-        )
-    return chain
 
 
 def outward_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
@@ -181,7 +171,7 @@ def outward_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     >>> [formulas[0].text(chain.joints) for formulas in outward_rates(chain) if formulas]  # ground link C O
     ['sin(A - O) [A B C]', 'sin(B - C) [O A B]']
     """
-    kernels = _kernels(_checked(chain))
+    kernels = _kernels(chain)
     return tuple(
         () if joint in chain.joints_of[0] else _formulas(chain, joint, kernels)
         for joint in range(len(chain.joints))
@@ -228,6 +218,11 @@ def _paths(chain: ConformedChain, joint: int) -> list[dict[int, int]]:
 def _kernels(chain: ConformedChain) -> list[list[list[_Term]]]:
     """Return the rates of the joints as terms, for several sets of independent loops, with one common sign."""
     loops, joints = len(chain.loops), len(chain.joints)
+    if joints != 3 * loops + 1:
+        raise UnsolvableError(
+            f"{joints} joints and {loops} independent loops do not have 1 degree of freedom; "
+            f"expected {3 * loops + 1} joints"
+        )
     cycles = signed_cycles(chain)
     places = np.random.default_rng(1).uniform(0, 2 * np.pi, (8, joints))
     kernels: list[list[list[_Term]]] = []
@@ -240,7 +235,10 @@ def _kernels(chain: ConformedChain) -> list[list[list[_Term]]]:
         if rank_of(basis.astype(float)) < loops:
             continue
         kernel = [[((-1) ** i * sign, triples) for sign, triples in _minor(basis, i)] for i in range(joints)]
-        values = np.stack([_value(terms, places) for terms in kernel], axis=-1)
+        terms_of = [
+            [_product(np.full(8, float(sign)), triples, places) for sign, triples in terms] for terms in kernel
+        ]
+        values = np.stack([sum(terms, np.zeros(8)) for terms in terms_of], axis=-1)
         if first is None:
             first = values
         elif (values * first).sum() < 0:  # another basis has the same minors, but for a common factor
@@ -249,16 +247,6 @@ def _kernels(chain: ConformedChain) -> list[list[list[_Term]]]:
         if len(kernels) == _BASES:
             break
     return kernels
-
-
-def _value(terms: Sequence[_Term], places: Floats) -> Floats:
-    total = np.zeros(places.shape[:-1])
-    for factor, triples in terms:
-        term = np.full(places.shape[:-1], float(factor))
-        for triple in triples:
-            term = term * brackets(places[..., list(triple)])
-        total += term
-    return total
 
 
 def _minor(basis: Ints, left_out: int) -> Iterator[_Term]:
@@ -422,7 +410,6 @@ def _follow_all(
     return wrong
 
 
-@dataclass(frozen=True, slots=True)
 class SignRelations:
     """What the rates of a chain obey: R relations of three unknowns each.
 
@@ -434,28 +421,18 @@ class SignRelations:
     that are always zero; rho(n, x) has number n J + x, q_i has N J + i.
     """
 
-    links: int
-    joints: int
-    zero: npt.NDArray[np.bool_]
-    unknowns: Ints
-    sines: Ints
-    factors: Ints
-
-    @classmethod
-    def of(cls, chain: ConformedChain) -> SignRelations:
-        """Set up the relations of a chain."""
-        links, joints = len(chain.links), len(chain.joints)
-        zero = np.zeros(links * joints + joints, bool)
+    def __init__(self, chain: ConformedChain) -> None:
+        self.links, self.joints = links, joints = len(chain.links), len(chain.joints)
+        self.zero = zero = np.zeros(links * joints + joints, bool)
         zero[:joints] = True
         for n in range(1, links):
             for i in set(chain.joints_of[n]) & set(chain.joints_of[0]):
                 zero[n * joints + i] = True
-        unknowns, sines, factors = [], [], []
+        relations = []
         for n in range(links):
             for x, y, z in combinations(range(joints), 3):
-                unknowns.append([n * joints + x, n * joints + y, n * joints + z])
-                sines.append([[y, z], [z, x], [x, y]])
-                factors.append([1, 1, 1])
+                terms = [n * joints + x, n * joints + y, n * joints + z]
+                relations.append((terms, [[y, z], [z, x], [x, y]], [1, 1, 1]))
         for i in range(joints):
             m, n = (link for link in range(links) if i in chain.joints_of[link])
             # w of n less w of m is +-q_i e_i, by the direction of the joint: as paths and loops have it
@@ -463,21 +440,12 @@ class SignRelations:
             for x in range(joints):
                 if x == i:
                     continue
-                unknowns.append([n * joints + x, m * joints + x, links * joints + i])
-                sines.append([[-1, -1], [-1, -1], [x, i]])
-                factors.append([1, -1, -sign])
-            unknowns.append([n * joints + i, m * joints + i, m * joints + i])
-            sines.append([[-1, -1]] * 3)
-            factors.append([1, -1, 0])
-        kept = [k for k in range(len(unknowns)) if not zero[unknowns[k]].all()]
-        return cls(
-            links,
-            joints,
-            zero,
-            np.array(unknowns, np.int64)[kept],
-            np.array(sines, np.int64)[kept],
-            np.array(factors, np.int64)[kept],
-        )
+                terms = [n * joints + x, m * joints + x, links * joints + i]
+                relations.append((terms, [[-1, -1], [-1, -1], [x, i]], [1, -1, -sign]))
+            terms = [n * joints + i, m * joints + i, m * joints + i]
+            relations.append((terms, [[-1, -1]] * 3, [1, -1, 0]))
+        kept = [relation for relation in relations if not zero[relation[0]].all()]
+        self.unknowns, self.sines, self.factors = (np.array(part, np.int64) for part in zip(*kept, strict=True))
 
     def start(self, count: int) -> Signs:
         """Return signs of which none is known but that of zeros: int8[count, N J + J]."""

@@ -13,6 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import product
 
+import networkx as nx
 import numpy as np
 import numpy.typing as npt
 
@@ -64,6 +65,7 @@ class ConformedChain:
             raise InvariantError("ground is a link", f"the ground {shown(ground)} is no link", "one of the links")
         joints = tuple(chain.joints)
         pairs = list(chain.joints.values())
+        unit = np.eye(len(joints), dtype=np.int64)
         paths: dict[LinkId, npt.NDArray[np.int64]] = {ground: np.zeros(len(joints), dtype=np.int64)}
         tree: set[int] = set()
         work = [ground]
@@ -72,18 +74,13 @@ class ConformedChain:
             for number, (a, b) in enumerate(pairs):
                 other = b if a == link else a
                 if link in (a, b) and other not in paths:
-                    paths[other] = paths[link].copy()
-                    paths[other][number] = 1 if link == a else -1
+                    paths[other] = paths[link] + (unit[number] if link == a else -unit[number])
                     tree.add(number)
                     work.append(other)
         if len(paths) != len(chain):
             raise InvariantError("connected", "the chain is in several parts", "one that is connected")
-        loops = []
-        for number, (a, b) in enumerate(pairs):
-            if number not in tree:
-                row = paths[a] - paths[b]
-                row[number] = 1
-                loops.append(row)
+        others = [(number, ends) for number, ends in enumerate(pairs) if number not in tree]
+        loops = [paths[a] - paths[b] + unit[number] for number, (a, b) in others]
         links = (ground, *(link for link in chain if link != ground))
         return cls(
             links,
@@ -129,12 +126,6 @@ class FirstOrder:
         return np.asarray(self.rates.shape[-1] - self.freedoms)
 
 
-def ring_axes(places: npt.ArrayLike) -> Floats:
-    """Return (sin t, 1, cos t) of joints: their axes but for two scales that lambda sets."""
-    t = np.asarray(places, dtype=float)
-    return np.stack([np.sin(t), np.ones_like(t), np.cos(t)], axis=-1)
-
-
 def first_order(chain: ConformedChain, places: npt.ArrayLike, error: float = DOUBLE.closed) -> FirstOrder:
     """Return rank and first-order motion of linkages at their conformed position.
 
@@ -162,7 +153,7 @@ def first_order(chain: ConformedChain, places: npt.ArrayLike, error: float = DOU
         raise InvariantError(
             "azimuths", numbered(t.shape[-1] if t.ndim else 0, "azimuth"), f"{count}, one per joint"
         )
-    axes = ring_axes(t)
+    axes = np.stack([np.sin(t), np.ones_like(t), np.cos(t)], axis=-1)  # but for two scales that lambda sets
     closure = np.einsum("lj,...jc->...lcj", chain.loops, axes).reshape(*t.shape[:-1], -1, count)
     if not closure.shape[-2]:
         shape = t.shape[:-1]
@@ -180,15 +171,11 @@ def first_order(chain: ConformedChain, places: npt.ArrayLike, error: float = DOU
     decided = (freedoms == 1) & (undecided == 0)
     rates = np.where(decided[..., np.newaxis], spectrum.rows[..., -1, :], np.nan)
     motions = np.einsum("nj,...j,...jc->...nc", chain.paths, rates, axes)
-    gap = _gap(spectrum.parts, counted, spectrum.floors)
-    return FirstOrder(freedoms, undecided, judged.nearly.sum(axis=-1), spectrum.values, gap, rates, motions)
-
-
-def _gap(parts: Floats, counted: npt.NDArray[np.bool_], floors: Floats) -> Floats:
-    least = np.where(counted, parts, np.inf).min(axis=-1)
-    rest = np.where(counted, 0.0, np.maximum(parts, floors)).max(axis=-1)
+    least = np.where(counted, spectrum.parts, np.inf).min(axis=-1)
+    rest = np.where(counted, 0.0, np.maximum(spectrum.parts, spectrum.floors)).max(axis=-1)
     with np.errstate(divide="ignore"):
-        return np.asarray(least / rest)
+        gap = np.asarray(least / rest)
+    return FirstOrder(freedoms, undecided, judged.nearly.sum(axis=-1), spectrum.values, gap, rates, motions)
 
 
 _MOST_LOOPS = 8
@@ -223,17 +210,7 @@ def _is_simple(chain: ConformedChain, row: npt.NDArray[np.int64]) -> bool:
     passed = [[joint for joint in joints if row[joint]] for joints in chain.joints_of]
     if any(len(joints) not in (0, 2) for joints in passed):
         return False
-    pairs = [tuple(joints) for joints in passed if joints]
-    reached, todo = {pairs[0][0]}, [pairs[0][0]]
-    while todo:
-        joint = todo.pop()
-        for pair in pairs:
-            if joint in pair:
-                other = sum(pair) - joint
-                if other not in reached:
-                    reached.add(other)
-                    todo.append(other)
-    return len(reached) == int(np.abs(row).sum())
+    return bool(nx.is_connected(nx.Graph([joints for joints in passed if joints])))
 
 
 def loops_of_chain(chain: SCGraph) -> tuple[tuple[JointId, ...], ...]:

@@ -285,35 +285,27 @@ def catalogue_pages(
         head.append(Label((_WIDE - _EDGE - 40, _EDGE), f"page {number}", 7.0, "grey", "start", halo=False))
         texts: list[Label] = []
         for place, entry in enumerate(on_page):
-            layers += _picture(entry, place, kind)
-            texts += _text(entry, place)
+            picture, words = _in_cell(entry, place, kind)
+            layers += picture
+            texts += words
         yield Scene(_WIDE, _HIGH, (*layers, Layer("text", (*head, *texts))), title)
 
 
-def _cell(place: int) -> tuple[float, float, float, float]:
-    """Return left, top, width and height of a cell of the page."""
-    wide = (_WIDE - 2 * _EDGE) / _COLUMNS
-    high = (_HIGH - 2 * _EDGE - _HEAD) / _ROWS
-    return _EDGE + place % _COLUMNS * wide, _EDGE + _HEAD + place // _COLUMNS * high, wide, high
-
-
-def _picture(entry: CatalogueEntry, place: int, kind: str | None) -> list[Layer]:
-    left, top, wide, high = _cell(place)
+def _in_cell(entry: CatalogueEntry, place: int, kind: str | None) -> tuple[list[Layer], list[Label]]:
+    """Return the picture of an entry in its cell of the page, and the text below it."""
+    wide, high = (_WIDE - 2 * _EDGE) / _COLUMNS, (_HIGH - 2 * _EDGE - _HEAD) / _ROWS
+    left, top = _EDGE + place % _COLUMNS * wide, _EDGE + _HEAD + place // _COLUMNS * high
     box = wide - _AIR, high - _LINES * 1.4 * _LETTERS - _AIR
     scene = draw(entry.mechanism, kind, box=box, caption=None)
     right, down = left + (wide - scene.width) / 2, top + (box[1] - scene.height) / 2
-    return [moved(layer, right, down) for layer in scene.layers if layer.shapes]
-
-
-def _text(entry: CatalogueEntry, place: int) -> list[Label]:
-    left, top, wide, high = _cell(place)
+    picture = [moved(layer, right, down) for layer in scene.layers if layer.shapes]
     first = top + high - _LINES * 1.4 * _LETTERS
     most = int((wide - _AIR) / text_width("0", _LETTERS))
     labels = []
     for i, text in enumerate((str(entry.number), entry.name, entry.said)):
         at, colour = (left + _AIR, first + i * 1.35 * _LETTERS), "grey" if i else "ink"
         labels.append(Label(at, text, _LETTERS, colour, "start", bold=i == 0, halo=False, widest=most))
-    return labels
+    return picture, labels
 
 
 def write_catalogue(

@@ -173,11 +173,10 @@ def _shadow(chain: ConformedChain, t: Floats) -> list[Shape]:
     )
     inside = Spot(_at(0, 0)).buffer(_LAST * _UNIT, 32)
     same = (_off(a, b, d) > 0) == (_off(c, d, b) > 0)
-    pieces = []
-    for turned in (False, True):
-        first = _half_plane(a, b, turned)
-        second = _half_plane(c, d, turned == same)
-        pieces.append(inside.intersection(first).intersection(second))
+    pieces = [
+        inside.intersection(_half_plane(a, b, turned)).intersection(_half_plane(c, d, turned == same))
+        for turned in (False, True)
+    ]
     return [
         Polygon([(x, y) for x, y in piece.exterior.coords[:-1]], "faint", None, opacity=0.6)
         for piece in pieces
@@ -284,14 +283,11 @@ class _SurfacePage:
         azimuths = np.linspace(start, end, points)
         middles = self.faces_us((azimuths[1:] + azimuths[:-1]) / 2)
         cuts = [0, *(np.flatnonzero(middles[1:] != middles[:-1]) + 1).tolist(), points - 1]
-        return [
-            (bool(middles[first]), self._outline(azimuths[first : last + 1], ends))
-            for first, last in pairwise(cuts)
-        ]
-
-    def _outline(self, azimuths: Floats, ends: tuple[float, float]) -> list[Point]:
-        there, back = (self.surface.place(azimuths, end, 0.0) for end in ends)
-        return self.row(np.concatenate([there, back[::-1]]))
+        outlines = []
+        for first, last in pairwise(cuts):
+            there, back = (self.surface.place(azimuths[first : last + 1], end, 0.0) for end in ends)
+            outlines.append((bool(middles[first]), self.row(np.concatenate([there, back[::-1]]))))
+        return outlines
 
 
 def _towards(t: Floats, surface: Surface) -> Floats:

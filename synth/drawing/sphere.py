@@ -479,10 +479,10 @@ def spread(points: Floats, reach: float, gap: float, only_x: bool = False) -> Fl
         places[:, 1] = points[:, 1]
     for _ in range(_ROUNDS):
         push = _pushes(places, places, gap)
-        if not only_x:
-            push += _pushes(places, points, 0.7 * gap)
         if only_x:
             push[:, 1] = 0.0
+        else:
+            push += _pushes(places, points, 0.7 * gap)
         if np.abs(push).max(initial=0.0) < 1e-4 * gap:
             break
         places = places + 0.5 * push

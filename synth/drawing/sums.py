@@ -14,6 +14,7 @@ from synth.surfaces.loop_sums import Base, loop_sum, sign_patterns
 
 _POINTS = 400
 _MOST_CURVES = 128
+"""Sums that are drawn beside those that close somewhere."""
 _MOST_NAMED = 8
 _LEFT, _TOP, _WIDE, _HIGH, _BELOW = 34.0, 22.0, 250.0, 170.0, 30.0
 """Space left of the plot, and above it; its width and height; space below it, points."""
@@ -71,7 +72,8 @@ def draw_loop_sums(mapped: ConeMap | CylinderMap) -> Scene:
         name, ends = "radius R", (least - 0.02 * (most - least), most)
         links = "lengths " + ", ".join(f"{length:.5g}" for length in mapped.lengths)
     special = list(dict.fromkeys([*(signs for signs, _, _ in sums.roots), *sums.families]))
-    curves = _curves(sums, special)
+    patterns = [tuple(signs.tolist()) for signs in sign_patterns(len(sums.reach))[:_MOST_CURVES]]
+    curves = {signs: sums.curve(signs) for signs in dict.fromkeys([*special, *patterns])}
     low, high = (float(pick([pick(curve) for curve in curves.values()])) for pick in (np.min, np.max))
     air = 0.05 * (high - low)
     plot = Plot(_LEFT, _TOP, _WIDE, _HIGH, ends, (low - air, high + air))
@@ -105,12 +107,6 @@ def _on_cylinders(mapped: CylinderMap) -> _Sums:
     return _Sums(radius, size, reach, 0, roots, [family.signs for family in mapped.families])
 
 
-def _curves(sums: _Sums, special: list[tuple[int, ...]]) -> dict[tuple[int, ...], Floats]:
-    """Return sums by their signs: those that close somewhere, and others, not too many in all."""
-    patterns = [tuple(signs.tolist()) for signs in sign_patterns(len(sums.reach))[:_MOST_CURVES]]
-    return {signs: sums.curve(signs) for signs in dict.fromkeys([*special, *patterns])}
-
-
 def _lines(
     plot: Plot, sums: _Sums, curves: dict[tuple[int, ...], Floats], special: list[tuple[int, ...]]
 ) -> list[Shape]:
@@ -119,16 +115,14 @@ def _lines(
         Line(plot.row(sums.along, curve), "faint", FINE) for signs, curve in curves.items() if signs not in special
     ]
     for number, signs in enumerate(special):
-        dash = _dash(sums.families.index(signs), len(sums.families)) if signs in sums.families else ()
+        dash: tuple[float, ...] = ()
+        if signs in sums.families[1:]:  # families lie on one another, and are seen in turn, the first below all
+            place = sums.families.index(signs)
+            dash = (_DASH * (len(sums.families) - place), _DASH * place)
         shapes.append(Line(plot.row(sums.along, curves[signs]), colour_of_class(number), STRONG, dash))
-    for signs, place, turns in sums.roots:
-        shapes.append(Disc(plot.at(place, 360 * turns), 2.6, colour_of_class(special.index(signs)), "paper", FINE))
+    for signs, along, turns in sums.roots:
+        shapes.append(Disc(plot.at(along, 360 * turns), 2.6, colour_of_class(special.index(signs)), "paper", FINE))
     return shapes
-
-
-def _dash(number: int, count: int) -> tuple[float, ...]:
-    """Return the dash of a family: those that lie on one another are seen in turn, the first below all."""
-    return () if number == 0 else (_DASH * (count - number), _DASH * number)
 
 
 def _turns(plot: Plot) -> list[Shape]:

@@ -2,7 +2,6 @@ from synth.fourbar.closing import (
     FourBarKind as FourBarKind,
     can_close as can_close,
     grashof_class as grashof_class,
-    in_a_hemisphere as in_a_hemisphere,
     kind_of_planar as kind_of_planar,
     kind_of_spherical as kind_of_spherical,
     minimal_supplementary as minimal_supplementary,
@@ -11,10 +10,8 @@ from synth.fourbar.closing import (
     supplementary as supplementary,
 )
 from synth.fourbar.position import (
-    input_limits_planar as input_limits_planar,
     input_limits_spherical as input_limits_spherical,
     output_planar as output_planar,
     output_spherical as output_spherical,
-    transmission_planar as transmission_planar,
     transmission_spherical as transmission_spherical,
 )

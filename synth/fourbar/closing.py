@@ -221,14 +221,8 @@ def _caution(links: Floats, zeros: npt.NDArray[np.bool_]) -> str:
 
 
 def _named(input_: str, output: str) -> str:
-    names = {
-        ("crank", "crank"): "double-crank",
-        ("crank", "rocker"): "crank-rocker",
-        ("rocker", "crank"): "rocker-crank",
-        ("rocker", "rocker"): "double-rocker",
-    }
-    if (input_, output) in names:
-        return names[input_, output]
+    if {input_, output} <= {"crank", "rocker"}:
+        return f"double-{input_}" if input_ == output else f"{input_}-{output}"
     short = {"0-rocker": "0", "pi-rocker": "pi"}
     both = input_ in short and output in short
     return f"{short[input_]}-{short[output]} double-rocker" if both else f"{input_} and {output}"
@@ -363,36 +357,6 @@ def minimal_supplementary(angles: npt.ArrayLike) -> Floats:
     """
     every = supplementary(angles)
     sums = every.sum(axis=-1)
-    least = (sums <= sums.min(axis=-1, keepdims=True) + rounding_of(every)).argmax(
-        axis=-1
-    )  # the first of equal ones
+    is_least = sums <= sums.min(axis=-1, keepdims=True) + rounding_of(every)
+    least = is_least.argmax(axis=-1)  # the first of equal ones
     return np.take_along_axis(every, least[..., np.newaxis, np.newaxis], axis=-2)[..., 0, :]
-
-
-def in_a_hemisphere(axes: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-    """Check whether the joint axes of spherical four-bars point into one hemisphere (Hyatt et al. 2020, 2.3).
-
-    Four vectors lie in an open hemisphere unless a combination of them with weights >= 0 vanishes. In space the
-    weights are the 3 x 3 minors with alternating sign, unique up to a factor where the vectors span space. Where
-    they do not, in a linkage that lies flat, the answer is no.
-
-    Parameters
-    ----------
-    axes : float[..., 4, 3]
-        Directions, of any length.
-
-    Examples
-    --------
-    >>> corner = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
-    >>> in_a_hemisphere([[*corner, [-1, -1, -1]], [*corner, [1, 1, 1]]]).tolist()
-    [False, True]
-    """
-    vectors = np.asarray(axes, dtype=float)
-    minors = np.stack(
-        [(-1) ** i * np.linalg.det(np.delete(vectors, i, axis=-2)) for i in range(4)],
-        axis=-1,
-    )
-    size = np.abs(minors).max(axis=-1, keepdims=True)
-    noise = 1e-12 * np.maximum(size, np.linalg.norm(vectors, axis=-1).prod(axis=-1)[..., np.newaxis])
-    some = (minors > noise).any(axis=-1), (minors < -noise).any(axis=-1)
-    return np.asarray(some[0] & some[1])

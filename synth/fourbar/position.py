@@ -62,35 +62,15 @@ def output_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike, branch: npt.Ar
 
 def _two_branches(x: Floats, y: Floats, c: Floats, branch: npt.ArrayLike) -> Floats:
     """Solve x cos(psi) + y sin(psi) = c."""
-    ratio = c / np.hypot(x, y)
-    ratio = np.where(np.abs(ratio) <= 1 + DOUBLE.closed, np.clip(ratio, -1, 1), np.nan)
-    psi = np.arctan2(y, x) + np.asarray(branch) * np.arccos(ratio)
+    psi = np.arctan2(y, x) + np.asarray(branch) * _within(c / np.hypot(x, y))
     return np.asarray(np.pi - np.remainder(np.pi - psi, 2 * np.pi))
 
 
-def input_limits_planar(lengths: npt.ArrayLike) -> Floats:
-    """Return where the input of planar four-bars ends: with coupler and output folded, and stretched.
+def input_limits_spherical(angles: npt.ArrayLike) -> Floats:
+    """Return where the input of spherical four-bars ends: with coupler and output folded, and stretched.
 
     float[..., 2], theta_min and theta_max in [0, pi]: theta and -theta are reached from theta_min to theta_max;
     nan where there is no such end, and the input passes 0 or pi.
-
-    Parameters
-    ----------
-    lengths : float[..., 4]
-
-    Examples
-    --------
-    >>> np.degrees(input_limits_planar([4, 3, 5, 1])).round(3).tolist()
-    [67.976, 117.28]
-    """
-    g, a, h, b = np.moveaxis(np.asarray(lengths, dtype=float), -1, 0)
-    with np.errstate(invalid="ignore"):
-        ends = [(g**2 + a**2 - reach**2) / (2 * g * a) for reach in (h - b, h + b)]
-    return _ends(ends)
-
-
-def input_limits_spherical(angles: npt.ArrayLike) -> Floats:
-    """Return where the input of spherical four-bars ends, as `input_limits_planar` does: float[..., 2].
 
     Parameters
     ----------
@@ -114,27 +94,10 @@ def _ends(cosines: list[Floats]) -> Floats:
     return np.arccos(np.where(np.abs(both) < 1 - DOUBLE.closed, both, np.nan))
 
 
-def transmission_planar(lengths: npt.ArrayLike, theta: npt.ArrayLike) -> Floats:
-    """Return the angle between coupler and output of planar four-bars, in [0, pi], float[...]; nan out of reach.
-
-    Force is passed on best at pi / 2, not at all at 0 and pi.
-
-    Parameters
-    ----------
-    lengths, theta : float[..., 4], float[...]
-
-    Examples
-    --------
-    >>> float(np.degrees(transmission_planar([2, 1, 2, 1], np.pi / 2)).round(6))
-    90.0
-    """
-    g, a, h, b = np.moveaxis(np.asarray(lengths, dtype=float), -1, 0)
-    square = g**2 + a**2 - 2 * g * a * np.cos(np.asarray(theta, dtype=float))
-    return _within((h**2 + b**2 - square) / (2 * h * b))
-
-
 def transmission_spherical(angles: npt.ArrayLike, theta: npt.ArrayLike) -> Floats:
-    """Return the dihedral angle between coupler and output of spherical four-bars, as `transmission_planar` does.
+    """Return the dihedral angle between coupler and output of spherical four-bars, in [0, pi], float[...].
+
+    Force is passed on best at pi / 2, not at all at 0 and pi; nan out of reach.
 
     Parameters
     ----------

@@ -199,7 +199,7 @@ def centre_axes(orientations: Orientations, samples: int = 360) -> tuple[AxisCur
     pieces = [piece for start, end in pencil.intervals() for piece in _pieces(pencil, start, end)]
     pieces += [_great_circle(*plane) for plane in pencil.whole_planes()]
     curves = [_sampled(piece, samples) for piece in pieces]
-    return tuple(_curve(orientations, _followed(points)) for points in curves if len(points) > 1)
+    return tuple(_curve(orientations, facing_on(points)) for points in curves if len(points) > 1)
 
 
 def dyads_of_four(orientations: Orientations, samples: int = 36) -> tuple[Dyad, ...]:
@@ -346,8 +346,8 @@ def _determinants(a: Floats, b: Floats, c: Floats) -> Floats:
     return np.asarray(np.einsum("ij,ij->i", a, np.cross(b, c)))
 
 
-def _followed(points: Floats) -> Floats:
-    """Return points with those ends of their axes that follow each other."""
+def facing_on(points: Floats) -> Floats:
+    """Return unit vectors, float[m, n], with those ends of their axes that follow each other."""
     turned_back = np.einsum("ij,ij->i", points[1:], points[:-1]) < 0.0
     signs = np.cumprod(np.where(np.concatenate([[False], turned_back]), -1.0, 1.0))
     return points * signs[:, None]
@@ -361,7 +361,7 @@ def _curve(orientations: Orientations, fixed: Floats) -> AxisCurve:
     for _ in range(_POLISHINGS):
         fixed, moving = _polished(conditions, fixed, moving)
     residuals = np.abs(np.einsum("mi,nij,mj->mn", fixed, conditions, moving)).max(axis=1)
-    return AxisCurve(fixed, _followed(moving), residuals, order_verdicts(orientations, fixed))
+    return AxisCurve(fixed, facing_on(moving), residuals, order_verdicts(orientations, fixed))
 
 
 def _polished(conditions: Floats, fixed: Floats, moving: Floats) -> tuple[Floats, Floats]:

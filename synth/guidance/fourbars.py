@@ -21,7 +21,7 @@ from graphs.tolerances import DOUBLE, canonical_order
 from graphs.types import Floats
 from synth.fourbar.closing import FourBarKind, kind_of_spherical, supplementary
 from synth.fourbar.position import input_limits_spherical, output_spherical, transmission_spherical
-from synth.guidance.dyads import Dyad
+from synth.guidance.dyads import Dyad, facing_on
 from synth.guidance.order import DIRECTIONS, Direction, order_by_crank_angles
 from synth.guidance.orientations import Orientations
 from synth.surfaces.loop_maps import map_to_cones
@@ -201,6 +201,8 @@ def four_bar_of(orientations: Orientations, driver: Dyad, follower: Dyad) -> Gui
     direction = _direction(angles, reach)
     usable = direction is not None and len(set(branches)) == 1
     passed = _passed(angles, direction) if usable and direction is not None else angles
+    at_follower = transmission_spherical(links, passed)
+    supplement = np.where(np.isnan(at_follower), 0.0, np.pi - at_follower)  # 0 where it does not close
     return GuidedFourBar(
         driver,
         follower,
@@ -211,7 +213,7 @@ def four_bar_of(orientations: Orientations, driver: Dyad, follower: Dyad) -> Gui
         branches,
         direction,
         len(set(circuits)) == 1 and order_by_crank_angles(_along_circuit(angles, sides, reach)) is not None,
-        _least_transmission(links, passed),
+        float(np.fmin(at_follower, supplement).min()),
     )
 
 
@@ -242,10 +244,8 @@ def motion_of(orientations: Orientations, four_bar: GuidedFourBar, steps: int = 
     parts = [np.linspace(a, b, steps, endpoint=False) for a, b in pairwise(keys.tolist())]
     angles = np.concatenate([*parts, keys[-1:]])
     matrices = _body_at(orientations, four_bar, angles)
-    quaternions = Orientations.from_matrices(matrices).quaternions.copy()
-    turned_back = np.einsum("ij,ij->i", quaternions[1:], quaternions[:-1]) < 0.0
-    quaternions[1:] *= np.cumprod(np.where(turned_back, -1.0, 1.0))[:, None]
-    return BodyMotion(angles, quaternions, tuple(range(0, len(angles), steps)))
+    quaternions = Orientations.from_matrices(matrices).quaternions
+    return BodyMotion(angles, facing_on(quaternions), tuple(range(0, len(angles), steps)))
 
 
 def _link_angles(driver: Dyad, follower: Dyad) -> Floats:
@@ -325,12 +325,6 @@ def _passed(angles: Floats, direction: Direction) -> Floats:
     return np.concatenate([[first, last], turns])
 
 
-def _least_transmission(links: Floats, angles: Floats) -> float:
-    """Return the transmission angle furthest from a right angle, or its supplement; 0 where it does not close."""
-    transmission = transmission_spherical(links, angles)
-    return float(np.where(np.isnan(transmission), 0.0, np.minimum(transmission, np.pi - transmission)).min())
-
-
 def _body_at(orientations: Orientations, four_bar: GuidedFourBar, angles: Floats) -> Floats:
     """Return rotation matrices of the body at driver angles, on the branch of orientation 1."""
     driver, follower = four_bar.driver, four_bar.follower
@@ -343,15 +337,10 @@ def _body_at(orientations: Orientations, four_bar: GuidedFourBar, angles: Floats
     psi = output_spherical(links, angles, 1 if side else -1)
     if np.isnan(psi).any():
         raise UnsolvableError("this four-bar does not close all the way: its dyads do not fit well enough")
-    following = _at_output(driver.fixed, follower, psi)
-    return np.asarray(_frame(driven, following) @ _frame(driver.moving[None], follower.moving[None])[0].T)
-
-
-def _at_output(zero: Floats, follower: Dyad, psi: Floats) -> Floats:
-    """Return W_2 at output angles, which are counted about G_2 from the ground link prolonged: float[m, 3]."""
     fixed, beta = follower.fixed, follower.link_angle
-    out = rotated(-unit(across(zero, fixed)), fixed, psi)
-    return np.asarray(np.cos(beta) * fixed + np.sin(beta) * out)
+    out = rotated(-unit(across(driver.fixed, fixed)), fixed, psi)  # psi is counted from the ground link prolonged
+    following = np.asarray(np.cos(beta) * fixed + np.sin(beta) * out)
+    return np.asarray(_frame(driven, following) @ _frame(driver.moving[None], follower.moving[None])[0].T)
 
 
 def _frame(a: Floats, b: Floats) -> Floats:

@@ -154,7 +154,8 @@ def _six(conditions: Floats, kernel: Floats, forms: Floats) -> tuple[Complexes, 
         overlap = np.abs(products.conj() @ products.T) - np.eye(_SOLUTIONS)
         closest = float(np.sqrt(max(0.0, 1.0 - overlap.max())))
         # near a double solution the conditions lose rank: there two of the six may lie closer than the bound
-        double = max(_condition(conditions, g, w) for g, w in solutions) > 0.01 / DOUBLE.same_configuration
+        worst_condition = max(np.linalg.cond(_linearised(conditions, g, w)[0]) for g, w in solutions)
+        double = worst_condition > 0.01 / DOUBLE.same_configuration
         if worst < _SOLVED and (closest > DOUBLE.same_configuration or double):
             return fixed, moving
     raise NumericalError(
@@ -209,10 +210,6 @@ def _linearised(conditions: Floats, g: Numbers, w: Numbers) -> tuple[Numbers, Nu
     return np.vstack([np.hstack([by_g, by_w]), lengths]), by_w @ w
 
 
-def _condition(conditions: Floats, g: Numbers, w: Numbers) -> float:
-    return float(np.linalg.cond(_linearised(conditions, g, w)[0]))
-
-
 def _misses(conditions: Floats, g: Numbers, w: Numbers) -> float:
     return float(np.abs(np.einsum("i,kij,j->k", g, conditions, w)).max())
 
@@ -245,7 +242,7 @@ def _turned(axis: Complexes) -> Complexes:
 
 
 def _apart(pair: tuple[Floats, Floats], other: tuple[Floats, Floats]) -> float:
-    return float(max(np.linalg.norm(np.cross(a, b)) for a, b in zip(pair, other, strict=True)))
+    return max(map(_sine_between, pair, other))
 
 
 _GRID = 2000

@@ -4,8 +4,7 @@ Theory: docs/theory/moving.md.
 """
 
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import dataclass, field
-from itertools import combinations
+from itertools import combinations, pairwise
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -13,7 +12,7 @@ import networkx as nx
 import numpy as np
 
 from graphs.answer.mechanisms import precision_of_steps
-from graphs.convert.table import Mechanism, to_sheet
+from graphs.convert.table import Mechanism, kind_in_words, to_sheet
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.files.accepted import MechanismLike
 from graphs.files.formats import read
@@ -37,26 +36,6 @@ from synth.guidance.orientations import Orientations
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT, Configuration
 from synth.motion.linkage import PosedLinkage, linkage_of_axes
-
-
-@dataclass
-class _Hinges:
-    """Links and hinges as they are added."""
-
-    links: list[Hashable]
-    joints: dict[Hashable, tuple[Hashable, Hashable]] = field(default_factory=dict)
-    axes: dict[Hashable, tuple[list[float], list[float]]] = field(default_factory=dict)
-
-    def join(self, first: int, second: int, point: Sequence[float], directions: Floats) -> None:
-        """Join two rods at a point, by hinges one after the other; small bodies lie between these."""
-        name = f"{first}-{second}"
-        between: list[Hashable] = [f"{name}.{number}" for number in range(1, len(directions))]
-        self.links += between
-        ends = [first, *between, second]
-        for number, direction in enumerate(directions):
-            joint = name if len(directions) == 1 else f"{name}.{'abc'[number]}"
-            self.joints[joint] = (ends[number], ends[number + 1])
-            self.axes[joint] = (list(point), direction.tolist())
 
 
 def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
@@ -92,10 +71,23 @@ def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
     """
     _check_only_rods(model)
     rods = list(model.edges)
-    ends = np.array([[model.coordinates[v] for v in rod] for rod in rods], dtype=float)
-    directions = _directions(rods, ends)
+    directions = _directions(rods, np.array([[model.coordinates[v] for v in rod] for rod in rods], dtype=float))
     tolerances = Tolerances.of(precision_of(list(model.coordinates.values())).size)
-    hinges = _Hinges(list(range(len(rods))))
+    links: list[Hashable] = list(range(len(rods)))
+    joints: dict[Hashable, tuple[Hashable, Hashable]] = {}
+    axes: dict[Hashable, tuple[list[float], list[float]]] = {}
+
+    def join(first: int, second: int, vertex: Hashable, directions: Floats) -> None:
+        """Join two rods at a vertex, by hinges one after the other; small bodies lie between these."""
+        name = f"{first}-{second}"
+        between: list[Hashable] = [f"{name}.{number}" for number in range(1, len(directions))]
+        links.extend(between)
+        ends = pairwise([first, *between, second])
+        for letter, direction, pair in zip("abc", directions, ends, strict=False):
+            joint = f"{name}.{letter}" if between else name
+            joints[joint] = pair
+            axes[joint] = (list(model.coordinates[vertex]), direction.tolist())
+
     meetings: dict[Hashable, list[int]] = {vertex: [] for vertex in model.nodes}
     for number, rod in enumerate(rods):
         for vertex in rod:
@@ -103,15 +95,21 @@ def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
     tree = _tree(meetings, directions, tolerances.parallel)
     for first, second, vertex in tree:
         across = _across(directions[first], directions[second], tolerances.parallel)
-        hinges.join(first, second, model.coordinates[vertex], across[:1] if not hinges.joints else across)
+        join(first, second, vertex, across if joints else across[:1])
     for first, second, vertex in _others(meetings, tree):
-        hinges.join(first, second, model.coordinates[vertex], np.eye(3))
-    return linkage_of_axes(SCGraph(hinges.links, hinges.joints), hinges.axes)
+        join(first, second, vertex, np.eye(3))
+    return linkage_of_axes(SCGraph(links, joints), axes)
+
+
+def _without_coordinates(mechanism: object) -> UnsolvableError:
+    """Return the error of a mechanism that cannot move since its coordinates are not known."""
+    kind = kind_in_words(mechanism)
+    return UnsolvableError(f"motion requires coordinates, and the {kind} has none; try synth realise")
 
 
 def _check_only_rods(model: PolyhedronModel) -> None:
     if not model.coordinates:
-        raise UnsolvableError(f"motion needs coordinates, and {model!r} has none")
+        raise _without_coordinates(model)
     more = {
         "remote centres": model.centres,
         "points on lines": model.on_line,
@@ -284,7 +282,7 @@ def _made(mechanism: Movable, orientations: Orientations | None) -> tuple[PosedL
         if orientations is None:
             raise UnsolvableError("a guided four-bar has its moving axes in the body; expected its orientations")
         return _of_guided(mechanism, orientations.matrices[0]), _EXACTLY
-    raise UnsolvableError(f"motion needs coordinates, and {mechanism!r} has none")
+    raise _without_coordinates(mechanism)
 
 
 def with_precision(mechanism: Mechanism, precision: float | None) -> Mechanism | Configuration:
@@ -309,7 +307,7 @@ def _with_slides(mechanism: JointedLinkage) -> tuple[PosedLinkage, Precision]:
     """Return a linkage of revolute and prismatic joints, and how precise its coordinates are."""
     axes = {joint: (place.point, place.axes[0]) for joint, place in mechanism.places.items()}
     if not axes:
-        raise UnsolvableError(f"motion needs coordinates, and {mechanism!r} has none")
+        raise _without_coordinates(mechanism)
     slides = [joint for joint, kind in mechanism.kinds.items() if kind is JointKind.PRISMATIC]
     return _with_centres(linkage_of_axes(mechanism.chain, axes, slides=slides)), _precision_of_axes(axes)
 

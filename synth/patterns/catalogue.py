@@ -1,9 +1,9 @@
 """All generators, by name, with their parameters, conditions and sources. Theory: docs/theory/generators.md."""
 
+from functools import partial
 from math import isclose, pi
 
 from graphs.joints.linkage import JointedLinkage
-from graphs.mechanism.solids import HingedSolids
 from synth.patterns import creases, goods, hinged_rings, platforms, scissors
 from synth.patterns.generator import Generator, Parameter, Values, angle, count, length
 
@@ -165,10 +165,6 @@ _FIVE = ", no five by more than 720"
 _ARCS = (75, 80, 70, 85, 65, 60)
 
 
-def _of_arcs(**arcs: float) -> HingedSolids:
-    return hinged_rings.spherical_ring([arcs[f"arc{i}"] for i in range(1, len(arcs) + 1)])
-
-
 def _arcs(links: int) -> tuple[Parameter, ...]:
     return tuple(angle(f"arc{i + 1}", _ARCS[i], 5, 175, f"arc of link {i}") for i in range(links))
 
@@ -236,8 +232,8 @@ _RINGS = (
     ),
     *(
         Generator(
-            f"{word}-bar", f"Spherical {word}-bar", _of_arcs, _arcs(links), lambda v: len(v) - 3,
-            "axes through one point", "three equations a loop",
+            f"{word}-bar", f"Spherical {word}-bar", lambda **arcs: hinged_rings.spherical_ring([*arcs.values()]),
+            _arcs(links), lambda v: len(v) - 3, "axes through one point", "three equations per loop",
             relations="no arc is longer than the others together, no three by more than 360 degrees" + more,
         )
         for word, links, more in (("four", 4, ""), ("five", 5, _FIVE), ("six", 6, _FIVE))
@@ -339,10 +335,7 @@ def _platform(legs: str, freedoms: int, conditions: str, source: str) -> Generat
     """Return the generator of a platform by its number of legs and their joints, such as ``6-UPS``."""
     number, letters = int(legs[0]), legs[2:]
     more = (*([_GAP] if number == 6 else []), *([] if "P" in letters else [_OUT]))
-
-    def make(**values: float) -> JointedLinkage:
-        return platforms.platform(letters, number, **values)
-
+    make = partial(platforms.platform, letters, number)
     return Generator(
         "stewart" if legs == "6-UPS" else legs.lower(),
         f"Platform on {'six' if number == 6 else 'three'} {letters} legs", make, (*_RADII, _HEIGHT, *more),
@@ -384,12 +377,9 @@ def _opening(default: float, most: float) -> tuple[Parameter, ...]:
 
 
 def _polyhedron(name: str, corners: scissors.Corners, default: float, most: float) -> Generator:
-    def make(opening: float) -> JointedLinkage:
-        return scissors.scissor_polyhedron(corners, opening)
-
     return Generator(
-        f"scissor-{name}", f"{name.capitalize()} of kinked scissors", make, _opening(default, most), lambda _: 1,
-        _KINKS, _SOURCE,
+        f"scissor-{name}", f"{name.capitalize()} of kinked scissors",
+        partial(scissors.scissor_polyhedron, corners), _opening(default, most), lambda _: 1, _KINKS, _SOURCE,
     )  # fmt: skip
 
 

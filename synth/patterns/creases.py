@@ -7,8 +7,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import acos, cos, degrees, dist, isclose, log, pi, sin, sqrt, tan
 
+import numpy as np
+
 from graphs.errors import InvariantError
 from graphs.mechanism.sheet import Sheet, sides_of_face
+from graphs.types import Floats
 from synth.patterns.panels import Corners, Place, sheet_of_faces, sheet_of_panels
 
 
@@ -212,7 +215,8 @@ def resch(rows: int, columns: int) -> Sheet:
             panels += [[middle, a, b] for a, b in sides_of_face(star)]
             for a, b in sides_of_face(star):
                 tile = [b, a, _beyond(a, b)]
-                tiles.setdefault(_tile_at(tile), tile)
+                middle_of_tile = tuple(round(sum(c[k] for c in tile) / 3, 6) + 0.0 for k in (0, 1))
+                tiles.setdefault(middle_of_tile, tile)  # neighbouring triangles share it
     sheet = sheet_of_panels([*panels, *tiles.values()], f"Resch's triangles {rows} x {columns}")
     # Folded, long spokes are the lower edges of fins; where tiles bend down, and fins meet, there are mountains.
     return _lettered(sheet, lambda a, b: "V" if dist(a, b) > _LONG else "M")
@@ -243,11 +247,6 @@ def _beyond(a: Place, b: Place) -> Place:
     return (a[0] + x / 2 + y * sqrt(3.0) / 2, a[1] + y / 2 - x * sqrt(3.0) / 2)
 
 
-def _tile_at(corners: list[Place]) -> Place:
-    """Return the rounded middle of a tile, by which neighbouring triangles recognise it."""
-    return tuple(round(sum(c[k] for c in corners) / 3, 6) + 0.0 for k in (0, 1))
-
-
 def polygon_twist(sides: int, twist: float, radius: float = 0.35, letters: str = "", title: str = "") -> Sheet:
     """Return a twist: a regular polygon in the middle of another, and a straight pleat from each of its sides.
 
@@ -255,20 +254,15 @@ def polygon_twist(sides: int, twist: float, radius: float = 0.35, letters: str =
     and second creases are mountains, first creases valleys.
     """
     step = 2 * pi / sides
-    inner = [
-        (radius * cos(k * step - step / 2 - twist), radius * sin(k * step - step / 2 - twist))
-        for k in range(sides)
-    ]
+    inner = [_off((0.0, 0.0), radius, k * step - step / 2 - twist) for k in range(sides)]
     places: list[Place] = list(inner)
     ends = {}
     for k in range(sides):  # pleat k leaves the polygon across its side k, square to a side of the sheet
         for v in (k, (k + 1) % sides):
             ends[k, v] = len(places)
             places.append(_turned((1.0, _turned(inner[v], -k, sides)[1]), k, sides))
-    corners = []
-    for k in range(sides):
-        corners.append(len(places))
-        places.append(_turned((1.0, sin(step / 2) / cos(step / 2)), k, sides))
+    corners = range(len(places), len(places) + sides)
+    places += [_turned((1.0, sin(step / 2) / cos(step / 2)), k, sides) for k in range(sides)]
     faces: list[tuple[int, ...]] = [tuple(range(sides))]
     marks = {}
     assigned = letters or "M" * sides + "V" * sides + "M" * sides
@@ -349,7 +343,6 @@ def kresling(sides: int, ends: int, turn: float = 0.5, height: float = 0.8) -> S
     return sheet_of_panels([*panels, *[below[::-1], above][:ends]], f"Storey of Kresling's pattern, {sides} sides")
 
 
-Point = tuple[float, float, float]
 _MIDDLE = 0.45
 """Length of the crease between the links of a ride-along, in widths of a wall: a little less than half a wall."""
 
@@ -374,43 +367,28 @@ def deployable_cylinder(pleats: int, short: float, slack: float, height: float =
     if opening <= 0.0:
         what = f"short = {degrees(short):g} degrees leaves no angle between the walls at outer creases"
         raise InvariantError("short", what, f"less than {degrees(2.0 * outer):g} degrees")
-    feet = _feet(pleats, opening)
-    panels: list[Corners] = [_wall(foot, feet[(k + 1) % len(feet)], height) for k, foot in enumerate(feet)]
-    for k, foot in enumerate(feet):
-        before, after = feet[k - 1], feet[(k + 1) % len(feet)]
-        panels += _ride_along((before, foot, after), height, inner if k % 2 else outer)
+    feet, up = _feet(pleats, opening), np.array([0.0, 0.0, height])
+    tops, middles = feet + up, (feet + np.roll(feet, -1, axis=0)) / 2.0 + up  # of creases, and of walls
+    walls = [feet, np.roll(feet, -1, axis=0), np.roll(tops, -1, axis=0), middles, tops]
+    panels: list[Corners] = np.stack(walls, axis=1).tolist()
+    for k, top in enumerate(tops):
+        panels += _ride_along(middles[k - 1], top, middles[k], inner if k % 2 else outer)
     return sheet_of_panels(panels, f"Radially deployable cylinder of {pleats} pleats")
 
 
-def _feet(pleats: int, opening: float) -> list[Point]:
-    """Return where creases meet the floor, the first an outer one, with walls of width 1 at an angle there."""
+def _feet(pleats: int, opening: float) -> Floats:
+    """Return where creases meet the floor, the first an outer one, of walls 1 wide: float[2 pleats, 3]."""
     turn = pi / pleats
     far, near = (sin(angle) / sin(turn) for angle in (turn + opening / 2.0, opening / 2.0))
-    return [(radius * cos(k * turn), radius * sin(k * turn), 0.0) for k, radius in enumerate((far, near) * pleats)]
+    places = enumerate((far, near) * pleats)
+    return np.array([(radius * cos(k * turn), radius * sin(k * turn), 0.0) for k, radius in places])
 
 
-def _wall(foot: Point, following: Point, height: float) -> list[Point]:
-    """Return a wall with a corner in the middle of its upper edge, which two ride-alongs share."""
-    middle = _between(foot, following)
-    return [foot, following, _raised(following, height), _raised(middle, height), _raised(foot, height)]
-
-
-def _ride_along(feet: tuple[Point, Point, Point], height: float, sector: float) -> list[Corners]:
-    """Return the two triangles on the upper half edges of the walls at a crease."""
-    before, foot, after = feet
-    left, right = (_raised(_between(foot, end), height) for end in (before, after))
-    top = _raised(foot, height)
-    towards = [(a + b) / 2.0 - c for a, b, c in zip(left, right, top, strict=True)]
-    half_way = sum(x * x for x in towards) ** 0.5
+def _ride_along(left: Floats, top: Floats, right: Floats, sector: float) -> list[Corners]:
+    """Return the two triangles on the upper half edges of the walls at a crease, from its upper end."""
+    towards = (left + right) / 2.0 - top
+    half_way = float((towards * towards).sum()) ** 0.5
     lean = acos(min(1.0, cos(sector) / (2.0 * half_way)))
-    level = _MIDDLE * cos(lean) / half_way
-    tip = (top[0] + level * towards[0], top[1] + level * towards[1], top[2] + _MIDDLE * sin(lean))
-    return [[top, left, tip], [top, tip, right]]
-
-
-def _between(a: Point, b: Point) -> Point:
-    return ((a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0, (a[2] + b[2]) / 2.0)
-
-
-def _raised(a: Point, height: float) -> Point:
-    return (a[0], a[1], a[2] + height)
+    tip = top + _MIDDLE * cos(lean) / half_way * towards + np.array([0.0, 0.0, _MIDDLE * sin(lean)])
+    triangles: list[Corners] = np.array([[top, left, tip], [top, tip, right]]).tolist()
+    return triangles

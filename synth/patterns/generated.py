@@ -16,13 +16,6 @@ from synth.patterns.catalogue import GENERATORS
 from synth.patterns.generator import FOLD, Generator
 
 
-def folded(sheet: Sheet, angle: float) -> Sheet:
-    """Return a flat sheet folded on the branch of its assignment up to a largest fold angle, radians."""
-    last_frame = fold_to(sheet, angle).frames()[-1]
-    assert isinstance(last_frame, Sheet)
-    return last_frame
-
-
 @dataclass(frozen=True, slots=True, repr=False)
 class Generated(Printed):
     """A mechanism that a generator makes. It prints as ``synth generate`` does.
@@ -36,7 +29,7 @@ class Generated(Printed):
         Largest fold angle, radians; None if the mechanism is not folded.
     mechanism : Sheet, HingedSolids or JointedLinkage
     freedoms : int
-        Of finite motion, by the source.
+        Of finite motion, according to the source.
     count : int or None
         Mobility by count of a generic realisation of its type.
 
@@ -85,7 +78,7 @@ class Generated(Printed):
             lines.append(f"folded to {degrees(self.fold):g} degrees")
         freedoms = numbered(self.freedoms, "degree of freedom", "degrees of freedom")
         count = "not known" if self.count is None else f"{self.count}, h = {self.overconstraint}"
-        lines.append(f"{freedoms} of finite motion, by the source; count of its type M = {count}")
+        lines.append(f"{freedoms} of finite motion, according to the source; by count M = {count}")
         return [*lines, f"conditions: {self.generator.conditions}", f"source: {self.generator.source}"]
 
     def __repr__(self) -> str:
@@ -128,6 +121,8 @@ def generate(name: str, *, fold: float | None = None, **parameters: float) -> Ge
                 f"{name} is not a flat pattern, so it is not folded: its parameters set its shape"
             )
         fold = FOLD.checked(fold)
-        mechanism = folded(mechanism, fold)
+        last_frame = fold_to(mechanism, fold).frames()[-1]  # on the branch of its assignment
+        assert isinstance(last_frame, Sheet)
+        mechanism = last_frame
     by_count = mobility(mechanism, exact=False, pose=False).mobility
     return Generated(generator, values, fold, mechanism, generator.freedoms(values), by_count)

@@ -55,7 +55,12 @@ class Parameter:
     def range(self) -> str:
         """The range in words; angles in degrees."""
         kind = "a whole number" if self.unit == "count" else "a number" if self.unit == "length" else "an angle"
-        return f"{kind} from {self.in_words(self.least)} to {self.in_words(self.most)}"
+        return f"{kind} {self.limits}"
+
+    @property
+    def limits(self) -> str:
+        """The least and the largest value in words; angles in degrees."""
+        return f"from {self.in_words(self.least).removesuffix(' degrees')} to {self.in_words(self.most)}"
 
     def in_words(self, value: float) -> str:
         """Return a value with its unit, as it is printed."""
@@ -91,7 +96,7 @@ class Generator:
         Takes the parameters by name; returns a sheet, hinged solids, or a linkage with joints of all kinds.
     parameters : tuple of Parameter
     freedoms : callable
-        Takes the values of the parameters; returns the freedoms of finite motion, by the source.
+        Takes the values of the parameters; returns the degrees of freedom of finite motion by the source.
     conditions : str
         When these are the freedoms: the branch that is meant, what the proportions must obey.
     source : str

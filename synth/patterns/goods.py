@@ -9,13 +9,11 @@ from itertools import pairwise
 from math import acos, cos, degrees, pi, radians, sin, sqrt, tan
 
 from graphs.errors import InvariantError, numbered
-from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.sc import SCGraph
+from graphs.loops.loop import Centre
 from graphs.mechanism.sheet import Sheet
-from graphs.mechanism.solids import Axis, HingedSolids
+from graphs.mechanism.solids import HingedSolids
 from graphs.tolerances import DOUBLE
-from graphs.types import JointId
-from synth.patterns.hinged_rings import Line
+from synth.patterns.hinged_rings import ring_of_axes
 from synth.patterns.panels import Place, sheet_of_faces
 
 
@@ -33,7 +31,7 @@ def parallel_pop_up(opening: float, left: float, right: float, first: float, sec
     up = sqrt(first**2 - along**2)
     ridge = (on_left[0] + (along * x - up * y) / between, on_left[1] + (along * y + up * x) / between)
     corners = ((0.0, 0.0), on_left, ridge, on_right)
-    return _four_links([((x, y, 0.0), (0.0, 0.0, 1.0)) for x, y in corners], Centre.INFINITE)
+    return ring_of_axes([((x, y, 0.0), (0.0, 0.0, 1.0)) for x, y in corners], Centre.INFINITE)
 
 
 def angle_pop_up(opening: float, base: float, rise: float) -> HingedSolids:
@@ -46,7 +44,7 @@ def angle_pop_up(opening: float, base: float, rise: float) -> HingedSolids:
         raise InvariantError("angle-pop-up", what, "a smaller angle, or a smaller opening")
     turn = acos(on_left[0] / flat) + acos(cos(rise) / flat)
     directions = ((1.0, 0.0, 0.0), on_left, (cos(turn), sin(turn), 0.0), (on_left[0], on_left[1], -on_left[2]))
-    return _four_links([((0.0, 0.0, 0.0), one) for one in directions], Centre.FINITE)
+    return ring_of_axes([((0.0, 0.0, 0.0), direction) for direction in directions], Centre.FINITE)
 
 
 def slit_card(strips: int, depth: float = 1.0, more: float = 0.5, width: float = 1.0) -> Sheet:
@@ -125,13 +123,6 @@ def _with_points(face: tuple[int, ...], part: tuple[int, ...], along: list[int])
 
 def _cuts(slits: Iterable[tuple[int, int]]) -> dict[frozenset[int], str]:
     return dict.fromkeys(map(frozenset, slits), "C")
-
-
-def _four_links(lines: list[Line], centre: Centre) -> HingedSolids:
-    """Return four links about four axes; joint 0 is the fold of the card, between links 3 and 0."""
-    chain = SCGraph(4, [((i - 1) % 4, i) for i in range(4)], [Loop(tuple(range(4)), centre)])
-    axes: dict[JointId, Axis] = {i: ((p[0], p[1], p[2]), (d[0], d[1], d[2])) for i, (p, d) in enumerate(lines)}
-    return HingedSolids(chain, axes)
 
 
 def webbed_tray(length: float = 3.0, width: float = 2.0, height: float = 0.8) -> Sheet:

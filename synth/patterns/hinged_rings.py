@@ -16,24 +16,23 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import Axis, HingedSolids
 from graphs.tolerances import DOUBLE, canonical_order
-from graphs.types import Floats, JointId
-from synth.patterns.panels import sheet_of_faces
+from graphs.types import Floats
+from synth.patterns.panels import DIGITS, rounded_vector, sheet_of_faces
 
 Line = tuple[Sequence[float], Sequence[float]]
 """A point of an axis and its direction."""
 
-DIGITS = 14
-"""Special proportions are kept to these: rounding more would close the loops at one pose only."""
-
 
 def ring(lines: Sequence[Line], digits: int = DIGITS) -> HingedSolids:
-    """Return a ring of solids by its axes, points and directions: joint i connects solids i - 1 and i."""
-    n = len(lines)
-    chain = SCGraph(n, [((i - 1) % n, i) for i in range(n)])
-    axes: dict[JointId, Axis] = {
-        i: (_rounded(point, digits), _rounded(along, digits)) for i, (point, along) in enumerate(lines)
-    }
-    return HingedSolids(chain, axes)
+    """Return a ring of solids by its axes, points and directions, rounded."""
+    return ring_of_axes([(rounded_vector(point, digits), rounded_vector(along, digits)) for point, along in lines])
+
+
+def ring_of_axes(axes: Sequence[Axis], centre: Centre | None = None) -> HingedSolids:
+    """Return a ring of solids by its axes, and its centre if it has one: joint i connects solids i - 1 and i."""
+    n = len(axes)
+    loops = [] if centre is None else [Loop(tuple(range(n)), centre)]
+    return HingedSolids(SCGraph(n, [((i - 1) % n, i) for i in range(n)], loops), dict(enumerate(axes)))
 
 
 def chain_frames(lengths: Sequence[float], twists: Sequence[float], angles: Sequence[float]) -> Floats:
@@ -73,11 +72,6 @@ def turned(angle: float, axis: int) -> Floats:
     rotation[a, a] = rotation[b, b] = cos(angle)
     rotation[a, b], rotation[b, a] = -sin(angle), sin(angle)
     return rotation
-
-
-def _rounded(vector: Sequence[float], digits: int) -> tuple[float, float, float]:
-    x, y, z = (round(float(one), digits) + 0.0 for one in vector)
-    return (x, y, z)
 
 
 _APART = 1e-3
@@ -197,15 +191,14 @@ def spherical_ring(arcs: Sequence[float]) -> HingedSolids:
     and after it leave; so it is no dead point unless the links allow only one configuration. Raise InvariantError
     if the arcs do not close.
     """
-    n = len(arcs)
     diagonals = _diagonals(arcs)
     azimuth, spots = 0.0, [(0.0, 0.0), (arcs[0], 0.0)]
     for before, arc, after in zip(diagonals, arcs[1:], diagonals[1:], strict=False):
-        azimuth += _angle(before, after, arc)
+        value = (cos(arc) - cos(before) * cos(after)) / (sin(before) * sin(after))
+        azimuth += acos(float(np.clip(value, -1.0, 1.0)))
         spots.append((after, azimuth))
     directions = [(sin(far) * cos(t), sin(far) * sin(t), cos(far)) for far, t in spots]
-    chain = SCGraph(n, [((i - 1) % n, i) for i in range(n)], [Loop(tuple(range(n)), Centre.FINITE)])
-    return HingedSolids(chain, {i: ((0.0, 0.0, 0.0), one) for i, one in enumerate(directions)})
+    return ring_of_axes([((0.0, 0.0, 0.0), direction) for direction in directions], Centre.FINITE)
 
 
 def _diagonals(arcs: Sequence[float]) -> list[float]:
@@ -249,12 +242,6 @@ def _third(side: _Range, arc: float) -> _Range:
     if low <= pi - arc <= high:
         most = pi
     return least, most
-
-
-def _angle(side: float, other: float, opposite: float) -> float:
-    """Return the angle of a spherical triangle between two sides."""
-    value = (cos(opposite) - cos(side) * cos(other)) / (sin(side) * sin(other))
-    return acos(float(np.clip(value, -1.0, 1.0)))
 
 
 _STARTS, _TRIES = 3, 100

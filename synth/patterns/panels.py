@@ -5,18 +5,19 @@ from dataclasses import replace
 from types import MappingProxyType
 
 from graphs.mechanism.sheet import Sheet, sides_of_face
+from graphs.types import Floats
 
 Place = tuple[float, ...]
 Corners = Sequence[Place]
 
+DIGITS = 14
+"""Special proportions are kept to these: rounding more would close the loops at one pose only."""
 _SAME = 12
 """Corners are one vertex if they agree to so many decimals."""
 _NONE: Mapping[frozenset[int], str] = MappingProxyType({})
 
 
-def sheet_of_panels(
-    panels: Sequence[Corners], title: str = "", letters: Mapping[frozenset[int], str] = {}
-) -> Sheet:
+def sheet_of_panels(panels: Sequence[Corners], title: str = "") -> Sheet:
     """Return the sheet of panels by the places of their corners; corners at the same place are one vertex."""
     number: dict[Place, int] = {}
     places: list[Place] = []
@@ -30,7 +31,7 @@ def sheet_of_panels(
                 places.append(tuple(place))
             face.append(number[near])
         faces.append(tuple(face))
-    return sheet_of_faces(places, faces, title, letters)
+    return sheet_of_faces(places, faces, title)
 
 
 def sheet_of_faces(
@@ -47,6 +48,12 @@ def sheet_of_faces(
     edges = tuple((min(side), max(side)) for side in sides)
     marks = "".join(letters.get(side, "U") if number > 1 else "B" for side, number in sides.items())
     return Sheet(len(places), edges, marks, tuple(faces), tuple(map(tuple, places)), title)
+
+
+def rounded_vector(vector: Sequence[float] | Floats, digits: int = DIGITS) -> tuple[float, float, float]:
+    """Return a vector with its coordinates rounded to so many decimals."""
+    x, y, z = (round(float(part), digits) + 0.0 for part in vector)
+    return (x, y, z)
 
 
 def rounded(sheet: Sheet, digits: int) -> Sheet:

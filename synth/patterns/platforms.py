@@ -1,18 +1,18 @@
 """Platforms by the letters of their legs: UPS, RUS, UUU, SPS, RPS, UPU, CRR. Theory: docs/theory/joints.md."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from math import cos, isclose, pi, sin
 
 import numpy as np
 
 from graphs.errors import InvariantError
 from graphs.geometry import unit
-from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, Vector
+from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace
 from graphs.mechanism.sc import SCGraph
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId, LinkId
+from synth.patterns.panels import rounded_vector
 
-_DIGITS = 14
 _UP = np.array([0.0, 0.0, 1.0])
 _THIRD = 2 * pi / 3
 _UPRIGHT = 3
@@ -35,38 +35,37 @@ def platform(
     if number == _UPRIGHT and isclose(base, top, rel_tol=DOUBLE.same_point):
         what = f"feet and heads both at {base:g}, so that legs stand upright"
         raise InvariantError("platform", what, "different radii of base and top")
-    leg_of = _LEGS[legs]
     feet, heads = _azimuths(number, gap)
+    return _on_legs(
+        _LEGS[legs](_on_circle(base, foot, 0.0), _on_circle(top, head, height), out)
+        for foot, head in zip(feet, heads, strict=True)
+    )
+
+
+def translating_platform(size: float, bent: float) -> JointedLinkage:
+    """Return a platform on three C-R-R legs, each with its axes along an edge of a corner of a cube."""
+    legs = []
+    for leg in range(3):
+        along, first, second = (np.eye(3)[(leg + turn) % 3] for turn in range(3))
+        reach = first, first + cos(bent) * first + sin(bent) * second
+        points = size * np.array([along, along + reach[0], along + reach[1]])
+        legs.append([(JointKind(kind), _place(point, along)) for kind, point in zip("CRR", points, strict=True)])
+    return _on_legs(legs)
+
+
+def _on_legs(legs: Iterable[Sequence[Joint]]) -> JointedLinkage:
+    """Return a base and a top joined by legs, each by its joints from the base on."""
     links: list[LinkId] = ["base", "top"]
     joints: dict[JointId, tuple[LinkId, LinkId]] = {}
     kinds: dict[JointId, JointKind] = {}
     places: dict[JointId, JointPlace] = {}
-    for leg, (foot, head) in enumerate(zip(feet, heads, strict=True)):
-        leg_joints = leg_of(_on_circle(base, foot, 0.0), _on_circle(top, head, height), out)
+    for leg, leg_joints in enumerate(legs):
         row: list[LinkId] = ["base", *(f"leg{leg}-{part}" for part in range(1, len(leg_joints))), "top"]
         links += row[1:-1]
         for place, (kind, where) in enumerate(leg_joints):
             joint = f"{kind.value}{leg}-{place}"
             joints[joint] = (row[place], row[place + 1])
             kinds[joint], places[joint] = kind, where
-    return JointedLinkage(SCGraph(links, joints, ground="base"), kinds, places)
-
-
-def translating_platform(size: float, bent: float) -> JointedLinkage:
-    """Return a platform on three C-R-R legs, each with its axes along an edge of a corner of a cube."""
-    links: list[LinkId] = ["base", "top"]
-    joints: dict[JointId, tuple[LinkId, LinkId]] = {}
-    places: dict[JointId, JointPlace] = {}
-    for leg in range(3):
-        along, first, second = (np.eye(3)[(leg + turn) % 3] for turn in range(3))
-        row: list[LinkId] = ["base", f"leg{leg}-1", f"leg{leg}-2", "top"]
-        links += row[1:-1]
-        reach = first, first + cos(bent) * first + sin(bent) * second
-        points = size * np.array([along, along + reach[0], along + reach[1]])
-        for place, (letter, point) in enumerate(zip("CRR", points, strict=True)):
-            joints[f"{letter}{leg}-{place}"] = row[place], row[place + 1]
-            places[f"{letter}{leg}-{place}"] = _place(point, along)
-    kinds = {joint: JointKind.CYLINDRICAL for joint in joints if str(joint).startswith("C")}
     return JointedLinkage(SCGraph(links, joints, ground="base"), kinds, places)
 
 
@@ -145,9 +144,4 @@ def _on_circle(radius: float, azimuth: float, height: float) -> Floats:
 
 
 def _place(point: Floats, *axes: Floats) -> JointPlace:
-    return JointPlace(_rounded(point), tuple(map(_rounded, axes)))
-
-
-def _rounded(vector: Floats) -> Vector:
-    x, y, z = (round(value, _DIGITS) + 0.0 for value in vector.tolist())
-    return (x, y, z)
+    return JointPlace(rounded_vector(point), tuple(map(rounded_vector, axes)))

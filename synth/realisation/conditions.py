@@ -164,14 +164,9 @@ def _opposite(pattern: Pattern) -> list[tuple[int, int, int]]:
 def _across(pattern: Pattern) -> list[tuple[int, int]]:
     """Return the pairs of opposite creases of panels with four sides."""
     creases = pattern.sides.creases
-    pairs = []
-    for panel in pattern.panels:
-        if len(panel) == 4:
-            sides = [creases.get(side) for side in sides_of_face(panel)]
-            for crease, other in ((sides[0], sides[2]), (sides[1], sides[3])):
-                if crease is not None and other is not None:
-                    pairs.append((crease, other))
-    return pairs
+    four = [sides_of_face(panel) for panel in pattern.panels if len(panel) == 4]
+    opposite = ((sides[k], sides[k + 2]) for sides in four for k in (0, 1))
+    return [(creases[side], creases[other]) for side, other in opposite if side in creases and other in creases]
 
 
 def _parallel(pairs: list[tuple[Edge, Edge]]) -> Condition:

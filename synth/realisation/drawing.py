@@ -20,16 +20,8 @@ from graphs.rank.singular_values import split
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.motion.walk.step import Allowance
+from synth.realisation import measures
 from synth.realisation.conditions import Condition, DrawingConditions, together
-from synth.realisation.measures import (
-    corner_angles,
-    crossings,
-    damped_least_squares,
-    edge_lengths,
-    is_drawn,
-    opened_angles,
-    sums_at,
-)
 from synth.realisation.pattern import Pattern
 
 _SPREAD = 0.5
@@ -228,9 +220,9 @@ def _closed(pattern: Pattern, unknowns: Floats, exactly: Condition) -> Floats | 
         if not np.isfinite(by).all():  # vertices coincide
             return None
         unknowns = unknowns - (np.linalg.pinv(by, rcond=DOUBLE.zero) @ off).reshape(unknowns.shape)
-    angles, _ = opened_angles(pattern, unknowns[: pattern.vertices])
+    angles, _ = measures.opened_angles(pattern, unknowns[: pattern.vertices])
     off, _ = exactly(unknowns)
-    if np.abs(off).max(initial=0.0) > DOUBLE.closed or not is_drawn(pattern, angles):
+    if np.abs(off).max(initial=0.0) > DOUBLE.closed or not measures.is_drawn(pattern, angles):
         return None
     return unknowns
 
@@ -238,12 +230,12 @@ def _closed(pattern: Pattern, unknowns: Floats, exactly: Condition) -> Floats | 
 def _stepped(unknowns: Floats, cost: _Cost, damping: float, exactly: Condition) -> Floats:
     """Return where a step leads that goes to the least cost, and a part of the way to where nothing is off."""
     if not len(cost.off):
-        step = -damped_least_squares(cost.by, cost.residuals, damping**0.5)
+        step = -measures.damped_least_squares(cost.by, cost.residuals, damping**0.5)
         return unknowns + step.reshape(unknowns.shape)
     part = 1.0 / (1.0 + damping)
     back, free, by_free = cost.steps
     there = -part * (back @ cost.off)
-    within = free @ damped_least_squares(by_free, cost.residuals + cost.by @ there, damping**0.5)
+    within = free @ measures.damped_least_squares(by_free, cost.residuals + cost.by @ there, damping**0.5)
     trial = unknowns + (there - within).reshape(unknowns.shape)
     # Creases turn on the way, so that the step misses their centres in second order. That is taken back; else the
     # gain in shape would have to outweigh it, and steps would be short.
@@ -275,10 +267,10 @@ def _cost(pattern: Pattern, unknowns: Floats, goal: _Aims) -> _Cost | None:
     points = np.concatenate([places, unknowns[len(unknowns) - int(pattern.bent.sum()) :]])
     if len(np.unique(points, axis=0)) < len(points):
         return None
-    angles, by = opened_angles(pattern, places)
-    if not is_drawn(pattern, angles):
+    angles, by = measures.opened_angles(pattern, places)
+    if not measures.is_drawn(pattern, angles):
         return None
-    lengths, by_lengths = edge_lengths(places, pattern.edges)
+    lengths, by_lengths = measures.edge_lengths(places, pattern.edges)
     lengths = lengths - goal.lengths
     rows = [
         *_near(angles, by, _SHARP, 1.0),
@@ -288,7 +280,7 @@ def _cost(pattern: Pattern, unknowns: Floats, goal: _Aims) -> _Cost | None:
     ]
     room = [(pattern.outer, np.pi if goal.convex else 2 * np.pi), *((ring, 2 * np.pi) for ring in pattern.holes)]
     for ring, whole in room:
-        sums = sums_at(pattern, np.array(ring, np.int64))
+        sums = measures.sums_at(pattern, np.array(ring, np.int64))
         left = whole - sums @ angles
         if left.min() <= 0.0:
             return None
@@ -302,7 +294,7 @@ def _cost(pattern: Pattern, unknowns: Floats, goal: _Aims) -> _Cost | None:
     if not pattern.bent.any():
         return _Cost(residuals, padded, off, off_by)
     seen, by_seen = _seen(pattern, unknowns)
-    if seen.min() <= 0.0 or crossings(pattern, places):
+    if seen.min() <= 0.0 or measures.crossings(pattern, places):
         return None
     return _Cost(np.concatenate([residuals, seen]), np.concatenate([padded, by_seen]), off, off_by)
 
@@ -312,7 +304,7 @@ def _seen(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
     hubs = range(len(unknowns) - int(pattern.bent.sum()), len(unknowns))
     panels = [pattern.panels[place] for place in np.flatnonzero(pattern.bent)]
     sides = [(b, hub, a) for hub, panel in zip(hubs, panels, strict=True) for a, b in sides_of_face(panel)]
-    angles, by = corner_angles(unknowns, np.array(sides, np.int64))
+    angles, by = measures.corner_angles(unknowns, np.array(sides, np.int64))
     costs, by_costs = _near(angles, by, _SEEN, 1.0)
     return np.where(angles > 0.0, costs, -1.0), by_costs
 
@@ -372,11 +364,11 @@ def drawings(
         if shaped is None:
             continue
         places = shaped[: pattern.vertices]
-        if crossings(pattern, places) or not _are_apart(pattern, shaped):
+        if measures.crossings(pattern, places) or not _are_apart(pattern, shaped):
             continue
         if symmetry is not None:
             places = symmetry.upright(places)
-        yield PanelDrawing(places, opened_angles(pattern, places)[0], convex, number)
+        yield PanelDrawing(places, measures.opened_angles(pattern, places)[0], convex, number)
 
 
 def _are_apart(pattern: Pattern, unknowns: Floats) -> bool:

@@ -11,7 +11,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any, Literal
 
-from enumerate.runner.job import Column, Job, Row, Unit, row_as_dict
+from enumerate.runner.job import Column, Job, Row, Unit, batches, row_as_dict
 from enumerate.runner.store import SqliteSink, read_rows
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import FileError, SynthedraError, UnsolvableError
@@ -99,7 +99,7 @@ COLUMNS: dict[str, Column] = {
     "try": int, "mechanism": str,
 }  # fmt: skip
 """Values of a row: the number of a type, from 1, its name, the outcome and its reason; then, if it was realised,
-its id, figures and file (FOLD)."""
+its id, figures and file (FOLD), else None."""
 
 
 @dataclass(frozen=True)
@@ -112,15 +112,11 @@ class RealisationJob:
 
     source: str
     options: tuple[tuple[str, Any], ...] = ()
+    columns = COLUMNS
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state for a worker: without the types, of which each unit has its own."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
-
-    @property
-    def columns(self) -> dict[str, Column]:
-        """Names and types of the values of a row; figures of types that were not realised are None."""
-        return COLUMNS
 
     @property
     def key(self) -> dict[str, Any]:
@@ -142,9 +138,7 @@ class RealisationJob:
 
     def units(self) -> list[Unit]:
         """Units of a few types each."""
-        entries = self._read[0]
-        portions = (entries[start : start + _TYPES] for start in range(0, len(entries), _TYPES))
-        return [Unit(portion, _WEIGHT * len(portion)) for portion in portions]
+        return [Unit(portion, _WEIGHT * len(portion)) for portion in batches(self._read[0], _TYPES)]
 
     def work(self, payload: Iterable[CatalogueEntry]) -> list[Row]:
         """Return a row for each type of a unit."""

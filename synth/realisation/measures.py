@@ -86,9 +86,11 @@ _SHARP, _RATIO = float(np.radians(15.0)), 0.15
 
 
 def first_order_freedoms(freedoms: int | None) -> str:
-    """Return a number of first-order freedoms in words; None if it is unknown."""
-    unknown = "an unknown number of first-order freedoms"
-    return unknown if freedoms is None else numbered(freedoms, "first-order freedom")
+    """Return a number of infinitesimal degrees of freedom in words; None if it is unknown."""
+    several = "infinitesimal degrees of freedom"
+    if freedoms is None:
+        return f"an unknown number of {several}"
+    return numbered(freedoms, "infinitesimal degree of freedom", several)
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from graphs.convert.table import to_sc
+from graphs.convert.table import kind_in_words, to_sc
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.loops.loop import Centre
@@ -112,6 +112,7 @@ class ConeRealisation(Printed):
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
         chain = self.linkage.chain
+        sizes = str(chain).removeprefix(type(chain).__name__)
         azimuths = zip(chain.joints, self.linkage.places(), strict=True)
         link_of = link_pairs(chain)
         rows = [
@@ -119,16 +120,16 @@ class ConeRealisation(Printed):
             for pair, arc in self.arcs.items()
         ]
         return [
-            f"a linkage on a cone of lambda {degrees(self.cone_angle):.6g} degrees: {chain}",
+            f"linkage on a cone of lambda {degrees(self.cone_angle):.6g}°: {kind_in_words(chain)}{sizes}",
             "azimuths (deg)  " + ", ".join(f"{plain(joint)} {degrees(t):.6g}" for joint, t in azimuths),
             TableBlock(("link", "joints", "arc (deg)"), rows, numbers=["arc (deg)"]),
-            "circuits " + ", ".join(self.circuits) + f"; steps of links {degrees(self.clear):.3g} degrees or more "
-            "from zero and from a half turn",
+            "circuits " + ", ".join(self.circuits) + f"; all steps of links at least "
+            f"{degrees(self.clear):.3g}° from 0° and from 180°",
             f"mobility {self.mobility}, exact; {first_order_freedoms(self.freedoms)} at this configuration",
             f"cones with these arcs were not searched for: a loop has more than {_MAPPED} links"
             if self.cones is None
-            else f"the arcs alone lead to {numbered(self.cones, 'cone')}, this one among them",
-            f"try {self.number + 1} of {self.tries}",
+            else f"cones with these arcs: {self.cones}, this one included",
+            f"try {self.number + 1} of at most {self.tries}",
         ]
 
     def __repr__(self) -> str:
@@ -151,10 +152,6 @@ def realise_on_cone(
     tries : int, optional
         Largest number of linkages that are tried. The first that moves as its type does, with all loops open,
         is chosen, or else the best.
-
-    Returns
-    -------
-    ConeRealisation
 
     Raises
     ------

@@ -150,9 +150,10 @@ class Realisation(Printed):
     def blocks(self) -> list[Block]:
         """Return the lines that are printed."""
         shape = self.figures
+        sizes = str(self.scd).removeprefix(type(self.scd).__name__)
         lines = [f"note: {note}" for note in self.notes]
         lines += [
-            f"{'a flat sheet' if self.kind == 'sheet' else 'a configuration in space'} of {self.scd}",
+            f"{'flat sheet' if self.kind == 'sheet' else 'configuration in space'} of an SCD graph{sizes}",
             f"drawing  {map_id(self.scd)}, read back from the coordinates",
             f"corners {np.degrees(shape.least_angle):.3g} to {np.degrees(shape.greatest_angle):.3g} degrees, "
             f"shortest side {shape.edge_ratio:.2g} of the longest, vertices {shape.least_distance:.2g} of the "
@@ -166,11 +167,11 @@ class Realisation(Printed):
             f"mobility {self.mobility}, exact; {first_order_freedoms(self.freedoms)} at this configuration"
         )
         if self.folds:
-            lines.append("folds with every crease turning, with these mountains and valleys")
+            lines.append("folds on every crease, with the mountain-valley assignment written")
         elif self.folds is False:
             tries = numbered(self.tries, "try", "tries")
-            lines.append(f"no folding drawing found in {tries}: on each some creases stay flat")
-        return [*lines, *self.condition_errors.lines(), f"try {self.number + 1} of {self.tries}"]
+            lines.append(f"{tries}, and none folds on every crease: on each some creases stay flat")
+        return [*lines, *self.condition_errors.lines(), f"try {self.number + 1} of at most {self.tries}"]
 
     def __repr__(self) -> str:
         return f"<Realisation: {self.kind}, {self.sheet!r}>"
@@ -296,10 +297,7 @@ def realise(
         raise InvariantError("string", "an R/- string that is flat-foldable or symmetric", "an SCD graph")
     if mode and not isinstance(source, ChainString):
         raise InvariantError("mode", f"the mode {shown(mode)} for {source!r}", "an R/- string with it")
-    if isinstance(source, ChainString):
-        scd, notes = drawn_string(source, mode)
-    else:
-        scd, notes = simplest_drawn(source)
+    scd, notes = drawn_string(source, mode) if isinstance(source, ChainString) else simplest_drawn(source)
     pattern = pattern_of(scd)
     lift: Lift = lifted
     if kind == "sheet":

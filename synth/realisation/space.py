@@ -46,10 +46,7 @@ def lifted(pattern: Pattern, places: Floats, random: np.random.Generator) -> tup
     weights = evenly_folded(folds, random)
     weights *= _STEEPEST / np.abs(folds @ weights).max(initial=DOUBLE.zero_rate)
     chosen = (planes @ weights).reshape(-1, 3)
-    heights, count = (
-        np.zeros(pattern.vertices),
-        np.zeros(pattern.vertices),
-    )  # the mean of the panels that meet there
+    heights, count = np.zeros((2, pattern.vertices))  # the mean of the panels that meet there
     for panel, plane in zip(pattern.panels, chosen, strict=True):
         around = list(panel)
         heights[around] += (places - middle)[around] @ plane[:2] + plane[2]

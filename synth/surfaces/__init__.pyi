@@ -6,7 +6,6 @@ from synth.surfaces.circuit import (
     closing_step as closing_step,
     link_angles as link_angles,
     loop_steps as loop_steps,
-    table1 as table1,
 )
 from synth.surfaces.linkages import (
     CommonFamily as CommonFamily,
@@ -21,10 +20,8 @@ from synth.surfaces.linkages import (
 from synth.surfaces.loop_maps import (
     ConeMap as ConeMap,
     CylinderMap as CylinderMap,
-    central_angles as central_angles,
     map_to_cones as map_to_cones,
     map_to_cylinders as map_to_cylinders,
-    projected_angles as projected_angles,
 )
 from synth.surfaces.loop_sums import (
     circumradii as circumradii,

@@ -77,25 +77,6 @@ def circuits(steps: npt.ArrayLike) -> Circuits:
     return Circuits(density == 1, turns, density, total - 2 * np.pi * turns)
 
 
-def table1(steps: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-    """Check whether four-bars are open, by signs and sum of their steps (Hyatt et al. 2020, Table 1).
-
-    Open (the table put right): all signs multiply to + and the sum is +-360 degrees, or to - and it is 0.
-
-    Parameters
-    ----------
-    steps : float[..., 4]
-
-    Examples
-    --------
-    >>> table1(np.radians([[90, 80, 100, 90], [50, 40, 30, -120], [100, -50, 100, -150]])).tolist()
-    [True, True, False]
-    """
-    steps = np.asarray(steps, dtype=float)
-    even = np.sign(steps).prod(axis=-1) > 0
-    return np.asarray(even == (np.abs(steps.sum(axis=-1)) > np.pi))
-
-
 def wrapped(angles: npt.ArrayLike) -> Floats:
     """Return angles, float[...], in (-pi, pi]."""
     angles = np.asarray(angles, dtype=float)

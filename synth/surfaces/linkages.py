@@ -26,18 +26,8 @@ from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId
 from synth.fourbar.closing import ILL_CONDITIONED, checked_link_angles, spherical_differences, supplementary
+from synth.surfaces import loop_maps
 from synth.surfaces.circuit import HALF_TURN, circuits, link_angles, link_pairs, loop_steps, wrapped
-from synth.surfaces.loop_maps import (
-    ConeMap,
-    chords,
-    cone_chords,
-    cone_reach,
-    cylinder_reach,
-    is_flat,
-    joint_coordinates,
-    map_to_cones,
-    unit_of,
-)
 from synth.surfaces.loop_sums import LoopRoots, loop_roots, put_together, sign_patterns, sum_rounding
 from synth.surfaces.mapping import (
     SizedLinks,
@@ -159,7 +149,7 @@ def _sizes_and_chords(linkage: SurfaceLinkage, common: CommonSurface) -> dict[Pa
     sizes = sizes_on(linkage, common.surface, common.places)
     if isinstance(common.surface, Cylinder):
         return {pair: (size,) for pair, size in sizes.items()}
-    return {pair: (in_degrees([size])[0], float(cone_chords(size))) for pair, size in sizes.items()}
+    return {pair: (in_degrees([size])[0], float(loop_maps.cone_chords(size))) for pair, size in sizes.items()}
 
 
 def sizes_on(linkage: SurfaceLinkage, surface: Surface, places: Mapping[JointId, float]) -> dict[Pair, float]:
@@ -167,7 +157,7 @@ def sizes_on(linkage: SurfaceLinkage, surface: Surface, places: Mapping[JointId,
 
     def size(step: float) -> float:
         if isinstance(surface, Cylinder):
-            return float(chords(step, surface.radius))
+            return float(loop_maps.chords(step, surface.radius))
         return float(link_angles(step, surface.angle))
 
     return {
@@ -177,7 +167,9 @@ def sizes_on(linkage: SurfaceLinkage, surface: Surface, places: Mapping[JointId,
 
 def _coordinates(surface: Cylinder, places: Mapping[JointId, float]) -> dict[JointId, list[float]]:
     """Return where joints are across the axis."""
-    return dict(zip(places, joint_coordinates(surface.radius, list(places.values())).tolist(), strict=True))
+    return dict(
+        zip(places, loop_maps.joint_coordinates(surface.radius, list(places.values())).tolist(), strict=True)
+    )
 
 
 def _coordinates_table(surface: Cylinder, places: Mapping[JointId, float]) -> TableBlock:
@@ -301,12 +293,21 @@ class CommonFamily:
     caution: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class _Cycle:
     """A closed run of joints, neighbours on one link: numbers of the pairs, and +1 or -1 by their order."""
 
-    pairs: npt.NDArray[np.intp]
-    turned: npt.NDArray[np.int8]
+    def __init__(self, joints: Sequence[JointId], pairs: Mapping[Pair, int], what: str) -> None:
+        numbers, turned = [], []
+        for a, b in zip(joints, [*joints[1:], joints[0]], strict=True):
+            if (a, b) not in pairs and (b, a) not in pairs:
+                raise InvariantError(
+                    "sizes of links",
+                    f"no {what} between joints {shown(a)} and {shown(b)}",
+                    "one, as they follow each other in a loop",
+                )
+            numbers.append(pairs.get((a, b), pairs.get((b, a), 0)))
+            turned.append(1 if (a, b) in pairs else -1)
+        self.pairs, self.turned = np.array(numbers), np.array(turned, dtype=np.int8)
 
 
 def common_surfaces(
@@ -343,8 +344,12 @@ def common_surfaces(
     """
     pairs, values = _checked_pairs(chain, sizes, lengths=lengths)
     cycles = _cycles(chain, pairs, "length" if lengths else "angle")
-    unit = unit_of(values) if lengths and len(values) else 1.0
-    links = SizedLinks(cylinder_reach(values / unit), 0) if lengths else SizedLinks(cone_reach(values), 1)
+    unit = loop_maps.unit_of(values) if lengths and len(values) else 1.0
+    links = (
+        SizedLinks(loop_maps.cylinder_reach(values / unit), 0)
+        if lengths
+        else SizedLinks(loop_maps.cone_reach(values), 1)
+    )
     roots = [loop_roots(links.reach[cycle.pairs], links.base) for cycle in cycles]
     end = float(links.reach[np.concatenate([cycle.pairs for cycle in cycles])].min())
     loops = len(chain.loops)
@@ -398,29 +403,15 @@ def _checked_pairs(
 
 def _cycles(chain: SCGraph, pairs: Mapping[Pair, int], what: str) -> list[_Cycle]:
     """Return the loops of the chain as cycles of pairs, then cycles of pairs within a link."""
-    cycles = [_cycle(loop.joints, pairs, what) for loop in chain.loops]
+    cycles = [_Cycle(loop.joints, pairs, what) for loop in chain.loops]
     links = link_pairs(chain)
     within: dict[object, nx.Graph] = {}
     for pair in pairs:
         link = links.get(pair, links.get(pair[::-1]))
         within.setdefault(link, nx.Graph()).add_edge(*pair)
     for graph in within.values():
-        cycles += [_cycle(tuple(joints), pairs, what) for joints in nx.cycle_basis(graph)]
+        cycles += [_Cycle(tuple(joints), pairs, what) for joints in nx.cycle_basis(graph)]
     return cycles
-
-
-def _cycle(joints: Sequence[JointId], pairs: Mapping[Pair, int], what: str) -> _Cycle:
-    numbers, turned = [], []
-    for a, b in zip(joints, [*joints[1:], joints[0]], strict=True):
-        if (a, b) not in pairs and (b, a) not in pairs:
-            raise InvariantError(
-                "sizes of links",
-                f"no {what} between joints {shown(a)} and {shown(b)}",
-                "one, as they follow each other in a loop",
-            )
-        numbers.append(pairs.get((a, b), pairs.get((b, a), 0)))
-        turned.append(1 if (a, b) in pairs else -1)
-    return _Cycle(np.array(numbers), np.array(turned, dtype=np.int8))
 
 
 def _candidates(roots: Iterable[LoopRoots], end: float, links: SizedLinks) -> list[float]:
@@ -432,7 +423,7 @@ def _candidates(roots: Iterable[LoopRoots], end: float, links: SizedLinks) -> li
     longest = 2.0 * float(np.arctan2(1.0, np.sqrt(end)))
     for size in sorted(sizes.tolist()):
         known = kept and size - kept[-1] <= DOUBLE.closed * size
-        flat = is_flat(np.arctan(np.sqrt(size)), longest) if links.base else not size
+        flat = loop_maps.is_flat(np.arctan(np.sqrt(size)), longest) if links.base else not size
         if not flat and size <= end * (1 + 1e-9) and not known:
             kept.append(min(size, end))
     return kept if links.base else kept[::-1]
@@ -559,7 +550,7 @@ class SupplementaryLinkages(Printed):
     """
 
     turned: tuple[tuple[int, ...], ...]
-    maps: tuple[ConeMap, ...]
+    maps: tuple[loop_maps.ConeMap, ...]
 
     @property
     def distinct(self) -> int:
@@ -603,11 +594,11 @@ class SupplementaryLinkages(Printed):
         }
 
 
-def _fourth(cone_map: ConeMap) -> float:
+def _fourth(cone_map: loop_maps.ConeMap) -> float:
     return in_degrees([float(spherical_differences(np.array(cone_map.angles))[3])])[0]
 
 
-def _cones(cone_map: ConeMap) -> str:
+def _cones(cone_map: loop_maps.ConeMap) -> str:
     surfaces = [f"{degrees(cone.size):.8g} {cone.circuit}" for cone in cone_map.cones]
     surfaces += [
         f"{degrees(low):.6g} to {degrees(high):.6g} {family.circuit}"
@@ -635,4 +626,6 @@ def supplementary_linkages(angles: npt.ArrayLike) -> SupplementaryLinkages:
     if len(checked) != 4:
         raise InvariantError("four-bar", f"{len(checked)} link angles", "the four of a four-bar")
     turned = [tuple(joint + 1 for joint in range(4) if ends[joint]) for ends in product((0, 1), repeat=4)]
-    return SupplementaryLinkages(tuple(turned), tuple(map_to_cones(one) for one in supplementary(checked)))
+    return SupplementaryLinkages(
+        tuple(turned), tuple(loop_maps.map_to_cones(one) for one in supplementary(checked))
+    )

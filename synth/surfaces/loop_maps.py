@@ -15,22 +15,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.errors import InvariantError, UnsolvableError, numbered
-from graphs.mechanism.surfaces import Cylinder, checked_cone_angle
+from graphs.errors import numbered
+from graphs.mechanism.surfaces import Cylinder
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
-from synth.fourbar.closing import (
-    ILL_CONDITIONED,
-    FourBarKind,
-    checked_link_angles,
-    checked_link_lengths,
-    kind_of_planar,
-    kind_of_spherical,
-    minimal_supplementary,
-    rounding_of,
-    spherical_differences,
-)
+from synth.fourbar import closing
 from synth.surfaces.circuit import azimuths
 from synth.surfaces.loop_sums import sign_patterns
 from synth.surfaces.mapping import (
@@ -72,7 +62,7 @@ class ConeMap(Printed):
     cones: tuple[MappedLoop, ...]
     flat: tuple[MappedLoop, ...]
     families: tuple[FamilyOfCircles, ...]
-    kind: FourBarKind | None
+    kind: closing.FourBarKind | None
     solutions: str | None
     why: str
     supplementary: ConeMap | None
@@ -123,39 +113,6 @@ class ConeMap(Printed):
         return document
 
 
-def projected_angles(angles: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
-    """Return the unsigned projected angles of links, phi_0 in [0, pi] (Hyatt et al. 2020, Eq. 7; 2021, Eq. 9).
-
-    cos(phi_0) = (cos(phi) - sin(lambda)^2) / cos(lambda)^2, float[...].
-
-    Parameters
-    ----------
-    angles, cone_angle : float[...]
-        Link angles phi in [0, pi] and lambda, radians, broadcast against each other.
-
-    Raises
-    ------
-    InvariantError, UnsolvableError
-        If a cone angle is out of range; if a link does not fit on its cone: lambda is more than pi / 2 - phi / 2.
-
-    Examples
-    --------
-    >>> float(np.degrees(projected_angles(np.radians(60), np.radians(60))).round(5))
-    180.0
-    """
-    phi, lam = np.broadcast_arrays(np.asarray(angles, dtype=float), checked_cone_angle(cone_angle))
-    beyond = lam - largest_cone_angle(phi)
-    if (beyond > rounding_of(np.stack([lam, phi / 2, np.full_like(phi, np.pi / 2)], axis=-1))).any():
-        worst = np.unravel_index(beyond.argmax(), beyond.shape)
-        numbers = [f"{np.degrees(value[worst]).round(9):.12g}" for value in (phi, lam, largest_cone_angle(phi))]
-        raise UnsolvableError(
-            f"a link of {numbers[0]} degrees does not fit on a cone of {numbers[1]}; "
-            f"{numbers[2]} is the largest cone angle"
-        )
-    other = np.maximum(np.sin((np.pi - phi) / 2 - lam) * np.sin((np.pi - phi) / 2 + lam), 0.0)
-    return np.asarray(2.0 * np.arctan2(np.sin(phi / 2), np.sqrt(other)))
-
-
 def largest_cone_angle(angles: npt.ArrayLike) -> Floats:
     """Return the largest cone angle for links, pi / 2 - phi / 2, radians (Hyatt et al. 2021, Eqs. 15, 16)."""
     return np.asarray((np.pi - np.asarray(angles, dtype=float)) / 2.0)
@@ -168,7 +125,7 @@ def cone_chords(angles: npt.ArrayLike) -> Floats:
 
 def is_flat(cone_angle: float, longest: float) -> bool:
     """Check whether a cone is flat within the rounding of the longest link, which ends the cones."""
-    return bool(cone_angle <= rounding_of([longest]))
+    return bool(cone_angle <= closing.rounding_of([longest]))
 
 
 def cone_reach(angles: npt.ArrayLike) -> Floats:
@@ -197,16 +154,16 @@ def map_to_cones(angles: npt.ArrayLike) -> ConeMap:
     >>> round(float(np.degrees(cone.size)), 2), cone.circuit
     (25.21, 'open')
     """
-    links = checked_link_angles(angles)
+    links = closing.checked_link_angles(angles)
     loops, families = mapped_loop(cone_reach(links), 1, links)
     flat = tuple(loop for loop in loops if is_flat(loop.size, links.max()))
     cones = loops[len(flat) :]  # in the order of their sizes
     why = "" if cones or families else _why_not(links, bool(flat))
     kind = solutions = supplement = None
     if len(links) == 4:
-        kind, solutions = kind_of_spherical(links), solution_class(links)
-        if why and spherical_differences(links)[3] < 0 and not _is_straight(links.max()):
-            supplement = map_to_cones(minimal_supplementary(links))
+        kind, solutions = closing.kind_of_spherical(links), solution_class(links)
+        if why and closing.spherical_differences(links)[3] < 0 and not _is_straight(links.max()):
+            supplement = map_to_cones(closing.minimal_supplementary(links))
     return ConeMap(tuple(links.tolist()), cones, flat, families, kind, solutions, why, supplement)
 
 
@@ -218,8 +175,8 @@ def solution_class(angles: npt.ArrayLike) -> str:
     "crossed only" if non-Grashof, one crossed cone (the paper says none, docs/misprints.md 000-6).
     """
     links = np.asarray(angles, dtype=float)
-    t = spherical_differences(links)
-    zero = np.abs(t) <= rounding_of(links)
+    t = closing.spherical_differences(links)
+    zero = np.abs(t) <= closing.rounding_of(links)
     if zero[:3].sum() >= 2:
         return "d"
     if zero.any():
@@ -231,7 +188,7 @@ def solution_class(angles: npt.ArrayLike) -> str:
 
 
 def _is_straight(angle: float) -> bool:
-    return bool(np.pi - angle <= rounding_of([angle]))
+    return bool(np.pi - angle <= closing.rounding_of([angle]))
 
 
 def _why_not(angles: Floats, flat: bool) -> str:
@@ -240,7 +197,7 @@ def _why_not(angles: Floats, flat: bool) -> str:
         return "the loop closes in a plane only, lambda = 0"
     if _is_straight(angles.max()):
         return "a link of 180 degrees fits on no cone but the flat one"
-    if len(angles) == 4 and spherical_differences(angles)[3] < 0:
+    if len(angles) == 4 and closing.spherical_differences(angles)[3] < 0:
         return "T4 < 0: the links wrap round the sphere"
     most = np.degrees(largest_cone_angle(angles.max()))
     return f"no loop sum is a multiple of 360 degrees for lambda up to {most:.6g}, where the longest link ends"
@@ -274,13 +231,13 @@ class CylinderMap(Printed):
     lengths: tuple[float, ...]
     cylinders: tuple[MappedLoop, ...]
     families: tuple[FamilyOfCircles, ...]
-    kind: FourBarKind | None
+    kind: closing.FourBarKind | None
     why: str
     stretched: tuple[tuple[int, ...], ...]
 
     def cautions(self) -> tuple[str, ...]:
         """Return where rounding decides: the type, circles, families, or one more cylinder beyond them."""
-        large = f"{ILL_CONDITIONED}: stretched out within rounding: one more cylinder may be very large"
+        large = f"{closing.ILL_CONDITIONED}: stretched out within rounding: one more cylinder may be very large"
         return cautions_of(self.kind, self.cylinders, self.families, large if self.stretched else "")
 
     def blocks(self) -> list[Block]:
@@ -325,27 +282,6 @@ def joint_coordinates(radius: float, places: npt.ArrayLike) -> Floats:
     return np.where(np.abs(points) > DOUBLE.same_point * radius, points, 0.0)[:, ::2]
 
 
-def central_angles(lengths: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:
-    """Return the angles that links span round the axis, psi = 2 asin(length / 2 R) (Hyatt et al. 2021, Eq. 19).
-
-    Parameters
-    ----------
-    lengths, radius : float[...]
-        Any one unit; `InvariantError` if a link is longer than the diameter.
-
-    Examples
-    --------
-    >>> float(np.degrees(central_angles(1.0, 1.0)).round(9))
-    60.0
-    """
-    ratio = np.asarray(lengths, dtype=float) / (2.0 * np.asarray(radius, dtype=float))
-    if not ((ratio >= 0) & (ratio <= 1)).all():
-        raise InvariantError(
-            "radius", "a link is longer than the diameter, or the radius is not positive", "2 R >= every length"
-        )
-    return np.asarray(2.0 * np.arcsin(ratio))
-
-
 def chords(steps: npt.ArrayLike, radius: npt.ArrayLike) -> Floats:
     """Return the lengths of links that span angles (radians, signed or not) on a cylinder of a radius."""
     return np.asarray(2.0 * np.asarray(radius) * np.abs(np.sin(np.asarray(steps, dtype=float) / 2.0)))
@@ -374,7 +310,7 @@ def map_to_cylinders(lengths: npt.ArrayLike) -> CylinderMap:
     >>> [(round(loop.size, 2), loop.circuit) for loop in map_to_cylinders([4, 3, 5, 1]).cylinders]  # Fig. 10
     [(2.54, 'open'), (2.59, 'crossed')]
     """
-    sides = checked_link_lengths(lengths)
+    sides = closing.checked_link_lengths(lengths)
     unit = unit_of(sides)
     loops, families = mapped_loop(cylinder_reach(sides / unit), 0)
     cylinders = tuple(
@@ -382,7 +318,7 @@ def map_to_cylinders(lengths: npt.ArrayLike) -> CylinderMap:
         for loop in loops
     )
     families = tuple(replace(family, interval=(family.interval[0] * unit, inf)) for family in families)
-    kind = kind_of_planar(sides) if len(sides) == 4 else None
+    kind = closing.kind_of_planar(sides) if len(sides) == 4 else None
     why = "" if cylinders or families else "the loop closes stretched out only, at an infinite radius"
     stretched = _nearly_stretched(sides, {family.signs for family in families})
     return CylinderMap(tuple(sides.tolist()), cylinders, families, kind, why, stretched)
@@ -396,6 +332,6 @@ def unit_of(lengths: Floats) -> float:
 def _nearly_stretched(lengths: Floats, families: set[tuple[int, ...]]) -> tuple[tuple[int, ...], ...]:
     """Return the signs, but for those of families, with which lengths sum to nearly zero, and not to zero."""
     patterns = sign_patterns(len(lengths))
-    near = patterns[np.abs(patterns @ lengths) <= rounding_of(lengths)]
+    near = patterns[np.abs(patterns @ lengths) <= closing.rounding_of(lengths)]
     signs = [tuple(row) for row in near.tolist()]
     return tuple(one for one in signs if one not in families and fsum(np.multiply(one, lengths)) != 0.0)

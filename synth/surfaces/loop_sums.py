@@ -168,7 +168,7 @@ def _roots_of_chunk(
         rows = np.flatnonzero((changes == count) & ~vanishing)
         if len(rows):
             nodes = _nodes(weights[rows], reach[rows], count)
-            sums = _SumsAtNodes.of(nodes, weights[rows], reach[rows], base)
+            sums = _SumsAtNodes(nodes, weights[rows], reach[rows], base)
             nowhere_else = of[rows[sums.vanish]]
             families.append(np.column_stack([nowhere_else, np.zeros(len(nowhere_else), np.intp)]))
             for turns, row, size, residual, double in _crossings(sums, base):
@@ -253,26 +253,21 @@ def _of_tower(z: Floats, level: int, nearest: Floats, weights: Floats, reach: Fl
     return np.asarray((weights * np.sqrt(ratio) * ratio**level).sum(axis=1))
 
 
-@dataclass(frozen=True, slots=True)
 class _SumsAtNodes:
-    """Loop sums of many rows where their monotone pieces meet, and their rounding, where they are near 2 pi k."""
+    """Loop sums of many rows where their monotone pieces meet, and their rounding, where they are near 2 pi k.
 
-    nodes: Floats
-    weights: Floats
-    reach: Floats
-    sums: Floats
-    noise: Floats
-    vanish: npt.NDArray[np.bool_]
-    """Rows whose sums are 0 at all nodes within rounding, and so between them."""
+    `vanish`, bool[rows]: the sums of a row are 0 at all nodes within rounding, and so between them.
+    """
 
-    @classmethod
-    def of(cls, nodes: Floats, weights: Floats, reach: Floats, base: Base) -> _SumsAtNodes:
-        sums = np.stack([loop_sum(z, reach, weights, base) for z in nodes.T], axis=1)
-        noise = np.zeros_like(sums)
+    def __init__(self, nodes: Floats, weights: Floats, reach: Floats, base: Base) -> None:
+        self.nodes, self.weights, self.reach = nodes, weights, reach
+        self.sums = np.stack([loop_sum(z, reach, weights, base) for z in nodes.T], axis=1)
+        self.noise = np.zeros_like(self.sums)
         most = rounding_of(2.0 * _MOST_SENSITIVE * weights)  # elsewhere rounding decides nothing
-        row, node = np.nonzero(np.abs(np.remainder(sums + np.pi, 2.0 * np.pi) - np.pi) <= most[:, np.newaxis])
-        noise[row, node] = sum_rounding(nodes[row, node], reach[row], weights[row], base)
-        return cls(nodes, weights, reach, sums, noise, np.asarray((np.abs(sums) <= noise).all(axis=1)))
+        near = np.abs(np.remainder(self.sums + np.pi, 2.0 * np.pi) - np.pi) <= most[:, np.newaxis]
+        row, node = np.nonzero(near)
+        self.noise[row, node] = sum_rounding(nodes[row, node], reach[row], weights[row], base)
+        self.vanish: Flags = np.asarray((np.abs(self.sums) <= self.noise).all(axis=1))
 
 
 def _crossings(

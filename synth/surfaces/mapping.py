@@ -185,11 +185,6 @@ def circles_table(
     cylinders.
     """
     size = "lambda (deg)" if angular else "radius"
-
-    def radius_of(size: float) -> list[str]:
-        """Return R of a cone (Hyatt et al. 2021, Eq. 14); the size of a cylinder is its radius."""
-        return [f"{cos(size):.6g}"] if angular else []
-
     rows = []
     for one in loops:
         notes = ["flat, no cone"] * (one in flat)
@@ -197,16 +192,17 @@ def circles_table(
         if one.caution:
             low, high = (degrees(x) if angular else x for x in one.bounds)
             notes.append(f"ill-conditioned, between {low:.6g} and {high:.6g}")
+        radius = [f"{cos(one.size):.6g}"] if angular else []  # R of a cone (Hyatt et al. 2021, Eq. 14)
         rows.append((
             f"{degrees(one.size) if angular else one.size:.10g}", one.circuit, signs_text(one.signs),
-            str(one.turns), *radius_of(one.size), " ".join(f"{degrees(step):.2f}" for step in one.steps),
+            str(one.turns), *radius, " ".join(f"{degrees(step):.2f}" for step in one.steps),
             "; ".join(notes),
         ))  # fmt: skip
     for family in families:
         low, high = (degrees(x) if angular else x for x in family.interval)
         rows.append((
             f"{low:.10g} to {high:.10g}", family.circuit, signs_text(family.signs), str(family.turns),
-            *(["" for _ in radius_of(0.0)]), "",
+            *([""] if angular else []), "",
             "every one of these" + (", ill-conditioned" if family.caution else ""),
         ))  # fmt: skip
     heads = (size, "circuit", "signs", "k", *(["R"] if angular else []), "steps (deg)", "note")

@@ -16,20 +16,7 @@ import shapely
 
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.types import Floats
-from synth.templates.pieces import (
-    GRID,
-    Kind,
-    Piece,
-    Point,
-    TemplateLine,
-    Text,
-    common_spans,
-    cut_once,
-    point_of,
-    spans_on,
-    uncovered,
-    united,
-)
+from synth.templates import pieces
 
 HingeKind = Literal["offset", "living", "gap"]
 _STRAIGHT = 5e-7
@@ -40,7 +27,7 @@ _SPECK = 1e-3
 """Square millimetres: smaller areas are not parts of a panel."""
 _ROWS_APART, _CUT, _BRIDGE = 2.0, 15.0, 2.5
 """Living hinge, in millimetres: distance between rows, and approximate length of a cut and of a bridge."""
-_LETTERS: dict[Kind, str] = {"MOUNTAIN": "M", "VALLEY": "V"}
+_LETTERS: dict[pieces.Kind, str] = {"MOUNTAIN": "M", "VALLEY": "V"}
 
 
 @dataclass(frozen=True)
@@ -74,7 +61,7 @@ class Hinges:
 class _Strip:
     """The strip between two panels in place of a fold, from `first` to `last` along it, in millimetres."""
 
-    fold: TemplateLine
+    fold: pieces.TemplateLine
     start: Floats
     along: Floats
     off: Floats
@@ -82,28 +69,30 @@ class _Strip:
     first: float
     last: float
 
-    def at(self, along: float, across: float) -> Point:
+    def at(self, along: float, across: float) -> pieces.Point:
         """Return a place by millimetres along the fold, and by half widths across it."""
-        return point_of(self.start + along * self.along + across * self.width / 2 * self.off)
+        return pieces.point_of(self.start + along * self.along + across * self.width / 2 * self.off)
 
-    def line(self, kind: Kind, across: float, first: float, last: float) -> TemplateLine:
+    def line(self, kind: pieces.Kind, across: float, first: float, last: float) -> pieces.TemplateLine:
         """Return a line along the fold."""
-        return TemplateLine(kind, self.at(first, across), self.at(last, across))
+        return pieces.TemplateLine(kind, self.at(first, across), self.at(last, across))
 
-    def sides(self) -> list[TemplateLine]:
+    def sides(self) -> list[pieces.TemplateLine]:
         """Return its borders with the panels."""
         return [self.line(self.fold.kind, across, self.first, self.last) for across in (-1, 1)]
 
-    def ends(self) -> list[TemplateLine]:
+    def ends(self) -> list[pieces.TemplateLine]:
         """Return the cuts at its ends."""
-        return [TemplateLine("CUT", self.at(along, -1), self.at(along, 1)) for along in (self.first, self.last)]
+        return [
+            pieces.TemplateLine("CUT", self.at(along, -1), self.at(along, 1)) for along in (self.first, self.last)
+        ]
 
     def polygon(self) -> Any:
         """Return its area."""
         return shapely.Polygon([end for side in self.ends() for end in (side.start, side.end)]).convex_hull
 
 
-def with_hinges(piece: Piece, met: Sequence[TemplateLine], hinges: Hinges) -> Piece:
+def with_hinges(piece: pieces.Piece, met: Sequence[pieces.TemplateLine], hinges: Hinges) -> pieces.Piece:
     """Return a piece with strips in the place of its folds.
 
     `met` are the edges that meet others when it is put together; a gap is left there too. Raise UnsolvableError if
@@ -119,21 +108,21 @@ def with_hinges(piece: Piece, met: Sequence[TemplateLine], hinges: Hinges) -> Pi
     more = [line for strip in strips for line in (strip.sides() if hinges.kind == "offset" else _rows(strip))]
     words = [] if hinges.kind == "offset" else list(_letters(folds))
     marks = [stroke for stroke in piece.strokes if stroke.kind == "MARKS"]
-    covered = united([*panels, *(strip.polygon() for strip in strips)])
-    return Piece((*cut_once(cuts), *more, *marks), (*piece.texts, *words), covered)
+    covered = pieces.united([*panels, *(strip.polygon() for strip in strips)])
+    return pieces.Piece((*pieces.cut_once(cuts), *more, *marks), (*piece.texts, *words), covered)
 
 
-def _panels(piece: Piece, lines: Sequence[TemplateLine], width: float) -> list[Any]:
+def _panels(piece: pieces.Piece, lines: Sequence[pieces.TemplateLine], width: float) -> list[Any]:
     """Return the panels without the strips at their own hinges; each must remain in one part."""
     every = [shapely.LineString([line.start, line.end]) for line in lines]
-    parted = united(shapely.buffer(every, _THIN, cap_style="square"))
+    parted = pieces.united(shapely.buffer(every, _THIN, cap_style="square"))
     panels = []
-    for part in _parts(shapely.difference(piece.covered, parted, grid_size=GRID)):
+    for part in _parts(shapely.difference(piece.covered, parted, grid_size=pieces.GRID)):
         wider = part.buffer(2 * _THIN, join_style="mitre")
-        panel = shapely.intersection(wider, piece.covered, grid_size=GRID)
+        panel = shapely.intersection(wider, piece.covered, grid_size=pieces.GRID)
         own = [line for line in every if line.intersection(panel).length > line.length / 10]
-        strips = united(shapely.buffer(own, width / 2, cap_style="square"))
-        left = _parts(shapely.difference(panel, strips, grid_size=GRID).simplify(_STRAIGHT))
+        strips = pieces.united(shapely.buffer(own, width / 2, cap_style="square"))
+        left = _parts(shapely.difference(panel, strips, grid_size=pieces.GRID).simplify(_STRAIGHT))
         if len(left) != 1:
             raise UnsolvableError(
                 f"a panel has no room for hinges of {width:g} mm; try a smaller --hinge-width or a larger --size"
@@ -146,12 +135,12 @@ def _parts(shape: Any) -> list[Any]:
     return [part for part in getattr(shape, "geoms", [shape]) if part.area > _SPECK]
 
 
-def _all_strips(folds: Sequence[TemplateLine], panels: Sequence[Any], hinges: Hinges) -> list[_Strip]:
+def _all_strips(folds: Sequence[pieces.TemplateLine], panels: Sequence[Any], hinges: Hinges) -> list[_Strip]:
     rings = [ring for panel in panels for ring in (panel.exterior, *panel.interiors)]
     sides = np.array([ends for ring in rings for ends in pairwise(ring.coords)]).reshape(-1, 2, 2)
     strips = [strip for fold in folds for strip in _strips(fold, sides, hinges)]
     areas = [strip.polygon() for strip in strips]
-    together = float(united(areas).area)
+    together = float(pieces.united(areas).area)
     if sum(area.area for area in areas) - together > _SPECK:
         raise UnsolvableError(
             f"hinges of {hinges.width:g} mm overlap; try a smaller --hinge-width, or a larger --size"
@@ -159,15 +148,17 @@ def _all_strips(folds: Sequence[TemplateLine], panels: Sequence[Any], hinges: Hi
     return strips
 
 
-def _strips(fold: TemplateLine, sides: Floats, hinges: Hinges) -> Iterator[_Strip]:
+def _strips(fold: pieces.TemplateLine, sides: Floats, hinges: Hinges) -> Iterator[_Strip]:
     """Yield the strips of a fold: where it has a panel on both sides."""
     start, end = np.array(fold.start), np.array(fold.end)
     length = float(np.linalg.norm(end - start))
     along = (end - start) / length
     off = np.array([-along[1], along[0]])
     width, least = hinges.width, 3 * _BRIDGE if hinges.kind == "living" else _SPECK
-    beside = [spans_on(start + side * width / 2 * off, along, sides) for side in (-1, 1)]
-    there = common_spans([(0.0, length)], common_spans(*beside))  # another fold may go on in the same line
+    beside = [pieces.spans_on(start + side * width / 2 * off, along, sides) for side in (-1, 1)]
+    there = pieces.common_spans(
+        [(0.0, length)], pieces.common_spans(*beside)
+    )  # another fold may go on in the same line
     spans = [span for span in there if span[1] - span[0] > least]
     if not spans:
         raise UnsolvableError(
@@ -177,24 +168,24 @@ def _strips(fold: TemplateLine, sides: Floats, hinges: Hinges) -> Iterator[_Stri
         yield _Strip(fold, start, along, off, width, first, last)
 
 
-def _cuts(piece: Piece, panels: Sequence[Any], strips: Sequence[_Strip]) -> list[TemplateLine]:
+def _cuts(piece: pieces.Piece, panels: Sequence[Any], strips: Sequence[_Strip]) -> list[pieces.TemplateLine]:
     """Return the outlines of panels except at strips, the slits, and the ends of strips."""
     joined = np.array([(side.start, side.end) for strip in strips for side in strip.sides()]).reshape(-1, 2, 2)
     cuts = []
     for panel in panels:
         for ring in (panel.exterior, *panel.interiors):
             for start, end in pairwise(ring.coords):
-                cuts += uncovered(TemplateLine("CUT", start, end), joined)
-    removed = shapely.difference(piece.covered, united(panels), grid_size=GRID)
+                cuts += pieces.uncovered(pieces.TemplateLine("CUT", start, end), joined)
+    removed = shapely.difference(piece.covered, pieces.united(panels), grid_size=pieces.GRID)
     for stroke in piece.strokes:
         if stroke.kind == "CUT":
             rest = shapely.LineString([stroke.start, stroke.end]).difference(removed)
             for part in getattr(rest, "geoms", [rest]):
-                cuts += [TemplateLine("CUT", start, end) for start, end in pairwise(part.coords)]
+                cuts += [pieces.TemplateLine("CUT", start, end) for start, end in pairwise(part.coords)]
     return cuts + [end for strip in strips for end in strip.ends()]
 
 
-def _rows(strip: _Strip) -> list[TemplateLine]:
+def _rows(strip: _Strip) -> list[pieces.TemplateLine]:
     """Return the cuts of a living hinge: in rows along it, every other row shifted by half a cut."""
     rows = max(2, ceil(strip.width / _ROWS_APART))
     length = strip.last - strip.first
@@ -210,9 +201,9 @@ def _rows(strip: _Strip) -> list[TemplateLine]:
     return cuts
 
 
-def _letters(folds: Sequence[TemplateLine]) -> Iterator[Text]:
+def _letters(folds: Sequence[pieces.TemplateLine]) -> Iterator[pieces.Text]:
     """Yield the letters of folds that are not lines any more."""
     for fold in folds:
         if letter := _LETTERS.get(fold.kind):
             (ax, ay), (bx, by) = fold.start, fold.end
-            yield Text(((ax + bx) / 2, (ay + by) / 2), letter)
+            yield pieces.Text(((ax + bx) / 2, (ay + by) / 2), letter)

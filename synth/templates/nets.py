@@ -27,7 +27,7 @@ from synth.templates.pieces import (
     point_of,
     put_together,
 )
-from synth.templates.unfolding import Net, Panels, laid_across, nets_of, panels_of
+from synth.templates.unfolding import Net, Panels, laid_across, nets_of
 
 _DEPTHS = (1.0, 0.7, 0.5, 0.35)
 _SLANTS = (0.6, 1.0, 2.0, 4.0)
@@ -156,14 +156,13 @@ class _Glue:
     missing: int = 0
 
 
-@dataclass(frozen=True)
 class _Side:
-    """A panel's side that is glued: the net, the face, its ends with the panel to the left."""
+    """A panel's side at an edge, as it is laid: the net, the face, its ends with the panel to the left."""
 
-    work: _Work
-    face: int
-    start: Floats
-    end: Floats
+    def __init__(self, panels: Panels, work: _Work, face: int, edge: int) -> None:
+        self.work, self.face = work, face
+        corners = work.net.corners[face][list(panels.ends(face, edge))]
+        self.start, self.end = corners[::-1] if work.net.turned[face] else corners
 
     def inside(self, depth: float) -> Point:
         """Return a place on the panel, so deep from the middle of the side."""
@@ -187,12 +186,12 @@ def pieces_of_panels(sheet: Sheet, places: Floats, joins: Joins) -> CutNets:
     All edges of the sheet are listed; the places are float[vertices, 3], millimetres. Raise UnsolvableError if a
     panel is not planar, or more than two meet in an edge.
     """
-    panels = panels_of(sheet, places)
+    panels = Panels(sheet, places)
     works = [_Work(net) for net in nets_of(panels)]
     of_face = {face: work for work in works for face in work.net.corners}
     glue = _Glue(joins)
     for edge in panels.joins:
-        first, second = (_side(panels, of_face[face], face, edge) for face in panels.joins[edge])
+        first, second = (_Side(panels, of_face[face], face, edge) for face in panels.joins[edge])
         apart = float(np.abs([first.start - second.end, first.end - second.start]).max())
         if first.work is second.work and apart <= _SAME:  # the panels lie side by side
             if kind := _kind(panels, edge, first):
@@ -202,15 +201,6 @@ def pieces_of_panels(sheet: Sheet, places: Floats, joins: Joins) -> CutNets:
     _cut_borders(panels, of_face)
     met = tuple(tuple(work.met) for work in works)
     return CutNets(tuple(_piece(work) for work in works), met, glue.numbers, glue.missing)
-
-
-def _side(panels: Panels, work: _Work, face: int, edge: int) -> _Side:
-    """Return the side of a panel at an edge, as it is laid."""
-    a, b = panels.ends(face, edge)
-    if work.net.turned[face]:
-        a, b = b, a
-    corners = work.net.corners[face]
-    return _Side(work, face, corners[a], corners[b])
 
 
 def _kind(panels: Panels, edge: int, side: _Side) -> Kind | None:
@@ -223,20 +213,12 @@ def _kind(panels: Panels, edge: int, side: _Side) -> Kind | None:
         return None
     if letter not in "MV":
         angle = panels.fold_angle(edge)
-        if panels.joins[edge][0] != side.face and _differ(panels, edge):
+        if panels.joins[edge][0] != side.face and panels.go_one_way(edge):
             angle = -angle
         letter = "U" if abs(angle) < DOUBLE.same_configuration else "V" if angle > 0 else "M"
     if side.work.net.turned[side.face] and letter in "MV":
         letter = "M" if letter == "V" else "V"
     return FOLDS[letter]
-
-
-def _differ(panels: Panels, edge: int) -> bool:
-    """Tell whether the corners of the two panels at an edge go round in different ways."""
-    first, second = panels.joins[edge]
-    a, _ = panels.ends(first, edge)
-    c, _ = panels.ends(second, edge)
-    return panels.sheet.faces[first][a] == panels.sheet.faces[second][c]
 
 
 def _glue(panels: Panels, edge: int, sides: tuple[_Side, _Side], glue: _Glue) -> None:
@@ -251,11 +233,7 @@ def _glue(panels: Panels, edge: int, sides: tuple[_Side, _Side], glue: _Glue) ->
         panel = shapely.Polygon(laid)
         material = [*net.polygons(), *here.work.tabs]
         joins = glue.joins
-        shape = None
-        if joins.depth:
-            shape = tab_at(
-                here.start, here.end, joins.depth, material, panel, in_use=in_use, slotted=joins.slotted
-            )
+        shape = tab_at(here.start, here.end, joins.depth, material, panel, in_use=in_use, slotted=joins.slotted)
         if shape is None:
             continue
         glue.on_panel[there.face].append(_carried(shape, laid, own))

@@ -1,14 +1,15 @@
 """The template of any mechanism in one call, as `synth template` makes it."""
 
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from enumerate.strings.panel_strings import ChainString
 from graphs.convert.table import Mechanism
 from graphs.errors import InvariantError
 from graphs.files.accepted import MechanismLike, mechanism_for, with_stated_precision
 from graphs.mechanism.surfaces import Cone, SurfaceLinkage
+from graphs.printing import plain
 from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.realisation.realised import Kind
 from synth.templates.hinges import Hinges
@@ -20,6 +21,7 @@ from synth.templates.template import (
     panels_of_mechanism,
     pictured,
     template_of,
+    unit_of,
 )
 
 _REALISED = 150.0
@@ -98,36 +100,69 @@ def template(
         "template", mechanism, Mechanism | ChainString | OrderOnCircle
     )
     name = Path(mechanism).name if isinstance(mechanism, str | Path) else ""
-    of_panels = {
-        "kind": kind,
-        "mode": mode,
-        "scale": scale,
-        "tabs": tabs,
-        "slots": slots or None,
-        "hinges": hinges,
-        "precision": precision,
-    }
+    of_panels: dict[str, Any] = {"kind": kind, "mode": mode, "scale": scale, "tabs": tabs, "slots": slots or None}
+    of_panels["hinges"] = hinges
     of_surface = {"cone_angle": cone_angle, "number": number, "radius": radius, "thickness": thickness}
     if isinstance(source, SurfaceLinkage | OrderOnCircle):
-        _refuse(of_panels, "a mechanism with panels")
-        cone = None if cone_angle is None else Cone(cone_angle)
-        linkage = linkage_on_a_surface(source, surface=cone, number=number)
-        sizes = {key: value for key, value in (("size", size), ("thickness", thickness)) if value is not None}
-        result = template_on_surface(linkage, surface_of(linkage, radius), Dimensions(**sizes), name)
-        return result if note else replace(result, steps=())
-    _refuse(of_surface, "a linkage on a cone or cylinder")
-    panels = with_stated_precision(source, precision)
-    sheet, realised = panels_of_mechanism(panels, kind=kind, mode=mode)
-    if realised and scale is None and size is None:
-        size = _REALISED
-    depth = TABS if tabs is None else tabs
-    title = sheet.title or name
-    result = template_of(sheet, scale=scale, size=size, tabs=depth, slots=slots, hinges=hinges, title=title)
-    return pictured(result, sheet)[0] if note else replace(result, steps=())
+        _refuse({**of_panels, "precision": precision}, "a mechanism with panels")
+        result = template_of_linkage(source, name, size=size, **_stated(of_surface))
+    else:
+        _refuse(of_surface, "a linkage on a cone or cylinder")
+        panels = with_stated_precision(source, precision)
+        result, _ = template_of_panels(panels, name, size=size, picture=note, **_stated(of_panels))
+    return result if note else replace(result, steps=())
 
 
-def _refuse(options: Mapping[str, object], required: str) -> None:
+def _stated(options: dict[str, Any]) -> dict[str, Any]:
+    return {option: value for option, value in options.items() if value is not None}
+
+
+def _refuse(options: dict[str, Any], required: str) -> None:
     """Refuse options that belong to another kind of mechanism."""
-    refused = [option for option, value in options.items() if value is not None]
-    if refused:
-        raise InvariantError("template", f"{', '.join(refused)} for another mechanism", required)
+    if _stated(options):
+        raise InvariantError("template", f"{', '.join(_stated(options))} for another mechanism", required)
+
+
+def template_of_linkage(
+    linkage: SurfaceLinkage | OrderOnCircle,
+    name: str,
+    *,
+    cone_angle: float | None = None,
+    number: int | None = None,
+    radius: float | None = None,
+    **sizes: float | None,
+) -> Template:
+    """Return the template of a linkage on a cone or a cylinder; `sizes` are those of `Dimensions`."""
+    cone = None if cone_angle is None else Cone(cone_angle)
+    placed = linkage_on_a_surface(linkage, surface=cone, number=number)
+    return template_on_surface(placed, surface_of(placed, radius), Dimensions(**_stated(sizes)), name)
+
+
+def template_of_panels(
+    mechanism: Mechanism | ChainString,
+    name: str,
+    *,
+    kind: Kind | None = None,
+    mode: str | None = None,
+    scale: float | None = None,
+    size: float | None = None,
+    tabs: float = TABS,
+    slots: bool = False,
+    hinges: Hinges | None = None,
+    picture: bool = True,
+) -> tuple[Template, list[str]]:
+    """Return the template of panels, those of a type realised first, and notes for the command to print."""
+    sheet, realised = panels_of_mechanism(mechanism, kind=kind, mode=mode)
+    notes = [f"{realised}, as by `synth realise`"] if realised else []
+    if scale is None and size is None and realised:
+        size = _REALISED
+        notes.append(f"a type has no size: its longer side is {_REALISED:g} mm; --size changes it")
+    elif scale is None and size is None and unit_of(sheet) is None:
+        notes.append("the file names no unit: a unit of the coordinates is 1 mm")
+    title = sheet.title or name
+    result = template_of(sheet, scale=scale, size=size, tabs=tabs, slots=slots, hinges=hinges, title=title)
+    notes += [f"not shown: {', '.join(result.not_shown)}"] if result.not_shown else []
+    if picture:
+        result, reason = pictured(result, sheet)
+        notes += [f"no picture of the folded sheet: {plain(reason, 1000)}"] if reason else []
+    return result, notes

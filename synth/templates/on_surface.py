@@ -4,7 +4,7 @@ Theory: docs/theory/templates.md.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import cos, degrees, pi
 
@@ -102,10 +102,6 @@ class LayeredLink:
         least = DOUBLE.same_configuration
         return -1 if along <= least else 1 if along >= self.width - least else 0
 
-    def reaches(self, joint: str, side: int) -> bool:
-        """Check whether it continues from a joint to a side: -1 or 1."""
-        return self.at_end(joint) != side
-
 
 @dataclass(frozen=True)
 class Joining:
@@ -123,60 +119,46 @@ class Joining:
     folded: bool
 
 
-@dataclass(frozen=True)
 class LayeredLinkage:
-    """The links of a linkage in layers on a surface, with one joining for each joint.
+    """The links of a linkage in the fewest layers on a surface, with one joining for each joint.
 
-    `places` are the azimuths of the joints; `tab` is the width of tabs and `slot` half that of slots, all in
-    radians.
+    Only its chain and its azimuths matter. `places` are the azimuths of the joints; `tab` is the width of tabs and
+    `slot` half that of slots, all in radians. Raise UnsolvableError if two joints are on one ruling line, or one
+    of the links has one joint only.
     """
 
-    surface: Surface
-    dimensions: Dimensions
-    links: tuple[LayeredLink, ...]
-    joinings: tuple[Joining, ...]
-    places: dict[str, float]
-    tab: float
-    slot: float
+    def __init__(self, linkage: OnSurface, surface: Surface, dimensions: Dimensions) -> None:
+        self.surface, self.dimensions = surface, dimensions
+        chain = ConformedChain.of(linkage.chain)
+        places = np.remainder(np.asarray(linkage.places, dtype=float), 2 * pi)
+        least = _least_step(places, chain)
+        for link, own in zip(chain.links, chain.joints_of, strict=True):
+            if len(own) < 2:
+                raise UnsolvableError(
+                    f"link {shown(link)} has one joint, so it covers no part of the surface; expected two or more"
+                )
+        laid = links_in_layers(chain, places, linkage.begins(chain))
+        names = [plain(str(joint), _LONGEST_NAME) for joint in chain.joints]
+        bare = [
+            LayeredLink(
+                plain(str(link), _LONGEST_NAME),
+                int(laid.layers[number]),
+                float(laid.arcs[number, 0]),
+                float(laid.arcs[number, 1]),
+                tuple((names[joint], _from(laid.arcs[number, 0], places[joint])) for joint in own),
+                (),
+            )
+            for number, (link, own) in enumerate(zip(chain.links, chain.joints_of, strict=True))
+        ]
+        self.joinings = tuple(_joining(name, bare) for name in names)
+        self.places = dict(zip(names, places.tolist(), strict=True))
+        self.links = tuple(_slotted(link, bare, self.places) for link in bare)
+        self.tab = min(dimensions.tab / surface.width(sum(dimensions.ends) / 2), _TAB_OF_GAP * least)
+        self.slot = min(_SLOT_WIDTH / 2 / surface.width(dimensions.ends[0]), _SLOT_OF_GAP * least)
 
     def height(self, layer: float) -> float:
         """Return how far the middle of a layer is outside the surface, millimetres."""
         return layer * self.dimensions.apart
-
-
-def layered(linkage: OnSurface, surface: Surface, dimensions: Dimensions) -> LayeredLinkage:
-    """Return the links of a linkage in the fewest layers; only its chain and its azimuths matter.
-
-    Raise UnsolvableError if two joints are on one ruling line, or a link has one joint only.
-    """
-    chain = ConformedChain.of(linkage.chain)
-    places = np.remainder(np.asarray(linkage.places, dtype=float), 2 * pi)
-    least = _least_step(places, chain)
-    for link, own in zip(chain.links, chain.joints_of, strict=True):
-        if len(own) < 2:
-            raise UnsolvableError(
-                f"link {shown(link)} has one joint, so it covers no part of the surface; expected two or more"
-            )
-    laid = links_in_layers(chain, places, linkage.begins(chain))
-    names = [plain(str(joint), _LONGEST_NAME) for joint in chain.joints]
-    bare = [
-        LayeredLink(
-            plain(str(link), _LONGEST_NAME),
-            int(laid.layers[number]),
-            float(laid.arcs[number, 0]),
-            float(laid.arcs[number, 1]),
-            tuple((names[joint], _from(laid.arcs[number, 0], places[joint])) for joint in own),
-            (),
-        )
-        for number, (link, own) in enumerate(zip(chain.links, chain.joints_of, strict=True))
-    ]
-    joinings = tuple(_joining(name, bare) for name in names)
-    at = dict(zip(names, places.tolist(), strict=True))
-    links = tuple(_slotted(link, bare, at) for link in bare)
-    width = surface.width(sum(dimensions.ends) / 2)
-    tab = min(dimensions.tab / width, _TAB_OF_GAP * least)
-    slot = min(_SLOT_WIDTH / 2 / surface.width(dimensions.ends[0]), _SLOT_OF_GAP * least)
-    return LayeredLinkage(surface, dimensions, links, joinings, at, tab, slot)
 
 
 def _least_step(places: Floats, chain: ConformedChain) -> float:
@@ -203,7 +185,7 @@ def _joining(joint: str, links: Sequence[LayeredLink]) -> Joining:
     for tabbed, other in ((first, second), (second, first)):
         side = links[tabbed].at_end(joint)
         if side:
-            folded = not links[other].reaches(joint, side)
+            folded = links[other].at_end(joint) == side
             ways.append((folded, links[tabbed].layer, tabbed, other, side))
     if not ways:
         return Joining(joint, first, second, 0, folded=False)
@@ -220,7 +202,7 @@ def _slotted(link: LayeredLink, links: Sequence[LayeredLink], places: dict[str, 
         within = DOUBLE.same_configuration < along < link.width - DOUBLE.same_configuration
         if within and layers[0] < link.layer < layers[-1]:
             slots.append((joint, along))
-    return LayeredLink(link.name, link.layer, link.start, link.width, link.joints, tuple(slots))
+    return replace(link, slots=tuple(slots))
 
 
 _OFF = 0.004
@@ -319,12 +301,10 @@ def _piece_of_link(linkage: LayeredLinkage, number: int) -> Piece:
             strokes += unrolled.lines("MARKS", [(start + along, inner), (start + along, outer)])
         inside = start + along - side * min(linkage.tab, link.width) / 2
         texts.append(Text(unrolled.at(inside, outer - _FROM_RIM), name, _SMALL))
-    holes = []
-    for _, along in link.slots:
-        slot = _slot_corners(linkage, start + along)
-        strokes += unrolled.lines("CUT", slot)
-        holes.append(shapely.Polygon(unrolled.points(slot)))
-    covered = shapely.Polygon(unrolled.points(outline)).difference(shapely.union_all(holes))
+    slots = [_slot_corners(linkage, start + along) for _, along in link.slots]
+    strokes += [stroke for slot in slots for stroke in unrolled.lines("CUT", slot)]
+    holes = shapely.union_all([shapely.Polygon(unrolled.points(slot)) for slot in slots])
+    covered = shapely.Polygon(unrolled.points(outline)).difference(holes)
     return Piece(tuple(strokes), tuple(texts), covered)
 
 
@@ -382,7 +362,7 @@ def template_on_surface(
     All pieces are seen from outside; the arcs of their edges are chords that miss them by 0.004 mm at most.
     Raise UnsolvableError if two joints are on one ruling line, or a link has one joint only.
     """
-    links = layered(linkage, surface, dimensions or Dimensions())
+    links = LayeredLinkage(linkage, surface, dimensions or Dimensions())
     picture = _picture(linkage, surface)
     below = "It then lies as below; the picture puts layers beside each other, so that none hides another."
     steps = [*_steps(links), below]
@@ -460,7 +440,7 @@ def _link(linkage: LayeredLinkage, link: LayeredLink, off: float) -> Mesh:
     azimuths = [fixed[0]]
     for here, after in pairwise(fixed):
         count = max(1, int(np.ceil((after - here) / _STEP)))
-        azimuths += [here + (after - here) * part / count for part in range(1, count)] + [after]
+        azimuths += [*(here + (after - here) * part / count for part in range(1, count)), after]
     inner, outer = linkage.dimensions.ends
     low, high = linkage.dimensions.slot_ends
     lengths = np.array([inner, low, high, outer] if slots else [inner, outer])

@@ -6,11 +6,12 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil, prod
+from operator import le
 from textwrap import wrap
 
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.printing import plain
-from synth.drawing.scene.shapes import Label, Layer, Line, moved, scaled
+from synth.drawing.scene.shapes import Label, Layer, Line, moved, part_in_box, scaled
 from synth.drawing.scene.writing import Scene
 from synth.templates.pieces import LOOKS, Kind, Piece, Point, TemplateLine, Text
 from synth.templates.template import Template
@@ -264,21 +265,9 @@ def tiles_of(piece: Piece, window: tuple[float, float], name: str = "") -> Itera
 
 
 def clipped(stroke: TemplateLine, area: tuple[float, float, float, float]) -> TemplateLine | None:
-    """Return the part of a stroke in an area (left, low, right, high); None if it has no length.
-
-    The method is that of Liang and Barsky.
-    """
+    """Return the part of a stroke in an area (left, low, right, high); None if it has no length."""
     start, end = stroke.start, stroke.end
-    first, last = 0.0, 1.0
-    for axis in (0, 1):
-        way = end[axis] - start[axis]
-        low, high = area[axis] - start[axis], area[axis + 2] - start[axis]
-        if way == 0:
-            if low > 0 or high < 0:
-                return None
-            continue
-        enter, leave = sorted((low / way, high / way))
-        first, last = max(first, enter), min(last, leave)
+    first, last = part_in_box(start, end, area)
     if last - first <= _TINY:
         return None
 
@@ -363,8 +352,7 @@ def _written_steps(steps: Sequence[str], corner: tuple[float, float], width: flo
     letters = int(width / (_LETTER * _STEP_SIZE))
     lines: list[str] = []
     for number, step in enumerate(steps, start=1):
-        first, rest = f"{number}. ", " " * 5
-        lines += wrap(step, letters, initial_indent=first, subsequent_indent=rest)
+        lines += wrap(step, letters, initial_indent=f"{number}. ", subsequent_indent=" " * 5)
     left, top = corner
     texts = [
         Text((left, top - (number + 0.5) * _LINE), line, _STEP_SIZE, middle=False)
@@ -424,16 +412,12 @@ def _contents(template: Template, paper: Paper) -> tuple[Paper, list[_Laid | Til
     larger: list[Piece] = []
     for piece in template.pieces:
         placed = piece.at_origin()
-        ways = [way for way in (placed, placed.turned()) if _fits(way, paper)]
+        ways = [way for way in (placed, placed.turned()) if all(map(le, way.size, paper.window))]
         (fitting if ways else larger).append(ways[0] if ways else placed)
     contents: list[_Laid | Tile] = list(laid_out(fitting, *paper.window))
     for number, piece in enumerate(larger, start=1):
         contents += tiles_of(piece, paper.window, str(number) if len(larger) > 1 else "")
     return paper, contents
-
-
-def _fits(piece: Piece, paper: Paper) -> bool:
-    return all(side <= most for side, most in zip(piece.size, paper.window, strict=True))
 
 
 def _page(template: Template, paper: Paper, content: _Laid | Tile, number: int, count: int) -> Page:
@@ -462,6 +446,5 @@ def _in_the_middle(laid: _Laid, paper: Paper) -> tuple[list[TemplateLine], list[
 def strokes_and_texts(laid: Iterable[tuple[Piece, float, float]]) -> tuple[list[TemplateLine], list[Text]]:
     """Return the strokes and texts of pieces, each moved to the right and up."""
     pieces = [piece.moved(right, up) for piece, right, up in laid]
-    return [stroke for piece in pieces for stroke in piece.strokes], [
-        text for piece in pieces for text in piece.texts
-    ]
+    strokes = [stroke for piece in pieces for stroke in piece.strokes]
+    return strokes, [text for piece in pieces for text in piece.texts]

@@ -241,17 +241,13 @@ def piece_of_flat_sheet(sheet: Sheet, places: Floats) -> tuple[Piece, tuple[str,
     All edges of the sheet are listed; the places are float[vertices, 2], millimetres.
     """
     faces = Counter(frozenset(side) for face in sheet.faces for side in sides_of_face(face))
-    strokes, flat, loose, seen = [], 0, 0, set()
-    for edge, letter in zip(sheet.edges, sheet.assignments, strict=True):
-        pair = frozenset(edge)
-        if pair in seen:
-            continue
-        seen.add(pair)
-        kind = _kind(letter, faces[pair])
-        if kind is not None:
-            start, end = (point_of(places[vertex]) for vertex in edge)
-            strokes.append(TemplateLine(kind, start, end))
-        elif faces[pair]:
+    strokes, flat, loose = [], 0, 0
+    for number, letter in edges_once(sheet):
+        start, end = sheet.edges[number]
+        at = faces[frozenset((start, end))]
+        if kind := _kind(letter, at):
+            strokes.append(TemplateLine(kind, point_of(places[start]), point_of(places[end])))
+        elif at:
             flat += 1
         else:
             loose += 1
@@ -259,6 +255,14 @@ def piece_of_flat_sheet(sheet: Sheet, places: Floats) -> tuple[Piece, tuple[str,
     not_shown = [numbered(flat, "flat edge")] if flat else []
     not_shown += [f"{numbered(loose, 'line')} between no panels"] if loose else []
     return Piece(tuple(cut_once(strokes)), (), put_together(polygons)), tuple(not_shown)
+
+
+def edges_once(sheet: Sheet) -> list[tuple[int, str]]:
+    """Return the edges by their numbers, each pair of vertices once, with their letters."""
+    first: dict[frozenset[int], int] = {}
+    for number, edge in enumerate(sheet.edges):
+        first.setdefault(frozenset(edge), number)
+    return [(number, sheet.assignments[number]) for number in first.values()]
 
 
 def _kind(letter: str, faces: int) -> Kind | None:

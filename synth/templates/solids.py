@@ -1,7 +1,6 @@
 """Panels as thin solids with open hinges, written to STL, 3MF, OBJ, and glTF with the motion."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,10 +17,10 @@ from graphs.mechanism.sheet import FLAT, Sheet, with_all_edges
 from graphs.mechanism.surfaces import Surface
 from graphs.types import Floats
 from synth.conformed.linkages import OnSurface
-from synth.templates.on_surface import Dimensions, layered, solids_on_surface
+from synth.templates.on_surface import Dimensions, LayeredLinkage, solids_on_surface
 from synth.templates.pieces import GRID, united
 from synth.templates.template import GREATEST, millimetres, scale_of
-from synth.templates.unfolding import Panels, Plane, panels_of
+from synth.templates.unfolding import Panels, Plane
 
 _RIGID = 1e-4
 """Largest change of the shape of a moving panel, as part of its extent."""
@@ -29,16 +28,28 @@ _STRAIGHT = 1e-6
 """Corners this close to a straight line, in millimetres, are left out."""
 
 
-@dataclass(frozen=True)
 class Plates:
-    """Panels as solids, each in the frame of its plane at the pose from which the plates are made.
+    """The panels of a sheet with all edges listed as plates of a thickness, with a gap at each hinge.
 
-    `faces` gives the panel of each mesh: a panel whose middle is cut off by its hinges has several.
+    Each is in the frame of its plane at the places, float[vertices, 3], from which they are made; all in
+    millimetres. `faces` gives the panel of each mesh: a panel whose middle is cut off by its hinges has several.
+    Raise InvariantError if the thickness is not positive, the gap negative, or one of them larger than 1e6 mm;
+    UnsolvableError if a panel is not planar, or narrower than the gap.
     """
 
-    meshes: tuple[Mesh, ...]
-    faces: tuple[int, ...]
-    planes: tuple[Plane, ...]
+    def __init__(self, sheet: Sheet, places: Floats, *, thickness: float, gap: float) -> None:
+        if not 0 < thickness <= GREATEST:
+            expected = f"a positive number, at most {GREATEST:g}"
+            raise InvariantError("thickness", f"thickness {thickness!r}", expected)
+        if not 0 <= gap <= GREATEST:
+            raise InvariantError("gap", f"gap {gap!r}", f"a number from 0 to {GREATEST:g}")
+        panels = Panels(sheet, places)
+        self.planes, self.meshes, self.faces = panels.planes, list[Mesh](), list[int]()
+        for face in range(len(sheet.faces)):
+            for number, polygon in enumerate(_without_hinges(panels, face, gap / 2)):
+                name = f"panel {face}" + (f" part {number}" if number else "")
+                self.meshes.append(_plate(polygon, thickness, name))
+                self.faces.append(face)
 
     def motions(self, sheet: Sheet, poses: Floats) -> tuple[Floats, Floats]:
         """Return rotations, float[poses, meshes, 3, 3], and translations, float[poses, meshes, 3], of plates.
@@ -57,27 +68,6 @@ class Plates:
         return turns, shifts
 
 
-def plates_of(sheet: Sheet, places: Floats, *, thickness: float, gap: float) -> Plates:
-    """Return the panels of a sheet with all edges listed as plates of a thickness, with a gap at each hinge.
-
-    The places are float[vertices, 3]; all in millimetres. Raise InvariantError if the thickness is not positive,
-    the gap negative, or one of them larger than 1e6 mm; UnsolvableError if a panel is not planar, or narrower than
-    the gap.
-    """
-    if not 0 < thickness <= GREATEST:
-        raise InvariantError("thickness", f"thickness {thickness!r}", f"a positive number, at most {GREATEST:g}")
-    if not 0 <= gap <= GREATEST:
-        raise InvariantError("gap", f"gap {gap!r}", f"a number from 0 to {GREATEST:g}")
-    panels = panels_of(sheet, places)
-    meshes, faces = [], []
-    for face in range(len(sheet.faces)):
-        for number, polygon in enumerate(_without_hinges(panels, face, gap / 2)):
-            name = f"panel {face}" + (f" part {number}" if number else "")
-            meshes.append(_plate(polygon, thickness, name))
-            faces.append(face)
-    return Plates(tuple(meshes), tuple(faces), panels.planes)
-
-
 def plates_in_space(plates: Plates) -> list[Mesh]:
     """Return plates where their panels stand."""
     placed = zip(plates.meshes, plates.faces, strict=True)
@@ -94,8 +84,8 @@ def _without_hinges(panels: Panels, face: int, width: float) -> list[Any]:
     whole = rest.area
     strips = [
         shapely.LineString(corners[list(panels.ends(face, edge))]).buffer(width, cap_style="square")
-        for edge in panels.shared_by(face)
-        if panels.sheet.assignments[edge] not in FLAT
+        for edge, faces in (*panels.joins.items(), *panels.slits.items())
+        if face in faces and panels.sheet.assignments[edge] not in FLAT
     ]
     if width and strips:
         rest = shapely.difference(rest, united(strips), grid_size=GRID).simplify(_STRAIGHT)
@@ -116,9 +106,8 @@ def _plate(polygon: Any, thickness: float, name: str) -> Mesh:
         [index[tuple(corner)] for corner in shapely.orient_polygons(triangle).exterior.coords[:-1]]
         for triangle in shapely.constrained_delaunay_triangles(polygon).geoms
     ]
-    triangles = [[corner + count for corner in triangle] for triangle in top] + [
-        triangle[::-1] for triangle in top
-    ]
+    triangles = [[corner + count for corner in triangle] for triangle in top]
+    triangles += [triangle[::-1] for triangle in top]
     for here in range(count):
         after = (here + 1) % count
         triangles += [[here, after, after + count], [here, after + count, here + count]]
@@ -237,7 +226,7 @@ def write_solids(
     check_writable(path, SOLIDS, force=force)
     whole, poses, left_out = poses_of(sheet)
     poses = poses * millimetres(poses[0], scale_of(sheet, scale, size), size)
-    plates = plates_of(whole, poses[0], thickness=thickness, gap=2 * thickness if gap is None else gap)
+    plates = Plates(whole, poses[0], thickness=thickness, gap=2 * thickness if gap is None else gap)
     if Path(path).suffix.lower() == ".gltf":
         solids = Solids(plates.meshes, whole.title, plates.motions(whole, poses), left_out)
     else:
@@ -262,6 +251,5 @@ def write_linkage_on_surface(
     gap.
     """
     check_writable(path, SOLIDS, force=force)
-    return write_as(
-        Solids(solids_on_surface(layered(linkage, surface, dimensions), gap)), path, SOLIDS, force=force
-    )
+    meshes = solids_on_surface(LayeredLinkage(linkage, surface, dimensions), gap)
+    return write_as(Solids(meshes), path, SOLIDS, force=force)

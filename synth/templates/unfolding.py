@@ -5,7 +5,6 @@ Theory: docs/theory/templates.md.
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from heapq import heappop, heappush
 from math import atan2
 from typing import Any
@@ -15,70 +14,67 @@ import shapely
 
 from graphs.errors import UnsolvableError
 from graphs.geometry import across, area_vector, unit
-from graphs.mechanism.sheet import COLLINEAR, FLAT, Edge, Sheet, sides_of_face
+from graphs.mechanism.sheet import COLLINEAR, FLAT, Sheet, sides_of_face
 from graphs.tolerances import DOUBLE, leading, trailing
 from graphs.types import Floats
-from synth.templates.pieces import lies_over
+from synth.templates.pieces import edges_once, lies_over
 
 
-@dataclass(frozen=True)
 class Plane:
-    """A frame in the plane of a panel; its origin is the mean of the corners.
+    """A frame in the plane of a panel with corners float[corners, 3]; its origin is the mean of the corners.
 
-    The columns of `axes`, float[3, 3], are two axes in the plane and the normal, round which the corners go
-    counter-clockwise; `flat`, float[corners, 2], are the corners in the frame.
+    The columns of `axes`, float[3, 3], are two axes in the plane and the unit normal, round which the corners go
+    counter-clockwise; `flat`, float[corners, 2], are the corners in the frame. Raise UnsolvableError, with the
+    number of the panel, if the corners lie in no plane or in a line, a side has no length, or sides cross.
     """
 
-    origin: Floats
-    axes: Floats
-    flat: Floats
-
-    @property
-    def normal(self) -> Floats:
-        """The unit normal, float[3]."""
-        column: Floats = self.axes[:, 2]
-        return column
-
-
-def plane_of_panel(corners: Floats, face: int) -> Plane:
-    """Return the plane of a panel with corners float[corners, 3]; messages name its number, the face.
-
-    Raise UnsolvableError if the corners lie in no plane or in a line, a side has no length, or sides cross.
-    """
-    origin: Floats = corners.mean(axis=0)
-    arms = corners - origin
-    area = 2 * area_vector(corners)
-    size = float(np.abs(arms).max())
-    if np.linalg.norm(area) <= COLLINEAR * size**2:
-        raise UnsolvableError(f"panel {face} has no area")
-    normal = unit(area)
-    if float(np.abs(arms @ normal).max()) > DOUBLE.flat * size:
-        raise UnsolvableError(f"panel {face} is not planar, so it cannot be cut from a sheet")
-    along = unit(across(np.eye(3)[trailing(np.abs(normal))], normal))
-    axes = np.column_stack([along, np.cross(normal, along), normal])
-    flat = arms @ axes[:, :2]
-    if np.linalg.norm(flat - np.roll(flat, -1, axis=0), axis=1).min() <= DOUBLE.same_point * size:
-        raise UnsolvableError(f"panel {face} has a side without length")
-    if not shapely.Polygon(flat).is_valid:
-        raise UnsolvableError(f"the border of panel {face} crosses or touches itself, so it cannot be cut out")
-    return Plane(origin, axes, flat)
+    def __init__(self, corners: Floats, face: int) -> None:
+        self.origin: Floats = corners.mean(axis=0)
+        arms = corners - self.origin
+        area = 2 * area_vector(corners)
+        size = float(np.abs(arms).max())
+        if np.linalg.norm(area) <= COLLINEAR * size**2:
+            raise UnsolvableError(f"panel {face} has no area")
+        normal = unit(area)
+        if float(np.abs(arms @ normal).max()) > DOUBLE.flat * size:
+            raise UnsolvableError(f"panel {face} is not planar, so it cannot be cut from a sheet")
+        along = unit(across(np.eye(3)[trailing(np.abs(normal))], normal))
+        self.axes: Floats = np.column_stack([along, np.cross(normal, along), normal])
+        self.flat: Floats = arms @ self.axes[:, :2]
+        self.normal: Floats = self.axes[:, 2]
+        if np.linalg.norm(self.flat - np.roll(self.flat, -1, axis=0), axis=1).min() <= DOUBLE.same_point * size:
+            raise UnsolvableError(f"panel {face} has a side without length")
+        if not shapely.Polygon(self.flat).is_valid:
+            raise UnsolvableError(f"the border of panel {face} crosses or touches itself, so it cannot be cut out")
 
 
 _CUT = "BC"
 
 
-@dataclass(frozen=True)
 class Panels:
     """The panels of a sheet with all edges listed, each in its own plane, at places float[vertices, 3].
 
     `joins` maps each edge at which two panels hang together to these, `slits` each edge between two that is cut.
+    Raise UnsolvableError if a panel is not planar, or more than two meet in an edge.
     """
 
-    sheet: Sheet
-    planes: tuple[Plane, ...]
-    joins: Mapping[int, tuple[int, int]]
-    slits: Mapping[int, tuple[int, int]]
-    places: Floats
+    def __init__(self, sheet: Sheet, places: Floats) -> None:
+        self.sheet, self.places = sheet, places
+        self.planes = tuple(Plane(places[list(around)], face) for face, around in enumerate(sheet.faces))
+        faces: dict[frozenset[int], list[int]] = defaultdict(list)
+        for face, around in enumerate(sheet.faces):
+            for side in sides_of_face(around):
+                faces[frozenset(side)].append(face)
+        self.joins: dict[int, tuple[int, int]] = {}
+        self.slits: dict[int, tuple[int, int]] = {}
+        for edge, letter in edges_once(sheet):
+            a, b = sheet.edges[edge]
+            at = faces[frozenset((a, b))]
+            if len(at) > 2:
+                panels = f"{len(at)} panels meet in the edge from vertex {a} to {b}"
+                raise UnsolvableError(f"{panels}; expected at most 2")
+            if len(at) == 2:
+                (self.slits if letter in _CUT else self.joins)[edge] = (at[0], at[1])
 
     def ends(self, face: int, edge: int) -> tuple[int, int]:
         """Return which corners of a face the ends of an edge are, in the order of the face."""
@@ -86,64 +82,54 @@ class Panels:
         a, b = (around.index(vertex) for vertex in self.sheet.edges[edge])
         return (a, b) if (a + 1) % len(around) == b else (b, a)
 
+    def go_one_way(self, edge: int) -> bool:
+        """Check whether both panels at an edge pass it from the same end: one of them is seen from behind then."""
+        first, second = (self.sheet.faces[face][self.ends(face, edge)[0]] for face in self.joins[edge])
+        return first == second
+
     def fold_angle(self, edge: int) -> float:
         """Return how far two panels are folded, radians, valleys positive."""
         first, second = self.joins[edge]
         a, b = (self.sheet.faces[first][corner] for corner in self.ends(first, edge))
         along = unit(self.places[b] - self.places[a])
-        c, _ = (self.sheet.faces[second][corner] for corner in self.ends(second, edge))
         normal = self.planes[first].normal
-        other = self.planes[second].normal * (1 if c == b else -1)
+        other = self.planes[second].normal * (-1 if self.go_one_way(edge) else 1)
         return -atan2(along @ np.cross(normal, other), normal @ other)
 
-    def shared_by(self, face: int) -> list[int]:
-        """Return the edges between a panel and another, hinged or cut."""
-        return [edge for edge, faces in (*self.joins.items(), *self.slits.items()) if face in faces]
 
-
-@dataclass(frozen=True)
 class Net:
-    """Panels laid out beside each other: the corners, float[corners, 2], of each face.
+    """Panels laid out beside each other, from one on over those that are left: the corners of each face.
 
-    `turned`: the face is seen from behind, as one whose corners go round the other way than its neighbour's.
+    `corners` are float[corners, 2]; `turned`: the face is seen from behind, as one whose corners go the other way
+    round than its neighbour's.
     """
 
-    corners: Mapping[int, Floats]
-    turned: Mapping[int, bool]
+    def __init__(self, panels: Panels, root: int, left: set[int], edges_at: Mapping[int, Sequence[int]]) -> None:
+        self.corners, self.turned = {root: panels.planes[root].flat}, {root: False}
+        polygons = self.polygons()
+        waiting: list[tuple[tuple[bool, float, int], int, int]] = []
+
+        def reach(face: int) -> None:
+            for edge in edges_at[face]:
+                heappush(waiting, (_rank(panels, edge), edge, face))
+
+        reach(root)
+        while waiting:
+            _, edge, face = heappop(waiting)
+            other = sum(panels.joins[edge]) - face
+            if other not in left or other in self.corners:
+                continue
+            laid, flipped = laid_across(panels, edge, face, self.corners[face], turned=self.turned[face])
+            polygon = shapely.Polygon(laid)
+            if lies_over(polygon, polygons):
+                continue
+            self.corners[other], self.turned[other] = laid, flipped
+            polygons.append(polygon)
+            reach(other)
 
     def polygons(self) -> list[Any]:
         """Return the panels as shapely polygons."""
         return [shapely.Polygon(corners) for corners in self.corners.values()]
-
-
-def panels_of(sheet: Sheet, places: Floats) -> Panels:
-    """Return the panels of a sheet with all edges listed, each in its plane; places are float[vertices, 3].
-
-    Raise UnsolvableError if a panel is not planar, or more than two meet in an edge.
-    """
-    planes = tuple(plane_of_panel(places[list(around)], face) for face, around in enumerate(sheet.faces))
-    faces: dict[frozenset[int], list[int]] = defaultdict(list)
-    for face, around in enumerate(sheet.faces):
-        for side in sides_of_face(around):
-            faces[frozenset(side)].append(face)
-    joins: dict[int, tuple[int, int]] = {}
-    slits: dict[int, tuple[int, int]] = {}
-    for edge, letter in _once(sheet):
-        at = faces[frozenset(sheet.edges[edge])]
-        if len(at) > 2:
-            a, b = sheet.edges[edge]
-            raise UnsolvableError(f"{len(at)} panels meet in the edge from vertex {a} to {b}; expected at most 2")
-        if len(at) == 2:
-            (slits if letter in _CUT else joins)[edge] = (at[0], at[1])
-    return Panels(sheet, planes, joins, slits, places)
-
-
-def _once(sheet: Sheet) -> list[tuple[int, str]]:
-    """Return the edges, each pair of vertices once, with their letters."""
-    first: dict[frozenset[int], int] = {}
-    for number, edge in enumerate(sheet.edges):
-        first.setdefault(frozenset(edge), number)
-    return [(number, sheet.assignments[number]) for number in first.values()]
 
 
 def nets_of(panels: Panels) -> list[Net]:
@@ -162,36 +148,10 @@ def nets_of(panels: Panels) -> list[Net]:
     while left:
         faces_left = sorted(left)
         root = faces_left[leading(areas[faces_left])]
-        net = _grown(panels, root, left, edges_at)
+        net = Net(panels, root, left, edges_at)
         left -= set(net.corners)
         nets.append(net)
     return nets
-
-
-def _grown(panels: Panels, root: int, left: set[int], edges_at: Mapping[int, Sequence[int]]) -> Net:
-    """Return the net that grows from a panel over those that are left."""
-    corners, turned = {root: panels.planes[root].flat}, {root: False}
-    polygons = [shapely.Polygon(panels.planes[root].flat)]
-    waiting: list[tuple[tuple[bool, float, int], int, int]] = []
-
-    def reach(face: int) -> None:
-        for edge in edges_at[face]:
-            heappush(waiting, (_rank(panels, edge), edge, face))
-
-    reach(root)
-    while waiting:
-        _, edge, face = heappop(waiting)
-        other = _other(panels.joins[edge], face)
-        if other not in left or other in corners:
-            continue
-        laid, flipped = laid_across(panels, edge, face, corners[face], turned=turned[face])
-        polygon = shapely.Polygon(laid)
-        if lies_over(polygon, polygons):
-            continue
-        corners[other], turned[other] = laid, flipped
-        polygons.append(polygon)
-        reach(other)
-    return Net(corners, turned)
 
 
 def _rank(panels: Panels, edge: int) -> tuple[bool, float, int]:
@@ -201,19 +161,15 @@ def _rank(panels: Panels, edge: int) -> tuple[bool, float, int]:
     return panels.sheet.assignments[edge] not in FLAT, -round(length, 9), edge
 
 
-def _other(pair: Edge, face: int) -> int:
-    return pair[1] if pair[0] == face else pair[0]
-
-
 def laid_across(panels: Panels, edge: int, face: int, laid: Floats, *, turned: bool) -> tuple[Floats, bool]:
     """Return the laid corners of the panel across an edge, and whether it is seen from behind.
 
     `face` is the panel already laid, `laid` its corners, float[corners, 2]; `turned`: it is seen from behind.
     """
-    other = _other(panels.joins[edge], face)
+    other = sum(panels.joins[edge]) - face
     a, b = panels.ends(face, edge)
     c, d = panels.ends(other, edge)
-    same_way = panels.sheet.faces[face][a] == panels.sheet.faces[other][c]
+    same_way = panels.go_one_way(edge)
     flipped = turned != same_way
     flat = panels.planes[other].flat * ((-1, 1) if flipped else (1, 1))
     if not same_way:

@@ -33,18 +33,25 @@ _PAGE = """<!DOCTYPE html>
 <meta charset="utf-8">
 <meta http-equiv="Content-Security-Policy" content="{policy}">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="referrer" content="no-referrer">
-<title>{title}</title>
-<style>{style}</style>
+{head}
 </head>
 <body>
-<noscript>This page folds by a script, and scripts are switched off.</noscript>
-<main id="page"></main>
-<script type="application/json" id="data">{data}</script>
-<script>{script}</script>
+{body}
 </body>
 </html>
 """
+_HEAD = """<meta name="referrer" content="no-referrer">
+<title>{title}</title>
+<style>{style}</style>"""
+_BODY = """<noscript>This page folds by a script, and scripts are switched off.</noscript>
+<main id="page"></main>
+<script type="application/json" id="data">{data}</script>
+<script>{script}</script>"""
+
+
+def html_page(policy: str, head: str, body: str) -> str:
+    """Return a page with a policy on what it may load; head and body are HTML."""
+    return _PAGE.format(policy=policy, head=head, body=body)
 
 
 def page(shown: Sequence[Shown], title: str = "", *, workbench: bool = False, built: Path = BUILT) -> str:
@@ -88,13 +95,8 @@ def page(shown: Sequence[Shown], title: str = "", *, workbench: bool = False, bu
     if workbench:
         policy += "; connect-src 'self'"
     name = title or (shown[0].name if shown else "")
-    return _PAGE.format(
-        policy=policy,
-        title=escape(plain(name or "synthedra")),
-        style=style,
-        data=json_in_html({"shown": [mechanism.to_json() for mechanism in shown], "workbench": workbench}),
-        script=script,
-    )
+    head = _HEAD.format(title=escape(plain(name or "synthedra")), style=style)
+    return html_page(policy, head, _BODY.format(data=data_in_page(shown, workbench=workbench), script=script))
 
 
 @dataclass(frozen=True, repr=False)
@@ -187,6 +189,11 @@ def view(
         name = Path(each).name if isinstance(each, str | Path) else getattr(source, "title", "")
         shown.append(shown_of(with_stated_precision(source, precision), name, motion=motion))
     return ViewPage(page(shown, title), tuple(shown))
+
+
+def data_in_page(shown: Sequence[Shown], *, workbench: bool = False) -> str:
+    """Return the data of the script of a page: `PageData` of web/src/page/types.js."""
+    return json_in_html({"shown": [mechanism.to_json() for mechanism in shown], "workbench": workbench})
 
 
 def json_in_html(value: Any) -> str:

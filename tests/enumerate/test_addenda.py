@@ -1,5 +1,6 @@
 import networkx as nx
 import pytest
+from sizes import slow
 
 from enumerate.addenda import AddendumJob, addenda, addendum_count_job
 from enumerate.runner.running import run
@@ -20,7 +21,7 @@ def mechanism(data, name):
     return read(data / "wiener" / f"{name}.json")
 
 
-@pytest.mark.parametrize("delta", [-2, -1, 0, 1, 2])
+@pytest.mark.parametrize("delta", [-2, slow(-1), slow(0), 1, slow(2)])
 @pytest.mark.parametrize("name", FILES)
 def test_every_addendum_changes_the_mobility_by_the_number(data, name, delta):
     base = mechanism(data, name)

@@ -3,6 +3,7 @@
 import json
 
 import pytest
+from sizes import slow
 
 import synth
 from graphs.errors import FileError, InvariantError
@@ -15,8 +16,8 @@ SQUARE = ((0, 0), (1, 0), (1, 1), (0, 1))
 FACES = ((0, 1, 2), (0, 2, 3))
 
 
-def sized(data, size):
-    document = json.loads((data / "patterns" / "bird-base.fold").read_text(encoding="utf-8"))
+def sized(data, size, name="bird-base"):
+    document = json.loads((data / "patterns" / f"{name}.fold").read_text(encoding="utf-8"))
     return document | {"vertices_coords": [[size * x for x in place] for place in document["vertices_coords"]]}
 
 
@@ -45,10 +46,11 @@ def test_a_pattern_in_one_line_has_no_area():
 
 
 @pytest.mark.parametrize("factor", [0.3 * MOST, 3 * LEAST])
-def test_answers_do_not_depend_on_the_size(factor, data, tmp_path):
+@pytest.mark.parametrize("name", ["four-bar-vertex", slow("bird-base")])
+def test_answers_do_not_depend_on_the_size(name, factor, data, tmp_path):
     answers = []
     for size in (1.0, factor):
-        (tmp_path / "a.fold").write_text(json.dumps(sized(data, size)))
+        (tmp_path / "a.fold").write_text(json.dumps(sized(data, size, name)))
         sheet = synth.read(tmp_path / "a.fold")
         verdict, explained = synth.mobility(sheet), synth.explain(sheet)
         folded = synth.fold(sheet, frames=2)

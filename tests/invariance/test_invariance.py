@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from sizes import slow
 
 from graphs.answer.mechanisms import mobility as counted
 from graphs.files.formats import read
@@ -31,13 +32,14 @@ SAMPLE = {
     "pleats": (lambda: pleated_hypar(2, middle_creased=True), None),
     "a hole": (lambda: pattern("realised/hybrid-ten-bar.fold"), ("renamed", "renamed, faces turned")),
     "panels on each other": (lambda: pattern("linkages/wampler-fig1-folded.fold"), ("renamed, faces turned",)),
-    "marks in balance": (lambda: pattern("realised/nine-bar-mesh.fold"), ("renamed, faces turned", "turned over")),
+    "marks in balance": (lambda: pattern("realised/nine-bar-mesh.fold"), ("renamed, faces turned",)),
+    "marks in balance, turned over": (lambda: pattern("realised/nine-bar-mesh.fold"), ("turned over",)),
 }
 """Patterns and their guises. Before there was an order that does not depend on the file, those of the hole and of marks in balance differed; that of panels on
 each other while an equation that is nothing but rounding was given a rank."""
 
 
-@pytest.mark.parametrize("name", SAMPLE)
+@pytest.mark.parametrize("name", [slow(name) if "balance" in name else name for name in SAMPLE])
 def test_the_verdict_is_the_same_in_each_guise(name):
     make, guises = SAMPLE[name]
     compared = list(comparisons([(name, make())], guises))

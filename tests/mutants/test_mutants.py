@@ -3,6 +3,8 @@
 import ast
 from pathlib import Path
 
+import pytest
+
 from tests.mutants.__main__ import lines_of, room_tests, survivors_of
 from tests.mutants.mutations import mutants_of
 
@@ -19,6 +21,12 @@ def within(size: int, least: int = -1) -> bool:
 def half(size):
     return size // 2 if not size % 2 else None
 '''
+
+
+@pytest.fixture
+def no_plugins(monkeypatch):
+    """Runs of pytest begin sooner: the tests of these files need none of its plugins."""
+    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
 
 
 def test_every_operator_and_guard_has_its_mutants():
@@ -44,6 +52,7 @@ def test_mutants_differ_from_the_file_and_parse():
         assert ast.dump(ast.parse(mutant.text)) != ast.dump(ast.parse(text))
 
 
+@pytest.mark.usefixtures("no_plugins")
 def test_survivors_are_those_that_tests_do_not_notice(tmp_path, capsys):
     """Of three mutants that of the upper bound is killed."""
     (tmp_path / "sized.py").write_text(SOURCE.split("def half", maxsplit=1)[0])
@@ -55,6 +64,7 @@ def test_survivors_are_those_that_tests_do_not_notice(tmp_path, capsys):
     assert (tmp_path / "sized.py").read_text() == SOURCE.split("def half", maxsplit=1)[0]
 
 
+@pytest.mark.usefixtures("no_plugins")
 def test_tests_that_fail_try_nothing(tmp_path):
     (tmp_path / "sized.py").write_text("A = 1\n")
     (tmp_path / "test_sized.py").write_text("def test_it():\n    assert False\n")

@@ -8,6 +8,7 @@ import pytest
 from by_coordinates import cone_angles_by_coordinates, quadrilaterals_by_coordinates
 from conical import FOUR_BAR, crosses, random_lengths, random_link_angles, random_linkages
 from golden_numbers import golden_numbers
+from paper_formulas import central_angles, projected_angles
 from second_methods import shadow_allows
 
 from enumerate.conical.rounds import Rounds, count_rounds_by_burnside, placements
@@ -20,15 +21,7 @@ from synth.conformed.rates import ConformedChain
 from synth.fourbar.closing import grashof_class, kind_of_spherical, planar_differences, spherical_differences
 from synth.fourbar.position import output_planar
 from synth.surfaces.circuit import link_angles
-from synth.surfaces.loop_maps import (
-    central_angles,
-    chords,
-    cone_reach,
-    largest_cone_angle,
-    map_to_cones,
-    map_to_cylinders,
-    projected_angles,
-)
+from synth.surfaces.loop_maps import chords, cone_reach, largest_cone_angle, map_to_cones, map_to_cylinders
 from synth.surfaces.loop_sums import circumradii, cone_angles, crossed_area, loop_roots
 
 DATA = Path(__file__).resolve().parents[2] / "data"
@@ -364,7 +357,7 @@ def test_the_twelve_cases_come_out_of_the_enumeration_of_candidates():
         assert set(told) == {"one way" if ROWS[case][0].startswith("Y") else "both ways"}
     pair = np.array([[0, 1, 2, 3], [3, 2, 1, 0], [1, 0, 3, 2], [2, 3, 0, 1]])  # symmetries that keep {CO, AB}
     assert (
-        count_rounds_by_burnside(Rounds.opposites(4), pair) == len(placements(Rounds.opposites(4), pair)[0]) == 12
+        count_rounds_by_burnside(Rounds(4, 2 * 4, 4), pair) == len(placements(Rounds(4, 2 * 4, 4), pair)[0]) == 12
     )
     # the same by angles: all four-bars on 11 slots, none of which lies opposite to another
     placed = CandidateJob(FOUR_BAR, (0,), slots=11)

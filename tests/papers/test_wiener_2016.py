@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 from counted import counted_numbers
 from oracle import numeric_mobility
+from read_strings import string_of_chain
 
 from enumerate.strings.panel_strings import (
     ChainString,
     chain_scd,
     count_strings,
     joint_chain,
-    string_of_chain,
     strings,
 )
 from graphs.convert.table import to_polyhedron

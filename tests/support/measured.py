@@ -76,3 +76,9 @@ def is_watertight(mesh):
     """Whether each side of a triangle is a side of one other, the other way round."""
     sides = Counter(side for a, b, c in mesh.triangles.tolist() for side in ((a, b), (b, c), (c, a)))
     return all(number == 1 and sides[b, a] == 1 for (a, b), number in sides.items())
+
+
+def volume_of_mesh(mesh):
+    """Cubic millimetres; below zero if the mesh is inside out."""
+    a, b, c = (mesh.corners[mesh.triangles[:, k]] for k in range(3))
+    return float((a * np.cross(b, c)).sum() / 6)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from synth.conformed.pose import dihedral_angles, joint_axes
+from graphs.mechanism.surfaces import joint_axes
+from synth.conformed.pose import dihedral_angles
 
 
 def turned(vector, axis, angle):

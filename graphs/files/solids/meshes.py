@@ -29,11 +29,6 @@ class Mesh:
     corners: Floats
     triangles: npt.NDArray[np.int64]
 
-    def volume(self) -> float:
-        """Return the volume, cubic millimetres; below zero if it is inside out."""
-        a, b, c = (self.corners[self.triangles[:, k]] for k in range(3))
-        return float((a * np.cross(b, c)).sum() / 6)
-
 
 _LONGEST = 100
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -47,10 +48,7 @@ def atlas_group() -> None:
 @options.flag("--infinite", "Include centres at infinity.")
 @options.flag("--realise/--no-realise realised", "Realise the types, and fold them.", default=True)
 @partial(runner_options, counting=True, output=options.output("Atlas to write.", "FILE.sqlite"))
-def build(
-    max_links: int, dofs: tuple[int, ...], max_degree: int, chain_links: int | None, creases: int,
-    orders_of: tuple[str, ...], spatial: int, infinite: bool, realised: bool, running: RunOptions,
-) -> None:  # fmt: skip
+def build(orders_of: tuple[str, ...], running: RunOptions, **types: Any) -> None:
     """Build an atlas of chains, SC and SCD graphs, strings and conical orders, with their properties, in one file.
 
     Continue a stopped build with --resume. For the columns, see `synth atlas query ATLAS.sqlite --columns help`.
@@ -60,9 +58,7 @@ def build(
     if running.output is None:
         raise click.UsageError("an atlas requires -o FILE.sqlite")
     orders = tuple(name for name in orders_of if name != "none")
-    plan = synth.atlas.AtlasPlan(
-        max_links, dofs, max_degree, chain_links, creases, orders, spatial, infinite, realised
-    )
+    plan = synth.atlas.AtlasPlan(orders_of=orders, **types)
     sink = partial(AtlasSink, running.output, plan.command, resume=running.resume, force=running.force)
     run_resumable(AtlasJob(plan), sink, running)
     summary = synth.atlas.open_atlas(str(running.output)).about()

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import click
 
-import graphs.convert
 import graphs.files
 import synth.candidates
 import synth.conformed
@@ -20,6 +19,8 @@ if TYPE_CHECKING:
     from enumerate.runner import Limits, Sink
     from graphs.types import LinkId
 
+_LIMITED = ("open_loops", "layers", "symmetry", "grashof_loops", "rank", "half_turn_steps")
+"""Columns with an option for limits, in the order of the filters."""
 _LINKAGE = ("one-way", "both-ways", "by-angles", "not-known")
 
 
@@ -38,12 +39,12 @@ _LINKAGE = ("one-way", "both-ways", "by-angles", "not-known")
 )
 @options.choice("--linkage", _LINKAGE, "Directions in which all moving links can go together.")
 @options.limits("--open open_loops", "Number of open loops, as a number or range: 2, 1..2 or 2..")
-@options.limits("--layers", "Smallest number of layers, as a number or range: 2 or ..3.")
+@options.limits("--layers", "Least number of layers that the links require, as a number or range: 2 or ..3.")
 @options.limits("--symmetry", "Number of symmetries, as a number or range: 1 or 2..")
-@options.limits("--grashof", "Number of four-bar loops that are Grashof, as a number or range.")
+@options.limits("--grashof grashof_loops", "Number of four-bar loops that are Grashof, as a number or range.")
 @options.limits("--rank", "Rank of the closure equations at the conformed position, as a number or range.")
 @options.flag("--singular/--regular", "List only candidates with, or without, rank deficiency.")
-@options.limits("--half-turns", "Number of steps of exactly 180 degrees, as a number or range.")
+@options.limits("--half-turns half_turn_steps", "Number of steps of exactly 180 degrees, as a number or range.")
 @options.value("--sort", "[-]COLUMN", "Sort by a column; a leading - sorts in descending order.")
 @options.output("Draw each candidate, as a circle and on its cone, to a new folder.", "FOLDER", "--pictures")
 @options.flag("--formulas", "Print only the outward rate of each joint, as a formula.")
@@ -52,10 +53,9 @@ _LINKAGE = ("one-way", "both-ways", "by-angles", "not-known")
 @runner_options
 def conical(
     name: str, ground: str | None, slots: int | None, opposites: bool, samples: int | None, seed: int,
-    cone_angle: float | None, radius: float | None, linkage: str | None, open_loops: Limits | None,
-    layers: Limits | None, symmetry: Limits | None, grashof: Limits | None, rank: Limits | None,
-    singular: bool | None, half_turns: Limits | None, sort: str | None, pictures: str | None, formulas: bool,
-    only_count: bool, method: str | None, running: RunOptions,
+    cone_angle: float | None, radius: float | None, linkage: str | None, singular: bool | None, sort: str | None,
+    pictures: str | None, formulas: bool, only_count: bool, method: str | None, running: RunOptions,
+    **limits: Limits | None,
 ) -> None:  # fmt: skip
     """List or count all conical candidates of a chain: all joint axes are ruling lines of a cone or cylinder.
 
@@ -90,14 +90,10 @@ def conical(
     if formulas:
         _print_formulas(chain, grounds)
         return
-    ranges = {
-        "open_loops": open_loops, "layers": layers, "symmetry": symmetry, "grashof_loops": grashof, "rank": rank,
-        "half_turn_steps": half_turns,
-    }  # fmt: skip
     filters = [
         synth.candidates.Filter(column, least=each.least, most=each.most)
-        for column, each in ranges.items()
-        if each
+        for column in _LIMITED
+        if (each := limits[column])
     ]
     if singular is not None:
         filters.append(synth.candidates.Filter("singular", singular))
@@ -120,16 +116,15 @@ def conical(
 def _chain(name: str) -> synth.SCGraph:
     """Return the chain of a name, an id or a file."""
     from enumerate.chains.names import chain_named, chain_names
-    from graphs.convert.table import graph_of
     from graphs.files.formats import is_id
+    from synth.candidates.listing import chain_of
 
     known = chain_names()
     code = chain_named(name) if name.lower() in known else name
     if not is_id(code) and not Path(code).exists() and not Path(code).suffix:
         raise FileError(name, "", "neither a chain nor a file", f"{' '.join(known)}, an id k1:..., or a file")
     with about(name):
-        sc = graph_of(graphs.files.read(code))
-        return sc if sc.loops else graphs.convert.sc_from_link_joint_graph(sc)
+        return chain_of(graphs.files.read(code))
 
 
 def _grounds(chain: synth.SCGraph, ground: str | None) -> tuple[LinkId | None, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -11,7 +11,7 @@ import synth
 from graphs.errors import UnsolvableError
 from synth.cli import options
 from synth.cli.output import about, check_output, plain, print_json, print_result, tell_lost
-from synth.cli.reading import DRAWN, read
+from synth.cli.reading import DRAWN, MECHANISM, read
 
 if TYPE_CHECKING:
     from graphs.convert import Mechanism
@@ -20,14 +20,10 @@ if TYPE_CHECKING:
 _SOLIDS = (".stl", ".3mf", ".gltf")
 
 
-class _SolidOptions(NamedTuple):
-    """The options of files of solids; None where they are not given."""
-
-    thickness: float | None
-    gap: float | None
-    scale: float | None
-    size: float | None
-    cone: int | None
+_OF_SOLIDS = {
+    "thickness": "--thickness", "gap": "--gap", "scale": "--scale", "size": "--size", "number": "--cone",
+}  # fmt: skip
+"""Options of files of solids, by their parameters."""
 
 
 @click.command()
@@ -60,8 +56,7 @@ class _SolidOptions(NamedTuple):
 @options.flag("--json as_json", "Print the conversion and its notes as JSON.")
 def convert(
     source: str, target: str, kind: str | None, form: str | None, table: str | None, force: bool, lossy: bool,
-    as_json: bool, thickness: float | None, gap: float | None, scale: float | None, size: float | None,
-    cone: int | None,
+    as_json: bool, **values: Any,
 ) -> None:  # fmt: skip
     """Convert a mechanism from one file format to another; the extensions name the formats.
 
@@ -100,7 +95,7 @@ def convert(
     check_output(target, force=force)
     if (Path(target).suffix.lower() == ".csv") != (table is not None):
         raise click.UsageError("--table and an output .csv require each other")
-    solid = _SolidOptions(thickness, gap, scale, size, cone)
+    solid = {name: values[name] for name in _OF_SOLIDS if values[name] is not None}
     of_solids = _is_of_solids(target, solid)
     original = read(source)
     with about(source):
@@ -112,61 +107,60 @@ def convert(
             text, lost = table_text(mechanism, table)
             write_text(Path(target), text, force=force)
         elif of_solids:
-            lost = _write_solids(mechanism, target, solid, force=force)
+            lost = _write_solids(mechanism, target, force=force, **solid)
         else:
             from graphs.files.formats import write_converted
 
-            made_of = original if kind == "sheet" and form is None else None  # a sheet holds less than others
-            lost = write_converted(mechanism, target, made_of, lossy=lossy, force=force)
+            source_sheet = original if kind == "sheet" and form is None else None  # a sheet holds less than others
+            lost = write_converted(mechanism, target, source_sheet, lossy=lossy, force=force)
     if as_json:
         print_json({"input": source, "output": target, "kind": type(mechanism).__name__, "lost": list(lost)})
         return
-    click.echo(f"{plain(target, 4096)}: from {type(mechanism).__name__}")
+    from graphs.convert.table import kind_in_words
+
+    click.echo(f"written: {plain(target, 4096)} (from: {kind_in_words(mechanism)})")
     tell_lost(lost)
 
 
-def _is_of_solids(target: str, solid: _SolidOptions) -> bool:
+def _is_of_solids(target: str, solid: dict[str, Any]) -> bool:
     """Check whether a file is written as solids, and refuse options of solids for any other."""
     suffix = Path(target).suffix.lower()
-    spelled = [f"--{name}" for name, value in solid._asdict().items() if value is not None]
-    if spelled and suffix not in (*_SOLIDS, ".obj"):
-        raise click.UsageError(f"{', '.join(spelled)}: for solids only ({', '.join(_SOLIDS)} and .obj)")
-    return suffix in _SOLIDS or bool(spelled)
+    if solid and suffix not in (*_SOLIDS, ".obj"):
+        spelled = ", ".join(_OF_SOLIDS[name] for name in solid)
+        raise click.UsageError(f"{spelled}: for solids only ({', '.join(_SOLIDS)} and .obj)")
+    return suffix in _SOLIDS or bool(solid)
 
 
-def _write_solids(mechanism: Mechanism, target: str, solid: _SolidOptions, *, force: bool) -> tuple[str, ...]:
+def _write_solids(mechanism: Mechanism, target: str, *, force: bool, **solid: Any) -> tuple[str, ...]:
     from synth.moving.made import sheet_of
-    from synth.templates.solids import THICKNESS, write_solids
+    from synth.templates.solids import write_solids
 
-    thickness = THICKNESS if solid.thickness is None else solid.thickness
     if isinstance(mechanism, synth.SurfaceLinkage):
-        return _write_on_surface(mechanism, target, thickness, solid, force=force)
+        return _write_on_surface(mechanism, target, force=force, **solid)
     sheet = sheet_of(mechanism)
     if sheet is None:
         raise UnsolvableError(f"solids require panels, and {mechanism!r} has none")
-    return write_solids(
-        sheet, target, thickness=thickness, gap=solid.gap, scale=solid.scale, size=solid.size, force=force
-    )
+    solid.pop("number", None)
+    return write_solids(sheet, target, force=force, **solid)
 
 
 def _write_on_surface(
-    linkage: SurfaceLinkage, target: str, thickness: float, solid: _SolidOptions, *, force: bool
+    linkage: SurfaceLinkage, target: str, *, force: bool, number: int | None = None, **solid: float
 ) -> tuple[str, ...]:
     from synth.templates.on_surface import Dimensions, surface_of
-    from synth.templates.solids import write_linkage_on_surface
+    from synth.templates.solids import THICKNESS, write_linkage_on_surface
     from synth.templates.template import linkage_on_a_surface
 
-    if solid.scale is not None:
+    if "scale" in solid:
         raise click.UsageError("--scale is for panels; try --size, the length of the ruling lines")
-    chosen = linkage_on_a_surface(linkage, number=solid.cone)
-    sizes = Dimensions(thickness=thickness, **({} if solid.size is None else {"size": solid.size}))
-    gap = 2 * thickness if solid.gap is None else solid.gap
-    return write_linkage_on_surface(chosen, surface_of(chosen), target, dimensions=sizes, gap=gap, force=force)
+    placed = linkage_on_a_surface(linkage, number=number)
+    gap = solid.pop("gap", 2 * solid.setdefault("thickness", THICKNESS))
+    sizes = Dimensions(**solid)
+    return write_linkage_on_surface(placed, surface_of(placed), target, dimensions=sizes, gap=gap, force=force)
 
 
 @click.command()
-@options.FILE
-@DRAWN
+@MECHANISM
 @options.output("Write the model to this file (.json or .fold).")
 @options.FORCE
 @options.LOSSY
@@ -191,8 +185,7 @@ def reconstruct(file: str, output: str | None, force: bool, lossy: bool, as_json
 
 
 @click.command("id")
-@options.FILE
-@DRAWN
+@MECHANISM
 @options.JSON
 def id_command(file: str, as_json: bool) -> None:
     """Print the canonical ids of a mechanism: equal for mechanisms of one type, different for all others.

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import webbrowser
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from importlib.util import find_spec
+from math import radians
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
@@ -19,7 +20,7 @@ from graphs.errors import InvariantError
 from graphs.files.outputs import check_writable, unknown_extension
 from synth.cli import options, reading
 from synth.cli.output import about, check_output, check_picture, plain, print_json, progress_line, tell_written
-from synth.cli.reading import DRAWN, MODE, PRECISION, NamedMechanism, precise_sheet, read, read_named
+from synth.cli.reading import DRAWN, MECHANISM, MODE, PRECISION, NamedMechanism, precise_sheet, read, read_named
 
 if TYPE_CHECKING:
     from enumerate.runner import Limits
@@ -36,7 +37,7 @@ _COLOURS = ("letters", "verdict", "branch", "centres", "none")
 
 def _colouring(ctx: click.Context, _parameter: click.Parameter, words: tuple[str, ...]) -> str:
     """Return the colouring; pairs with a look are kept for the drawing that is read."""
-    reading.keep_looks(ctx, tuple(word for word in words if "=" in word))
+    reading.keep_looks(ctx, "colours", tuple(word for word in words if "=" in word))
     names = [word for word in words if "=" not in word]
     for name in names:
         if name not in _COLOURS:
@@ -66,17 +67,8 @@ def _colouring(ctx: click.Context, _parameter: click.Parameter, words: tuple[str
 )  # fmt: skip
 @options.FORCE
 def draw(
-    file: str,
-    output: str,
-    kind: str | None,
-    colour: str,
-    branch: int | str | None,
-    graph: bool,
-    numbers: bool,
-    paper: str,
-    where: tuple[str, ...],
-    force: bool,
-) -> None:
+    file: str, output: str, kind: str | None, paper: str, where: tuple[str, ...], force: bool, **look: Any
+) -> None:  # fmt: skip
     """Draw the mechanism of a file or an id, or a catalogue of all mechanisms in a store, a list or a folder.
 
     KIND is pattern (a crease pattern in its plane), marks (a pattern with the creases whose assignment disagrees
@@ -112,7 +104,7 @@ def draw(
 
     drawable = synth.guidance.read_orientations(file) if holds_orientations(file) else read(file)
     with about(file):
-        scene = synth.draw(drawable, kind, colour=colour, branch=branch, graph=graph, numbers=numbers)
+        scene = synth.draw(drawable, kind, **look)
     scene.save(output, paper=paper, force=force)
     tell_written(output)
 
@@ -146,10 +138,9 @@ def _condition(text: str) -> tuple[str, Limits | str]:
     if not equals or not column:
         raise click.BadParameter(f"{plain(text)!r} is not COLUMN=VALUE", param_hint="--where")
     try:
-        limits: Limits = options.LimitsType().convert(value, None, None)
-    except click.BadParameter:
+        return column, options.limits_of(value)
+    except ValueError:
         return column, value
-    return column, limits
 
 
 @click.command()
@@ -198,9 +189,7 @@ def view(files: tuple[str, ...], output: str | None, force: bool) -> None:
         return
     if not mechanisms:
         raise click.UsageError("a page requires at least one FILE")
-    from graphs.files.atomic import write_text
-
-    write_text(Path(output), synth.viewer.page(mechanisms), force=force)
+    synth.viewer.ViewPage(synth.viewer.page(mechanisms), tuple(mechanisms)).save(output, force=force)
     tell_written(output)
 
 
@@ -214,38 +203,14 @@ def _serve(mechanisms: list[synth.viewer.Shown], sources: list[bytes | None]) ->
     serve(mechanisms, sources, opened)
 
 
-class _Look(NamedTuple):
-    """The options of a template, with their defaults; some are for panels, others for linkages on surfaces."""
-
-    scale: float | None = None
-    size: float | None = None
-    tabs: float = 8.0
-    slots: bool = False
-    hinge_kind: HingeKind | Literal["fold"] = "fold"
-    hinge_width: float | None = None
-    cone_angle: float | None = None
-    cone: int | None = None
-    radius: float | None = None
-    thickness: float | None = None
-
-    def refuse(self, names: Sequence[str], required: str) -> None:
-        """Refuse options that belong to another kind of mechanism."""
-        spelled = {"cone_angle": "--lambda", "hinge_kind": "--hinges", "hinge_width": "--hinge-width"}
-        refused = [name for name in names if getattr(self, name) != self._field_defaults[name]]
-        if refused:
-            listed = ", ".join(spelled.get(name, f"--{name}") for name in refused)
-            raise click.UsageError(f"{listed}: for {required} only")
-
-
-_OF_PANELS = ("scale", "tabs", "slots", "hinge_kind", "hinge_width")
-_OF_SURFACES = ("cone_angle", "cone", "radius", "thickness")
-_REALISED = 150.0
-"""Millimetres of the longer side of a type that is realised: its coordinates have no size of their own."""
+_OF_PANELS = {"scale": None, "tabs": 8.0, "slots": False, "hinge_kind": "fold", "hinge_width": None}
+_OF_SURFACES = dict.fromkeys(("cone_angle", "number", "radius", "thickness"))
+"""Options of a template, by their parameters, for panels and for linkages on surfaces, with their defaults."""
+_SPELLED = {"cone_angle": "--lambda", "number": "--cone", "hinge_kind": "--hinges", "hinge_width": "--hinge-width"}
 
 
 @click.command()
-@options.FILE
-@DRAWN
+@MECHANISM
 @options.output("Template to write: .pdf, .svg or .dxf.", required=True)
 @reading.ROW
 @MODE
@@ -283,10 +248,8 @@ _REALISED = 150.0
 @options.JSON
 @PRECISION
 def template(
-    file: str, output: str, row: int | None, mode: str | None, kind: RealisedKind | None, page: str,
-    scale: float | None, size: float | None, tabs: float, slots: bool, hinge_kind: HingeKind | Literal["fold"],
-    hinge_width: float | None, cone_angle: float | None, cone: int | None, radius: float | None,
-    thickness: float | None, note: bool, force: bool, as_json: bool,
+    file: str, output: str, row: int | None, mode: str | None, page: str, note: bool, force: bool, as_json: bool,
+    **look: Any,
 ) -> None:  # fmt: skip
     """Write a template of panels at true scale, to cut out and fold.
 
@@ -325,14 +288,13 @@ def template(
     source = read_named(file, row, mode)
     source = replace(source, mechanism=precise_sheet(source.mechanism))
     on_surface = isinstance(source.mechanism, synth.SurfaceLinkage | OrderOnCircle)
-    look = _Look(scale, size, tabs, slots, hinge_kind, hinge_width, cone_angle, cone, radius, thickness)
-    look.refuse(*((_OF_PANELS, "panels") if on_surface else (_OF_SURFACES, "a linkage on a surface")))
+    look = _without(look, *((_OF_PANELS, "panels") if on_surface else (_OF_SURFACES, "a linkage on a surface")))
     notes: list[str] = []
     with about(source.name):
         if on_surface:
-            pieces = _of_surface(source, kind, look)
+            pieces = _of_surface(source, **look)
         else:
-            pieces, notes = _of_panels(source, kind, look, note=note and not is_dxf)
+            pieces, notes = _of_panels(source, picture=note and not is_dxf, **look)
     if not note:
         pieces = replace(pieces, steps=())
     elif is_dxf:
@@ -346,48 +308,39 @@ def template(
         click.echo(line, err=True)
 
 
+def _without(look: dict[str, Any], others: dict[str, Any], required: str) -> dict[str, Any]:
+    """Return the options of a template without those of another kind of mechanism, which are refused."""
+    refused = [name for name, default in others.items() if look[name] != default]
+    if refused:
+        listed = ", ".join(_SPELLED.get(name, f"--{name}") for name in refused)
+        raise click.UsageError(f"{listed}: for {required} only")
+    return {name: value for name, value in look.items() if name not in others}
+
+
 def _of_panels(
-    source: NamedMechanism, kind: RealisedKind | None, look: _Look, *, note: bool
+    source: NamedMechanism, hinge_kind: HingeKind | Literal["fold"], hinge_width: float | None, **look: Any
 ) -> tuple[synth.templates.Template, list[str]]:
     """Return the template of panels, and notes to print."""
     from synth.templates.hinges import Hinges
-    from synth.templates.template import unit_of
+    from synth.templates.of_mechanism import template_of_panels
 
     hinges = None
-    if look.hinge_kind != "fold" and look.hinge_width is not None:
-        hinges = Hinges(look.hinge_kind, look.hinge_width)
-    elif look.hinge_kind != "fold" or look.hinge_width is not None:
+    if hinge_kind != "fold" and hinge_width is not None:
+        hinges = Hinges(hinge_kind, hinge_width)
+    elif hinge_kind != "fold" or hinge_width is not None:
         raise click.UsageError("--hinges offset, living or gap and --hinge-width require each other")
     mechanism: Any = source.mechanism
-    sheet, realised = synth.templates.panels_of_mechanism(mechanism, kind=kind, mode=source.mode)
-    size = look.size
-    notes = [f"{realised}, as by `synth realise`"] if realised else []
-    if look.scale is None and look.size is None and realised:
-        size = _REALISED
-        notes.append(f"a type has no size: its longer side is {_REALISED:g} mm; --size changes it")
-    elif look.scale is None and look.size is None and unit_of(sheet) is None:
-        notes.append("the file names no unit: a unit of the coordinates is 1 mm")
-    pieces = synth.templates.template_of(
-        sheet, scale=look.scale, size=size, tabs=look.tabs, slots=look.slots, hinges=hinges,
-        title=sheet.title or Path(source.name).name,
-    )  # fmt: skip
-    notes += [f"not shown: {', '.join(pieces.not_shown)}"] if pieces.not_shown else []
-    if note:
-        pieces, reason = synth.templates.pictured(pieces, sheet)
-        notes += [f"no picture of the folded sheet: {plain(reason, 1000)}"] if reason else []
-    return pieces, notes
+    return template_of_panels(mechanism, Path(source.name).name, mode=source.mode, hinges=hinges, **look)
 
 
-def _of_surface(source: NamedMechanism, kind: RealisedKind | None, look: _Look) -> synth.templates.Template:
+def _of_surface(
+    source: NamedMechanism, kind: RealisedKind | None, cone_angle: float | None, **look: Any
+) -> synth.templates.Template:
     """Return the template of a linkage on a cone or a cylinder."""
-    from synth.templates.on_surface import Dimensions, surface_of, template_on_surface
-    from synth.templates.template import linkage_on_a_surface
+    from synth.templates.of_mechanism import template_of_linkage
 
     if source.mode is not None or kind is not None:
         raise click.UsageError("--mode and --as are for types without coordinates, not a linkage on a surface")
     mechanism: Any = source.mechanism
-    cone = options.surface_from_options(look.cone_angle, None)
-    linkage = linkage_on_a_surface(mechanism, surface=cone, number=look.cone)
-    sizes = {name: getattr(look, name) for name in ("size", "thickness") if getattr(look, name) is not None}
-    surface = surface_of(linkage, look.radius)
-    return template_on_surface(linkage, surface, Dimensions(**sizes), Path(source.name).name)
+    angle = None if cone_angle is None else radians(cone_angle)
+    return template_of_linkage(mechanism, Path(source.name).name, cone_angle=angle, **look)

@@ -2,115 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import click
 
 import graphs.convert
-import graphs.edit
 import graphs.reduce
-import synth.folding
-from graphs import creasing
+import synth
 from graphs.errors import UnsolvableError, numbered
 from synth.cli import options, output as out
-from synth.cli.reading import DRAWN, read
+from synth.cli.reading import MECHANISM, read
 
 
-@dataclass(frozen=True, slots=True)
-class EditOption:
-    """An edit of `synth edit`: its option, what that takes, its help, and what makes the edit.
+class _EditWords(NamedTuple):
+    """What the option of an edit takes, its help, and the function that reads a word of it as a value."""
 
-    `of_graph` edits an SC or SCD graph by a value, `of_sheet` a crease pattern by all values, one after the other;
-    None where the edit does not apply. Both say what was done, with the predicted change of mobility.
-    """
-
-    name: str
     takes: str
     help: str
-    of_graph: Callable[[synth.SCGraph, str], graphs.edit.Edit] | None = None
-    of_sheet: Callable[[synth.Sheet, Sequence[str]], Iterator[creasing.SheetEdit]] | None = None
-
-    @property
-    def key(self) -> str:
-        """The parameter of the command."""
-        return self.name.removeprefix("--").replace("-", "_")
+    value_of: Callable[[Any, str, str], Any] = lambda _mechanism, word, _option: word
 
 
-def _crease_graph(sc: synth.SCGraph, text: str) -> graphs.edit.Edit:
-    name, _, rest = text.partition(":")
-    link, words = options.link_of(sc, name), [word.strip() for word in rest.split(",") if word.strip()]
-    if not isinstance(sc, synth.SCDGraph):
-        return graphs.edit.add_crease(sc, link, [options.joint_of(sc, word) for word in words])
-    if len(words) not in (1, 2):
-        wrong = f"{out.plain(text)!r} is not LINK:VERTEX or LINK:VERTEX,VERTEX"
-        raise click.BadParameter(wrong, param_hint="--add-crease")
-    return graphs.edit.crease_link(sc, link, *(_whole(word, "--add-crease") for word in words))
-
-
-def _add_loop(sc: synth.SCGraph, text: str, *, option: str, centre: str) -> graphs.edit.Edit:
-    chain, _, rest = text.partition(":")
-    a, b, k = _parts(chain, 3, option)
-    through = [options.joint_of(sc, word.strip()) for word in rest.split(",") if word.strip()]
-    bare = sc.sc_graph() if isinstance(sc, synth.SCDGraph) else sc
-    ends = options.link_of(sc, a), options.link_of(sc, b)
-    return graphs.edit.add_loop(bare, *ends, _whole(k, option), centre=centre, through=through or None)
-
-
-def _add_ride_along(sc: synth.SCGraph, text: str) -> graphs.edit.Edit:
-    a, b = (options.link_of(sc, word) for word in _parts(text, 2, "--add-ride-along"))
-    if isinstance(sc, synth.SCDGraph) and sc.has_edge(a, b):
-        return graphs.edit.ride_along(sc, next(iter(sc[a][b])))
-    return graphs.edit.add_ride_along(sc, a, b)
-
-
-def _change_centre(sc: synth.SCGraph, text: str, *, option: str) -> graphs.edit.Edit:
-    if not isinstance(sc, synth.SCDGraph):
-        raise UnsolvableError(f"{option} requires an SCD graph, which has the sides of the links")
-    change = graphs.edit.make_implicit if option == "--implicit" else graphs.edit.make_explicit
-    return change(sc, _whole(text, option))
-
-
-def _lock_graph(sc: synth.SCGraph, text: str) -> graphs.edit.Edit:
-    joint = options.joint_of(sc, text)
-    return (
-        graphs.edit.lock_hinge(sc, joint) if isinstance(sc, synth.SCDGraph) else graphs.edit.lock_joint(sc, joint)
-    )
-
-
-def _lock_sheet(sheet: synth.Sheet, names: Sequence[str]) -> Iterator[creasing.SheetEdit]:
-    for name in names:
-        edit = creasing.lock_crease(sheet, creasing.joint_of_sheet_named(sheet, name))
-        sheet = edit.sheet
-        yield edit
-
-
-def _crease_sheet(sheet: synth.Sheet, texts: Sequence[str]) -> Iterator[creasing.SheetEdit]:
-    for text in texts:
+def _crease(mechanism: synth.Sheet | synth.SCGraph, text: str, option: str) -> tuple[Any, ...]:
+    if isinstance(mechanism, synth.Sheet):
         ends = text.split(":")
         if len(ends) != 2:
             wrong = f"{out.plain(text)!r} is not A:B, two vertices or points X,Y of the pattern"
-            raise click.BadParameter(wrong, param_hint="--add-crease")
-        edit = creasing.crease_sheet(sheet, _end(ends[0].strip()), _end(ends[1].strip()))
-        sheet = edit.sheet
-        yield edit
+            raise click.BadParameter(wrong, param_hint=option)
+        return tuple(_end(word.strip(), option) for word in ends)
+    name, _, rest = text.partition(":")
+    link, words = options.link_of(mechanism, name), [word.strip() for word in rest.split(",") if word.strip()]
+    if not isinstance(mechanism, synth.SCDGraph):
+        return link, [options.joint_of(mechanism, word) for word in words]
+    if len(words) not in (1, 2):
+        wrong = f"{out.plain(text)!r} is not LINK:VERTEX or LINK:VERTEX,VERTEX"
+        raise click.BadParameter(wrong, param_hint=option)
+    return link, *(_whole(word, option) for word in words)
 
 
-def _remove_creases(sheet: synth.Sheet, names: Sequence[str]) -> Iterator[creasing.SheetEdit]:
-    """Yield the edits that remove creases, all found before by their ends: edges are renumbered after each."""
-    from graphs.mechanism.sheet import with_all_edges
-
-    edges = with_all_edges(sheet).edges
-    creases = [set(edges[creasing.joint_of_sheet_named(sheet, name)]) for name in names]
-    for ends in creases:
-        number = next((i for i, edge in enumerate(with_all_edges(sheet).edges) if set(edge) == ends), -1)
-        edit = creasing.remove_crease(sheet, creasing.joint_of_sheet_named(sheet, str(number)))
-        sheet = edit.sheet
-        yield edit
-
-
-def _end(word: str) -> int | tuple[float, ...]:
+def _end(word: str, option: str) -> int | tuple[float, ...]:
     """Read a vertex, or a point ``X,Y``."""
     if word.isascii() and word.isdigit() and len(word) < 10:
         return int(word)
@@ -119,10 +49,21 @@ def _end(word: str) -> int | tuple[float, ...]:
     except ValueError:
         point = ()
     if len(point) not in (2, 3) or not all(abs(x) < 1e12 for x in point):
-        raise click.BadParameter(
-            f"{out.plain(word)!r} is neither a vertex nor a point X,Y", param_hint="--add-crease"
-        )
+        raise click.BadParameter(f"{out.plain(word)!r} is neither a vertex nor a point X,Y", param_hint=option)
     return point
+
+
+def _loop(sc: synth.SCGraph, text: str, option: str) -> tuple[Any, ...]:
+    chain, _, rest = text.partition(":")
+    a, b, k = _parts(chain, 3, option)
+    through = [options.joint_of(sc, word.strip()) for word in rest.split(",") if word.strip()]
+    return options.link_of(sc, a), options.link_of(sc, b), _whole(k, option), through or None
+
+
+def _centre(sc: synth.SCGraph, text: str, option: str) -> int:
+    if not isinstance(sc, synth.SCDGraph):
+        raise UnsolvableError(f"{option} requires an SCD graph, which has the sides of the links")
+    return _whole(text, option)
 
 
 def _parts(text: str, number: int, option: str) -> list[str]:
@@ -139,69 +80,64 @@ def _whole(word: str, option: str) -> int:
     return int(word)
 
 
-EDITS = (
-    EditOption(
-        "--add-crease",
+_WORDS = {
+    "add_crease": _EditWords(
         "LINK[:X,Y]",
         "Crease a link. For an SC graph, X,Y are the joints beyond the crease; for an SCD "
         "graph, its vertices. For a pattern, A:B, each a vertex or a point X,Y.",
-        of_graph=_crease_graph,
-        of_sheet=_crease_sheet,
+        _crease,
     ),
-    EditOption(
-        "--remove-crease",
-        "JOINT",
-        "For a pattern: remove a crease; its two panels become one.",
-        of_sheet=_remove_creases,
-    ),
-    EditOption(
-        "--add-loop",
+    "remove_crease": _EditWords("JOINT", "For a pattern: remove a crease; its two panels become one."),
+    "add_loop": _EditWords(
         "A,B,K[:J,...]",
         "Add K links between links A and B: a loop with a centre, through the joints J,... from A to B.",
-        of_graph=partial(_add_loop, option="--add-loop", centre="finite"),
+        _loop,
     ),
-    EditOption(
-        "--add-spatial-loop",
+    "add_spatial_loop": _EditWords(
         "A,B,K[:J,...]",
         "Add K links between links A and B: a loop without a centre, through the joints J,... from A to B.",
-        of_graph=partial(_add_loop, option="--add-spatial-loop", centre="none"),
+        _loop,
     ),
-    EditOption(
-        "--add-ride-along", "A,B", "Add a ride-along to the adjacent links A and B.", of_graph=_add_ride_along
+    "add_ride_along": _EditWords(
+        "A,B",
+        "Add a ride-along to the adjacent links A and B.",
+        lambda sc, text, option: [options.link_of(sc, word) for word in _parts(text, 2, option)],
     ),
-    EditOption(
-        "--implicit",
+    "implicit": _EditWords(
         "LOOP",
-        "For an SCD graph: make the centre of a loop implicit, so that no link reaches it. LOOP is an index.",
-        of_graph=partial(_change_centre, option="--implicit"),
+        "For an SCD graph: make the centre of a loop implicit, so that no link reaches it. "
+        "LOOP is the number of the loop, from 0.",
+        _centre,
     ),
-    EditOption(
-        "--explicit",
+    "explicit": _EditWords(
         "LOOP",
-        "For an SCD graph: make the centre of a loop explicit, so that its links reach it. LOOP is an index.",
-        of_graph=partial(_change_centre, option="--explicit"),
+        "For an SCD graph: make the centre of a loop explicit, so that its links reach it. "
+        "LOOP is the number of the loop, from 0.",
+        _centre,
     ),
-    EditOption(
-        "--lock",
+    "lock": _EditWords(
         "JOINT",
         "Lock a joint; its two links become one. For a pattern, the crease becomes flat.",
-        of_graph=_lock_graph,
-        of_sheet=_lock_sheet,
+        lambda before, text, _option: text if isinstance(before, synth.Sheet) else options.joint_of(before, text),
     ),
-)
-"""The edits of `synth edit`, in the order of the options, in which graphs are edited."""
+}
+"""The options by the keys of `synth.editing.EDITS`, in the same order."""
+
+
+def _spelled(key: str) -> str:
+    """Return the option of an edit."""
+    return "--" + key.replace("_", "-")
 
 
 def _with_edit_options(command: Callable[..., None]) -> Callable[..., None]:
     """Give the command an option for each edit, which may be repeated."""
-    for option in reversed(EDITS):
-        command = options.repeated(option.name, option.takes, option.help)(command)
+    for key, words in reversed(_WORDS.items()):
+        command = options.repeated(_spelled(key), words.takes, words.help)(command)
     return command
 
 
 @click.command()
-@options.FILE
-@DRAWN
+@MECHANISM
 @_with_edit_options
 @options.value(
     "--assign-branch", "K",
@@ -234,67 +170,25 @@ def edit(
       synth edit data/wiener/six-bar.json --add-ride-along 0,1 --lock 3 -o edited.json
       synth edit data/wiener/six-bar.json --add-spatial-loop 0,2,4:1,2 -o ten-bar.json
     """
-    from graphs.convert.table import graph_of
+    from synth.editing import with_edits
+
+    def value_of(key: str, before: Any, word: Any) -> Any:
+        return _WORDS[key].value_of(before, word, _spelled(key)) if key in _WORDS else word
 
     out.check_output(output, force=force)
     mechanism = read(file)
     with out.about(file):
-        edits: list[graphs.edit.Edit] | list[creasing.SheetEdit]
-        if isinstance(mechanism, synth.Sheet) and not any(
-            words[each.key] for each in EDITS if each.of_sheet is None
-        ):
-            edits = list(_edits_of_sheet(mechanism, words, assign_branch))
-        elif words["remove_crease"] or assign_branch is not None:
-            option = "--remove-crease" if words["remove_crease"] else "--assign-branch"
-            raise UnsolvableError(f"{option} requires a crease pattern, and no edits that add links")
-        else:
-            edits = list(_edits_of_graph(graph_of(mechanism), words))
-        if not edits:
-            raise click.UsageError("no edit; try --add-ride-along A,B or another")
-        last = edits[-1]
-        result = last.graph if isinstance(last, graphs.edit.Edit) else last.sheet
-        lost = () if output is None else synth.write(result, output, force=force, lossy=lossy)
-    if as_json:
-        out.print_json(
-            {"file": file, "output": output, "lost": list(lost), "edits": [each.to_json() for each in edits]}
-        )
-        return
-    rows = out.table("edit", "by", "dM predicted", "counted", "M", numbers=["dM predicted", "counted", "M"])
-    for each in edits:
-        mobilities = (each.predicted, each.counted, each.to_json()["mobility"])
-        rows.add_row(out.plain(each.what), each.equation, *map(out.plain, mobilities))
-    out.console().print(rows)
-    out.tell_written(output)
-    out.tell_lost(lost)
-
-
-def _edits_of_graph(sc: synth.SCGraph, words: dict[str, tuple[str, ...]]) -> Iterator[graphs.edit.Edit]:
-    """Yield the edits of a graph in the order of the options, each made to the last result."""
-    for option in EDITS:
-        for text in words[option.key]:
-            assert option.of_graph is not None  # the command has refused it
-            edit = option.of_graph(sc, text)
-            sc = edit.graph
-            yield edit
-
-
-def _edits_of_sheet(
-    sheet: synth.Sheet, words: dict[str, tuple[str, ...]], branch: int | str | None
-) -> Iterator[creasing.SheetEdit]:
-    """Yield the edits of a pattern: assigned as a branch, locked, creased, uncreased, each to the last result."""
-    if branch is not None:
-        edit = synth.folding.assign_branch(sheet, branch)
-        sheet = edit.sheet
-        yield edit
-    for option in sorted(EDITS, key=lambda option: option.name != "--lock"):
-        for edit in option.of_sheet(sheet, words[option.key]) if option.of_sheet is not None else ():
-            sheet = edit.sheet
-            yield edit
+        branches = () if assign_branch is None else (assign_branch,)
+        edited = with_edits(mechanism, {"assign_branch": branches, **words}, value_of=value_of, spelled=_spelled)
+        if not edited.edits:
+            raise click.UsageError("no edit; try --add-ride-along A,B or another option that edits")
+        lost = () if output is None else synth.write(edited.mechanism, output, force=force, lossy=lossy)
+    keys = {"file": file, "output": output, "lost": list(lost)}
+    out.print_result(edited, keys, as_json=as_json, written=[output], lost=lost)
 
 
 @click.command("reduce")
-@options.FILE
-@DRAWN
+@MECHANISM
 @options.output("Write the reduced mechanism to this file.")
 @options.choice("--rule", ("ride-along", "dyad", "assur"), "Rule of reduction.", default="ride-along")
 @options.flag("--fully", "Reduce a block even if no loop of it is left.")

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
-from functools import partial
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +17,6 @@ from synth.cli.output import about, plain, print_json, tell_written
 from synth.cli.runner import RunOptions, TablePrinter, check_method, run_count, run_rows, runner_options
 
 if TYPE_CHECKING:
-    from enumerate.runner import Limits
     from enumerate.scd.query import Mechanisms
     from enumerate.strings import ChainString
 
@@ -29,23 +27,26 @@ _COLUMNS: dict[str, type] = {
 """Columns of the table of R/- strings; ``mode`` with --modes only."""
 
 
-def _limit(_context: click.Context, _parameter: click.Parameter, value: str) -> int | None:
+def _limit(word: str) -> int | None:
     """Read a limit: a number, or ``none``."""
-    if value.lower() == "none":
+    if word.lower() == "none":
         return None
-    if not value.isascii() or not value.isdigit() or len(value) > 6:
-        raise click.BadParameter(f"{plain(value)!r} is neither a number nor none")
-    return int(value)
+    if not word.isascii() or not word.isdigit() or len(word) > 6:
+        raise ValueError(f"{plain(word)!r} is neither a number nor none")
+    return int(word)
+
+
+_LIMIT = options.WordType("limit", _limit)
 
 
 @click.command(short_help="List or count R/- strings: chains of panels between two bodies.")
 @options.number("--dof", "N", "Number of creases.")
 @options.number("--max-dof", "N", "Largest number of creases. By default 6.")
 @options.flag("--modes", "List one row per mode: vertices on the same side (S) or on a diagonal (D).")
-@options.value("--max-panels", "K", "Largest number of panels; none for no limit.", default="2", callback=_limit)
+@options.value("--max-panels", "K", "Largest number of panels; none for no limit.", default="2", type=_LIMIT)
 @options.value(
     "--max-cluster", "K", "Largest number of creases that meet in one point; none for no limit.",
-    default="3", callback=_limit,
+    default="3", type=_LIMIT,
 )  # fmt: skip
 @options.flag("--count only_count", "Print only the number, by generating functions.")
 @options.output("Write one JSON object per line.", "FILE.jsonl")
@@ -117,21 +118,20 @@ def _rows(every: Iterator[ChainString], modes: bool) -> Iterator[dict[str, Any]]
         yield from ({**row, "mode": mode} for mode in string.modes()) if modes else [row]
 
 
-def _assortment(_context: click.Context, _parameter: click.Parameter, value: str | None) -> tuple[int, ...] | None:
+def _assortment(word: str) -> tuple[int, ...]:
     """Read numbers of binary, ternary, ... links."""
-    if value is None:
-        return None
-    parts = value.split(",")
+    parts = word.split(",")
     if not all(part.isascii() and part.isdigit() and len(part) < 6 for part in parts):
-        raise click.BadParameter(
-            f"{plain(value)!r} is not a list of numbers such as 4,2 (of binary, ternary, ... links)"
-        )
+        raise ValueError(f"{plain(word)!r} is not a list of numbers such as 4,2 (of binary, ternary, ... links)")
     return tuple(map(int, parts))
 
 
 _LINKS = options.number("--links", "N", "Number of links.", 4, required=True)
 _DOF = options.number("--dof", "M", "Degrees of freedom.", required=True)
-_ASSORTMENT = options.value("--assortment", "4,2", "Numbers of binary, ternary, ... links.", callback=_assortment)
+_ASSORTMENT = options.value(
+    "--assortment", "4,2", "Numbers of binary, ternary, ... links.",
+    type=options.WordType("assortment", _assortment),
+)  # fmt: skip
 _LONGEST_STRING = options.limits(
     "--longest-string", "Length of the longest row of binary links, as a number or range: 2, 1..2, 2.. or ..3."
 )
@@ -142,7 +142,10 @@ _INFINITE = options.flag("--infinite", "Include centres at infinity (planar loop
 _COUNT = options.flag("--count only_count", "Print only the number, by the fastest method.")
 
 
-_method = partial(options.choice, "--method", text="Counting method for --count; both give the same number.")
+def _counted(*methods: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Return what adds the options for counting, and those of the runner."""
+    method = options.choice("--method", methods, "Counting method for --count; both give the same number.")
+    return lambda command: _COUNT(method(runner_options(command)))
 
 
 @click.command(short_help="List or count kinematic chains without rigid sub-chains.")
@@ -155,14 +158,10 @@ _method = partial(options.choice, "--method", text="Counting method for --count;
 @options.flag("--planar/--nonplanar", "List only planar, or only nonplanar, chains.")
 @_LONGEST_STRING
 @options.limits("--symmetry", "Number of automorphisms, as a number or range: 1, 2.. or 2..8.")
-@_COUNT
-@_method(("orbits", "burnside"))
-@runner_options
+@_counted("orbits", "burnside")
 def chains(
-    links: int, dof: int, fractionated: bool, inversions: bool, inputs: bool, assortment: tuple[int, ...] | None,
-    planar: bool | None, longest_string: Limits | None, symmetry: Limits | None, only_count: bool,
-    method: str | None, running: RunOptions,
-) -> None:  # fmt: skip
+    links: int, dof: int, only_count: bool, method: str | None, running: RunOptions, **properties: Any
+) -> None:
     """List or count all kinematic chains of N links and M degrees of freedom.
 
     Chains are link-joint graphs with single joints in which no part is rigid; isomorphic chains are listed once.
@@ -180,15 +179,11 @@ def chains(
     check_method(method, only_count)
     from enumerate.chains.jobs import ChainJob, count_job
     from enumerate.chains.query import ChainQuery
-    from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE
 
-    query = ChainQuery(
-        links, dof, fractionated=fractionated, inversions=inversions, inputs=inputs, assortment=assortment,
-        planar=planar, longest_string=longest_string or ANY_NUMBER, symmetry=symmetry or ONE_OR_MORE,
-    )  # fmt: skip
+    query = ChainQuery(links, dof, **options.stated_values(properties))
     _say_if_odd(links, dof)
     if only_count:
-        run_count(count_job(query, method or "orbits", running.kept_job()), running)
+        run_count(count_job(query, method or "orbits", running.stored_job()), running)
     else:
         graph6 = running.output is not None and running.output.lower().endswith(".g6")
         run_rows(ChainJob(query, bare=graph6 and not (query.inversions or query.inputs)), running)
@@ -214,13 +209,10 @@ def _say_if_odd(links: int, dof: int, spatial: int = 0) -> None:
 @_LONGEST_STRING
 @options.flag("--per-chain", "List one row per chain: its most general form, with the most centres.")
 @options.flag("--embeddings", "With --count, count embeddings in the sphere, without a choice of the outer face.")
-@_COUNT
-@_method(("orbits", "burnside"))
-@runner_options
+@_counted("orbits", "burnside")
 def sc(
-    links: int, dof: int, centres: Limits | None, spatial: int, infinite: bool, symmetry: Limits | None,
-    assortment: tuple[int, ...] | None, longest_string: Limits | None, per_chain: bool, embeddings: bool,
-    only_count: bool, method: str | None, running: RunOptions,
+    links: int, dof: int, spatial: int, per_chain: bool, embeddings: bool, only_count: bool, method: str | None,
+    running: RunOptions, **properties: Any,
 ) -> None:  # fmt: skip
     """List or count all SC graphs of N links and M degrees of freedom.
 
@@ -240,14 +232,10 @@ def sc(
     """
     if not only_count and (method is not None or embeddings):
         raise click.UsageError("--method and --embeddings require --count")
-    from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE
     from enumerate.sc.jobs import FormJob, SCJob, sc_count_job
     from enumerate.sc.query import SCQuery
 
-    query = SCQuery(
-        links, dof, spatial=spatial, infinite=infinite, assortment=assortment, centres=centres or ANY_NUMBER,
-        symmetry=symmetry or ONE_OR_MORE, longest_string=longest_string or ANY_NUMBER,
-    )  # fmt: skip
+    query = SCQuery(links, dof, spatial, **options.stated_values(properties))
     _say_if_odd(links, dof, spatial)
     if only_count and per_chain:
         raise click.UsageError("--count counts SC graphs; try `synth enumerate chains --planar --count`")
@@ -269,13 +257,10 @@ def sc(
 @options.flag("--all-explicit sheets", "List only single sheets without holes.")
 @options.flag("--symmetric", "List only SCD graphs with a symmetry.")
 @options.limits("--vertices", "Number of vertices of the polyhedron model, as a number or range: 8, 6..8 or ..8.")
-@_COUNT
-@_method(("burnside", "orbits"))
-@runner_options
+@_counted("burnside", "orbits")
 def scd(
     links: int | None, dof: int | None, file: str | None, max_degree: int, spatial: int, infinite: bool,
-    sheets: bool, symmetric: bool, vertices: Limits | None, only_count: bool, method: str | None,
-    running: RunOptions,
+    only_count: bool, method: str | None, running: RunOptions, **placements: Any,
 ) -> None:  # fmt: skip
     """List or count all SCD graphs of N links and M degrees of freedom.
 
@@ -292,10 +277,9 @@ def scd(
       synth enumerate scd --links 10 --dof 1 --max-degree 4 -o scd.sqlite
     """
     check_method(method, only_count)
-    from enumerate.runner.job import ANY_NUMBER
     from enumerate.scd.jobs import SCDJob, all_mechanisms, mechanism_of, scd_count_job
 
-    filters: dict[str, Any] = {"sheets": sheets, "symmetric": symmetric, "vertices": vertices or ANY_NUMBER}
+    filters = options.stated_values(placements)
     mechanisms: Mechanisms
     if file is not None:
         if links is not None or dof is not None or spatial or infinite:
@@ -304,7 +288,7 @@ def scd(
         with about(file):
             mechanisms = mechanism_of(graph, max_degree, **filters)
     elif links is None or dof is None:
-        raise click.UsageError("expected --links and --dof, or --of FILE")
+        raise click.UsageError("--links and --dof, or --of FILE, are required")
     else:
         mechanisms = all_mechanisms(links, dof, max_degree, spatial=spatial, infinite=infinite, **filters)
         if not mechanisms.tree:

@@ -19,8 +19,6 @@ from synth.cli.output import about, check_output, check_picture, console, plain,
 if TYPE_CHECKING:
     from synth.guidance.order import Direction
 
-_AXIS = options.NumberList(axis=True)
-
 _ORIENTATIONS = options.value(
     "--orientations file", "FILE", "File of three or more orientations (docs/native-json.md).", required=True,
     type=options.FILE_NAME,
@@ -30,8 +28,9 @@ _ORIENTATIONS = options.value(
 @click.command()
 @_ORIENTATIONS
 @options.value(
-    "--axis", "X,Y,Z", "Direction of the fixed axis G of the dyad, of any length.", required=True, type=_AXIS
-)
+    "--axis", "X,Y,Z", "Direction of the fixed axis G of the dyad, of any length.", required=True,
+    type=options.AXIS,
+)  # fmt: skip
 @options.choice(
     "--direction", ("ccw", "cw"), "Direction in which the crank turns, seen from the tip of the axis.",
     default="ccw",
@@ -66,7 +65,7 @@ def order(
 
 _AXES = options.repeated(
     "--axis axes", "X,Y,Z", "Direction of a fixed axis, required for three orientations; may be repeated.",
-    type=_AXIS,
+    type=options.AXIS,
 )  # fmt: skip
 
 

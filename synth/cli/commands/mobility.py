@@ -5,9 +5,7 @@ from __future__ import annotations
 import gc
 import re
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -48,8 +46,8 @@ _LONGEST_PATH = 4096
 )
 @options.flag("--verbose", "List all equations of mobility, with the reason why each applies or does not.")
 def mobility(
-    files: tuple[str, ...], as_json: bool, exact: bool | None, hinge_flat: bool, pose: int | None, no_pose: bool,
-    no_geometry: bool, look_for_motion: bool | None, more: bool, verbose: bool,
+    files: tuple[str, ...], as_json: bool, pose: int | None, no_pose: bool, no_geometry: bool,
+    look_for_motion: bool | None, more: bool, verbose: bool, **counting: Any,
 ) -> None:  # fmt: skip
     """Report how a mechanism moves: its degrees of freedom, its motion branches, and the evidence.
 
@@ -69,25 +67,22 @@ def mobility(
     """
     if no_pose and pose is not None:
         raise click.UsageError("--pose and --no-pose exclude each other")
+    counting["geometry"] = not no_geometry
+    if not no_pose:
+        counting |= {"pose": pose, "motion": look_for_motion, "more": more}
+    judge = synth.verdict.mobility_of_type if no_pose else synth.mobility
     failures: list[str] = []
     answers: list[tuple[str, synth.verdict.JudgedMobility]] = []
-    with _no_collection():
+    gc.disable()  # its passes over all that was read take as long as the rest
+    try:
         for entry in entries(files, failures):
             try:
                 with about(entry.label):
-                    mechanism, geometry = precise(entry.mechanism), not no_geometry
-                    if no_pose:
-                        answer = synth.verdict.mobility_of_type(
-                            mechanism, exact=exact, hinge_flat=hinge_flat, geometry=geometry
-                        )
-                    else:
-                        answer = synth.mobility(
-                            mechanism, exact=exact, hinge_flat=hinge_flat, pose=pose, geometry=geometry,
-                            motion=look_for_motion, more=more,
-                        )  # fmt: skip
-                    answers.append((entry.label, answer))
+                    answers.append((entry.label, judge(precise(entry.mechanism), **counting)))
             except FileError as error:
                 failures.append(str(error))
+    finally:
+        gc.enable()
     if as_json:
         print_json([{"file": label, **answer.to_json()} for label, answer in answers])
     elif len(answers) == 1 and not failures:
@@ -101,16 +96,6 @@ def mobility(
         click.echo(line, err=True)
     if failures:
         sys.exit(2)
-
-
-@contextmanager
-def _no_collection() -> Iterator[None]:
-    """Pause the garbage collector, whose passes over all that was read take as long as the rest."""
-    gc.disable()
-    try:
-        yield
-    finally:
-        gc.enable()
 
 
 def _in_number_order(label: str) -> list[str | int]:
@@ -139,4 +124,4 @@ def _print_table(out: Console, answers: list[tuple[str, synth.verdict.JudgedMobi
     for note in sorted(common):
         out.print(f"note, for all: {note}")
     if any(answer.repairs or set(answer.warnings) - common for _, answer in answers):
-        out.print("for the notes of a file, try that file alone")
+        out.print("notes are printed for a file on its own")

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
+from functools import wraps
 from math import radians
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -13,18 +15,44 @@ import synth.moving
 from graphs.errors import UnsolvableError
 from synth.cli import options
 from synth.cli.output import about, console, plain, print_json, print_result, progress_line, table, tell_written
-from synth.cli.reading import DRAWN, PRECISION, precise, read
+from synth.cli.reading import MECHANISM, PRECISION, precise, read
 
 if TYPE_CHECKING:
     from graphs.convert import Mechanism
     from graphs.types import LinkId
 
 
+def _answering(
+    no: Callable[[Any], bool] = lambda _answer: False,
+) -> Callable[[Callable[..., Any]], Callable[..., None]]:
+    """Return what makes a command of a function of a mechanism: it reads FILE, and prints the answer.
+
+    With the answer "no" the exit status is 1.
+    """
+
+    def decorated(answer_of: Callable[..., Any]) -> Callable[..., None]:
+        @wraps(answer_of)
+        def run_command(file: str, as_json: bool, **values: Any) -> None:
+            mechanism = read(file)
+            with about(file):
+                answer = answer_of(precise(mechanism), **values)
+            print_result(answer, {"file": file}, as_json=as_json)
+            if no(answer):
+                sys.exit(1)
+
+        return options.JSON(PRECISION(run_command))
+
+    return decorated
+
+
 @click.command()
-@options.FILE
-@DRAWN
-@options.repeated("--drive", "JOINT=DEGREES", "Fold a crease to this angle; may be repeated.")
-@options.repeated("--along", "JOINT=RATE", "Initial joint rates; the motion keeps their direction if it can.")
+@MECHANISM
+@options.repeated(
+    "--drive", "JOINT=DEGREES", "Fold a crease to this angle, or rotate another joint by it; may be repeated."
+)
+@options.repeated(
+    "--along", "JOINT=RATE", "Initial joint rates; the motion keeps their direction if it can. May be repeated."
+)
 @options.repeated(
     "--point points", "LINK=X,Y[,Z]",
     "Print the position of this point of a link in each frame (a coupler curve); may be repeated."
@@ -44,8 +72,8 @@ if TYPE_CHECKING:
 @options.JSON
 @PRECISION
 def fold(
-    file: str, drive: tuple[str, ...], along: tuple[str, ...], whole: bool, branch: int | str | None, listed: bool,
-    frames: int, points: tuple[str, ...], collisions: bool, output: str | None, force: bool, as_json: bool,
+    file: str, drive: tuple[str, ...], along: tuple[str, ...], whole: bool, listed: bool, frames: int,
+    points: tuple[str, ...], output: str | None, force: bool, as_json: bool, **how: Any,
 ) -> None:  # fmt: skip
     """Fold a crease pattern, or move another linkage, with rigid panels and closed loops.
 
@@ -80,8 +108,8 @@ def fold(
         with progress_line() as show:
             motion = synth.move(
                 at, drive=options.driven_angles(graph, drive),
-                along=options.numbers_of_joints(graph, along, "--along", "JOINT=RATE"), branch=branch,
-                frames=frames, collisions=collisions, report=lambda n: show(f"{n} of {frames + 1} frames"),
+                along=options.numbers_of_joints(graph, along, "--along", "JOINT=RATE"),
+                frames=frames, report=lambda n: show(f"{n} of {frames + 1} frames"), **how,
             )  # fmt: skip
         curves = {text: motion.path_of(*_point(graph, text)).tolist() for text in points}
         written = [] if output is None else write_motion(motion, output, force=force)
@@ -104,6 +132,11 @@ def fold(
     tell_written(*written)
 
 
+def _graph(mechanism: Any) -> synth.SCGraph:
+    """Return the graph of a mechanism at its configuration, whose links and joints are named."""
+    return synth.moving.configuration_of(mechanism).linkage.graph
+
+
 def _point(graph: synth.SCGraph, text: str) -> tuple[LinkId, list[float]]:
     """Return a link and the coordinates of a point, as they were typed."""
     name, place = options.named_value(text, "--point", "LINK=X,Y or LINK=X,Y,Z", (2, 3))
@@ -111,8 +144,7 @@ def _point(graph: synth.SCGraph, text: str) -> tuple[LinkId, list[float]]:
 
 
 @click.command()
-@options.FILE
-@DRAWN
+@MECHANISM
 @options.repeated(
     "--drive", "JOINT=DEGREES",
     "Angle of a driven joint in degrees, or length of a prismatic one; once for each degree of freedom."
@@ -121,9 +153,8 @@ def _point(graph: synth.SCGraph, text: str) -> tuple[LinkId, list[float]]:
     "--circuits/--no-circuits", "Sort the assembly modes by circuit and branch of the circuit.", default=True
 )
 @options.seed("Random seed.")
-@options.JSON
-@PRECISION
-def positions(file: str, drive: tuple[str, ...], circuits: bool, seed: int, as_json: bool) -> None:
+@_answering(no=lambda modes: not modes.positions or not modes.exhaustive)
+def positions(mechanism: Any, drive: tuple[str, ...], **how: Any) -> Any:
     """Find all assembly modes of a linkage of spherical and planar loops at given inputs.
 
     Crease angles are measured from flat, other joint angles from the configuration of the file, in degrees; a
@@ -139,24 +170,17 @@ def positions(file: str, drive: tuple[str, ...], circuits: bool, seed: int, as_j
 
     Exit status 1: the linkage has no assembly mode at these inputs, or not all were found.
     """
-    mechanism = read(file)
-    with about(file):
-        at = synth.moving.configuration_of(precise(mechanism), slides=True)
-        slides = {joint for place, joint in enumerate(at.joints) if place in at.linkage.slides}
-        values = options.numbers_of_joints(at.linkage.graph, drive, "--drive", "JOINT=DEGREES")
-        inputs = {joint: value if joint in slides else radians(value) for joint, value in values.items()}
-        modes = synth.positions(at, drive=inputs, circuits=circuits, seed=seed)
-    print_result(modes, {"file": file}, as_json=as_json)
-    if not modes.positions or not modes.exhaustive:
-        sys.exit(1)
+    at = synth.moving.configuration_of(mechanism, slides=True)
+    slides = {joint for place, joint in enumerate(at.joints) if place in at.linkage.slides}
+    values = options.numbers_of_joints(at.linkage.graph, drive, "--drive", "JOINT=DEGREES")
+    inputs = {joint: value if joint in slides else radians(value) for joint, value in values.items()}
+    return synth.positions(at, drive=inputs, **how)
 
 
 @click.command()
-@options.FILE
-@DRAWN
-@options.JSON
-@PRECISION
-def explain(file: str, as_json: bool) -> None:
+@MECHANISM
+@_answering()
+def explain(mechanism: Any) -> Any:
     """Find the redundant closure equations, the geometry that causes them, and the axis errors they tolerate.
 
     The analysis is at the configuration of the file; fold a flat pattern first. Axis errors are for one axis at a
@@ -169,15 +193,11 @@ def explain(file: str, as_json: bool) -> None:
       synth generate miura --rows 4 --columns 4 --fold 60 -o miura.fold
       synth explain miura.fold
     """
-    mechanism = read(file)
-    with about(file):
-        explanation = synth.explain(precise(mechanism))
-    print_result(explanation, {"file": file}, as_json=as_json)
+    return synth.explain(mechanism)
 
 
 @click.command()
-@options.FILE
-@DRAWN
+@MECHANISM
 @options.number("--freedoms", "K", "Number of degrees of freedom to reach.", 0, required=True)
 @options.branch(
     "Folding branch from a flat state, by its number or its signs; `synth fold --branches` lists them.", "B"
@@ -196,12 +216,11 @@ def explain(file: str, as_json: bool) -> None:
 @options.number("--limit", "N", "Largest number of sets to list.", most=10_000, default=20)
 @options.number("--size", "N", "Largest number of diagonals in a set. By default K - M + 1.")
 @options.flag("--leave-out", "For a flat sheet: also report its degrees of freedom without the locked creases.")
-@options.JSON
-@PRECISION
+@_answering(no=lambda advice: advice.wanted > advice.freedoms and not advice.creases)
 def advise(
-    file: str, freedoms: int, branch: int | str | None, weight: tuple[str, ...], protect_joint: tuple[str, ...],
-    protect_link: tuple[str, ...], flaps: bool, limit: int, size: int | None, leave_out: bool, as_json: bool,
-) -> None:  # fmt: skip
+    mechanism: Any, freedoms: int, weight: tuple[str, ...], protect_joint: tuple[str, ...],
+    protect_link: tuple[str, ...], **how: Any,
+) -> Any:  # fmt: skip
     """Find joints to lock, or panels to crease along diagonals, so that K degrees of freedom are left.
 
     To lower M degrees of freedom to K, M - K joints have to be locked: all such sets are listed, cheapest first.
@@ -221,30 +240,18 @@ def advise(
     from graphs.convert import mechanism_of_sheet
     from synth.moving.made import sheet_of
 
-    mechanism = read(file)
-    with about(file):
-        mechanism = precise(mechanism)
-        sheet = sheet_of(mechanism)
-        graph = (
-            synth.moving.configuration_of(mechanism).linkage.graph
-            if sheet is None
-            else mechanism_of_sheet(sheet).sc
-        )
-        advice = synth.advise(
-            mechanism, freedoms, branch=branch,
-            weights=options.numbers_of_joints(graph, weight, "--weight", "JOINT=W"),
-            joints=[options.joint_of(graph, name) for name in protect_joint],
-            links=[options.link_of(graph, name) for name in protect_link],
-            flaps=flaps, limit=limit, size=size, leave_out=leave_out,
-        )  # fmt: skip
-    print_result(advice, {"file": file}, as_json=as_json)
-    if advice.wanted > advice.freedoms and not advice.creases:
-        sys.exit(1)
+    sheet = sheet_of(mechanism)
+    graph = _graph(mechanism) if sheet is None else mechanism_of_sheet(sheet).sc
+    return synth.advise(
+        mechanism, freedoms,
+        weights=options.numbers_of_joints(graph, weight, "--weight", "JOINT=W"),
+        joints=[options.joint_of(graph, name) for name in protect_joint],
+        links=[options.link_of(graph, name) for name in protect_link], **how,
+    )  # fmt: skip
 
 
 @click.command()
-@options.FILE
-@DRAWN
+@MECHANISM
 @options.repeated("--joint joints", "JOINT", "Compliant joint; may be repeated.")
 @options.repeated("--link links", "LINK", "Compliant link; may be repeated.")
 @options.repeated(
@@ -260,13 +267,12 @@ def advise(
 @options.repeated("--mass", "LINK=M@X,Y,Z", "Point mass on a link; may be repeated.")
 @options.value("--density", "D", "For a sheet: mass per unit area of its panels.", type=options.LENGTH)
 @options.value("--ground", "LINK", "Fixed link, for frequencies.")
-@options.JSON
-@PRECISION
+@_answering()
 def states(
-    file: str, joints: tuple[str, ...], links: tuple[str, ...], stiffness: tuple[str, ...], rest: tuple[str, ...],
-    moment: tuple[str, ...], drive: str | None, frames: int, mass: tuple[str, ...], density: float | None,
-    ground: str | None, as_json: bool,
-) -> None:  # fmt: skip
+    mechanism: Any, joints: tuple[str, ...], links: tuple[str, ...], stiffness: tuple[str, ...],
+    rest: tuple[str, ...], moment: tuple[str, ...], drive: str | None, frames: int, mass: tuple[str, ...],
+    density: float | None, ground: str | None,
+) -> Any:  # fmt: skip
     """Check whether a mechanism moves with its compliant members at rest, and with some of them active.
 
     A member at rest is rigid, an active one is released. With springs, the answer has their equilibrium, the
@@ -280,28 +286,24 @@ def states(
       synth states four-bar.json --joint 0 --joint 2
       synth states four-bar.json --stiffness 1=2 --drive 0=40 --frames 8
     """
-    mechanism = read(file)
-    with about(file):
-        mechanism = precise(mechanism)
-        graph = synth.moving.configuration_of(mechanism).linkage.graph
-        springs = synth.compliance.Springs(
-            options.numbers_of_joints(graph, stiffness, "--stiffness", "JOINT=K"),
-            options.driven_angles(graph, rest, "--rest"),
-            options.numbers_of_joints(graph, moment, "--moment", "JOINT=M"),
-        )
-        load_path = None
-        if drive is not None:
-            [(joint, angle)] = options.driven_angles(graph, (drive,)).items()
-            load_path = synth.compliance.DrivenJoint(joint, angle, frames)
-        report = synth.states(
-            mechanism,
-            joints=[options.joint_of(graph, name) for name in joints],
-            links=[options.link_of(graph, name) for name in links],
-            springs=springs if stiffness or rest or moment else None,
-            drive=load_path,
-            masses=_masses(mechanism, graph, mass, density, ground),
-        )
-    print_result(report, {"file": file}, as_json=as_json)
+    graph = _graph(mechanism)
+    springs = synth.compliance.Springs(
+        options.numbers_of_joints(graph, stiffness, "--stiffness", "JOINT=K"),
+        options.driven_angles(graph, rest, "--rest"),
+        options.numbers_of_joints(graph, moment, "--moment", "JOINT=M"),
+    )
+    load_path = None
+    if drive is not None:
+        [(joint, angle)] = options.driven_angles(graph, (drive,)).items()
+        load_path = synth.compliance.DrivenJoint(joint, angle, frames)
+    return synth.states(
+        mechanism,
+        joints=[options.joint_of(graph, name) for name in joints],
+        links=[options.link_of(graph, name) for name in links],
+        springs=springs if stiffness or rest or moment else None,
+        drive=load_path,
+        masses=_masses(mechanism, graph, mass, density, ground),
+    )
 
 
 def _masses(
@@ -337,14 +339,12 @@ def _mass(graph: synth.SCGraph, word: str) -> synth.compliance.Mass:
 
 
 @click.command()
-@options.FILE
-@DRAWN
+@MECHANISM
 @options.repeated(
     "--keep", "LINK", "Link that belongs to the mechanism proper, not to a ride-along; may be repeated."
 )
-@options.JSON
-@PRECISION
-def limits(file: str, keep: tuple[str, ...], as_json: bool) -> None:
+@_answering()
+def limits(mechanism: Any, keep: tuple[str, ...]) -> Any:
     """Find the joint limits that ride-alongs impose, and the mobility while one is held straight.
 
     The analysis starts at the configuration of the file. A ride-along stops its joint where its own two links are
@@ -356,9 +356,5 @@ def limits(file: str, keep: tuple[str, ...], as_json: bool) -> None:
       synth generate deployable-cylinder --pleats 3 -o cylinder.fold
       synth limits cylinder.fold
     """
-    mechanism = read(file)
-    with about(file):
-        mechanism = precise(mechanism)
-        graph = synth.moving.configuration_of(mechanism).linkage.graph
-        joint_limits = synth.compliance.limits(mechanism, keep=[options.link_of(graph, name) for name in keep])
-    print_result(joint_limits, {"file": file}, as_json=as_json)
+    graph = _graph(mechanism)
+    return synth.compliance.limits(mechanism, keep=[options.link_of(graph, name) for name in keep])

@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from enumerate.runner import Sink
-    from graphs.convert import Mechanism
-    from synth.realisation import ConeRealisation, Realisation
+    from synth.realisation import ConeRealisation
 
 
 class _Generators(NamedGroup):
@@ -80,7 +79,11 @@ def _described(generator: synth.patterns.Generator) -> dict[str, Any]:
             {
                 "name": parameter.name,
                 "unit": "degrees" if parameter.unit == "angle" else parameter.unit,
-                **{key: _in_degrees(parameter, getattr(parameter, key)) for key in ("default", "least", "most")},
+                **{
+                    key: round(degrees(bound), 9) if parameter.unit == "angle" else bound
+                    for key in ("default", "least", "most")
+                    for bound in [getattr(parameter, key)]
+                },
                 "meaning": parameter.meaning,
             }
             for parameter in generator.parameters
@@ -129,12 +132,12 @@ def _command(generator: synth.patterns.Generator) -> click.Command:
     for parameter in generator.parameters:
         metavar = {"count": "N", "length": "LENGTH", "angle": "DEGREES"}[parameter.unit]
         meaning = (
-            f"{parameter.meaning[0].upper()}{parameter.meaning[1:]}, from {parameter.in_words(parameter.least)} "
-            f"to {parameter.in_words(parameter.most)}.  [default: {parameter.in_words(parameter.default)}]"
+            f"{parameter.meaning[0].upper()}{parameter.meaning[1:]}, {parameter.limits}.  "
+            f"[default: {parameter.in_words(parameter.default)}]"
         )
         kind = int if parameter.unit == "count" else float
         options.value(f"--{parameter.name}", metavar, meaning, type=kind)(command)
-    written = ".json, or .fold if it has panels"
+    written = ".json, or .fold if the mechanism has panels"
     if generator.foldable:
         written = ".fold, .obj or another format"
         meaning = "Fold the crease that moves most to this angle; equivalent creases fold alike if they can."
@@ -142,11 +145,6 @@ def _command(generator: synth.patterns.Generator) -> click.Command:
     for option in (options.output(f"File to write: {written}."), options.JSON, options.FORCE):
         option(command)
     return command
-
-
-def _in_degrees(parameter: synth.patterns.Parameter, value: float) -> float:
-    """Return a value of a parameter, an angle in degrees."""
-    return round(degrees(value), 9) if parameter.unit == "angle" else value
 
 
 _FIGURES = 12
@@ -218,8 +216,8 @@ def realise(
       synth realise RR-R-RRR --mode D -o ups.fold
       synth realise data/wiener/six-bar.json --as space -o six-bar.obj
       synth realise data/wiener/stephenson.json --as cone --lambda 25 -o stephenson.json
-      synth realise types.sqlite --as space -o things
-      synth realise k1:Cr --freedoms 1 --as space
+      synth realise types.sqlite --as space -o realised
+      synth realise data/wiener/six-bar-loop-spatial.json --freedoms 1 --as space
       synth realise data/linkages/bennett.json --freedoms 1 -o bennett.json --mark type.json
     """
     from synth.drawing.catalogue import is_catalogue
@@ -244,7 +242,7 @@ def realise(
         (not many and (workers or resume),
          "--workers and --resume require many types: a store, a list or a folder"),
     )  # fmt: skip
-    settings = {"kind": kind, "size": 1.0 if size is None else size, "seed": seed, "tries": tries}
+    settings: dict[str, Any] = {"kind": kind, "size": 1.0 if size is None else size, "seed": seed, "tries": tries}
     settings |= {"flat_foldable": True} if flat_foldable else {}
     settings |= {"symmetric": True} if symmetric else {}
     if many:
@@ -255,10 +253,15 @@ def realise(
     if on_cone and output is not None and not output.lower().endswith(".json"):
         raise FileError(output, "", "a linkage on a cone cannot be written to it", "a name that ends in .json")
     with out.about(file):
+        source: Any = read_named(file).mechanism
         if on_cone:
-            realisation, mechanism = _on_cone(file, cone_angle, seed, tries)
+            realisation: Any = _on_cone(file, source, cone_angle, seed, tries)
+            mechanism = realisation.linkage
         else:
-            realisation, mechanism = _as_panels(file, mode, settings)
+            from synth.patterns.panels import rounded
+
+            realisation = synth.realise(source, mode=mode, **settings)
+            mechanism = rounded(realisation.sheet, _FIGURES - ceil(log10(settings["size"])))
     if output is not None:
         synth.write(mechanism, output, force=force)
     out.print_result(realisation, {"file": file, "output": output}, as_json=as_json, written=[output])
@@ -271,28 +274,13 @@ def _refuse(*rules: tuple[object, str]) -> None:
             raise click.UsageError(message)
 
 
-def _on_cone(
-    file: str, cone_angle: float | None, seed: int, tries: int
-) -> tuple[ConeRealisation | Realisation, Mechanism]:
+def _on_cone(file: str, source: Any, cone_angle: float | None, seed: int, tries: int) -> ConeRealisation:
     from enumerate.strings import ChainString
-    from synth.realisation.on_cone import CONE_ANGLE
 
-    mechanism: Any = read_named(file).mechanism
-    if isinstance(mechanism, ChainString):
+    if isinstance(source, ChainString):
         raise FileError(file, "", "an R/- string has no loop", "a linkage whose axes meet in one centre")
-    angle = CONE_ANGLE if cone_angle is None else radians(cone_angle)
-    realisation = synth.realise_on_cone(mechanism, cone_angle=angle, seed=seed, tries=tries)
-    return realisation, realisation.linkage
-
-
-def _as_panels(
-    file: str, mode: str | None, settings: dict[str, Any]
-) -> tuple[ConeRealisation | Realisation, Mechanism]:
-    from synth.patterns.panels import rounded
-
-    mechanism: Any = read_named(file).mechanism
-    panels = synth.realise(mechanism, mode=mode, **settings)
-    return panels, rounded(panels.sheet, _FIGURES - ceil(log10(settings["size"])))
+    angle = {} if cone_angle is None else {"cone_angle": radians(cone_angle)}
+    return synth.realise_on_cone(source, **angle, seed=seed, tries=tries)
 
 
 def _realise_many(source: str, running: RunOptions, settings: dict[str, Any], *, as_json: bool) -> None:

@@ -16,16 +16,7 @@ import synth.drawing
 import synth.moving
 import synth.surfaces
 from graphs.printing import plain
-from synth.cli import options
-from synth.cli.output import (
-    about,
-    check_output,
-    check_picture,
-    print_answer,
-    print_json,
-    print_result,
-    tell_written,
-)
+from synth.cli import options, output as out
 
 if TYPE_CHECKING:
     from graphs.mechanism.surfaces import Surface
@@ -35,17 +26,12 @@ Kind = Literal["cone", "cylinder"]
 _Command = Callable[..., None]
 
 
-class _Arc(click.ParamType):  # type: ignore[type-arg,unused-ignore]
-    """A link and the joint at which its arc begins, ``4=1``."""
-
-    name = "arc"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the names of link and joint."""
-        link, sign, joint = str(value).partition("=")
-        if not (link and sign and joint):
-            self.fail(f"{plain(value)!r} is not LINK=JOINT, such as 4=1", param, ctx)
-        return link, joint
+def _arc(word: str) -> tuple[str, str]:
+    """Return the names of a link and of the joint at which its arc begins, ``4=1``."""
+    link, _, joint = word.partition("=")
+    if not (link and joint):
+        raise ValueError(f"{plain(word)!r} is not LINK=JOINT, such as 4=1")
+    return link, joint
 
 
 @dataclass(frozen=True)
@@ -62,7 +48,7 @@ class LinkageOptions:
     def __post_init__(self) -> None:
         size, sizes = ("lambda", "angles") if self.kind == "cone" else ("radius", "lengths")
         if sum(source is not None for source in (self.file, self.sizes, self.steps)) != 1:
-            raise click.UsageError(f"expected one of --{sizes}, --steps (of one loop) and FILE")
+            raise click.UsageError(f"one of --{sizes}, --steps and FILE is required")
         if self.surface_size is not None and self.sizes is not None:
             raise click.UsageError(f"--{sizes} determine the {self.kind}; leave out --{size}")
 
@@ -74,7 +60,7 @@ class LinkageOptions:
 
     def about(self) -> AbstractContextManager[None]:
         """Name the file in errors."""
-        return nullcontext() if self.file is None else about(self.file)
+        return nullcontext() if self.file is None else out.about(self.file)
 
     @cached_property
     def linkage_sizes(self) -> Sequence[float]:
@@ -124,8 +110,8 @@ def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _C
     metavar, measure = ("DEGREES", "angle") if kind == "cone" else ("R", "radius")
     every = [
         click.argument("file", required=False, metavar="[FILE]", type=options.FILE_NAME),
-        options.value(f"{sizes} sizes", "A,B,...", what, type=options.NumberList()),
-        options.value("--steps", "A,B,...", steps, type=options.NumberList()),
+        options.value(f"{sizes} sizes", "A,B,...", what, type=options.NUMBERS),
+        options.value("--steps", "A,B,...", steps, type=options.NUMBERS),
         options.value(f"{size} surface_size", metavar, f"{kind.title()} {measure}, with --steps.", type=float),
     ]
     if arcs:
@@ -133,7 +119,7 @@ def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _C
             "For a link that spans half a turn: the joint at which its arc begins, in the direction of "
             "increasing azimuth. May be repeated."
         )
-        every.append(options.repeated("--arc arcs", "LINK=JOINT", text, type=_Arc()))
+        every.append(options.repeated("--arc arcs", "LINK=JOINT", text, type=options.WordType("arc", _arc)))
 
     def decorated(command: _Command) -> _Command:
         @wraps(command)
@@ -153,14 +139,9 @@ _GROUND = options.value("--ground", "LINK", "Fixed link. By default the first (1
 
 
 def map_answer(
-    chosen: LinkageOptions,
-    *,
-    tolerance: float,
-    by_sizes: bool,
-    output: str | None,
-    number: int | None,
+    chosen: LinkageOptions, output: str | None, *, tolerance: float, by_sizes: bool, number: int | None,
     force: bool,
-) -> synth.surfaces.ConeMap | synth.surfaces.CylinderMap | synth.surfaces.LinkageMap:
+) -> synth.surfaces.ConeMap | synth.surfaces.CylinderMap | synth.surfaces.LinkageMap:  # fmt: skip
     """Return every surface on which a linkage lies; write or draw the output.
 
     A picture of a loop by its link sizes shows loop sums, unless the number of a surface is chosen.
@@ -169,12 +150,11 @@ def map_answer(
 
     if output is None and number is not None:
         raise click.UsageError(f"--{chosen.kind} requires -o")
-    (check_output if _is_linkage(output) else check_picture)(output, force=force)
+    (out.check_output if _is_linkage(output) else out.check_picture)(output, force=force)
     with chosen.about():
         if chosen.sizes is not None:
-            mapped = (synth.map_to_cones if chosen.kind == "cone" else synth.map_to_cylinders)(
-                chosen.linkage_sizes
-            )
+            map_sizes = synth.map_to_cones if chosen.kind == "cone" else synth.map_to_cylinders
+            mapped = map_sizes(chosen.linkage_sizes)
             if output is not None and number is None and not _is_linkage(output):
                 synth.drawing.draw_loop_sums(mapped).save(output, force=force)
                 return mapped
@@ -182,11 +162,11 @@ def map_answer(
                 return mapped
         linkage = chosen.linkage()
         linkage = synth.surfaces.by_sizes(linkage) if by_sizes else linkage
-        answer = mapped if chosen.sizes is not None else synth.map_linkage(linkage, tolerance)
+        answer = mapped if chosen.sizes is not None else synth.map_linkage(linkage, radians(tolerance))
         if output is not None and number is None and _is_linkage(output):
             _write(linkage, output, force=force)
         elif output is not None:
-            placed = synth.conformed.linkage_on_surfaces(linkage, tolerance=tolerance)
+            placed = synth.conformed.linkage_on_surfaces(linkage, tolerance=radians(tolerance))
             _write(surface_of_number(placed, number, linkage.kind), output, force=force)
     return answer
 
@@ -277,8 +257,8 @@ def map_command(kind: Kind) -> click.Command:
     @options.FORCE
     @options.JSON
     def command(
-        chosen: LinkageOptions, tolerance: float, by_sizes: bool, output: str | None, number: int | None,
-        force: bool, as_json: bool, supplementary: bool = False,
+        chosen: LinkageOptions, by_sizes: bool, output: str | None, as_json: bool, supplementary: bool = False,
+        **settings: Any,
     ) -> None:  # fmt: skip
         if by_sizes and chosen.sizes is not None:
             raise click.UsageError(f"--by-{sizes} requires a FILE or --steps")
@@ -287,10 +267,8 @@ def map_command(kind: Kind) -> click.Command:
                 raise click.UsageError("--supplementary lists linkages for --angles, and writes none")
             answer: Any = synth.surfaces.supplementary_linkages(chosen.linkage_sizes)
         else:
-            answer = map_answer(
-                chosen, tolerance=radians(tolerance), by_sizes=by_sizes, output=output, number=number, force=force
-            )
-        print_result(answer, {}, as_json=as_json, written=[output])
+            answer = map_answer(chosen, output, by_sizes=by_sizes, **settings)
+        out.print_result(answer, {}, as_json=as_json, written=[output])
 
     return command
 
@@ -330,7 +308,7 @@ def behaviour_command(kind: Kind) -> click.Command:
     def command(
         chosen: LinkageOptions, ground: str | None, output: str | None, force: bool, as_json: bool
     ) -> None:
-        check_picture(output, force=force)
+        out.check_picture(output, force=force)
         with chosen.about():
             linkages = chosen.on_surfaces()
             behaviours = [linkage.behaviour(options.link_of(linkage.chain, ground)) for linkage in linkages]
@@ -340,7 +318,7 @@ def behaviour_command(kind: Kind) -> click.Command:
             _draw(linkages[0], output, behaviours[0].chain.links[0], force=force)
         _print_linkages(behaviours, kind, as_json=as_json)
         if not as_json:
-            tell_written(output)
+            out.tell_written(output)
 
     return command
 
@@ -363,14 +341,16 @@ def move_command(kind: Kind) -> click.Command:
     """
 
     @click.command(
-        "move", help=text, short_help=f"Find how far a linkage moves from its {kind}, and to which side."
+        "move",
+        help=text,
+        short_help=f"Find how far a linkage moves from its {kind}, inward and outward.",
     )
     @linkage_options(kind)
     @_GROUND
     @options.value("--driver", "JOINT", "Driving joint. By default the first joint of the fixed link.")
     @options.value(
         "--at", "A,B,...", "Angles of the driving joint at which to list configurations, in degrees.",
-        type=options.NumberList(),
+        type=options.NUMBERS,
     )  # fmt: skip
     @options.repeated(
         "--point points", "LINK,AZIMUTH[,ALONG]",
@@ -405,10 +385,10 @@ def move_command(kind: Kind) -> click.Command:
 def _print_linkages(answers: Sequence[Any], kind: Kind, *, as_json: bool) -> None:
     """Print the answers about a linkage on each of its surfaces."""
     if as_json:
-        print_json({"linkages": [answer.to_json() for answer in answers]})
+        out.print_json({"linkages": [answer.to_json() for answer in answers]})
         return
     for answer in answers:
-        print_answer(answer)
+        out.print_answer(answer)
     if not answers:
         click.echo(f"no {kind}")
 
@@ -436,7 +416,7 @@ def _pair(linkage: synth.conformed.OnSurface, text: str) -> tuple[LinkId, LinkId
 def _group(kind: Kind) -> click.Group:
     linkages = "spherical" if kind == "cone" else "planar"
     sizes, *_ = _EXAMPLE[kind]
-    text = f"""Map {linkages} linkages to right circular {kind}s, and find to which side their links move.
+    text = f"""Map {linkages} linkages to right circular {kind}s, and find which links move inward or outward.
 
     \b
     Examples:

@@ -12,6 +12,7 @@ links are nodes. An edge that would come twice, between two links that share two
 from collections import Counter
 from collections.abc import Collection, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, TypeAlias
 
 import networkx as nx
@@ -84,9 +85,8 @@ def made_biconnected(around: Mapping[Node, Sequence[Node]]) -> Neighbours:
 
 def _parted(rotations: Mapping[Node, Sequence[Node]], graph: nx.Graph) -> tuple[Node, Node, Node] | None:
     """Return a node that cuts the graph in two, and two of its neighbours in a row that it parts."""
-    block_of: dict[frozenset[Node], int] = {}
-    for number, block in enumerate(nx.biconnected_component_edges(graph)):
-        block_of.update((frozenset(edge), number) for edge in block)
+    blocks = enumerate(nx.biconnected_component_edges(graph))
+    block_of = {frozenset(edge): number for number, block in blocks for edge in block}
     for node, row in rotations.items():
         if len(row) < 2:
             continue
@@ -206,7 +206,7 @@ class Skeleton:
     mirror: dict[Node, Node] | None
 
 
-def dots(incidence: Neighbours, mirror: Mapping[Node, Node] | None = None) -> Skeleton:
+def dots(incidence: Neighbours, mirror: dict[Node, Node] | None = None) -> Skeleton:
     """Return links as nodes, from the rotations of links and joints."""
     pairs = Counter(frozenset(row) for node, row in incidence.items() if node[0] == "joint")
     around: Neighbours = {}
@@ -219,19 +219,22 @@ def dots(incidence: Neighbours, mirror: Mapping[Node, Node] | None = None) -> Sk
             joint if pairs[frozenset(pair)] > 1 else pair[1] if pair[0] == node else pair[0]
             for joint, pair in ((joint, incidence[joint]) for joint in row)
         )
-    return Skeleton(around, {}, None if mirror is None else dict(mirror))
+    return Skeleton(around, {}, mirror)
 
 
 def bodies(incidence: Neighbours, mirror: Mapping[Node, Node] | None = None) -> Skeleton:
     """Return joints as nodes and links as rings of sides, from the rotations of links and joints."""
-    sides = {link: _sides(row) for link, row in incidence.items() if link[0] == "link"}
+    sides = {
+        link: list(pairwise(row if len(row) < 3 else (*row, row[0])))
+        for link, row in incidence.items()
+        if link[0] == "link"
+    }
     often = Counter(frozenset(side) for rows in sides.values() for side in rows)
     towards: dict[Node, dict[Node, list[Node]]] = {node: {} for node in incidence}
     around: Neighbours = {}
     outlines: dict[Node, tuple[Node, ...]] = {}
-    for link, row in incidence.items():
-        if link[0] != "link":
-            continue
+    for link, pairs in sides.items():
+        row = incidence[link]
         if len(row) < 2:
             around[link] = row
             outlines[link] = (link, *row)
@@ -239,7 +242,7 @@ def bodies(incidence: Neighbours, mirror: Mapping[Node, Node] | None = None) -> 
                 towards[joint][link] = [link]
             continue
         corners: list[Node] = []
-        for a, b in sides[link]:
+        for a, b in pairs:
             corners.append(a)
             if often[frozenset((a, b))] > 1:
                 middle = ("side", link, frozenset((a, b)))
@@ -261,14 +264,6 @@ def bodies(incidence: Neighbours, mirror: Mapping[Node, Node] | None = None) -> 
     return Skeleton(
         around, outlines, None if mirror is None else {**mirror, **{n: _moved(n, mirror) for n in around}}
     )
-
-
-def _sides(row: tuple[Node, ...]) -> list[tuple[Node, Node]]:
-    if len(row) < 2:
-        return []
-    if len(row) == 2:
-        return [(row[0], row[1])]
-    return list(zip(row, (*row[1:], row[0]), strict=True))
 
 
 def _moved(node: Node, mirror: Mapping[Node, Node]) -> Node:

@@ -9,21 +9,8 @@ import numpy as np
 
 from graphs.geometry import best_line
 from graphs.types import Floats, JointId, Joints, LinkId
-from synth.drawing.layout.embedding import (
-    Neighbours,
-    Node,
-    Skeleton,
-    bodies,
-    dots,
-    embedded,
-    faces_of,
-    made_biconnected,
-    mirrored,
-    part_of,
-    same_cycle,
-    swaps_of,
-)
-from synth.drawing.layout.plane import barycentric, plane_graph, pulled, springs_of
+from synth.drawing.layout import embedding
+from synth.drawing.layout.plane import PlaneGraph, barycentric, pulled
 
 Place = tuple[float, float]
 _GAP = 1.0
@@ -85,7 +72,7 @@ def layout_of(
         graph.add_edges_from((("joint", joint), ("link", end)) for end in ends)
     parts = []
     for nodes in nx.connected_components(graph):
-        part = part_of(graph, nodes)
+        part = embedding.part_of(graph, nodes)
         kept = None
         if rotation is not None:
             kept = {
@@ -102,23 +89,23 @@ def layout_of(
 class _Part:
     """A connected part with the places of its nodes."""
 
-    nodes: list[Node]
+    nodes: list[embedding.Node]
     places: Floats
-    skeleton: Skeleton
-    faces: list[tuple[tuple[Node, ...], Floats]]
+    skeleton: embedding.Skeleton
+    faces: list[tuple[tuple[embedding.Node, ...], Floats]]
     plane: bool
     shortest: float = inf
     """The length of the shortest side."""
 
 
 def _placed(
-    part: nx.Graph, joints: Joints, as_bodies: bool, kept: Neighbours | None, outer: Sequence[JointId]
+    part: nx.Graph, joints: Joints, as_bodies: bool, kept: embedding.Neighbours | None, outer: Sequence[JointId]
 ) -> _Part:
     if len(part) == 1:
         node = next(iter(part))
-        return _Part([node], np.zeros((1, 2)), Skeleton({node: ()}, {}, None), [], True)
-    skeleton_of = bodies if as_bodies else dots
-    plain = kept if kept is not None else embedded(part)
+        return _Part([node], np.zeros((1, 2)), embedding.Skeleton({node: ()}, {}, None), [], True)
+    skeleton_of = embedding.bodies if as_bodies else embedding.dots
+    plain = kept if kept is not None else embedding.embedded(part)
     if plain is None:
         return _drawn_crossing(part, as_bodies)
     choices = []
@@ -141,36 +128,38 @@ def _placed(
 
 
 def _drawings(
-    part: nx.Graph, joints: Joints, plain: Neighbours, kept: bool
-) -> Iterator[tuple[Neighbours, dict[Node, Node] | None]]:
+    part: nx.Graph, joints: Joints, plain: embedding.Neighbours, kept: bool
+) -> Iterator[tuple[embedding.Neighbours, dict[embedding.Node, embedding.Node] | None]]:
     """Yield rotations, each with the symmetry that it mirrors, the plain ones last."""
     if nx.is_biconnected(part):
         links = [name for kind, name in part if kind == "link"]
         own = {name: joints[name] for kind, name in part if kind == "joint"}
-        for swap in swaps_of(links, own):
+        for swap in embedding.swaps_of(links, own):
             if all(swap["link", link] == ("link", link) for link in links):
                 continue
-            rotations = _if_reversed(plain, swap) if kept else mirrored(part, swap)
+            rotations = _if_reversed(plain, swap) if kept else embedding.mirrored(part, swap)
             if rotations is not None:
                 yield rotations, swap
     yield plain, None
 
 
-def _if_reversed(kept: Neighbours, swap: Mapping[Node, Node]) -> Neighbours | None:
+def _if_reversed(
+    kept: embedding.Neighbours, swap: Mapping[embedding.Node, embedding.Node]
+) -> embedding.Neighbours | None:
     """Return rotations if a symmetry reverses them all."""
-    for node, row in kept.items():
-        if row and not same_cycle([swap[other] for other in reversed(row)], kept[swap[node]]):
-            return None
-    return kept
+    images = (([swap[other] for other in reversed(row)], kept[swap[node]]) for node, row in kept.items() if row)
+    return kept if all(embedding.same_cycle(*both) for both in images) else None
 
 
-def _outer_faces(skeleton: Skeleton, joints: Joints, outer: Sequence[JointId]) -> list[tuple[Node, ...]]:
+def _outer_faces(
+    skeleton: embedding.Skeleton, joints: Joints, outer: Sequence[JointId]
+) -> list[tuple[embedding.Node, ...]]:
     """Return the faces that can be outside, their own mirror images, the one with most corners first.
 
     There are none if in one of them a node comes twice. In a ring of binary links both faces have the same
     joints: the one walked round as the requested face comes first.
     """
-    faces = [face for face in faces_of(skeleton.around) if not _is_body(face, skeleton)]
+    faces = [face for face in embedding.faces_of(skeleton.around) if not _is_body(face, skeleton)]
     if any(len(set(face)) < len(face) for face in faces):
         return []
     if skeleton.mirror is not None:
@@ -178,27 +167,26 @@ def _outer_faces(skeleton: Skeleton, joints: Joints, outer: Sequence[JointId]) -
         faces = [
             face
             for face, image in zip(faces, images, strict=True)
-            if len(face) > 2 and (same_cycle(image[::-1], face) or same_cycle(image, face))
+            if len(face) > 2 and (embedding.same_cycle(image[::-1], face) or embedding.same_cycle(image, face))
         ]
     fit = [face for face in faces if _shared(face, joints, skeleton, outer) == len(outer)]
-
-    def preferred(face: tuple[Node, ...]) -> tuple[bool, int]:
-        return same_cycle(_joints_of_face(face, joints, skeleton), outer), len(face)
-
-    return sorted(fit, key=preferred, reverse=True)
+    keys = [(embedding.same_cycle(_joints_of_face(face, joints, skeleton), outer), len(face)) for face in fit]
+    return [fit[i] for i in sorted(range(len(fit)), key=keys.__getitem__, reverse=True)]
 
 
-def _shared(face: Sequence[Node], joints: Joints, skeleton: Skeleton, outer: Sequence[JointId]) -> int:
+def _shared(
+    face: Sequence[embedding.Node], joints: Joints, skeleton: embedding.Skeleton, outer: Sequence[JointId]
+) -> int:
     """Return the number of joints of the requested outer face that lie round a face."""
     return len(set(outer) & set(_joints_of_face(face, joints, skeleton))) if outer else 0
 
 
-def _is_body(face: Sequence[Node], skeleton: Skeleton) -> bool:
-    return any(len(row) > 2 and same_cycle(row, face) for row in skeleton.outlines.values())
+def _is_body(face: Sequence[embedding.Node], skeleton: embedding.Skeleton) -> bool:
+    return any(len(row) > 2 and embedding.same_cycle(row, face) for row in skeleton.outlines.values())
 
 
-def _drawn_plane(skeleton: Skeleton, outer: tuple[Node, ...]) -> _Part:
-    graph = plane_graph(skeleton.around, outer)
+def _drawn_plane(skeleton: embedding.Skeleton, outer: tuple[embedding.Node, ...]) -> _Part:
+    graph = PlaneGraph(skeleton.around, outer)
     number = {node: i for i, node in enumerate(graph.nodes)}
     bodies_of = [[number[node] for node in row] for row in skeleton.outlines.values() if len(row) > 2]
     inside = {
@@ -206,7 +194,7 @@ def _drawn_plane(skeleton: Skeleton, outer: tuple[Node, ...]) -> _Part:
     }
     sides = [(a, b) for a, b in graph.edges.tolist() if (a, b) not in inside]
     start = barycentric(graph, skeleton.mirror)
-    places = pulled(graph, start, springs_of(sides, bodies_of), skeleton.mirror)
+    places = pulled(graph, start, sides, bodies_of, skeleton.mirror)
     faces = []
     for face, hub in zip(graph.faces, graph.hub_of, strict=True):
         row = tuple(graph.nodes[i] for i in face)
@@ -221,11 +209,11 @@ def _drawn_plane(skeleton: Skeleton, outer: tuple[Node, ...]) -> _Part:
     return _Part(graph.nodes[:own], places[:own], skeleton, faces, True, shortest)
 
 
-def _drawn_filled(skeleton: Skeleton, joints: Joints, outer: Sequence[JointId]) -> _Part:
+def _drawn_filled(skeleton: embedding.Skeleton, joints: Joints, outer: Sequence[JointId]) -> _Part:
     """Draw a graph that a node cuts in two, with nodes that close it, which then are left out."""
-    around = made_biconnected(skeleton.around)
-    filled = Skeleton(around, skeleton.outlines, None)
-    faces = [face for face in faces_of(around) if not _is_body(face, filled)]
+    around = embedding.made_biconnected(skeleton.around)
+    filled = embedding.Skeleton(around, skeleton.outlines, None)
+    faces = [face for face in embedding.faces_of(around) if not _is_body(face, filled)]
     best = max(faces, key=lambda face: (_shared(face, joints, skeleton, outer), len(face)))
     part = _drawn_plane(filled, best)
     kept = [i for i, node in enumerate(part.nodes) if node in skeleton.around]
@@ -237,12 +225,12 @@ def _drawn_crossing(part: nx.Graph, as_bodies: bool) -> _Part:
     """Draw a graph that is not planar: distances approximate those along the graph."""
     incidence = {node: tuple(part[node]) for node in part}
     if as_bodies:
-        skeleton = bodies(incidence)
+        skeleton = embedding.bodies(incidence)
         graph = nx.Graph(
             (a, b) for row in skeleton.outlines.values() for i, a in enumerate(row) for b in row[i + 1 :]
         )
     else:
-        skeleton = dots(incidence)
+        skeleton = embedding.dots(incidence)
         graph = nx.Graph((a, b) for a, row in skeleton.around.items() for b in row)
     place_of = nx.kamada_kawai_layout(graph, pos=nx.circular_layout(graph))
     nodes = list(graph)
@@ -251,10 +239,10 @@ def _drawn_crossing(part: nx.Graph, as_bodies: bool) -> _Part:
     places = places / np.median(np.linalg.norm(places[ends[:, 0]] - places[ends[:, 1]], axis=1))
     at = dict(zip(nodes, places, strict=True))
     outlines = {link: _round(row, at) for link, row in skeleton.outlines.items()}
-    return _Part(nodes, places @ _lying(places), Skeleton(skeleton.around, outlines, None), [], False)
+    return _Part(nodes, places @ _lying(places), embedding.Skeleton(skeleton.around, outlines, None), [], False)
 
 
-def _round(row: Sequence[Node], at: Mapping[Node, Floats]) -> tuple[Node, ...]:
+def _round(row: Sequence[embedding.Node], at: Mapping[embedding.Node, Floats]) -> tuple[embedding.Node, ...]:
     """Return the corners of a body in their order round their middle."""
     if len(row) < 4:
         return tuple(row)
@@ -290,7 +278,7 @@ def _side_by_side(parts: Sequence[_Part], joints: Joints) -> Layout:
 
 def _name(part: _Part, shift: Floats, joints: Joints, layout: Layout) -> None:
     """Enter the places of a part in a layout."""
-    at: dict[Node, Place] = {}
+    at: dict[embedding.Node, Place] = {}
     for node, place in zip(part.nodes, (part.places + shift).tolist(), strict=True):
         at[node] = (place[0], place[1])
     for link, row in part.skeleton.outlines.items():
@@ -317,7 +305,9 @@ def _middle(places: Sequence[Place]) -> Place:
     return sum(x for x, _ in places) / len(places), sum(y for _, y in places) / len(places)
 
 
-def _joints_of_face(row: Sequence[Node], joints: Joints, skeleton: Skeleton) -> tuple[JointId, ...]:
+def _joints_of_face(
+    row: Sequence[embedding.Node], joints: Joints, skeleton: embedding.Skeleton
+) -> tuple[JointId, ...]:
     """Return the joints round a face, from the nodes round it."""
     if skeleton.outlines:
         return tuple(node[1] for node in row if node[0] == "joint")

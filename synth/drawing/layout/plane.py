@@ -10,7 +10,7 @@ Source: W. T. Tutte, How to draw a graph, Proc. London Math. Soc. 13 (1963).
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 from shapely import LinearRing
@@ -36,58 +36,39 @@ _LARGE = 250
 """Number of nodes above which the barycentric places are kept."""
 
 
-@dataclass(frozen=True, slots=True)
 class PlaneGraph:
-    """A plane graph in numbers, with hubs in its inner faces.
+    """A biconnected plane graph in numbers, with hubs in its inner faces.
 
-    `nodes` has the `own` nodes of the graph first, then a hub for each inner face of more than three corners;
-    `hub_of` is that of each inner face. `edges`, int64[m, 2], leave out hubs; `spokes`, int64[s, 2], go from
-    corners to hubs. `triangles`, int64[t, 3], and the outer face, int64[k], are counter-clockwise.
+    It is made from the neighbours of each node, counter-clockwise, and one of the faces as `faces_of` has it, to
+    be outside: clockwise then. `nodes` has the `own` nodes of the graph first, then a hub for each inner face of
+    more than three corners; `hub_of` is that of each inner face. `edges`, int64[m, 2], leave out hubs; `spokes`,
+    int64[s, 2], go from corners to hubs. `triangles`, int64[t, 3], and the outer face, int64[k], are
+    counter-clockwise.
     """
 
-    nodes: list[Node]
-    own: int
-    edges: Ints
-    spokes: Ints
-    triangles: Ints
-    outer: Ints
-    faces: list[tuple[int, ...]]
-    hub_of: list[int | None]
-
-
-def plane_graph(around: Mapping[Node, Sequence[Node]], outer: Sequence[Node]) -> PlaneGraph:
-    """Return a biconnected plane graph with hubs, from the neighbours of each node, counter-clockwise.
-
-    `outer` is one of the faces, as `faces_of` returns it: clockwise if it is drawn outside.
-    """
-    number = {node: i for i, node in enumerate(around)}
-    faces = [tuple(number[node] for node in face) for face in faces_of(around)]
-    outside = tuple(number[node] for node in outer)
-    faces.remove(outside)
-    edges = [(number[a], number[b]) for a, row in around.items() for b in row if number[a] < number[b]]
-    nodes: list[Node] = list(around)
-    spokes, triangles = [], []
-    hub_of: list[int | None] = []
-    for face in faces:
-        if len(face) == 3:
-            triangles.append(face)
-            hub_of.append(None)
-            continue
-        hub = len(nodes)
-        nodes.append(("hub", hub))
-        hub_of.append(hub)
-        spokes += [(corner, hub) for corner in face]
-        triangles += [(a, b, hub) for a, b in zip(face, (*face[1:], face[0]), strict=True)]
-    return PlaneGraph(
-        nodes,
-        len(number),
-        np.array(edges, np.int64).reshape(-1, 2),
-        np.array(spokes, np.int64).reshape(-1, 2),
-        np.array(triangles, np.int64).reshape(-1, 3),
-        np.array(outside[::-1], np.int64),
-        faces,
-        hub_of,
-    )
+    def __init__(self, around: Mapping[Node, Sequence[Node]], outer: Sequence[Node]) -> None:
+        number = {node: i for i, node in enumerate(around)}
+        self.nodes: list[Node] = list(around)
+        self.own = len(number)
+        self.faces = [tuple(number[node] for node in face) for face in faces_of(around)]
+        outside = tuple(number[node] for node in outer)
+        self.faces.remove(outside)
+        edges = [(number[a], number[b]) for a, row in around.items() for b in row if number[a] < number[b]]
+        spokes, triangles = [], []
+        self.hub_of: list[int | None] = []
+        for face in self.faces:
+            hub = None if len(face) == 3 else len(self.nodes)
+            self.hub_of.append(hub)
+            if hub is None:
+                triangles.append(face)
+            else:
+                self.nodes.append(("hub", hub))
+                spokes += [(corner, hub) for corner in face]
+                triangles += [(a, b, hub) for a, b in zip(face, (*face[1:], face[0]), strict=True)]
+        self.edges: Ints = np.array(edges, np.int64).reshape(-1, 2)
+        self.spokes: Ints = np.array(spokes, np.int64).reshape(-1, 2)
+        self.triangles: Ints = np.array(triangles, np.int64).reshape(-1, 3)
+        self.outer: Ints = np.array(outside[::-1], np.int64)
 
 
 def barycentric(graph: PlaneGraph, mirror: Mapping[Node, Node] | None = None) -> Floats:
@@ -96,7 +77,10 @@ def barycentric(graph: PlaneGraph, mirror: Mapping[Node, Node] | None = None) ->
     `mirror` is a symmetry that reverses the graph and its outer face; its mirror line is upright.
     """
     corners = len(graph.outer)
-    start = _start(graph, mirror)
+    start = 0.0  # the index in the outer face of the node on top, on the mirror line; it may lie between two
+    if mirror is not None:
+        row = [graph.nodes[i] for i in graph.outer.tolist()]
+        start = row.index(mirror[row[0]]) / 2
     angles = np.pi / 2 + 2 * np.pi * (np.arange(corners) - start) / corners
     places = np.zeros((len(graph.nodes), 2))
     places[graph.outer] = np.column_stack([np.cos(angles), np.sin(angles)])
@@ -114,14 +98,6 @@ def barycentric(graph: PlaneGraph, mirror: Mapping[Node, Node] | None = None) ->
     return places
 
 
-def _start(graph: PlaneGraph, mirror: Mapping[Node, Node] | None) -> float:
-    """Return the index in the outer face of the node on top, on the mirror line; it may lie between two."""
-    if mirror is None:
-        return 0.0
-    row = [graph.nodes[i] for i in graph.outer.tolist()]
-    return row.index(mirror[row[0]]) / 2
-
-
 def _balanced(pairs: Ints, weights: Floats, places: Floats, inner: Ints, outer: Ints) -> Floats:
     """Return the places of the inner nodes where each is the weighted mean of its neighbours."""
     size = len(places)
@@ -133,42 +109,25 @@ def _balanced(pairs: Ints, weights: Floats, places: Floats, inner: Ints, outer: 
     return np.asarray(np.linalg.solve(laplacian[np.ix_(inner, inner)], pulled), dtype=np.float64)
 
 
-@dataclass(frozen=True, slots=True)
-class LayoutSprings:
-    """Pairs of nodes, int64[s, 2], their lengths at rest, and stiffnesses, float[s]."""
-
-    pairs: Ints
-    lengths: Floats
-    stiffness: Floats
-
-
-def springs_of(edges: Sequence[tuple[int, int]], bodies: Sequence[Sequence[int]]) -> LayoutSprings:
-    """Return springs of edges, of length 1, and of bodies, at rest as regular polygons of sides 1."""
-    pairs, lengths, stiffness = [*edges], [1.0] * len(edges), [1.0] * len(edges)
-    for body in bodies:
-        size = len(body)
-        for i in range(size):
-            for k in range(i + 1, size):
-                pairs.append((body[i], body[k]))
-                lengths.append(float(np.sin(np.pi * (k - i) / size) / np.sin(np.pi / size)))
-                stiffness.append(2.0)
-    return LayoutSprings(np.array(pairs, np.int64).reshape(-1, 2), np.array(lengths), np.array(stiffness))
-
-
 def pulled(
-    graph: PlaneGraph, places: Floats, springs: LayoutSprings, mirror: Mapping[Node, Node] | None = None
+    graph: PlaneGraph,
+    places: Floats,
+    sides: Sequence[tuple[int, int]],
+    bodies: Sequence[Sequence[int]],
+    mirror: Mapping[Node, Node] | None = None,
 ) -> Floats:
     """Return places, float[n, 2] in side lengths, after the nodes moved under forces.
 
-    The drawing must have no crossings; its faces stay the same, without crossings. `mirror` is the symmetry of
-    which its places are mirror images, upright: that is kept to the last digit, where rounding alone would let
-    parts under pressure bend to one side.
+    Springs make sides 1 long, and bodies, by the nodes round them, regular with such sides. The drawing must have
+    no crossings; its faces stay the same, without crossings. `mirror` is the symmetry of which its places are
+    mirror images, upright: that is kept to the last digit, where rounding alone would let parts under pressure
+    bend to one side.
     """
     size = np.linalg.norm(places[graph.edges[:, 0]] - places[graph.edges[:, 1]], axis=1).mean()
     here: Floats = places / size
     if len(here) > _LARGE:
         return here
-    forces = _Forces(graph, springs)
+    forces = _Forces(graph, sides, bodies)
     image = None if mirror is None else _images(graph, mirror)
     whole = here  # the last drawing whose outer face was found not to cross itself
     for number in range(_STEPS):
@@ -207,10 +166,18 @@ def _images(graph: PlaneGraph, mirror: Mapping[Node, Node]) -> Ints:
 class _Forces:
     """Forces on the nodes of a graph; sums over nodes are products with matrices made once."""
 
-    def __init__(self, graph: PlaneGraph, springs: LayoutSprings) -> None:
+    def __init__(
+        self, graph: PlaneGraph, sides: Sequence[tuple[int, int]], bodies: Sequence[Sequence[int]]
+    ) -> None:
         size = len(graph.nodes)
-        self._graph, self._springs, self._own = graph, springs, graph.own
-        self._spans = _differences(springs.pairs, size)
+        self._graph, self._own = graph, graph.own
+        springs = [(side, 1.0, 1.0) for side in sides]
+        for body in bodies:
+            for i, k in combinations(range(len(body)), 2):
+                length = float(np.sin(np.pi * (k - i) / len(body)) / np.sin(np.pi / len(body)))
+                springs.append(((body[i], body[k]), length, 2.0))
+        pairs, self._lengths, self._stiffness = (np.array(part) for part in zip(*springs, strict=True))
+        self._spans = np.eye(size)[pairs[:, 1]] - np.eye(size)[pairs[:, 0]]
         ends = graph.edges
         nodes = np.arange(graph.own)[:, None]
         self._beside = (nodes != ends[:, 0]) & (nodes != ends[:, 1])
@@ -226,7 +193,7 @@ class _Forces:
         """Return the force on each node: float[n, 2]."""
         apart = self._spans @ here
         length = np.maximum(np.sqrt((apart**2).sum(axis=1)), 1e-9)
-        pull = _SPRING * self._springs.stiffness * (1 - self._springs.lengths / length)
+        pull = _SPRING * self._stiffness * (1 - self._lengths / length)
         force: Floats = -self._spans.T @ (pull[:, None] * apart)
         own = here[: self._own]
         between = own[:, None, :] - own[None, :, :]
@@ -263,15 +230,6 @@ class _Forces:
         push = np.minimum(_OPEN * np.maximum(1 / height - 1 / _LOW, 0.0), 1.0) / length
         inward = np.stack([-opposite[:, :, 1], opposite[:, :, 0]], axis=2) * push[:, :, None]
         np.add.at(force, triangles, inward - np.roll(inward, 1, axis=1) / 2 - np.roll(inward, 2, axis=1) / 2)
-
-
-def _differences(pairs: Ints, size: int) -> Floats:
-    """Return the matrix that takes places to the vectors from the first of each pair to the second."""
-    matrix = np.zeros((len(pairs), size))
-    rows = np.arange(len(pairs))
-    matrix[rows, pairs[:, 1]] = 1
-    matrix[rows, pairs[:, 0]] = -1
-    return matrix
 
 
 def _free_way(triangles: Ints, here: Floats) -> Floats:

@@ -18,7 +18,7 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import SurfaceLinkage
 from graphs.types import JointId, LinkId
 from synth.drawing.layout.mechanisms import Layout, layout_of
-from synth.drawing.mechanisms.labelling import Obstacles, beside, joint_dot, placed
+from synth.drawing.mechanisms.labelling import beside, joint_dot, placed
 from synth.drawing.scene.frame import PLAIN, PictureFrame, PictureOptions, captions_of, framed, page_of
 from synth.drawing.scene.shapes import NORMAL, SMALL, Disc, Label, Layer, Line, Point, Polygon, Shape
 from synth.drawing.scene.writing import Scene
@@ -117,7 +117,6 @@ def _edges(row: list[Point], off: float) -> list[tuple[Point, Point]]:
 def _labels(outlines: dict[LinkId, list[Point]], joints: dict[JointId, Point], look: ChainLook) -> list[Label]:
     """Return the numbers of links, bold, in bodies or beside bars, and those of joints beside them."""
     lines = [edge for row in outlines.values() for edge in _edges(row, _width(row, look) / 2)]
-    obstacles = Obstacles([(x, y, look.dot + 0.8) for x, y in joints.values()], lines)
     wishes: list[tuple[Label, list[Point]]] = []
     if look.link_numbers:
         for link, row in sorted(outlines.items(), key=lambda item: -len(item[1])):
@@ -129,7 +128,7 @@ def _labels(outlines: dict[LinkId, list[Point]], joints: dict[JointId, Point], l
         for joint, at in joints.items():
             label = Label((0, 0), str(joint), 0.85 * look.size, "grey", widest=8, data=(("joint", str(joint)),))
             wishes.append((label, beside(at, look.dot + 0.75 * look.size)))
-    return placed(wishes, obstacles)
+    return placed(wishes, [(x, y, look.dot + 0.8) for x, y in joints.values()], lines)
 
 
 def _for_body(row: list[Point], look: ChainLook) -> list[Point]:
@@ -191,12 +190,12 @@ def order_scene(order: OrderOnCircle, options: PictureOptions = PLAIN) -> Scene:
     if options.numbers:
         turns = [2 * pi * i / 48 for i in range(49)]
         circle = [(middle[0] + radius * cos(turn), middle[1] + radius * sin(turn)) for turn in turns]
-        obstacles = Obstacles([(*at, dot + 0.8) for at in places], [*chords, *pairwise(circle)])
         wishes = []
         for at, azimuth, name in zip(places, order.azimuths, order.names, strict=True):
             label = Label((0, 0), name, size, widest=4, data=(("joint", name),))
             wishes.append((label, beside(at, dot + 0.9 * size, first=-pi / 2 - azimuth)))
-        layers.append(Layer("labels", tuple(placed(wishes, obstacles))))
+        labels = placed(wishes, [(*at, dot + 0.8) for at in places], [*chords, *pairwise(circle)])
+        layers.append(Layer("labels", tuple(labels)))
     planar = bool(order.chain.loops) and all(loop.centre is Centre.INFINITE for loop in order.chain.loops)
     where = "cylinder, seen along its axis" if planar else "cone, seen from the apex"
     said = f"{numbered(len(order.names), 'joint')} round a {where}; links are chords between joints"

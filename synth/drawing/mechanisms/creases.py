@@ -24,7 +24,7 @@ from graphs.mechanism.precision import flat_places
 from graphs.mechanism.sheet import Reading, RepairKind, Sheet, with_all_edges
 from graphs.tolerances import DOUBLE
 from graphs.types import JointId, LinkId
-from synth.drawing.mechanisms.labelling import SIGN, Obstacles, beside, centre_sign, placed
+from synth.drawing.mechanisms.labelling import SIGN, beside, centre_sign, placed
 from synth.drawing.mechanisms.sc_graphs import class_numbers
 from synth.drawing.scene.frame import BOX, PLAIN, Box, PictureFrame, PictureOptions, captions_of, framed, page_of
 from synth.drawing.scene.shapes import (
@@ -177,9 +177,7 @@ def _framed(whole: Sheet, box: Box, beyond: Sequence[tuple[float, ...]] = ()) ->
 
 def _panels(drawn: DrawnPattern) -> list[Shape]:
     link_of = {face: link for link, faces in enumerate(drawn.mechanism.panels) for face in faces}
-    cluster_of: dict[LinkId, int] = {}
-    for number, links in enumerate(drawn.motions.clusters):
-        cluster_of.update(dict.fromkeys(links, number))
+    cluster_of = {link: number for number, links in enumerate(drawn.motions.clusters) for link in links}
     shapes: list[Shape] = []
     for number, face in enumerate(drawn.sheet.faces):
         if number in link_of:
@@ -290,10 +288,10 @@ def _labels(drawn: DrawnPattern, graph: bool) -> list[Label]:
         middle = drawn.middle(edge)
         wishes.append((label, [middle, *beside(middle, 0.8 * size, 8)] if not graph else beside(middle, size, 8)))
     if len(wishes) > _MANY:
-        return placed([(label, places[:3]) for label, places in wishes], Obstacles([], []))
+        return placed([(label, places[:3]) for label, places in wishes])
     points = [(*place, 1.5) for place in drawn.places]
     lines = [(drawn.places[a], drawn.places[b]) for a, b in drawn.sheet.edges] if not graph else []
-    return placed(wishes, Obstacles(points, lines))
+    return placed(wishes, points, lines)
 
 
 def _fitting(drawn: DrawnPattern, length: float) -> float:

@@ -1,12 +1,12 @@
 """Labels placed beside what they name and on nothing else; signs of the thesis for centres and joints."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import cos, hypot, pi, sin
 from typing import TypeAlias
 
 from graphs.loops.loop import Centre
-from synth.drawing.scene.shapes import FINE, NORMAL, Disc, Label, Line, Point, Shape
+from synth.drawing.scene.shapes import FINE, NORMAL, Disc, Label, Line, Point, Shape, part_in_box
 
 SIGN = 4.2
 """Radius of the sign of a centre, points."""
@@ -16,14 +16,6 @@ _AIR = 0.6
 _SQUARE = 16.0
 _Box: TypeAlias = tuple[float, float, float, float]
 """Left, top, right, bottom."""
-
-
-@dataclass(slots=True)
-class Obstacles:
-    """Points, each (x, y, radius), and lines that labels should not cover."""
-
-    points: list[tuple[float, float, float]]
-    lines: list[tuple[Point, Point]]
 
 
 def beside(at: Point, distance: float, directions: int = 12, first: float = -pi / 2) -> list[Point]:
@@ -36,13 +28,18 @@ def beside(at: Point, distance: float, directions: int = 12, first: float = -pi 
     return places
 
 
-def placed(wishes: Iterable[tuple[Label, Sequence[Point]]], obstacles: Obstacles) -> list[Label]:
+def placed(
+    wishes: Iterable[tuple[Label, Sequence[Point]]],
+    points: Sequence[tuple[float, float, float]] = (),
+    lines: Sequence[tuple[Point, Point]] = (),
+) -> list[Label]:
     """Return labels at the best of the places offered to each: on no label, and on as little else as can be.
 
-    Places are in order of preference. A label for which every place lies on another label is left out.
+    Places are in order of preference. A label for which every place lies on another label is left out. Points,
+    each (x, y, radius), and lines should not be covered.
     """
     labels: list[Label] = []
-    boxes = _Boxes()
+    boxes: dict[tuple[int, int], list[_Box]] = {}  # by the squares of a grid that they reach into
     for label, places in wishes:
         x, y = label.at
         left, top, right, bottom = label.box
@@ -53,33 +50,20 @@ def placed(wishes: Iterable[tuple[Label, Sequence[Point]]], obstacles: Obstacles
                 break
             across, down = place[0] - x, place[1] - y
             box = (left + across, top + down, right + across, bottom + down)
-            if not boxes.leave_free(box):
+            if any(_overlap(box, other) for square in _squares_of(box) for other in boxes.get(square, ())):
                 continue
-            cost += _cost(box, obstacles)
+            cost += _cost(box, points, lines)
             if cost < least:
                 best, least = (place, box), cost
         if best is not None:
             labels.append(replace(label, at=best[0]))
-            boxes.add(best[1])
+            for square in _squares_of(best[1]):
+                boxes.setdefault(square, []).append(best[1])
     return labels
 
 
-class _Boxes:
-    """Boxes of labels, found by the squares of a grid that they reach into."""
-
-    def __init__(self) -> None:
-        self._squares: dict[tuple[int, int], list[_Box]] = {}
-
-    def leave_free(self, box: _Box) -> bool:
-        return not any(
-            box[0] < other[2] and other[0] < box[2] and box[1] < other[3] and other[1] < box[3]
-            for square in _squares_of(box)
-            for other in self._squares.get(square, ())
-        )
-
-    def add(self, box: _Box) -> None:
-        for square in _squares_of(box):
-            self._squares.setdefault(square, []).append(box)
+def _overlap(box: _Box, other: _Box) -> bool:
+    return box[0] < other[2] and other[0] < box[2] and box[1] < other[3] and other[1] < box[3]
 
 
 def _squares_of(box: _Box) -> list[tuple[int, int]]:
@@ -87,33 +71,19 @@ def _squares_of(box: _Box) -> list[tuple[int, int]]:
     return [(x, y) for x in range(left, right + 1) for y in range(top, bottom + 1)]
 
 
-def _cost(box: _Box, obstacles: Obstacles) -> float:
+def _cost(box: _Box, points: Sequence[tuple[float, float, float]], lines: Sequence[tuple[Point, Point]]) -> float:
     """Return a penalty for the points and lines that a label would cover."""
     left, top, right, bottom = box[0] - _AIR, box[1] - _AIR, box[2] + _AIR, box[3] + _AIR
     cost = 0.0
-    for x, y, radius in obstacles.points:
+    for x, y, radius in points:
         off = hypot(x - min(max(x, left), right), y - min(max(y, top), bottom))
         if off < radius:
             cost += _WEIGHT_OF_POINT
-    for a, b in obstacles.lines:
-        if _meets(a, b, left, top, right, bottom):
+    for a, b in lines:
+        first, last = part_in_box(a, b, (left, top, right, bottom))
+        if first <= last:
             cost += 4.0
     return cost
-
-
-def _meets(a: Point, b: Point, left: float, top: float, right: float, bottom: float) -> bool:
-    """Whether a straight piece has a point in a box: whether any of it is left after clipping at each side."""
-    start, stop = 0.0, 1.0
-    for p, step, low, high in ((a[0], b[0] - a[0], left, right), (a[1], b[1] - a[1], top, bottom)):
-        if abs(step) < 1e-12:
-            if not low <= p <= high:
-                return False
-            continue
-        enters, leaves = sorted(((low - p) / step, (high - p) / step))
-        start, stop = max(start, enters), min(stop, leaves)
-        if start > stop:
-            return False
-    return True
 
 
 def centre_sign(at: Point, centre: Centre, colour: str, size: float = SIGN) -> list[Shape]:

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import networkx as nx
 
 from enumerate.strings.panel_strings import ChainString
-from graphs.convert.table import graph_of, to_polyhedron, to_sc, to_solids
+from graphs.convert.table import graph_of, kind_in_words, to_polyhedron, to_sc, to_solids
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.joints.linkage import JointedLinkage
@@ -98,7 +98,7 @@ def draw(
         raise InvariantError("kind", f"unknown kind {shown(kind)}", ", ".join(KINDS))
     if kind != "pattern" and (colour != "letters" or (branch is not None and kind != "marks") or graph):
         raise UnsolvableError(
-            f"colourings, branches and the SC graph over it require a picture of the kind pattern, not {kind}"
+            f"colourings, branches and the SC graph over it require a picture of kind pattern, not {kind}"
         )
     options = PictureOptions(colour, branch, numbers, graph, box, caption)
     return strip_scene(drawable, options) if isinstance(drawable, ChainString) else KINDS[kind](drawable, options)
@@ -129,7 +129,7 @@ def _suiting(drawable: object) -> str:
 
 
 def _unfit(kind: str, expected: str, drawable: object) -> UnsolvableError:
-    return UnsolvableError(f"a picture of the kind {kind} requires {expected}, got {repr(drawable).strip('<>')}")
+    return UnsolvableError(f"a picture of kind {kind} requires {expected}, got: {kind_in_words(drawable)}")
 
 
 def _sheet(drawable: object, kind: str) -> Sheet | SheetConfiguration:

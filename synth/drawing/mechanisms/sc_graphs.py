@@ -22,7 +22,7 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.reduce.ride_alongs import Reduction, reduce
 from graphs.types import JointId, LinkId
 from synth.drawing.layout.mechanisms import Layout, layout_of
-from synth.drawing.mechanisms.labelling import SIGN, Obstacles, beside, centre_sign, placed
+from synth.drawing.mechanisms.labelling import SIGN, beside, centre_sign, placed
 from synth.drawing.scene.frame import PLAIN, PictureFrame, PictureOptions, captions_of, framed, page_of
 from synth.drawing.scene.shapes import (
     NORMAL,
@@ -167,7 +167,7 @@ def _labels(
         middle = row[1] if len(row) == 3 else ((row[0][0] + row[1][0]) / 2, (row[0][1] + row[1][1]) / 2)
         label = Label((0, 0), str(joint), 0.8 * SMALL, "grey", widest=8, data=(("joint", str(joint)),))
         wishes.append((label, beside(middle, 4.5)))
-    return placed(wishes, Obstacles(discs, lines))
+    return placed(wishes, discs, lines)
 
 
 def _stubs(

@@ -16,11 +16,11 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.types import Floats, LinkId
 from synth.drawing.layout.mechanisms import layout_of
-from synth.drawing.mechanisms.labelling import Obstacles, beside, placed
-from synth.drawing.scene.frame import PLAIN, Box, PictureFrame, PictureOptions, captions_of, framed, page_of
+from synth.drawing.mechanisms.labelling import beside, placed
+from synth.drawing.scene.frame import PLAIN, PictureOptions, captions_of, framed, page_of
 from synth.drawing.scene.shapes import NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Point, Shape
 from synth.drawing.scene.writing import Scene
-from synth.drawing.space.panels import SpatialPanels, View, bodies_of, panel_shapes, panels_of, view_from_above
+from synth.drawing.space.panels import SpatialPanels, bodies_of, panel_shapes, panels_of, view_from_above
 from synth.folding.configuration import SheetConfiguration
 from synth.moving.made import configuration_of
 
@@ -37,14 +37,10 @@ def folded_scene(sheet: Sheet | SheetConfiguration, options: PictureOptions = PL
     coordinates = (sheet.drawn if isinstance(sheet, SheetConfiguration) else sheet).coordinates
     if coordinates is None:
         raise UnsolvableError("a picture in space requires a sheet with coordinates; try `synth realise`")
-    points, panels = in_space(coordinates), panels_of(sheet)
-    frame, view, page = _seen_from_above(points, options.box)
-    shapes, visible = panel_shapes(panels, points, view, page)
-    labels = _numbers(visible, panels.link_of) if options.numbers and len(visible) <= _MANY else []
-    counts = (len(set(panels.link_of.values())), "link"), (len(set(panels.joint_of.values())), "joint")
-    said = ", ".join(numbered(number, word) for number, word in counts) + "; in space, seen from above"
-    layers = [Layer("panels", tuple(shapes)), Layer("labels", tuple(labels))]
-    return page_of(frame, layers, captions_of(options.caption, said))
+    panels = panels_of(sheet)
+    links, joints = (len(set(names.values())) for names in (panels.link_of, panels.joint_of))
+    said = f"{numbered(links, 'link')}, {numbered(joints, 'joint')}; in space, seen from above"
+    return _spatial_scene(panels, in_space(coordinates), options, said)
 
 
 def solids_scene(solids: HingedSolids, options: PictureOptions = PLAIN) -> Scene:
@@ -54,24 +50,24 @@ def solids_scene(solids: HingedSolids, options: PictureOptions = PLAIN) -> Scene
     the axes of a loop do not meet in its centre.
     """
     panels, points = bodies_of(configuration_of(solids).linkage)
-    frame, view, page = _seen_from_above(points, options.box)
-    shapes, visible = panel_shapes(panels, points, view, page)
-    labels = _numbers(visible, panels.link_of) if options.numbers else []
-    if options.numbers:
-        labels += _numbers_of_hinges(panels, page, visible, labels)
-    counts = (len(solids.chain), "link"), (len(solids.chain.joints), "joint")
-    said = ", ".join(numbered(number, word) for number, word in counts) + "; in space, hinges orange"
-    layers = [Layer("solids", tuple(shapes)), Layer("labels", tuple(labels))]
-    return page_of(frame, layers, captions_of(options.caption, said))
+    links, joints = numbered(len(solids.chain), "link"), numbered(len(solids.chain.joints), "joint")
+    return _spatial_scene(panels, points, options, f"{links}, {joints}; in space, hinges orange")
 
 
-def _seen_from_above(points: Floats, box: Box) -> tuple[PictureFrame, View, list[Point]]:
-    """Return the frame of points in space seen from above, the view, and their places on the page."""
+def _spatial_scene(panels: SpatialPanels, points: Floats, options: PictureOptions, said: str) -> Scene:
+    """Return a picture of panels, or of the faces of solids, with corners at points, seen from above."""
     view = view_from_above(points)
     seen = view.places(points)
     extent = float(np.ptp(seen, axis=0).max()) or 1.0
-    frame = framed(seen.tolist(), min(box) / extent, box)
-    return frame, view, frame.row(seen.tolist())
+    frame = framed(seen.tolist(), min(options.box) / extent, options.box)
+    page = frame.row(seen.tolist())
+    shapes, visible = panel_shapes(panels, points, view, page)
+    labels: list[Label] = []
+    if options.numbers and (panels.solid or len(visible) <= _MANY):
+        labels = _numbers(visible, panels.link_of)
+        labels += _numbers_of_hinges(panels, page, visible, labels) if panels.solid else []
+    layers = [Layer("solids" if panels.solid else "panels", tuple(shapes)), Layer("labels", tuple(labels))]
+    return page_of(frame, layers, captions_of(options.caption, said))
 
 
 def _numbers_of_hinges(
@@ -87,7 +83,7 @@ def _numbers_of_hinges(
             label = Label((0, 0), str(joint), 0.85 * SMALL, "class1", widest=8, data=(("joint", str(joint)),))
             wishes.append((label, beside(middle, 0.8 * SMALL)))
             lines.append(((ax, ay), (bx, by)))
-    return placed(wishes, Obstacles([], lines))[len(others) :]
+    return placed(wishes, (), lines)[len(others) :]
 
 
 def _is_seen(
@@ -121,7 +117,7 @@ def _numbers(visible: Mapping[int, list[Point]], link_of: Mapping[int, LinkId]) 
         point = free.centroid if free.contains(free.centroid) else free.representative_point()
         label = Label((0, 0), str(link), SMALL, bold=True, halo=False, widest=8, data=(("link", str(link)),))
         wishes.append((label, [(point.x, point.y), *beside((point.x, point.y), 4)]))
-    return placed(wishes, Obstacles([], []))
+    return placed(wishes)
 
 
 def model_scene(model: PolyhedronModel, options: PictureOptions = PLAIN) -> Scene:
@@ -151,7 +147,7 @@ def model_scene(model: PolyhedronModel, options: PictureOptions = PLAIN) -> Scen
     dots = [Disc(page[v], 2.6, "ground" if v in ground else "paper", "ink") for v in vertices]
     lines = [(page[a], page[b]) for a, b in pairs]
     wishes = [(Label((0, 0), str(v), SMALL, widest=10), beside(page[v], 8)) for v in vertices]
-    labels = placed(wishes, Obstacles([(*page[v], 3.4) for v in vertices], lines if len(lines) < 200 else []))
+    labels = placed(wishes, [(*page[v], 3.4) for v in vertices], lines if len(lines) < 200 else ())
     layers = [Layer("rods", tuple(rods)), Layer("vertices", tuple(dots)), Layer("labels", tuple(labels))]
     return page_of(frame, layers, captions_of(options.caption, *_terms(model)))
 

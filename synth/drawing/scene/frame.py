@@ -93,7 +93,7 @@ def captions_of(caption: str | None, *said: str) -> list[str]:
     return [] if caption is None else [text for text in (caption, *said) if text]
 
 
-def page_of(frame: PictureFrame, layers: Iterable[Layer], captions: Sequence[str] = (), title: str = "") -> Scene:
+def page_of(frame: PictureFrame, layers: Iterable[Layer], captions: Sequence[str] = ()) -> Scene:
     """Return a scene as large as its frame, with lines of text below; long ones are broken."""
     lines = [line for text in captions for line in wrap(plain(text, _LONGEST), _LETTERS)]
     wide = max([frame.width, *(text_width(line, SMALL) + 8 for line in lines)])
@@ -104,7 +104,7 @@ def page_of(frame: PictureFrame, layers: Iterable[Layer], captions: Sequence[str
         below.append(Label(place, line, SMALL, "grey", "start", halo=False, widest=_LETTERS))
     centred = [moved(layer, shift, 0.0) for layer in layers] if shift else list(layers)
     high = frame.height + len(lines) * _LINE
-    return Scene(wide, high, (*centred, Layer("caption", tuple(below))), title or ", ".join(captions))
+    return Scene(wide, high, (*centred, Layer("caption", tuple(below))), ", ".join(captions))
 
 
 @dataclass(frozen=True, slots=True)

@@ -177,6 +177,24 @@ def arc_points(centre: Point, radius: float, start: float, stop: float) -> list[
     return [(centre[0] + radius * cos(a), centre[1] + radius * sin(a)) for a in angles]
 
 
+def part_in_box(start: Point, end: Point, box: tuple[float, float, float, float]) -> tuple[float, float]:
+    """Return the part of a straight piece in a box: where it begins and ends, from 0 to 1; none if it ends before.
+
+    The box has its two low edges before the high ones. The method is that of Liang and Barsky.
+    """
+    first, last = 0.0, 1.0
+    for axis in (0, 1):
+        way = end[axis] - start[axis]
+        low, high = box[axis] - start[axis], box[axis + 2] - start[axis]
+        if way == 0:
+            if low > 0 or high < 0:
+                return 1.0, 0.0
+            continue
+        enter, leave = sorted((low / way, high / way))
+        first, last = max(first, enter), min(last, leave)
+    return first, last
+
+
 def moved(layer: Layer, right: float, down: float) -> Layer:
     """Return a layer at another place on the page."""
     return put(layer, lambda place: (place[0] + right, place[1] + down))

@@ -388,13 +388,7 @@ class _PdfPainter:
     def disc(self, shape: Disc) -> None:
         self._pens(shape.colour, shape.width, shape.fill)
         x, y = shape.centre
-        self._canvas.circle(
-            x,
-            self._height - y,
-            shape.radius,
-            stroke=int(shape.colour is not None),
-            fill=int(shape.fill is not None),
-        )
+        self._canvas.circle(x, self._height - y, shape.radius, **_used(shape.colour, shape.fill))
 
     def label(self, shape: Label) -> None:
         self._canvas.setFont(_font_of(shape), shape.size)
@@ -413,7 +407,7 @@ class _PdfPainter:
             (path.lineTo if number else path.moveTo)(x, self._height - y)
         if closed:
             path.close()
-        self._canvas.drawPath(path, stroke=int(shape.colour is not None), fill=int(inside is not None))
+        self._canvas.drawPath(path, **_used(shape.colour, inside))
 
     def _pens(self, colour: str | None, width: float, inside: str | None, opacity: float = 1.0) -> None:
         if colour is not None:
@@ -422,6 +416,10 @@ class _PdfPainter:
         if inside is not None:
             # with the colour: reportlab makes each colour opaque that comes without
             self._canvas.setFillColor(colour_of(inside, self._paper), alpha=opacity)
+
+
+def _used(colour: str | None, inside: str | None) -> dict[str, int]:
+    return {"stroke": int(colour is not None), "fill": int(inside is not None)}
 
 
 def _font_of(label: Label) -> str:

@@ -155,9 +155,9 @@ class SpatialPanels:
 
 def sheet_and_mechanism(sheet: Sheet | SheetConfiguration) -> tuple[Sheet, SheetMechanism]:
     """Return a sheet as it was read, and its mechanism, which a configuration holds."""
-    return (
-        (sheet.drawn, sheet.dual) if isinstance(sheet, SheetConfiguration) else (sheet, mechanism_of_sheet(sheet))
-    )
+    if isinstance(sheet, SheetConfiguration):
+        return sheet.drawn, sheet.dual
+    return sheet, mechanism_of_sheet(sheet)
 
 
 def panels_of(sheet: Sheet | SheetConfiguration) -> SpatialPanels:
@@ -291,14 +291,11 @@ def hinge_ends(linkage: PosedLinkage) -> Floats:
         sorted({other for link in ends for other in hinges_of[link]} - {hinge})
         for hinge, ends in enumerate(linkage.graph.joints.values())
     ]
-    middles = np.array(
-        [
-            np.mean([_foot(linkage, hinge, other) for other in others], axis=0)
-            if others
-            else linkage.points[hinge]
-            for hinge, others in enumerate(neighbours)
-        ]
-    ).reshape(-1, 3)
+    feet = [
+        [_foot(linkage, hinge, other) for other in others] or [linkage.points[hinge]]
+        for hinge, others in enumerate(neighbours)
+    ]
+    middles = np.array([np.mean(each, axis=0) for each in feet]).reshape(-1, 3)
     apart = [
         float(np.linalg.norm(middles[i] - middles[j]))
         for i, others in enumerate(neighbours)

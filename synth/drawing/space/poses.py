@@ -55,18 +55,14 @@ def pose_scenes(
     view = view_of_motion(places[0])
     if isinstance(panels, Sheet):
         panels = front_up(panels_of(panels), places[0], view)
-    frame = _square(view.places(places).reshape(-1, 2), side, air)
-    for points in places:
-        shapes, _ = panel_shapes(panels, points, view, frame.row(view.places(points).tolist()))
-        yield page_of(frame, [Layer("panels", tuple(shapes))])
-
-
-def _square(seen: Floats, side: float, air: float) -> PictureFrame:
-    """Return the frame of a square with all points of the view in its middle."""
+    seen = view.places(places).reshape(-1, 2)
     low, high = seen.min(axis=0), seen.max(axis=0)
     middle, half = (low + high) / 2.0, float((high - low).max() / 2.0) or 1.0
     corners = [(middle - half).tolist(), (middle + half).tolist()]
-    return framed(corners, (side - 2 * air) / (2 * half), (2 * side, 2 * side), air)
+    frame = framed(corners, (side - 2 * air) / (2 * half), (2 * side, 2 * side), air)
+    for points in places:
+        shapes, _ = panel_shapes(panels, points, view, frame.row(view.places(points).tolist()))
+        yield page_of(frame, [Layer("panels", tuple(shapes))])
 
 
 def strip_of_poses(panels: Sheet | SpatialPanels, places: Floats) -> Scene:

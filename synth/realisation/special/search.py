@@ -279,11 +279,8 @@ def search_special(mechanism: Mechanism, wishes: SpecialWishes) -> SpecialSearch
     range, `UnsolvableError` if no family has the name in `wishes`, or the type has no loop.
     """
     check_argument("realise", mechanism, Mechanism)
-    graph: SCGraph
-    if isinstance(mechanism, SCGraph | HingedSolids):
-        graph = mechanism if isinstance(mechanism, SCGraph) else to_sc(mechanism)
-    else:
-        graph = to_scd(mechanism)
+    converted = to_sc if isinstance(mechanism, HingedSolids) else to_scd
+    graph = mechanism if isinstance(mechanism, SCGraph) else converted(mechanism)
     if wishes.freedoms < 1:
         raise InvariantError("freedoms", f"{wishes.freedoms} freedoms", "1 or more")
     check_search(wishes.seed, wishes.tries)
@@ -293,8 +290,9 @@ def search_special(mechanism: Mechanism, wishes: SpecialWishes) -> SpecialSearch
         raise UnsolvableError(f"the type has {graph.components} parts; expected a connected type")
     general = exact_mobility(graph).mobility
     if general >= wishes.freedoms:
-        what = f"a generic realisation of the type has {general} already"
-        raise InvariantError("freedoms", what, f"more than {general}, or no number of freedoms")
+        freedoms = numbered(general, "degree of freedom", "degrees of freedom")
+        what = f"a generic realisation of the type already has {freedoms}"
+        raise InvariantError("freedoms", what, f"more than {general}")
     equations = sum(6 if loop.centre is Centre.NONE else 3 for loop in independent_cycles(graph))
     proof = _rigid_loop(graph) if wishes.all_joints else None
     trials: list[FamilyTrial] = []

@@ -15,6 +15,7 @@ from math import isfinite
 
 import uvicorn
 from starlette.applications import Starlette
+from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, PlainTextResponse, Response, StreamingResponse
 from starlette.routing import Route
@@ -151,18 +152,14 @@ def application(place: Place, text: str, presence: Presence, sources: Sequence[b
         return HTMLResponse(text, headers=_HEADERS)
 
     async def shown(request: Request) -> Response:
-        content, words, error = await _file_and_edits(request)
-        if error is not None:
-            return error
+        content, words = await _file_and_edits(request)
         if request.query_params.get("motion") == "yes":
             words.append(MOTION)
         lines = engine.lines("show", words, content)
         return StreamingResponse(lines, media_type="application/x-ndjson", headers=_HEADERS)
 
     async def template(request: Request) -> Response:
-        content, words, error = await _file_and_edits(request)
-        if error is not None:
-            return error
+        content, words = await _file_and_edits(request)
         kind, size = request.query_params.get("kind", ""), _size(request.query_params.get("size", ""))
         if kind not in KINDS or size is None:
             return _error(
@@ -200,18 +197,18 @@ def application(place: Place, text: str, presence: Presence, sources: Sequence[b
     return Guard(app, place)
 
 
-async def _file_and_edits(request: Request) -> tuple[bytes, list[str], Response | None]:
-    """Return the content of a file, a safe name followed by edits, and an error, if any."""
+async def _file_and_edits(request: Request) -> tuple[bytes, list[str]]:
+    """Return the content of a file, and a safe name followed by edits; HTTPException if they are too large."""
     pieces, size = [], 0
     async for chunk in request.stream():
         pieces.append(chunk)
         size += len(chunk)
         if size > MOST_BYTES:
-            return b"", [], _error("the file is larger than its stated length", 413)
+            raise HTTPException(413, "the file is larger than its stated length", _HEADERS)
     edits = request.query_params.getlist("edit")
     if not are_edits(edits):
-        return b"", [], _error("expected edits such as lock:3 or crease:0~12", 400)
-    return b"".join(pieces), [file_name(request.query_params.get("name", "")), *edits], None
+        raise HTTPException(400, "expected edits such as lock:3 or crease:0~12", _HEADERS)
+    return b"".join(pieces), [file_name(request.query_params.get("name", "")), *edits]
 
 
 def _size(text: str) -> float | None:

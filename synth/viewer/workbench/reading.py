@@ -16,7 +16,7 @@ a vertex, or ``x,y`` or ``x,y,z``. Theory: docs/theory/viewer.md, docs/theory/ed
 import json
 import re
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import chdir
 from dataclasses import replace
 from io import BytesIO
@@ -108,12 +108,11 @@ def answered(
     called before each step.
     """
     report("reading", 0, 4)
-    return _or_error(
-        name,
-        lambda: {
-            "shown": shown_of(_mechanism(name, content, edits), name, motion=motion, report=report).to_json()
-        },
-    )
+    try:
+        mechanism = _mechanism(name, content, edits)
+        return {"shown": shown_of(mechanism, name, motion=motion, report=report).to_json()}
+    except SynthedraError as error:
+        return _refusal(name, error)
 
 
 def printed(name: str, content: bytes, size: float, kind: str, edits: Sequence[str] = ()) -> tuple[str, bytes]:
@@ -154,16 +153,11 @@ def _mechanism(name: str, content: bytes, edits: Sequence[str]) -> Mechanism:
         return edited(read(name), edits)
 
 
-def _or_error(name: str, answer: Callable[[], dict[str, Any]]) -> dict[str, Any]:
-    """Return an answer, or ``error``: why the file was refused, in one line that names it."""
-    try:
-        return answer()
-    except FileError as error:
-        return {"error": str(error)}
-    except InvariantError as error:
-        return {"error": str(FileError(name, "", error.offender, error.expected))}
-    except SynthedraError as error:
-        return {"error": str(FileError(name, "", str(error)))}
+def _refusal(name: str, error: SynthedraError) -> dict[str, Any]:
+    """Return ``error``: why the file was refused, in one line that names it."""
+    if isinstance(error, InvariantError):
+        error = FileError(name, "", error.offender, error.expected)
+    return {"error": str(error if isinstance(error, FileError) else FileError(name, "", str(error)))}
 
 
 def _show(name: str, *words: str) -> None:
@@ -181,23 +175,18 @@ def _show(name: str, *words: str) -> None:
 
 def _print_template(name: str, size: str, kind: str, *edits: str) -> None:
     """Write the template of the file on standard input."""
-    template = b""
-
-    def answer() -> dict[str, str]:
-        nonlocal template
-        _, template = printed(name, sys.stdin.buffer.read(), float(size), kind, edits)
-        return {}
-
-    error = _or_error(name, answer)
-    sys.stdout.buffer.write(json.dumps(error).encode() if error else template)
+    try:
+        _, output = printed(name, sys.stdin.buffer.read(), float(size), kind, edits)
+        status = 0
+    except SynthedraError as error:
+        output, status = json.dumps(_refusal(name, error)).encode(), REFUSED
+    sys.stdout.buffer.write(output)
     sys.stdout.buffer.flush()
-    raise SystemExit(REFUSED if error else 0)
+    raise SystemExit(status)
 
 
 if __name__ == "__main__":
     if sys.argv[1] == "show":
         _show(*sys.argv[2:])
-    elif sys.argv[1] == "template":
-        _print_template(*sys.argv[2:])
     else:
-        raise SystemExit(1)
+        _print_template(*sys.argv[2:])

@@ -8,6 +8,7 @@ import networkx as nx
 import numpy as np
 import pytest
 from conical_rows import canonical_row
+from sizes import slow
 
 from enumerate.chains.jobs import chains
 from enumerate.chains.names import chain_named
@@ -103,14 +104,14 @@ def orbits_by_brute_force(graph, rounds, ground=None):
 @pytest.mark.parametrize(
     ("name", "rounds"),
     [
-        ("four-bar", Rounds.orders(4)),
-        ("four-bar", Rounds.opposites(4)),
-        ("four-bar", Rounds.on_slots(4, 7)),
-        ("four-bar", Rounds.on_slots(4, 8)),
-        ("five-bar", Rounds.orders(5)),
-        ("five-bar", Rounds.opposites(5)),
-        ("watt", Rounds.orders(7)),
-        ("stephenson", Rounds.orders(7)),
+        ("four-bar", Rounds(4, 4, 4)),
+        ("four-bar", Rounds(4, 2 * 4, 4)),
+        ("four-bar", Rounds(4, 7, 7)),
+        ("four-bar", Rounds(4, 8, 8)),
+        ("five-bar", Rounds(5, 5, 5)),
+        ("five-bar", Rounds(5, 2 * 5, 5)),
+        ("watt", Rounds(7, 7, 7)),
+        ("stephenson", Rounds(7, 7, 7)),
     ],
 )
 def test_orbits_by_brute_force(name, rounds):
@@ -137,10 +138,10 @@ def test_orbits_by_brute_force(name, rounds):
             assert images.count(tuple(row.tolist())) == one
 
 
-@pytest.mark.parametrize("name", ["watt", "stephenson"])
+@pytest.mark.parametrize("name", [slow("watt"), "stephenson"])
 def test_portions_hold_every_placement_once(name):
     graph = chain_from_id(chain_named(name))
-    for rounds in (Rounds.orders(7), Rounds.opposites(7), Rounds.on_slots(7, 9)):
+    for rounds in (Rounds(7, 7, 7), Rounds(7, 2 * 7, 7), Rounds(7, 9, 9)):
         symmetries = joint_symmetries(joints_of(graph))
         whole = placements(rounds, symmetries)[0].tolist()
         for most in (1, 30, 1000):
@@ -216,9 +217,10 @@ def layers_by_brute_force(options):
     return best
 
 
-def test_layers(rng):
+@pytest.mark.parametrize("number", [15, slow(60)])
+def test_layers(number, rng):
     for links, choices in ((4, 2), (5, 1), (4, 3), (5, 2)):
-        options = rng.integers(1, 2**6, (60, links, choices))
-        options[..., 1:] *= rng.integers(0, 2, (60, links, choices - 1))
+        options = rng.integers(1, 2**6, (number, links, choices))
+        options[..., 1:] *= rng.integers(0, 2, (number, links, choices - 1))
         assert fewest_layers(options).tolist() == [layers_by_brute_force(one.tolist()) for one in options]
     assert fewest_layers(np.zeros((0, 4, 1), np.int64)).tolist() == []

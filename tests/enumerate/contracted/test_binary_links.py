@@ -3,6 +3,7 @@ from itertools import combinations, product
 import networkx as nx
 import numpy as np
 import pytest
+from sizes import slow
 
 from enumerate.chains.counting import count_by_burnside, count_by_orbits, count_of_graph
 from enumerate.contracted.binary_links import PlacementRange, frame_of, list_placements, no_prefix, orbits_of_all
@@ -31,7 +32,7 @@ def can_all_move(graph):
 
 
 @pytest.mark.parametrize(
-    ("loops", "dof"), [(2, 1), (2, 2), (2, 4), (3, 1), (3, 2), pytest.param(3, 3, marks=pytest.mark.slow)]
+    ("loops", "dof"), [(2, 1), (2, 2), (2, 4), (3, 1), slow(3, 2), pytest.param(3, 3, marks=pytest.mark.slow)]
 )
 def test_against_all_placements(loops, dof):
     """Every way to place the links, the chains built and looked at one by one, and told apart by bliss."""

@@ -15,4 +15,4 @@ def test_a_remainder_is_a_fault():
 
 def test_symmetries_that_are_no_group_are_a_fault():
     with pytest.raises(ArithmeticError, match="no group"):
-        count_rounds_by_burnside(Rounds.orders(4), np.array([[0, 1, 2, 3], [0, 1, 3, 2], [0, 1, 3, 2]]))
+        count_rounds_by_burnside(Rounds(4, 4, 4), np.array([[0, 1, 2, 3], [0, 1, 3, 2], [0, 1, 3, 2]]))

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from sizes import slow
 from toy_job import Squares
 
 from enumerate.runner.running import run
@@ -75,7 +76,7 @@ def aborted(sent):
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="needs signals that stop a process")
-@pytest.mark.parametrize("name", ["killed", "aborted"])
+@pytest.mark.parametrize("name", ["killed", slow("aborted")])
 def test_half_an_answer_is_not_waited_for(tmp_path, name):
     program = f"import sys, pathlib, test_half_answers as t; t.{name}(pathlib.Path(sys.argv[1]))"
     places = [Path(__file__).parent, Path(__file__).parents[2] / "support", Path(__file__).parents[3]]

@@ -3,6 +3,7 @@
 import multiprocessing
 
 import pytest
+from sizes import slow
 from toy_job import Squares
 
 from enumerate.addenda import addenda
@@ -37,10 +38,10 @@ def test_workers_end_with_the_generator():
 @pytest.mark.parametrize(
     "listing",
     [
-        lambda **options: chain_rows(12, 1, symmetry=(8, None), **options),
+        slow(lambda **options: chain_rows(12, 1, symmetry=(8, None), **options)),
         lambda **options: sc_rows(11, 2, symmetry=(4, None), **options),
         lambda **options: scd_rows(8, 1, 3, **options),
-        lambda **options: conical_orders(ConicalQuery(EIGHT_BAR), **options),
+        slow(lambda **options: conical_orders(ConicalQuery(EIGHT_BAR), **options)),
     ],
 )
 def test_listings_are_the_same_with_workers(listing):

@@ -2,6 +2,7 @@ import gc
 from dataclasses import dataclass
 
 import pytest
+from sizes import slow
 
 from enumerate.runner.job import Counting, Unit
 from enumerate.runner.running import run
@@ -34,7 +35,7 @@ def numbers(taken=lambda: None, **options):
     return [number for (number,) in found]
 
 
-@pytest.mark.parametrize("workers", [1, 2])
+@pytest.mark.parametrize("workers", [1, slow(2)])
 def test_collections_do_not_look_through_what_was_there_before_the_rows(workers):
     here = []
     assert min(numbers(lambda: here.append(gc.get_freeze_count()), workers=workers)) > 1000

@@ -7,6 +7,7 @@ import sqlite3
 import numpy as np
 import pytest
 from commands import run as command_line
+from sizes import slow
 from toy_job import Squares
 
 from enumerate.chains.jobs import ChainJob
@@ -146,7 +147,7 @@ def damaged(data, chance):
     return bytes(data)
 
 
-@pytest.mark.parametrize("cases", [40, pytest.param(400, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("cases", [20, slow(400)])
 def test_damage_anywhere_is_mended_or_told_in_one_line(tmp_path, stores, cases):
     chance = random.Random(18)
     good = 0

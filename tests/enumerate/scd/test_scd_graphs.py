@@ -1,6 +1,7 @@
 import pytest
 from rigidity import chains_by_geng
 from scd_oracle import code, scd_codes
+from sizes import slow
 
 from enumerate.runner.job import row_as_dict
 from enumerate.runner.running import run
@@ -54,7 +55,7 @@ def test_counts(links, dof, most, count, method):
 @pytest.mark.parametrize(
     ("links", "dof", "most", "options"),
     [(4, 1, 7, {}), (6, 1, 6, {}), (8, 1, 5, {}), (9, 2, 4, {}), (10, 1, 4, {}), (6, 5, 5, {}), pytest.param(8, 7, 4, {}, marks=pytest.mark.slow), (10, 9, 3, {}),
-     (8, 1, 5, {"sheets": True}), (9, 1, 4, {"spatial": 1}), (6, 1, 5, {"infinite": True})],
+     (8, 1, 5, {"sheets": True}), slow(9, 1, 4, {"spatial": 1}), (9, 1, 3, {"spatial": 1}), (6, 1, 5, {"infinite": True})],
     ids=str,
 )  # fmt: skip
 def test_both_methods_agree(links, dof, most, options):
@@ -64,7 +65,7 @@ def test_both_methods_agree(links, dof, most, options):
 
 @pytest.mark.parametrize(
     ("links", "dof", "most"),
-    [(4, 1, 3), (4, 1, 4), pytest.param(4, 1, 5, marks=pytest.mark.slow), (5, 2, 4), (6, 1, 3), (7, 2, 3), (8, 1, 3),
+    [(4, 1, 3), (4, 1, 4), slow(4, 1, 5), slow(5, 2, 4), (6, 1, 3), (7, 2, 3), slow(8, 1, 3),
      pytest.param(6, 1, 4, marks=pytest.mark.slow), pytest.param(7, 2, 4, marks=pytest.mark.slow),
      pytest.param(9, 2, 3, marks=pytest.mark.slow), pytest.param(10, 1, 3, marks=pytest.mark.slow)],
 )  # fmt: skip
@@ -117,14 +118,14 @@ def check(row, scd, tmp_path=None):
     ("links", "dof", "most", "every", "options"),
     [
         (4, 1, 4, 1, {}),
-        (4, 1, 6, 5, {}),
+        slow(4, 1, 6, 5, {}),
         (6, 1, 4, 1, {}),
-        (6, 1, 5, 10, {}),
+        slow(6, 1, 5, 10, {}),
         pytest.param(6, 1, 6, 100, {}, marks=pytest.mark.slow),
         (8, 1, 3, 1, {}),
-        (8, 1, 4, 4, {}),
+        slow(8, 1, 4, 4, {}),
         (10, 1, 3, 1, {}),
-        (10, 1, 4, 150, {}),
+        slow(10, 1, 4, 150, {}),
         (7, 2, 4, 3, {}),
         (10, 3, 4, 240, {}),
         pytest.param(10, 3, 4, 60, {}, marks=pytest.mark.slow),

@@ -1,10 +1,12 @@
 import pytest
 from hypothesis import given, strategies as st
+from read_strings import string_of_chain
 
-from enumerate.strings.panel_strings import ChainString, chain_sc, chain_scd, string_of_chain, strings
+from enumerate.strings.panel_strings import ChainString, chain_scd, strings
 from graphs.convert.panels import scd_from_panels
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, UnsolvableError
+from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 
 
@@ -22,7 +24,8 @@ def test_a_chain_is_read_back_with_its_mode(chain_and_mode, n, m):
     assert string_of_chain(scd) == (chain, mode)
     report = mobility_report(scd)
     assert report.mobility == report.equations["polyhedron"].value == chain.creases
-    assert scd.sc_graph().is_identical(chain_sc(chain))
+    creases = [(i, i + 1) for i in range(chain.creases)]
+    assert scd.sc_graph().is_identical(SCGraph(chain.creases + 1, creases))
 
 
 @given(chains_with_modes())

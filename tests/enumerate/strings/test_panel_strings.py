@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
+from sizes import slow
 
 from enumerate.strings.panel_strings import ChainString, count_strings, joint_chain, strings
 from graphs.errors import InvariantError
@@ -94,7 +95,7 @@ def test_listing_and_generating_function_agree(limits):
             assert cluster is None or max(chain.clusters) <= cluster
 
 
-@pytest.mark.parametrize("most", [24, pytest.param(30, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("most", [21, slow(30)])
 def test_listing_and_generating_function_agree_to_thirty(most):
     for panels, cluster in ((2, 3), (2, None), (5, None), (9, 3), (None, 1)):
         for n in range(15, most + 1):

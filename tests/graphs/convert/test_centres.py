@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from sizes import slow
 
 import synth
 from graphs.convert.cycles import axes_meet
@@ -26,7 +27,7 @@ def pop_up(turn=0.0, decimals=None):
     return trace_sheet(Lines(ends, "".join(letter for *_, letter in lines)))
 
 
-@pytest.mark.parametrize(("turn", "decimals"), [(0.0, None), (0.3, None), (0.3, 4), (1.1, 2)])
+@pytest.mark.parametrize(("turn", "decimals"), [(0.0, None), slow(0.3, None), (0.3, 4), slow(1.1, 2)])
 def test_a_pop_up_is_a_planar_four_bar(turn, decimals):
     answer = synth.mobility(pop_up(turn, decimals))
     assert (answer.links, answer.joints, answer.mobility, answer.exact.mobility) == (4, 4, 1, 1)

@@ -6,6 +6,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from sizes import slow
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.count.report import mobility_report
@@ -74,9 +75,11 @@ def figures(path: Path) -> tuple[dict[str, int], int]:
     return found, report.counts["parts"]
 
 
-def test_counts_equal_the_reference_or_it_is_said_why(fold_folder):
+@pytest.mark.parametrize("most", [15_000, slow(10**9)])
+def test_counts_equal_the_reference_or_it_is_said_why(most, fold_folder):
+    chosen = [row for row in rows(fold_folder) if (fold_folder / row["name"]).stat().st_size < most]
     equal = 0
-    for row in rows(fold_folder):
+    for row in chosen:
         name = row["name"]
         if name in REFUSED:
             with pytest.raises((FileError, InvariantError), match=REFUSED[name]):
@@ -99,7 +102,8 @@ def test_counts_equal_the_reference_or_it_is_said_why(fold_folder):
         else:
             assert found == expected, name
             equal += 1
-    assert equal == len(rows(fold_folder)) - len(REFUSED) - len(SPLIT_LINES) - len(COLLINEAR)
+    explained = REFUSED.keys() | SPLIT_LINES.keys() | COLLINEAR.keys()
+    assert equal == sum(row["name"] not in explained for row in chosen) > 30
 
 
 GEOMETRY = {
@@ -112,8 +116,11 @@ GEOMETRY = {
 }
 
 
-def test_what_geometry_says_of_loops_round_holes_and_cuts(fold_folder):
+@pytest.mark.parametrize("most", [25_000, slow(10**9)])
+def test_what_geometry_says_of_loops_round_holes_and_cuts(most, fold_folder):
     for row in rows(fold_folder):
+        if (fold_folder / row["name"]).stat().st_size >= most:
+            continue
         if row["name"] in REFUSED or not (int(row["extra_loops"]) or row["name"] in GEOMETRY):
             continue
         sc = mechanism_of_sheet(sheet_of(fold_folder / row["name"])).sc

@@ -2,6 +2,7 @@ import random
 
 import pytest
 from hypothesis import given
+from sizes import slow
 from strategies import randoms, sc_graphs, scd_graphs
 
 from graphs.convert.panels import scd_from_panels
@@ -98,11 +99,12 @@ def test_edits_of_scd_graphs_are_predicted(scd, rng):
         confirmed(edit)
 
 
-def test_random_scd_graphs_allow_every_edit():
+@pytest.mark.parametrize("number", [60, slow(300)])
+def test_random_scd_graphs_allow_every_edit(number):
     from strategies import random_scd
 
     done = set()
-    for seed in range(300):
+    for seed in range(number):
         rng = random.Random(seed)
         for make in some_edits(random_scd(rng), rng):
             try:

@@ -118,7 +118,7 @@ def mutated(doc, rng: random.Random):
     return doc
 
 
-@settings(max_examples=400)
+@settings(max_examples=4 * settings.default.max_examples)
 @given(randoms)
 def test_reader_and_schema_refuse_alike(rng):
     """What the schema refuses the reader refuses; what only the reader refuses breaks an invariant."""

@@ -129,7 +129,7 @@ def mutated(document, rng: random.Random):
     return document
 
 
-@settings(max_examples=400)
+@settings(max_examples=4 * settings.default.max_examples)
 @given(randoms)
 def test_reader_and_schema_refuse_alike(rng):
     """What the schema refuses the reader refuses; what only the reader refuses is no rotation."""

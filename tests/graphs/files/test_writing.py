@@ -27,7 +27,7 @@ REMOTE = "m1:a-b-.a-c-.b-d-.c-d-"
 def test_a_remote_centre_is_no_vertex_of_a_pattern(tmp_path):
     remote = mechanism_of_id(REMOTE)
     with pytest.raises(
-        UnsolvableError, match=r"M = 1 spherical becomes M = -2 spatial, for it cannot hold 1 implicit"
+        UnsolvableError, match=r"M = 1 spherical becomes M = -2 spatial; it cannot hold 1 implicit"
     ):
         write(remote, tmp_path / "a.fold")
     assert not list(tmp_path.iterdir())

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import networkx as nx
 import pytest
+from sizes import slow
 
 import graphs.identity.chains as chains
 from graphs.convert.table import to_sc
@@ -58,7 +59,7 @@ def random_graphs(number, chance):
         yield strings
 
 
-@pytest.mark.parametrize(("number", "seed"), [(80, 1), pytest.param(1000, 2, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(("number", "seed"), [(25, 1), slow(1000, 2)])
 def test_random_graphs_get_the_numbers_of_bliss(number, seed):
     chance = random.Random(seed)
     for graph in random_graphs(number, chance):

@@ -7,6 +7,7 @@ from time import process_time
 import numpy as np
 import pytest
 from scipy.spatial import Delaunay
+from sizes import slow
 
 from graphs.mechanism.estimate import estimate_of
 from graphs.mechanism.precision import BY_DIGITS, extent_of, precision_as_written, precision_of_sheet, stated
@@ -108,8 +109,9 @@ def random_map(number):
     return Sheet(len(points), (), "", tuple(faces), tuple(map(tuple, points.tolist())))
 
 
-def test_of_sheets_in_general_position_nothing_is_estimated():
-    for number in range(60):
+@pytest.mark.parametrize("cases", [15, slow(60)])
+def test_of_sheets_in_general_position_nothing_is_estimated(cases):
+    for number in range(cases):
         sheet = random_map(number)
         assert estimate_of(sheet) is None
         assert precision_of_sheet(sheet).evidence == BY_DIGITS

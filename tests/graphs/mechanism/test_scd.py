@@ -4,6 +4,7 @@ from collections import Counter
 
 import pytest
 from hypothesis import given
+from sizes import slow
 from strategies import random_scd, randoms, scd_graphs
 
 from graphs.count.equations import loop_form, polyhedron_equation
@@ -125,13 +126,14 @@ def test_each_rule_is_checked(rule):
         make()
 
 
-def test_random_drawings_meet_most_rules():
+@pytest.mark.parametrize("number", [200, slow(600)])
+def test_random_drawings_meet_most_rules(number):
     """The generator of the property tests reaches valid graphs and is refused for many reasons."""
     import random
 
     refused: Counter[str] = Counter()
     kinds = Counter(
-        mobility_report(random_scd(random.Random(seed), refused=refused)).mechanism_class for seed in range(600)
+        mobility_report(random_scd(random.Random(seed), refused=refused)).mechanism_class for seed in range(number)
     )
     assert {"spatial", "spherical", "spherical system", "hybrid"} <= set(kinds)
     assert {"S1", "S2", "implicit centre", "spatial face", "outer face", "joint ends", "link corners"} <= set(

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from oracle import numeric_mobility
 from rigidity import chains_by_geng
+from sizes import slow
 from strategies import random_sc
 
 from graphs.convert.link_joint import sc_from_link_joint_graph
@@ -103,7 +104,7 @@ def test_meshes(size):
 
 @pytest.mark.parametrize(
     ("links", "dof"),
-    [(4, 1), (6, 1), (8, 1), (5, 2), (7, 2), (9, 2), (6, 3), (8, 3), pytest.param(10, 1, id="10")],
+    [(4, 1), (6, 1), (8, 1), (5, 2), (7, 2), (9, 2), (6, 3), (8, 3), slow(10, 1, id="10")],
 )
 def test_count_is_rank_on_chains_without_rigid_parts(links, dof):
     """Conjecture 2 of Wampler: one embedding of each planar chain, every joint moves."""
@@ -236,8 +237,8 @@ def test_cutting_a_joint(data, name):
     assert all(mobility_without(mechanism, joint) >= whole for joint in mechanism.joints)
 
 
-@pytest.mark.parametrize("most", [30, pytest.param(1000, marks=pytest.mark.slow)])
-def test_crease_patterns_have_an_exact_mobility(fold_folder, most):
+@pytest.mark.parametrize(("most", "least"), [(12, 25), slow(1000, 50)])
+def test_crease_patterns_have_an_exact_mobility(fold_folder, most, least):
     """Exact is at least the count, and equal where no part is overconstrained."""
     checked = 0
     with (fold_folder / "INDEX.tsv").open(encoding="utf-8") as stream:
@@ -251,7 +252,7 @@ def test_crease_patterns_have_an_exact_mobility(fold_folder, most):
             exact = exact_mobility(sc).mobility
             assert exact >= max(mobility_report(sc).mobility or 0, 0)
             checked += 1
-    assert checked > 50
+    assert checked > least
 
 
 def test_circuits_are_smallest_dependent_sets():

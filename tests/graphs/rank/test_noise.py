@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import scipy.sparse
 from noisy import SIZE, disturbed, exact_freedoms, random_sheet
+from sizes import slow
 
 import synth
 from graphs.convert.duality import mechanism_of_sheet
@@ -20,7 +21,7 @@ from graphs.rank.singular_values import spectrum
 from synth.conformed.rates import ConformedChain, first_order
 
 
-@pytest.mark.parametrize("number", [250, pytest.param(6000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("number", [80, slow(6000)])
 def test_noise_gives_no_confident_wrong_number(number):
     """Random sheets whose freedoms are known exactly, with noise of 1e-15 to 1e-3 of their size."""
     rng = np.random.default_rng(17)
@@ -46,9 +47,10 @@ def test_noise_gives_no_confident_wrong_number(number):
     assert len(certainties) == 3
 
 
-def test_without_noise_the_exact_freedoms_are_found():
+@pytest.mark.parametrize("number", [15, slow(40)])
+def test_without_noise_the_exact_freedoms_are_found(number):
     rng = np.random.default_rng(3)
-    for _ in range(40):
+    for _ in range(number):
         sheet = random_sheet(rng)
         found = pose_mobility(sheet)
         assert found.dof == exact_freedoms(sheet)
@@ -186,29 +188,33 @@ def test_large_matrices_by_parts(size, folded):
     assert parts.gap > 1e9
 
 
-def test_small_singular_values_by_parts():
+@pytest.mark.parametrize("size", [300, slow(600)])
+def test_small_singular_values_by_parts(size):
     """What is small of the whole, and not of a part, is found, with its figure."""
     rng = np.random.default_rng(4)
     small = np.array([3e-3, 1e-5, 1e-8, 1e-13])
-    diagonals = [rng.uniform(0.5, 1.0, 600), rng.uniform(-1.0, -0.5, 600)]
-    bands = scipy.sparse.diags(diagonals, [0, 3], shape=(600, 604)).toarray()
+    diagonals = [rng.uniform(0.5, 1.0, size), rng.uniform(-1.0, -0.5, size)]
+    bands = scipy.sparse.diags(diagonals, [0, 3], shape=(size, size + 4)).toarray()
     left, values, right = np.linalg.svd(bands, full_matrices=False)
     values[-4:] = small * values[0]
     matrix = scipy.sparse.csr_matrix(left @ np.diag(values) @ right)
-    found = sparse_spectrum(matrix, np.arange(600.0)[:, None], np.full(604, 1e-12), np.full(604, 1e-3))
-    assert (found.rank, found.nearly) == (599, 3)
+    found = sparse_spectrum(
+        matrix, np.arange(float(size))[:, None], np.full(size + 4, 1e-12), np.full(size + 4, 1e-3)
+    )
+    assert (found.rank, found.nearly) == (size - 1, 3)
     np.testing.assert_allclose(found.smallest, 1e-8, rtol=0.01)
     assert number_below(matrix, 1e-4 * values[0]) == 4 + 3
 
 
-def test_parts_with_noise_in_them():
+@pytest.mark.parametrize("size", [12, slow(18)])
+def test_parts_with_noise_in_them(size):
     """A large flat grid with noise of its heights: as flat as the noise is small."""
-    flat = grid(18)
+    flat = grid(size)
     rng = np.random.default_rng(7)
     truth = exact_freedoms(flat)
     for noise in (1e-13, 1e-9, 1e-5):
         places = np.array(flat.coordinates)
-        places[:, 2] += rng.normal(size=len(places)) * noise * SIZE * 18
+        places[:, 2] += rng.normal(size=len(places)) * noise * SIZE * size
         found = pose_mobility(Sheet(flat.vertices, (), "", flat.faces, tuple(map(tuple, places.tolist()))))
         if noise < 1e-6:
             assert (found.dof, found.spectrum.certainty) == (truth, "numerical")

@@ -3,6 +3,7 @@
 import random
 
 import pytest
+from sizes import slow
 
 import synth
 from graphs.count.equations import mobility_of_model
@@ -84,10 +85,11 @@ def test_rounded_coordinates_still_cross():
     assert pose_mobility_of_model(model).dof == 1
 
 
-def test_the_order_of_vertices_and_elements_does_not_matter():
+@pytest.mark.parametrize("number", [12, slow(40)])
+def test_the_order_of_vertices_and_elements_does_not_matter(number):
     rng = random.Random(1)
     ranked = 0
-    for _ in range(40):
+    for _ in range(number):
         elements = [tuple(rng.sample(range(7), 4)) for _ in range(rng.randint(2, 4))]
         vertices = sorted({v for four in elements for v in four})
         centres = rng.choice([[], SPHERICAL])
@@ -103,4 +105,4 @@ def test_the_order_of_vertices_and_elements_does_not_matter():
                 assert "make one point of vertices" in str(error)
                 found.add(None)
         assert len(found) == 1, elements
-    assert ranked > 40
+    assert ranked > number

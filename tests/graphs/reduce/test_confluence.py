@@ -6,6 +6,7 @@ from itertools import permutations
 
 import pytest
 from random_addenda import mixed_addenda, relabelled, renamed
+from sizes import slow
 
 from graphs.count.report import mobility_report
 from graphs.identity.chains import chain_id, class_code
@@ -109,8 +110,9 @@ def check(seed: int, number: int) -> None:
     assert kinds["named"] > number // 2
 
 
-def test_mixed_centres_reduce_to_one_type():
-    check(1, 200)
+@pytest.mark.parametrize("number", [60, slow(200)])
+def test_mixed_centres_reduce_to_one_type(number):
+    check(1, number)
 
 
 @pytest.mark.slow

@@ -9,6 +9,7 @@ import random
 
 import pytest
 from commands import run
+from sizes import slow
 
 from graphs.answer.mechanisms import mobility
 from graphs.files.formats import write
@@ -29,12 +30,13 @@ def on_one_pair(number: int, *, after: bool = False, centre: str = "finite", at:
     return SCGraph(2 * number + 2, joints, loops)
 
 
-def test_ten_thousand_on_one_pair():
-    sc = on_one_pair(10_000)
+@pytest.mark.parametrize("number", [1_000, slow(10_000)])
+def test_thousands_on_one_pair(number):
+    sc = on_one_pair(number)
     answer = mobility(sc)
-    assert (answer.mobility, answer.centres, answer.joints) == (1, 10_000, 30_001)
+    assert (answer.mobility, answer.centres, answer.joints) == (1, number, 3 * number + 1)
     reduction = reduce(sc)
-    assert (len(reduction.graph), len(reduction.steps)) == (4, 9_999)
+    assert (len(reduction.graph), len(reduction.steps)) == (4, number - 1)
 
 
 @pytest.mark.parametrize("options", [{}, {"at": "O"}, {"centre": "infinite"}], ids=str)

@@ -5,6 +5,7 @@ from math import radians
 
 import numpy as np
 import pytest
+from sizes import slow
 
 from graphs.creasing.edits import crease_sheet
 from graphs.errors import InvariantError, UnsolvableError
@@ -28,7 +29,9 @@ def creased(sheet, diagonals):
     return sheet
 
 
-@pytest.mark.parametrize("sheet", [folded_miura(3), generate("box-pop-up").mechanism], ids=["miura", "pop-up"])
+@pytest.mark.parametrize(
+    "sheet", [folded_miura(3), slow(generate("box-pop-up").mechanism)], ids=["miura", "pop-up"]
+)
 def test_columns_say_what_the_creased_sheet_does(sheet):
     """Rates by columns on the self-stresses, and by the closure equations of the sheet with the creases."""
     pose = general_pose(configuration_of(sheet))

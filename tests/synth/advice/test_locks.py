@@ -5,6 +5,7 @@ from itertools import combinations
 import networkx as nx
 import numpy as np
 import pytest
+from sizes import slow
 
 from graphs.creasing.edits import lock_crease
 from graphs.errors import InvariantError, UnsolvableError
@@ -58,7 +59,7 @@ def tried(columns, freedoms, allowed):
     return set()
 
 
-@pytest.mark.parametrize(("seed", "loops", "joints"), [(1, 2, 9), (3, 3, 12)])
+@pytest.mark.parametrize(("seed", "loops", "joints"), [(1, 2, 9), slow(3, 3, 12)])
 def test_sets_are_the_smallest_and_all_of_them(seed, loops, joints):
     solids, columns = random_mechanism(seed, loops, joints)
     has = freedoms_without(columns, ())

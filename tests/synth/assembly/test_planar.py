@@ -139,7 +139,7 @@ def test_slider_cranks_by_a_quadratic_equation():
     check_slider_cranks(3)
 
 
-@pytest.mark.parametrize(("graph", "driver", "number"), [(WATT, 0, 4), (STEPHENSON, 5, 6)])
+@pytest.mark.parametrize(("graph", "driver", "number"), [(WATT, 0, 4), pytest.param(STEPHENSON, 5, 6, marks=slow)])
 def test_six_bars_by_newtons_method(graph, driver, number):
     check_six_bars(graph, driver, number, 1, 10)
 
@@ -191,6 +191,7 @@ SEVEN_BAR = SCGraph(7, {
 """Two four-bars whose couplers share a point P."""
 
 
+@slow
 def test_roberts_seven_bar_moves_and_has_six_rigid_assemblies():
     """Two cognates trace one curve: of the 18 meeting points of coupler curves 6 are left, at its double points."""
     o1, a, b, o2, p = complex(0, 0), complex(0.4, 1.0), complex(1.9, 1.3), complex(2.3, 0.1), complex(1.0, 2.2)

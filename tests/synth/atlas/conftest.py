@@ -16,3 +16,11 @@ def small_atlas(tmp_path_factory: pytest.TempPathFactory) -> Atlas:
     place: Path = tmp_path_factory.mktemp("atlas") / "small.sqlite"
     build_atlas(place, AtlasPlan(6, realised=False))
     return open_atlas(place)
+
+
+@pytest.fixture(scope="session")
+def real_atlas(tmp_path_factory: pytest.TempPathFactory) -> Atlas:
+    """Return an atlas of types of up to four links, realised."""
+    place: Path = tmp_path_factory.mktemp("atlas") / "real.sqlite"
+    build_atlas(place, AtlasPlan(4, creases=2, orders_of=()))
+    return open_atlas(place)

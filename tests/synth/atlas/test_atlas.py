@@ -315,10 +315,10 @@ def test_rows_of_an_atlas_are_realised_and_drawn(tmp_path: Path) -> None:
     run("draw", tmp_path / "some.jsonl", "-o", tmp_path / "some.svg")
 
 
-def test_types_with_coordinates(tmp_path: Path) -> None:
-    build_atlas(tmp_path / "real.sqlite", AtlasPlan(4, creases=0, orders_of=()))
-    atlas = open_atlas(tmp_path / "real.sqlite")
-    rows = atlas.query("kind = scd", columns=["id", "realised", "flat", "all_explicit", "fold_deg", "fold_file"])
+def test_types_with_coordinates(real_atlas: Atlas, tmp_path: Path) -> None:
+    rows = real_atlas.query(
+        "kind = scd", columns=["id", "realised", "flat", "all_explicit", "fold_deg", "fold_file"]
+    )
     assert len(rows) == 7
     for number, row in enumerate(rows):
         assert row["realised"]

@@ -14,8 +14,7 @@ from sites import write_site
 import synth.atlas.site_pages as writing
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.formats import read
-from synth.atlas.building import AtlasPlan, build_atlas
-from synth.atlas.opened import Atlas, open_atlas
+from synth.atlas.opened import Atlas
 from synth.atlas.site_pages import SEARCHED, data_script, index_page, site_of
 
 HOSTILE = "</script><script>document.title='taken'</script><img src=x onerror=alert(1)>"
@@ -30,13 +29,6 @@ def built(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         (folder / name).write_text(f"/* {name} */")
     monkeypatch.setattr(writing, "BUILT", folder)
     monkeypatch.setattr(writing, "check_built", lambda: None)
-
-
-@pytest.fixture(scope="module")
-def real_atlas(tmp_path_factory: pytest.TempPathFactory) -> Atlas:
-    place = tmp_path_factory.mktemp("site") / "real.sqlite"
-    build_atlas(place, AtlasPlan(4, creases=2, orders_of=()))
-    return open_atlas(place)
 
 
 class Links(HTMLParser):

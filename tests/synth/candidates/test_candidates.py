@@ -12,6 +12,7 @@ from commands import run
 from conical import STEPHENSON, WATT
 from conical_rows import canonical_row
 from rebuilt import Space, closing_error
+from sizes import slow
 
 from enumerate.chains.jobs import chains
 from enumerate.conical.query import Portion, count_conical_orders, links_apart
@@ -25,11 +26,10 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.geometry import angles_between
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.surfaces import Cone, Cylinder
+from graphs.mechanism.surfaces import Cone, Cylinder, joint_axes
 from synth.candidates.job import CandidateJob, Filter
 from synth.candidates.rows import four_bar_classes
 from synth.conformed.behaviours import link_arcs
-from synth.conformed.pose import joint_axes
 from synth.conformed.rates import ConformedChain, loops_of_chain
 from synth.surfaces.circuit import link_angles, link_pairs, loop_steps
 from synth.surfaces.linkages import common_surfaces
@@ -55,7 +55,7 @@ def random_candidates(rng, count):
         yield one, dict(zip(one.columns, row, strict=True))
 
 
-@pytest.mark.parametrize("count", [60, pytest.param(1000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [20, slow(1000)])
 def test_random_candidates_rebuilt_in_space(count, rng):
     """Axes on the cone, loops close, sums are multiples of 360 degrees, links go where velocities say."""
     told = 0
@@ -178,9 +178,10 @@ def test_filters_keep_what_they_say():
     assert 0 < len(kept) < len(rows)
 
 
-def test_a_stopped_run_goes_on(tmp_path):
+@pytest.mark.parametrize(("slots", "number"), [(8, 3_792), slow(9, 15_168)])
+def test_a_stopped_run_goes_on(slots, number, tmp_path):
     store = tmp_path / "watt.sqlite"
-    job = CandidateJob(WATT, (0, 1), slots=9, surface=Cone(0.3))
+    job = CandidateJob(WATT, (0, 1), slots=slots, surface=Cone(0.3))
 
     def press(progress):
         if progress.done == 3:
@@ -188,11 +189,11 @@ def test_a_stopped_run_goes_on(tmp_path):
 
     with pytest.raises(Interrupted):
         run_job(job, SqliteSink(store), report=press)
-    assert 0 < len(list(read_rows(store))) < 15_168
+    assert 0 < len(list(read_rows(store))) < number
     progress = run_job(job, SqliteSink(store, resume=True), workers=2)
     assert progress.done == progress.units > 3
     found = list(read_rows(store))
-    assert len(found) == count_conical_orders(job.query) == 15_168
+    assert len(found) == count_conical_orders(job.query) == number
     first = job.work(job.units()[0].payload)[:200]
     assert [row_as_dict(job.columns, row) for row in found[: len(first)]] == [
         row_as_dict(job.columns, row) for row in first
@@ -228,9 +229,10 @@ def check_eight_bars(job, portion):
     assert all(sum(row[k] for k in ("one_way", "both_ways", "by_angles", "not_known")) == 512 for row in found)
 
 
-def test_eight_bars_by_orders(rng):
+@pytest.mark.parametrize("cases", [1, slow(2)])
+def test_eight_bars_by_orders(cases, rng):
     job = CandidateJob(eight_bars()[0], (0,))
-    for _ in range(2):
+    for _ in range(cases):
         check_eight_bars(job, Portion(0, canonical_row(rng.permutation(10), job.query.symmetries(0), 10)))
 
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 from conical import WATT
+from sizes import slow
 
 from enumerate.runner.job import row_as_dict
 from synth.candidates.job import CandidateJob
@@ -40,13 +43,19 @@ def rows_of_units(job, most):
     return [row_as_dict(job.columns, row) for unit in job.units()[:most] for row in job.work(unit.payload)]
 
 
-@pytest.mark.parametrize(("units", "number"), [(1, 120), pytest.param(None, 360, marks=pytest.mark.slow)])
-def test_title_picture_and_row_agree_for_watt_orders(units, number):
+@cache
+def watt_rows(units):
+    """The rows of the orders of Watt's chain, listed once."""
+    return rows_of_units(CandidateJob(WATT, (WATT_BINARY,)), units)
+
+
+@pytest.mark.parametrize(("units", "number", "every"), [(1, 120, 4), slow(None, 360, 1)])
+def test_title_picture_and_row_agree_for_watt_orders(units, number, every):
     job = CandidateJob(WATT, (WATT_BINARY,))
     chain = ConformedChain.of(WATT, WATT_BINARY)
-    rows = rows_of_units(job, units)
+    rows = watt_rows(units)
     assert len(rows) == number
-    for row in rows:
+    for row in rows[::every]:
         places = job.places(row)
         drawn = check_laid(chain, places)
         assert drawn == int(layers(chain, places[np.newaxis])[0])
@@ -62,10 +71,11 @@ def test_rows_at_angles_and_with_opposites_are_drawn_in_as_many_layers_as_they_s
             assert title_of_picture(row, row["layers"]).endswith(f"layers {row['layers']}")
 
 
-def test_the_layers_of_the_picture_are_those_of_its_title():
+@pytest.mark.parametrize("every", [60, slow(16)])
+def test_the_layers_of_the_picture_are_those_of_its_title(every):
     """Arcs of links at as many radii as are told, and those at one radius apart; on the cone the same layers."""
     job = CandidateJob(WATT, (WATT_BINARY,))
-    for row in rows_of_units(job, 1)[::16]:
+    for row in watt_rows(1)[::every]:
         scene = picture_of_row(job, row)
         circle, cone = scene.layers[:2]
         arcs = {}

@@ -84,7 +84,7 @@ def test_reduce_shows_chains_and_writes_what_is_left(data, tmp_path):
     words = ("reduce", stephenson, "--rule", "assur", "--ground", 0, "--input", 0)
     out = run(*words).stdout
     assert re.search(r"group 1: links 1, joints 0, input 0\n", out)
-    assert out.count("(taken off)") == 2
+    assert out.count("(removed)") == 2
     told = json.loads(run(*words, "--json").stdout)
     assert (told["before"]["mobility"], told["after"]["mobility"], told["after"]["links"]) == (1, 1, 2)
     assert "require --rule assur" in run("reduce", stephenson, "--input", 0, code=2).stderr

@@ -97,7 +97,7 @@ def test_formulas():
     ("words", "message"),
     [
         (["--chain", "wat"], "neither a chain nor a file; expected four-bar"),
-        (["--chain", "k1:!"], "the id 'k1:!'"),
+        (["--chain", "k1:!"], "'k1:!' is not the id of a chain"),
         (["--chain", "nowhere.json"], "nowhere.json: no such file"),
         (["--chain", "watt", "--ground", "9"], "9"),
         (["--chain", "watt", "--slots", 6], "6 slots for 7 joints"),

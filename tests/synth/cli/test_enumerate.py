@@ -215,7 +215,7 @@ def test_enumerate_addenda(tmp_path, data):
         (["sc", "--links", 8, "--dof", 1, "--count", "--method", "burnside", "--centres", 2], "Burnside's lemma cannot count"),
         (["sc", "--links", 22, "--dof", 1], "9 at most"),
         (["sc", "--links", 8, "--dof", 1, "--per-chain", "--count"], "synth enumerate chains --planar"),
-        (["scd", "--max-degree", 4], "expected --links and --dof, or --of FILE"),
+        (["scd", "--max-degree", 4], "--links and --dof, or --of FILE, are required"),
         (["scd", "--max-degree", 2, "--links", 4, "--dof", 1], "2 is not in the range"),
         (["scd", "--max-degree", 4, "--of", "nowhere.json"], "nowhere.json"),
         (["scd", "--max-degree", 4, "--of", "nowhere.json", "--links", 4], "--of excludes --links"),

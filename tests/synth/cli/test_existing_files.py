@@ -143,7 +143,7 @@ def test_a_pattern_of_another_type_is_refused_unless_lossy(tmp_path):
             assert "not stored" not in run(*words).stdout
     assert kept == 6
     assert told == [
-        f"{files[0]}: a .fold file would be of another type: M = 1 spherical becomes M = -2 spatial, for it cannot "
+        f"{files[0]}: a .fold file would be read back as another type: M = 1 spherical becomes M = -2 spatial; it cannot "
         "hold 1 implicit centre; try --lossy (in Python lossy=True)"
     ]
 

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from commands import run
 from cranks import random_orientations
+from sizes import slow
 
 from synth.guidance.orientations import read_orientations, write_orientations
 
@@ -213,7 +214,7 @@ def test_without_matplotlib_a_picture_is_one_line(printed, tmp_path, monkeypatch
     assert result.stderr == "PNG requires matplotlib; try pip install 'synthedra[draw]'\n"
 
 
-@pytest.mark.parametrize("command", ["order", "dyads", "fourbar"])
+@pytest.mark.parametrize("command", ["order", "dyads", slow("fourbar")])
 def test_the_examples_of_the_help_texts_run(command, data, monkeypatch, tmp_path):
     (tmp_path / "data").symlink_to(data)
     monkeypatch.chdir(tmp_path)

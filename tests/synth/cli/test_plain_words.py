@@ -140,7 +140,7 @@ def _errors(source):
         call = node.exc if isinstance(node, ast.Raise) else node
         if not isinstance(call, ast.Call):
             continue
-        name = ast.unparse(call.func).split(".")[-1]
+        name = getattr(call.func, "attr", getattr(call.func, "id", ""))
         if name == "fail" or (isinstance(node, ast.Raise) and ERRORS.search(name)):
             options = [keyword.value for keyword in call.keywords if keyword.arg != "param_hint"]
             for argument in (*call.args, *options):

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from commands import run
 from conical import WATT
+from sizes import slow
 
 from graphs.files.formats import write
 from graphs.mechanism.surfaces import SurfaceLinkage
@@ -158,10 +159,10 @@ def test_behaviour_of_several_loops():
 
 
 @pytest.mark.parametrize("words", [
-    ["cone", "map", "--angles", "120,95,45,85"], ["cone", "map", "--angles", "120,50,120,50"],
-    ["cone", "map", "--angles", "60,70,80,50,90"], ["cone", "map", FIG_11], ["cylinder", "map", "--lengths", "4,3,5,1"],
-    ["cylinder", "map", "--lengths", "5,3,5,3"], ["cone", "behaviour", "--angles", "120,95,45,85"],
-    ["cone", "behaviour", FIG_11], ["cone", "behaviour", "--steps", "40,50,50"],
+    ["cone", "map", "--angles", "120,95,45,85"], slow(["cone", "map", "--angles", "120,50,120,50"]),
+    slow(["cone", "map", "--angles", "60,70,80,50,90"]), slow(["cone", "map", FIG_11]),
+    slow(["cylinder", "map", "--lengths", "4,3,5,1"]), ["cylinder", "map", "--lengths", "5,3,5,3"],
+    slow(["cone", "behaviour", "--angles", "120,95,45,85"]), slow(["cone", "behaviour", FIG_11]), ["cone", "behaviour", "--steps", "40,50,50"],
 ])  # fmt: skip
 def test_pictures(words, tmp_path):
     pytest.importorskip("matplotlib")
@@ -171,7 +172,8 @@ def test_pictures(words, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.png", "a.svg"]
 
 
-def test_a_loop_is_written_by_its_angles_or_on_a_cone(tmp_path):
+@pytest.mark.parametrize("whole", [False, slow(True)])
+def test_a_loop_is_written_by_its_angles_or_on_a_cone(whole, tmp_path):
     angles, by_angles = ("--angles", "120,95,45,85"), tmp_path / "angles.json"
     assert run("cone", "map", *angles, "-o", by_angles).stdout.endswith(f"\nwritten: {by_angles}\n")
     both = told("cone", "map", by_angles)["cones"]
@@ -180,7 +182,7 @@ def test_a_loop_is_written_by_its_angles_or_on_a_cone(tmp_path):
         [one["lambda_deg"] for one in both], [one["lambda_deg"] for one in named], atol=1e-9
     )
     moved = told("cone", "move", *angles)["linkages"]
-    for number, given in ((1, angles), (2, angles), (2, (by_angles,))):
+    for number, given in ((2, (by_angles,)), *(((1, angles), (2, angles)) if whole else ())):
         placed = tmp_path / "placed.json"
         run("cone", "map", *given, "--cone", number, "--force", "-o", placed)
         [cone] = told("cone", "map", placed)["cones"]
@@ -261,7 +263,7 @@ def test_usage_errors_keep_clicks_format(words):
     assert "Usage:" in run(*words, code=2).output
 
 
-@pytest.mark.parametrize("words", ["cone map", "cone behaviour", "cylinder map", "cone", "cylinder"])
+@pytest.mark.parametrize("words", [slow("cone map"), "cone behaviour", "cylinder map", "cone", slow("cylinder")])
 def test_examples_of_the_help_texts_run(words, monkeypatch, tmp_path):
     (tmp_path / "data").symlink_to(ROOT / "data")
     monkeypatch.chdir(tmp_path)

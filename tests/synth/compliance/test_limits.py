@@ -140,4 +140,7 @@ def test_the_command(tmp_path):
     assert told["truss"]["freedoms"] == 0
     out = run("limits", file).stdout
     assert "6 ride-alongs" in out
-    assert "with all of them rigid at this pose: 0 freedoms (12 links, 18 joints; rank 18, 3 redundant)" in out
+    assert (
+        "with all of them held at this configuration: 0 degrees of freedom (12 links, 18 joints; rank 18, 3 redundant)"
+        in out
+    )

@@ -130,7 +130,7 @@ def test_what_is_refused():
         synth.states(four, joints=["9"])
     with pytest.raises(InvariantError, match="hangs on one other"):
         synth.states(HingedSolids(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))}), links=[1])
-    with pytest.raises(UnsolvableError, match="needs coordinates"):
+    with pytest.raises(UnsolvableError, match="requires coordinates"):
         synth.states(synth.read("k1:Cr"), joints=[0])
 
 
@@ -148,7 +148,7 @@ def test_the_command(tmp_path):
         "states", file, "--stiffness", "1=2", "--drive", "0=40", "--frames", "4", "--mass", "1=1@1,0,0"
     ).stdout
     assert "load path of joint 0" in out
-    assert "small motions about it" in out
+    assert "small motions about the equilibrium" in out
     assert "expected one or more compliant joints or links" in run("states", file, code=2).stderr
     assert "'1=1' is not LINK=M@X,Y,Z" in run("states", file, "--stiffness", "1=2", "--mass", "1=1", code=2).stderr
     assert (

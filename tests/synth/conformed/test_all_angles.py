@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from conical import FOUR_BAR, STEPHENSON, WATT
+from sizes import slow
 
 from enumerate.chains.jobs import chains
 from enumerate.conical.query import links_apart
@@ -35,7 +36,7 @@ def measured_rates(chain, places):
     return np.stack(found, axis=-1), motion
 
 
-@pytest.mark.parametrize("every", [14, pytest.param(1, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("every", [70, slow(1)])
 def test_outward_rates_are_those_of_velocities(every, rng):
     """Every formula, of every choice of loops and path, with one common scale for all joints."""
     for sc in [*CHAINS.values(), *eight_bars()[::every]]:
@@ -81,15 +82,17 @@ def test_orders_with_opposites_are_those_that_are_enumerated(name):
     """2^(J - 1) of each cyclic order: together all placements on 2 J slots, one of each two opposite ones."""
     joints = len(CHAINS[name].joints)
     identity = np.arange(joints)[None]
-    orders = placements(Rounds.orders(joints), identity)[0]
+    orders = placements(Rounds(joints, joints, joints), identity)[0]
     found = orders_with_opposites(orders).reshape(-1, joints)
-    listed = placements(Rounds.opposites(joints), identity)[0]
+    listed = placements(Rounds(joints, 2 * joints, joints), identity)[0]
     both = np.concatenate([found, np.remainder(-found, 2 * joints)])
     assert len(found) == len(orders) * 2 ** (joints - 1) == len(listed)
     assert set(map(tuple, listed.tolist())) <= set(map(tuple, both.tolist()))
 
 
-@pytest.mark.parametrize(("sc", "unknown"), [(FOUR_BAR, 0.0), (WATT, 0.01), (STEPHENSON, 0.03)], ids=list(CHAINS))
+@pytest.mark.parametrize(
+    ("sc", "unknown"), [(FOUR_BAR, 0.0), (WATT, 0.01), slow(STEPHENSON, 0.03)], ids=list(CHAINS)
+)
 def test_what_holds_for_all_angles_holds_for_random_ones(sc, unknown, rng):
     """Against velocities at angles of their own; both examples exist where it is by angles."""
     joints = len(sc.joints)

@@ -5,20 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from conical import FOUR_BAR, STEPHENSON, WATT, random_linkages, steps_of
+from four_bar_poses import poses_from_conformed
 from second_methods import pole_axes, shadow_allows
+from sizes import slow
 
 from graphs.errors import InvariantError
 from graphs.mechanism.sc import SCGraph
-from synth.conformed.behaviours import (
-    Way,
-    behaviour,
-    icrl,
-    instant_centres,
-    link_arcs,
-    table4,
-    table_row,
-)
-from synth.conformed.pose import joint_axes, poses_from_conformed
+from graphs.mechanism.surfaces import joint_axes
+from synth.conformed.behaviours import Way, behaviour, icrl, instant_centres, link_arcs, table4, table_row
 from synth.conformed.rates import ConformedChain, first_order
 
 COUNT = 10_000
@@ -26,8 +20,9 @@ FIVE = SCGraph(5, [(i, (i + 1) % 5) for i in range(5)])
 EIGHT = SCGraph(8, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0), (5, 6), (6, 7), (7, 2)])
 
 
-def test_table_4_is_first_order_behaviour(rng):
-    places, _, _, _ = random_linkages(rng, COUNT)
+@pytest.mark.parametrize("count", [4_000, slow(COUNT)])
+def test_table_4_is_first_order_behaviour(count, rng):
+    places, _, _, _ = random_linkages(rng, count)
     found = behaviour(ConformedChain.of(FOUR_BAR), places)
     rows = [table_row(one) for one in places]
     assert [row.intramobile for row in rows] == found.one_way.tolist()

@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 from commands import run
+from sizes import slow, slow_but
 
 from graphs.errors import InvariantError
 from graphs.loops.loop import Loop
@@ -27,11 +28,11 @@ def begins(choice, chain):
     return {str(chain.links[link]): str(chain.joints[arc[0]]) for link, arc in choice.arcs.items()}
 
 
-@pytest.mark.parametrize("ground", [1, 2])
-@pytest.mark.parametrize("steps", STEPS.values(), ids=list(STEPS))
-def test_both_arcs_do_what_they_do_on_a_cylinder(steps, ground):
+@pytest.mark.parametrize("ground", [1, slow(2)])
+@pytest.mark.parametrize("name", slow_but(["crossed", "a diagonal"], STEPS))
+def test_both_arcs_do_what_they_do_on_a_cylinder(name, ground):
     """All links keep to one side in a small true motion exactly where the choice of arcs says so."""
-    given = loop_of_steps(np.radians(steps), Cylinder(2.0))
+    given = loop_of_steps(np.radians(STEPS[name]), Cylinder(2.0))
     linkage = OnSurface(given.chain, given.places, given.surface)  # a sign chooses no arc
     behaviour = linkage.behaviour(ground)
     choices = behaviour.choices()
@@ -45,10 +46,11 @@ def test_both_arcs_do_what_they_do_on_a_cylinder(steps, ground):
     assert behaviour.mobile() == (row.intramobile, row.extramobile)
 
 
-def test_table_4_is_what_one_arc_or_the_other_allows(rng):
+@pytest.mark.parametrize("number", [20, slow(60)])
+def test_table_4_is_what_one_arc_or_the_other_allows(number, rng):
     """Starred entries: four-bars with a chord that is a diameter, in all orders of their joints, each link fixed."""
     seen = set()
-    for _ in range(60):
+    for _ in range(number):
         places = np.array([0.0, np.pi, *rng.uniform(0.1, 2 * np.pi - 0.1, 2)])[rng.permutation(4)]
         steps = np.diff(places, append=places[0])
         linkage = loop_of_steps(np.remainder(steps + np.pi, 2 * np.pi) - np.pi)

@@ -8,6 +8,7 @@ import pytest
 from commands import run
 from cranks import random_orientations
 from shapely.geometry import Point, Polygon
+from sizes import slow
 
 from graphs.errors import UnsolvableError
 from synth.drawing.scene import shapes
@@ -81,7 +82,7 @@ def painted(scene, spots):
     return seen
 
 
-@pytest.mark.parametrize("seed", [61, 62])
+@pytest.mark.parametrize("seed", [61, slow(62)])
 def test_the_map_has_the_colours_of_the_verdicts(seed):
     """At random places of the sphere, but where the verdict is another a thousandth beside it."""
     given = random_orientations(4, np.random.default_rng(seed))

@@ -5,6 +5,7 @@ from math import cos, degrees, pi, radians, tan
 
 import numpy as np
 import pytest
+from sizes import slow
 
 from graphs.errors import UnsolvableError
 from synth.folding.alike import AlikeClosure, alike_classes, fold_to
@@ -64,7 +65,7 @@ def test_the_waterbomb_base_agrees_with_a_spherical_triangle(goal):
         assert degrees(line_crease(radians(diagonal), pi / 4)) == pytest.approx(line, abs=0.1)
 
 
-@pytest.mark.parametrize(("rows", "columns"), [(3, 2), (4, 5)])
+@pytest.mark.parametrize(("rows", "columns"), [(3, 2), slow(4, 5)])
 def test_yoshimuras_pattern_rolls_up_with_one_angle_for_all_mountains(rows, columns):
     sheet = generate("yoshimura", rows=rows, columns=columns, fold=radians(80)).mechanism
     angles = {letter: [] for letter in "MV"}

@@ -7,6 +7,7 @@ from itertools import combinations
 import numpy as np
 import pytest
 from scipy.optimize import linprog
+from sizes import slow
 
 import synth
 from synth.cli.main import main
@@ -97,7 +98,7 @@ def test_on_branches_of_several_freedoms_none_can_be_left_out():
         assert not set(found.opposite) & set(found.immobile)
 
 
-@pytest.mark.parametrize("name", ["miura", "square-twist", "waterbomb-base"])
+@pytest.mark.parametrize("name", ["miura", slow("square-twist"), "waterbomb-base"])
 def test_a_pattern_marked_as_a_branch_folds_as_it_is_marked(name):
     sheet = synth.generate(name).mechanism
     at = configuration_of_sheet(sheet)

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.optimize import linprog
+from sizes import slow
 
 from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.formats import read
@@ -66,7 +67,7 @@ def check(at):
     assert named or motion.path.stopped
 
 
-@pytest.mark.parametrize("name", ["miura", "waterbomb-base", "bird-base", "yoshimura", "resch"])
+@pytest.mark.parametrize("name", ["miura", "waterbomb-base", slow("bird-base"), slow("yoshimura"), "resch"])
 def test_generated_patterns_fold_as_assigned(name):
     at = configuration_of_sheet(generate(name).mechanism)
     assert reaches(at)

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from commands import run
+from sizes import slow
 
 from graphs.files.formats import write
 from graphs.mechanism.sheet import Sheet
@@ -38,9 +39,9 @@ def open_vertex(*sectors):
     ("sheet", "meet"),
     [
         (strip(1.0, 1.0, 0.8), np.pi - np.arccos(1 / 1.6)),
-        (strip(1.0, 1.0, 0.6, across=3.0), np.pi - np.arccos(1 / 1.2)),
+        slow(strip(1.0, 1.0, 0.6, across=3.0), np.pi - np.arccos(1 / 1.2)),
         (open_vertex(70, 60, 50), np.pi - np.arccos(np.tan(np.radians(30)) / np.tan(np.radians(50)))),
-        (open_vertex(80, 40, 65), np.pi - np.arccos(np.tan(np.radians(20)) / np.tan(np.radians(65)))),
+        slow(open_vertex(80, 40, 65), np.pi - np.arccos(np.tan(np.radians(20)) / np.tan(np.radians(65)))),
     ],
     ids=["strip", "wide strip", "vertex", "other vertex"],
 )

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from commands import run
 from creased import is_zigzag
+from sizes import slow
 
 import synth
 from graphs.convert.duality import mechanism_of_sheet
@@ -33,7 +34,7 @@ VERTEX = fan(np.radians([0, 60, 180, 300]), "MVVV")
     ("rows", "columns", "sector"),
     [
         (2, 2, 60),
-        (3, 4, 35),
+        slow(3, 4, 35),
         pytest.param(4, 3, 80, marks=pytest.mark.slow),
         pytest.param(10, 10, 60, marks=pytest.mark.slow),
     ],
@@ -275,7 +276,7 @@ def test_the_command_line(tmp_path, data):
     assert "'99' is no joint" in run("fold", bird, "--drive", "99=1", code=2).stderr
     assert "JOINT=DEGREES" in run("fold", bird, "--drive", "1", code=2).stderr
     assert "exclude each other" in run("fold", bird, "--drive", "1=5", "--all", code=2).stderr
-    assert "needs coordinates" in run("fold", data / "wiener" / "watt.json", code=2).stderr
+    assert "requires coordinates" in run("fold", data / "wiener" / "watt.json", code=2).stderr
 
 
 def test_all_is_what_is_done_without_drive():

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from cranks import direction, lines_apart, problem, random_orientations
 from scipy.spatial.transform import Rotation
+from sizes import slow
 
 from graphs.errors import InvariantError, UnsolvableError
 from synth.guidance.dyads import centre_axes, dyad_of, dyads_of_four, dyads_of_three
@@ -11,9 +12,10 @@ from synth.guidance.orientations import Orientations
 from synth.guidance.synthesis import dyads_by_least_squares, dyads_of_five
 
 
-def test_three_orientations_have_a_dyad_about_any_axis():
+@pytest.mark.parametrize("cases", [50, slow(200)])
+def test_three_orientations_have_a_dyad_about_any_axis(cases):
     rng = np.random.default_rng(31)
-    for _ in range(200):
+    for _ in range(cases):
         given = random_orientations(3, rng)
         axes = rng.normal(size=(4, 3))
         found = dyads_of_three(given, axes)
@@ -48,7 +50,7 @@ def nearest(points, axis):
     return min(float(np.linalg.norm(np.cross(points, axis), axis=1).min()), 1.0)
 
 
-@pytest.mark.parametrize("cases", [20, pytest.param(60, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("cases", [8, slow(60)])
 def test_the_curves_of_four_orientations(cases):
     """All samples are dyads; S_ij and the dyads of any fifth orientation lie on the curves; steps are short."""
     rng = np.random.default_rng(34)
@@ -72,11 +74,12 @@ def test_the_curves_of_four_orientations(cases):
     assert pieces == {1, 2}
 
 
-def test_the_curves_hold_every_zero_of_the_cubic():
+@pytest.mark.parametrize("cases", [5, slow(20)])
+def test_the_curves_hold_every_zero_of_the_cubic(cases):
     """On random great circles, every sign change of the cubic form is near a sample."""
     rng = np.random.default_rng(35)
     turn = np.linspace(0.0, np.pi, 2001)[:, None]
-    for _ in range(20):
+    for _ in range(cases):
         four = random_orientations(4, rng)
         points = np.concatenate([curve.fixed for curve in centre_axes(four, 1000)])
         m = four.matrices
@@ -98,7 +101,7 @@ def test_dyads_sampled_from_the_curves_are_dyads():
     assert min(lines_apart(dyad.fixed, made.fixed) for dyad in found) < 0.05
 
 
-@pytest.mark.parametrize("cases", [20, pytest.param(60, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("cases", [10, slow(60)])
 def test_the_curves_of_quarter_turns(cases):
     """Rotations of a cube: the cone may hold planes and cross itself, and is found whole all the same."""
     rng = np.random.default_rng(41)
@@ -132,7 +135,7 @@ def test_four_turns_about_one_axis_have_no_curve():
         centre_axes(given.subset([1, 2, 3]))
 
 
-@pytest.mark.parametrize("n", [6, 7, 12])
+@pytest.mark.parametrize("n", [slow(6), 7, 12])
 def test_more_orientations_on_a_dyad_fit_it(n):
     rng = np.random.default_rng([37, n])
     for _ in range(5):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from cranks import lines_apart, problem, random_orientations
 from scipy.spatial.transform import Rotation
+from sizes import slow, slow_but
 
 from graphs.errors import UnsolvableError
 from synth.guidance.dyads import centre_axes
@@ -30,8 +31,9 @@ def worst_distance(cases, seed):
     return worst
 
 
-def test_a_known_dyad_is_always_found():
-    assert worst_distance(200, 21) < 1e-8
+@pytest.mark.parametrize("cases", [50, slow(200)])
+def test_a_known_dyad_is_always_found(cases):
+    assert worst_distance(cases, 21) < 1e-8
 
 
 @pytest.mark.slow
@@ -39,11 +41,12 @@ def test_a_known_dyad_is_always_found_in_ten_thousand_cases():
     assert worst_distance(10_000, 22) < 1e-8
 
 
-def test_two_known_dyads_are_found():
+@pytest.mark.parametrize("cases", [15, slow(50)])
+def test_two_known_dyads_are_found(cases):
     """The coupler of a four-bar at five crank angles lies on both its dyads."""
     rng = np.random.default_rng(23)
     g, h = np.eye(3)[2], np.array([np.sin(1.0), 0.0, np.cos(1.0)])
-    for _ in range(50):
+    for _ in range(cases):
         frames = []
         for turn in np.sort(rng.uniform(0.0, 2.0 * np.pi, 5)):  # crank 20, coupler 55, rocker 50 degrees
             w = Rotation.from_rotvec(turn * g).apply([np.sin(0.35), 0.0, np.cos(0.35)])
@@ -58,7 +61,7 @@ def test_two_known_dyads_are_found():
             assert min(distance(dyad, fixed, body) for dyad in found) < 1e-8
 
 
-@pytest.mark.parametrize("cases", [6, pytest.param(40, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("cases", [3, slow(40)])
 def test_as_many_as_where_two_curves_cross(cases):
     """A second method: along the curve of orientations 1 2 3 4 the fifth condition changes its sign at each dyad."""
     rng = np.random.default_rng(24)
@@ -77,7 +80,7 @@ def test_as_many_as_where_two_curves_cross(cases):
             assert min(lines_apart(dyad.fixed, axis) for axis in crossings) < 0.01
 
 
-@pytest.mark.parametrize("cases", [10, pytest.param(30, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("cases", [4, slow(30)])
 def test_least_squares_find_no_other(cases):
     """A third method: every perfect fit is among the six, and nearly all of the six are found by it."""
     rng = np.random.default_rng(25)
@@ -116,7 +119,7 @@ def test_the_inverse_motion_has_the_same_dyads():
         assert min(distance(one, dyad.moving, dyad.fixed) for one in inverse) < 1e-8
 
 
-@pytest.mark.parametrize("size", [1e-1, 1e-2, 1e-3])
+@pytest.mark.parametrize("size", slow_but([1e-2], [1e-1, 1e-2, 1e-3]))
 def test_orientations_that_are_nearly_one(size):
     """Small displacements lose digits of the conditions, and the dyad is found to what is left."""
     rng = np.random.default_rng(28)
@@ -130,7 +133,7 @@ def test_orientations_that_are_nearly_one(size):
         )
 
 
-@pytest.mark.parametrize("cases", [4, pytest.param(12, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("cases", [2, slow(12)])
 def test_two_dyads_that_nearly_coincide_are_both_found(cases):
     """On the way to where a pair becomes complex the pair is told apart as long as it is 1e-5 apart, and never lost."""
     rng = np.random.default_rng(29)
@@ -153,7 +156,7 @@ def test_two_dyads_that_nearly_coincide_are_both_found(cases):
     assert 1e-6 < min(distances) < 1e-5
 
 
-@pytest.mark.parametrize("cases", [12, pytest.param(60, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("cases", [6, slow(60)])
 def test_quarter_turns_are_all_solved_or_refused(cases):
     """Rotations of a cube: often infinitely many dyads. Where not, least squares find no dyad that is not among all."""
     rng = np.random.default_rng(30)

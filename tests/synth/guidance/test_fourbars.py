@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from cranks import direction, random_orientations
 from scipy.spatial.transform import Rotation
+from sizes import slow
 
 from graphs.errors import UnsolvableError
 from synth.guidance.dyads import dyad_of, dyads_of_three
@@ -106,10 +107,11 @@ def joined(given, linkage):
     return four_bar_of(given, *dyads)
 
 
-def test_circuits_branches_and_order_are_those_of_the_linkage():
+@pytest.mark.parametrize("number", [80, slow(200)])
+def test_circuits_branches_and_order_are_those_of_the_linkage(number):
     rng = np.random.default_rng(51)
     swings, told, compared = set(), set(), 0
-    while compared < 200:
+    while compared < number:
         linkage = Linkage(rng)
         closes = linkage.closes()
         if closes.sum() < 20:
@@ -131,7 +133,7 @@ def test_circuits_branches_and_order_are_those_of_the_linkage():
     assert len(told) >= 5
 
 
-@pytest.mark.parametrize("wanted", [6, pytest.param(30, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("wanted", [3, slow(30)])
 def test_a_driver_of_a_usable_four_bar_is_in_order_by_the_hoop(wanted):
     """The hoop's verdict is necessary; for a driver that does not turn fully it is not sufficient."""
     rng = np.random.default_rng(52)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from cranks import lines_apart, random_orientations
+from sizes import slow
 
 from synth.guidance.fourbars import conical_forms, four_bars
 from synth.guidance.orientations import read_orientations
@@ -36,7 +37,7 @@ def check(one):
     return number
 
 
-@pytest.mark.parametrize("wanted", [5, pytest.param(12, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("wanted", [2, slow(12)])
 def test_cones_rebuilt_have_the_link_angles(wanted):
     rng = np.random.default_rng(71)
     numbers = []

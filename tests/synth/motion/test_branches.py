@@ -6,9 +6,10 @@ from math import radians
 
 import numpy as np
 import pytest
+from sizes import slow
 
 from graphs.files.formats import read
-from synth.motion.branches import branches_of, first_branch
+from synth.motion.branches import branches_of, first_branch, search_for
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import linkage_of_sheet
 from synth.motion.singular.second_order import quadrics_of, rates_near
@@ -49,13 +50,14 @@ def test_mountains_and_valleys_of_miura_sheets(size, patterns, rng):
     assert len(seen) == patterns
 
 
-def test_random_starts_find_no_branch_that_is_not_listed(rng):
+@pytest.mark.parametrize("starts", [25, slow(60)])
+def test_random_starts_find_no_branch_that_is_not_listed(starts, rng):
     """Closed poses near the flat one, found from random ones, begin as one of the branches says."""
     linkage = linkage_of_sheet(miura(3, 3, np.radians(50)))
     closure = ClosureEquations(linkage)
     spaces = [branch.space.basis for branch in branches_of(linkage, closure).branches]
     seen = set()
-    for _ in range(60):
+    for _ in range(starts):
         pose = corrected(closure, 0.02 * rng.normal(size=closure.joints))
         if not pose.closed or np.abs(pose.angles).max() < 1e-3:
             continue
@@ -75,7 +77,7 @@ def test_the_bird_base(data):
     assert min(branch.followed for branch in found.branches) >= np.radians(10) - 1e-12
 
 
-@pytest.mark.parametrize("creases", [4, 5, 6, 8])
+@pytest.mark.parametrize("creases", [slow(4), 5, 6, slow(8)])
 def test_a_flat_vertex_has_three_freedoms_less_than_creases(creases, rng):
     for _ in range(5):
         while True:
@@ -123,7 +125,8 @@ def test_the_first_branch_that_will_do_is_one_of_all():
     assert first_branch(linkage, lambda rates: False) is None
 
 
-def test_a_search_takes_so_many_steps_and_no_more(data, monkeypatch):
+@pytest.mark.parametrize("steps", [40, slow(400)])
+def test_a_search_takes_so_many_steps_and_no_more(steps, data, monkeypatch):
     """The bird base with a corner all but in the middle of a side: panels of next to no breadth."""
     sheet = read(data / "patterns" / "bird-base.fold")
     corners = list(sheet.coordinates)
@@ -138,8 +141,9 @@ def test_a_search_takes_so_many_steps_and_no_more(data, monkeypatch):
         return took
 
     monkeypatch.setattr(Allowance, "take", watched)
-    branches = branches_of(linkage_of_sheet(replace(sheet, coordinates=tuple(corners))))
-    assert 16 <= sum(taken) <= 400 + 20 * len(branches.branches)
+    linkage = linkage_of_sheet(replace(sheet, coordinates=tuple(corners)))
+    branches = branches_of(linkage, search=replace(search_for(len(linkage.angles), None), steps=steps))
+    assert 16 <= sum(taken) <= steps + 20 * len(branches.branches)
     assert not all(taken)
     assert min(branch.followed for branch in branches.branches) < radians(9)
 

@@ -64,9 +64,9 @@ def test_a_guided_four_bar_takes_its_body_through_the_orientations(data):
 @pytest.mark.parametrize(
     ("thing", "told"),
     [
-        (SCGraph(4, RING), "needs coordinates"),
-        (VertexEdgeGraph({"O": ("a", "b", "c", "d")}), "needs coordinates"),
-        (PolyhedronModel(4, RING), "needs coordinates"),
+        (SCGraph(4, RING), "requires coordinates"),
+        (VertexEdgeGraph({"O": ("a", "b", "c", "d")}), "requires coordinates"),
+        (PolyhedronModel(4, RING), "requires coordinates"),
         (PolyhedronModel(2, [(0, 1)], coordinates={0: (0, 0, 0), 1: (1, 0, 0)}, ground=[0]), "a ground link"),
         (PolyhedronModel(4, RING[:1], coordinates={v: (v, v * v, 0) for v in range(4)}), "several parts"),
         (PolyhedronModel(3, RING[:2], coordinates={v: (v, 0, 0) for v in range(3)}), "in line"),
@@ -120,7 +120,7 @@ def test_synth_fold_moves_what_has_no_panels(data, tmp_path):
     assert told["joint_angles_deg"]["2"][-1] == pytest.approx(-60)
     assert "1 degree of freedom (numerical)" in run("fold", file, "--drive", "0=3", "--frames", 1).stdout
     assert "no panels to write" in run("fold", file, "-o", tmp_path / "a.fold", code=2).stderr
-    assert "needs coordinates" in run("fold", data / "wiener" / "watt.json", code=2).stderr
+    assert "requires coordinates" in run("fold", data / "wiener" / "watt.json", code=2).stderr
 
 
 def test_synth_fold_folds_models_that_know_their_panels(data, tmp_path):

@@ -33,7 +33,7 @@ def test_a_file_for_every_command(tmp_path):
     sheet, ring = tmp_path / "a.fold", tmp_path / "a.json"
     printed = run("generate", "miura", "--rows", 2, "--columns", 2, "--fold", 30, "-o", sheet).stdout
     assert "folded to 30 degrees" in printed
-    assert "1 degree of freedom of finite motion, by the source" in printed
+    assert "1 degree of freedom of finite motion, according to the source" in printed
     assert "Rigid-foldable from this configuration: 1 degree of freedom" in run("mobility", sheet).stdout
     told = json.loads(run("generate", "bennett", "--twist", 30, "-o", ring, "--json").stdout)
     assert (told["parameters"]["twist"], told["freedoms"], told["output"]) == (pytest.approx(30), 1, str(ring))

@@ -5,6 +5,7 @@ from math import acos, radians, sqrt
 
 import numpy as np
 import pytest
+from sizes import slow
 
 from graphs.errors import InvariantError
 from graphs.tolerances import DOUBLE
@@ -54,7 +55,7 @@ def test_near_ends_do_not_pass_the_middle():
         scissor_ring(3, radians(31))
 
 
-@pytest.mark.parametrize(("sides", "flexes"), [(3, 2), (4, 3)])
+@pytest.mark.parametrize(("sides", "flexes"), [(3, 2), slow(4, 3)])
 def test_a_configuration_beside_the_branch_has_the_freedoms_of_the_branch(sides, flexes):
     """Closed to 1e-12 as those of a path are, and 1e-6 off it along what closes to first order only."""
     at = configuration_of(scissor_polyhedron(prism(sides), 0.5))
@@ -94,7 +95,7 @@ def test_other_polyhedra_have_one_freedom(corners, opening):
     assert freedoms(scissor_polyhedron(corners, opening)) == 1
 
 
-@pytest.mark.parametrize("pin", [1.2, 1.6])
+@pytest.mark.parametrize("pin", [slow(1.2), 1.6])
 def test_advice_and_states_of_the_cube_follow_its_one_freedom(pin):
     cube = scissor_polyhedron(CUBE, acos(pin / sqrt(3.0)))
     answer = advise(cube, 0)

@@ -4,8 +4,9 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from read_strings import string_of_chain
 
-from enumerate.strings.panel_strings import ChainString, chain_scd, string_of_chain, strings
+from enumerate.strings.panel_strings import ChainString, chain_scd, strings
 from graphs.convert.table import to_scd
 from graphs.files.formats import read, write
 from synth.motion.linkage import linkage_of_sheet

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from conical import random_linkages, wrap
+from paper_formulas import table1
 
-from synth.surfaces.circuit import azimuths, circuits, closing_step, table1, wrapped
+from synth.surfaces.circuit import azimuths, circuits, closing_step, wrapped
 
 
 @pytest.mark.parametrize("links", [3, 4, 5, 6, 7])

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from commands import run
 from conical import WATT
+from sizes import slow
 
 from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.formats import read, read_linkage, write
@@ -39,10 +40,11 @@ def test_coordinates_are_those_of_the_printed_radii():
     assert "joints on cylinder 2" in out
 
 
-def test_a_loop_in_a_file_lies_on_the_cylinders_of_its_lengths(rng):
+@pytest.mark.parametrize(("cases", "least"), [(2, 12), slow(10, 60)])
+def test_a_loop_in_a_file_lies_on_the_cylinders_of_its_lengths(cases, least, rng):
     seen = 0
     for links in (3, 4, 5, 6):
-        for _ in range(10):
+        for _ in range(cases):
             lengths = rng.uniform(1, 5, links)
             if 2 * lengths.max() >= lengths.sum():
                 continue
@@ -54,10 +56,10 @@ def test_a_loop_in_a_file_lies_on_the_cylinders_of_its_lengths(rng):
                 sides = np.linalg.norm(np.roll(corners, -1, axis=0) - corners, axis=1)
                 np.testing.assert_allclose(sides, lengths, rtol=1e-8)
                 seen += 1
-    assert seen > 60
+    assert seen > least
 
 
-@pytest.mark.parametrize("unit", [1.0, 1e-6, 1e6])
+@pytest.mark.parametrize("unit", [slow(1.0), slow(1e-6), 1e6])
 def test_several_loops_have_their_cylinder_back(unit, rng):
     for _ in range(6):
         places, radius = rng.uniform(-np.pi, np.pi, 7), unit * rng.uniform(0.5, 4)
@@ -163,6 +165,11 @@ def test_steps_and_lambda_are_the_papers_own_parameters(golden, tmp_path):
     assert "every radius from 0 on" in run("cylinder", "map", "--steps", "40,50,50").stdout
 
 
+@pytest.mark.slow
+def test_the_fifteen_others_are_printed_with_the_joints_turned():
+    assert "joints turned" in str(supplementary_linkages(np.radians([85, 120, 95, 45])))
+
+
 def test_the_fifteen_others_share_the_joint_lines(golden):
     """Hyatt et al. 2020, section 2.3: supplements at the joints turned; T1 T2 T3 T4 the same, T4 of eight values."""
     found = told("cone", "map", "--angles", "85,120,95,45", "--supplementary")
@@ -174,5 +181,4 @@ def test_the_fifteen_others_share_the_joint_lines(golden):
         for link, (angle, given) in enumerate(zip(one["angles_deg"], (85, 120, 95, 45), strict=True)):
             supplement = turned[link] != turned[(link + 1) % 4]
             assert angle == pytest.approx(180 - given if supplement else given)
-    assert "joints turned" in str(supplementary_linkages(np.radians([85, 120, 95, 45])))
     assert "Usage:" in run("cone", "map", "--steps", "40,50,50", "--supplementary", code=2).output

@@ -10,20 +10,20 @@ from by_coordinates import (
     quadrilaterals_by_coordinates,
 )
 from conical import random_lengths, random_link_angles, random_linkages
+from four_bar_poses import check_pose
+from paper_formulas import central_angles, projected_angles
 from scipy.optimize import brentq, minimize_scalar
+from sizes import first_quick, slow, slow_but
 
 from graphs.errors import InvariantError, UnsolvableError
-from synth.conformed.pose import check_pose
 from synth.fourbar.closing import can_close, planar_differences, spherical_differences
 from synth.surfaces.circuit import circuits, link_angles
 from synth.surfaces.loop_maps import (
-    central_angles,
     chords,
     cone_reach,
     cylinder_reach,
     map_to_cones,
     map_to_cylinders,
-    projected_angles,
     solution_class,
 )
 from synth.surfaces.loop_sums import (
@@ -56,9 +56,10 @@ def agree(first, second, tolerance):
     assert (np.abs(first - second)[there] <= np.broadcast_to(tolerance, first.shape)[there]).all()
 
 
-def test_three_methods_agree_on_cones(rng):
-    angles = random_link_angles(rng, COUNT)
-    assert len(angles) == COUNT
+@pytest.mark.parametrize("count", [3_000, slow(COUNT)])
+def test_three_methods_agree_on_cones(count, rng):
+    angles = random_link_angles(rng, count)
+    assert len(angles) == count
     near = np.abs(spherical_differences(angles)).min(axis=1, keepdims=True) < 1e-6
     tolerance = np.where(near, 1e-5, 1e-9)
     closed = cone_angles(angles)
@@ -67,7 +68,7 @@ def test_three_methods_agree_on_cones(rng):
     agree(cone_angles_by_coordinates(angles), closed, tolerance)
 
 
-@pytest.mark.parametrize("which", range(4))
+@pytest.mark.parametrize("which", first_quick(1, range(4)))
 def test_three_methods_agree_near_folding(which, rng):
     """Within 1e-6 of folding lambda is near 0, where it is the root of a small number."""
     angles = random_link_angles(rng, 2000)
@@ -85,9 +86,10 @@ def test_three_methods_agree_near_folding(which, rng):
     agree(cone_angles_by_coordinates(angles), closed, 1e-5)
 
 
-def test_three_methods_agree_on_cylinders(rng):
-    lengths = random_lengths(rng, COUNT)
-    assert len(lengths) == COUNT
+@pytest.mark.parametrize("count", [3_000, slow(COUNT)])
+def test_three_methods_agree_on_cylinders(count, rng):
+    lengths = random_lengths(rng, count)
+    assert len(lengths) == count
     near = np.abs(planar_differences(lengths)).min(axis=1, keepdims=True) < 1e-6
     closed = circumradii(lengths)
     closed = np.stack([closed.open, closed.crossed], axis=1)
@@ -98,19 +100,20 @@ def test_three_methods_agree_on_cylinders(rng):
     agree(others / closed, closed / closed, np.where(near, 1e-5, 1e-9))
 
 
-def test_non_grashof_linkages_are_never_crossed_but_for_cones_with_t4_below_zero(rng):
-    lengths = random_lengths(rng, COUNT)
+@pytest.mark.parametrize("count", [3_000, slow(COUNT)])
+def test_non_grashof_linkages_are_never_crossed_but_for_cones_with_t4_below_zero(count, rng):
+    lengths = random_lengths(rng, count)
     grashof = planar_differences(lengths).prod(axis=1) > 0
     crossed = ~np.isnan(by_loop_sum(cylinder_reach(lengths), 0)[:, 1])
     assert (crossed == grashof).all()
-    angles = random_link_angles(rng, COUNT)
+    angles = random_link_angles(rng, count)
     t = spherical_differences(angles)
     crossed = ~np.isnan(by_loop_sum(cone_reach(angles), 1)[:, 1])
     grashof, positive = t.prod(axis=1) > 0, t[:, 3] > 0
     assert (crossed == (grashof == positive)).all()
 
 
-@pytest.mark.parametrize("links", [3, 4, 5, 6])
+@pytest.mark.parametrize("links", slow_but([3, 5], range(3, 7)))
 def test_mapped_linkages_rebuilt_in_space(links, rng):
     """Link angles to 1e-12, every axis on the cone."""
     angles = random_link_angles(rng, {4: COUNT}.get(links, 1000), links)
@@ -123,7 +126,7 @@ def test_mapped_linkages_rebuilt_in_space(links, rng):
     assert check.on_cone.max() < 1e-12
 
 
-@pytest.mark.parametrize(("links", "count"), [(4, 4000), (5, 2000), (6, 1000), (7, 300), (8, 100)])
+@pytest.mark.parametrize(("links", "count"), [(4, 4000), slow(5, 2000), slow(6, 1000), slow(7, 300), slow(8, 100)])
 def test_loops_drawn_on_cones_are_found_again(links, count, rng):
     _, steps, lam, angles = random_linkages(rng, count, links)
     found = loop_roots(cone_reach(angles), 1)
@@ -135,7 +138,7 @@ def test_loops_drawn_on_cones_are_found_again(links, count, rng):
     assert np.abs(found.residual).max() < 1e-7
 
 
-@pytest.mark.parametrize(("links", "count"), [(3, 1000), (4, 4000), (5, 2000), (6, 1000), (8, 100)])
+@pytest.mark.parametrize(("links", "count"), [(3, 1000), (4, 4000), slow(5, 2000), slow(6, 1000), slow(8, 100)])
 def test_loops_drawn_on_cylinders_are_found_again(links, count, rng):
     """Radius 1; other circles of the same loop close too."""
     _, steps, _, _ = random_linkages(rng, count, links)
@@ -157,7 +160,7 @@ def test_no_loops_have_no_circles():
     assert found.signs.shape == (0, 4)
 
 
-@pytest.mark.parametrize("links", [5, 6])
+@pytest.mark.parametrize("links", [5, slow(6)])
 def test_loop_sums_against_a_dense_scan(links, rng):
     """No crossing of a fine grid is missed, and no root is between points that do not cross."""
     angles = random_link_angles(rng, 150, links)
@@ -208,7 +211,7 @@ def touching_loops(over, wanted):
 @pytest.mark.parametrize(
     ("over", "count", "loops"),
     [
-        (-1e-7, 0, 1),
+        slow(-1e-7, 0, 1),
         (1e-10, 2, 1),
         *(
             pytest.param(*case, 4, marks=pytest.mark.slow)
@@ -227,7 +230,7 @@ def test_a_sum_that_touches_a_multiple_of_360_degrees(over, count, loops):
         assert (found.double[mine][near] == (over == 0.0)).all()
 
 
-@pytest.mark.parametrize("links", [4, 5, 6, pytest.param(7, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("links", first_quick(1, range(4, 8)))
 def test_coordinates_find_the_circles_of_loop_sums(links, rng):
     for angles in random_link_angles(rng, 25, links):
         chord = 2 * np.sin(angles / 2)
@@ -302,7 +305,7 @@ def test_why_there_is_no_cone():
     assert "no loop sum" in map_to_cones(np.radians([144.3, 103.8, 36.7, 172.3, 53.4])).why
 
 
-@pytest.mark.parametrize("count", [40, pytest.param(300, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [15, slow(300)])
 def test_supplementary_linkage_is_offered_where_t4_is_below_zero(count, rng):
     offered = 0
     for angles in random_link_angles(rng, count):

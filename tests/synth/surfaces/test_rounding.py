@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from conical import WATT
 from many_digits import DIGITS, at_most, crossed_cone, loop_on_a_cone, over, root, signed_sums
+from sizes import slow
 
 from synth.fourbar.closing import can_close, kind_of_planar, kind_of_spherical
 from synth.surfaces.circuit import link_angles, link_pairs
@@ -107,7 +108,7 @@ def nearly_equal_pairs(rng):
     return (ideal + off) * 10.0 ** rng.uniform(-4, 0)
 
 
-@pytest.mark.parametrize("count", [8, pytest.param(600, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [8, slow(600)])
 def test_nearly_equal_pairs_of_links(count):
     """The crossed cone by its closed form to 60 digits: found where rounding does not decide, else a caution."""
     rng = np.random.default_rng(10)
@@ -176,7 +177,7 @@ def test_the_residual_is_that_of_the_steps():
     assert (np.abs(flat.steps) == [1.0, 0.75, 0.875, 0.625]).all()
 
 
-@pytest.mark.parametrize("unit", [1e-9, 1e9])
+@pytest.mark.parametrize("unit", [slow(1e-9), 1e9])
 @pytest.mark.parametrize("links", [[4.0, 3.0, 5.0, 1.0], [4.0, 3.0, 5.0, 2.0 - 1e-11], [1.0, 0.7, 0.6, 0.9, 0.2]])
 def test_cylinders_do_not_depend_on_the_unit(links, unit):
     one, other = map_to_cylinders(links), map_to_cylinders(np.multiply(links, unit))

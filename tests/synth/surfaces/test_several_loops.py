@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 from conical import FOUR_BAR, STEPHENSON, WATT, wrap
 from memberships import memberships
+from sizes import slow
 
 from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.formats import read_linkage, write
 from graphs.geometry import angles_between
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.surfaces import SurfaceLinkage, places_of_steps
-from synth.conformed.pose import joint_axes
+from graphs.mechanism.surfaces import SurfaceLinkage, joint_axes, places_of_steps
 from synth.surfaces.circuit import link_angles, link_pairs, loop_steps
 from synth.surfaces.linkages import common_surfaces
 from synth.surfaces.loop_maps import map_to_cones
@@ -57,7 +57,7 @@ def test_projected_angles_always_fit(chain, rng):
 
 @pytest.mark.parametrize("chain", [WATT, STEPHENSON], ids=["watt", "stephenson"])
 @pytest.mark.parametrize("whole", [True, False], ids=["all angles", "angles in loops"])
-@pytest.mark.parametrize("cases", [8, pytest.param(60, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("cases", [3, slow(60)])
 def test_link_angles_from_a_cone_give_it_back(chain, whole, cases, rng):
     for _ in range(cases):
         places, lam = rng.uniform(-np.pi, np.pi, 7), rng.uniform(0.1, 1.3)
@@ -79,7 +79,7 @@ def test_link_angles_from_a_cone_give_it_back(chain, whole, cases, rng):
             assert again == pytest.approx(angles, abs=1e-6)
 
 
-@pytest.mark.parametrize("chain", [WATT, STEPHENSON], ids=["watt", "stephenson"])
+@pytest.mark.parametrize("chain", [WATT, slow(STEPHENSON)], ids=["watt", "stephenson"])
 def test_link_angles_seldom_have_a_common_cone(chain, rng):
     places, lam = rng.uniform(-np.pi, np.pi, 7), 0.6
     angles = angles_of(chain, places, lam)
@@ -90,7 +90,7 @@ def test_link_angles_seldom_have_a_common_cone(chain, rng):
     assert common_surfaces(chain, {**angles, one: angles[one] + 1e-6}, tolerance=1e-3)[0]
 
 
-@pytest.mark.parametrize("cases", [8, pytest.param(50, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("cases", [3, slow(50)])
 def test_one_loop_is_what_the_mapping_says(cases, rng):
     """The general machinery on the four-bar: the same cones, signs, k and circuits."""
     pairs = [("O", "A"), ("A", "B"), ("B", "C"), ("C", "O")]

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from sizes import slow
 
 from graphs.files.formats import read
 from graphs.rank.pose import pose_mobility
@@ -14,7 +15,7 @@ EXAMPLES = {"watt": 1, "chain-UPS": 6, "fortune-teller": 5, "miura-tube": 1}
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(one, marks=pytest.mark.slow) if one == "fortune-teller" else one for one in EXAMPLES]
+    "name", [slow(one) if one in ("fortune-teller", "miura-tube") else one for one in EXAMPLES]
 )
 def test_examples_print_with_a_picture_and_fold(name, data):
     path = data / "realised" / f"{name}.fold"

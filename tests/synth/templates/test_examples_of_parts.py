@@ -10,7 +10,7 @@ from graphs.mechanism.surfaces import Cone
 from synth.conformed.linkages import loop_of_steps
 from synth.templates.hinges import Hinges, with_hinges
 from synth.templates.nets import slot_of, tab_shapes
-from synth.templates.on_surface import Dimensions, layered
+from synth.templates.on_surface import Dimensions, LayeredLinkage
 from synth.templates.pages import Paper, clipped, gauge, note_page, tiles_across
 from synth.templates.pieces import (
     Piece,
@@ -24,7 +24,7 @@ from synth.templates.pieces import (
     uncovered,
 )
 from synth.templates.template import millimetres, steps_of_folds
-from synth.templates.unfolding import plane_of_panel
+from synth.templates.unfolding import Plane
 
 
 def test_example_of_with_hinges():
@@ -52,7 +52,7 @@ def test_example_of_slot_of():
 
 
 def test_example_of_layered():
-    made = layered(loop_of_steps(np.radians([40, 50, 50])), Cone(0.5), Dimensions())
+    made = LayeredLinkage(loop_of_steps(np.radians([40, 50, 50])), Cone(0.5), Dimensions())
     assert [(link.layer, round(np.degrees(link.width))) for link in made.links] == [
         (0, 40),
         (0, 50),
@@ -139,5 +139,5 @@ def test_example_of_steps_of_folds():
     )
 
 
-def test_example_of_plane_of_panel():
-    assert plane_of_panel(np.array([[0, 0, 5], [1, 0, 5], [0, 1, 5.0]]), 0).normal.tolist() == [0.0, 0.0, 1.0]
+def test_example_of_Plane():
+    assert Plane(np.array([[0, 0, 5], [1, 0, 5], [0, 1, 5.0]]), 0).normal.tolist() == [0.0, 0.0, 1.0]

@@ -20,7 +20,7 @@ from synth.realisation.realised import realise
 from synth.templates.nets import tab_at
 from synth.templates.pieces import put_together, united
 from synth.templates.template import template_of
-from synth.templates.unfolding import nets_of, panels_of
+from synth.templates.unfolding import Panels, nets_of
 
 CUBE = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 CORNERS = tuple((x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1))
@@ -96,7 +96,7 @@ def test_cuts_are_the_outline_and_the_panels_are_all_there_with_tabs_beside_them
 def test_every_panel_is_laid_as_it_stands_and_edges_that_are_glued_come_together(thing):
     """Panels go from the net to space without being stretched; turned ones are mirrored, so all are seen from one side."""
     sheet, places = thing
-    panels = panels_of(sheet, places)
+    panels = Panels(sheet, places)
     laid = 0
     for net in nets_of(panels):
         for face, corners in net.corners.items():
@@ -177,7 +177,7 @@ def test_a_tab_that_juts_out_of_its_panel_is_seen_where_their_edges_coincide_but
     sheet = realise(mechanism_from_map_id("m1:a---b.ac--.b-d-e.cf-g-.d-g--.e---f"), kind="space").sheet
     whole = with_all_edges(sheet)
     places = np.array(whole.coordinates)
-    panels = panels_of(whole, places * 200 / np.ptp(places, axis=0).max())
+    panels = Panels(whole, places * 200 / np.ptp(places, axis=0).max())
     assert check_tabs(panels, template_of(sheet, size=200).pieces, []) > 0
 
 
@@ -217,7 +217,7 @@ def test_what_no_sheet_can_be_cut_of_is_refused(faces, told):
 def test_a_net_that_is_folded_along_its_creases_closes(case):
     sheet = with_all_edges(sheet_of(CASES[case]))
     places = np.array(sheet.coordinates, dtype=float) * 100
-    panels = panels_of(sheet, places)
+    panels = Panels(sheet, places)
     (net,) = nets_of(panels)
     stands = folded_up(panels, net)
     assert set(stands) == set(range(len(sheet.faces)))

@@ -7,6 +7,7 @@ import pytest
 import shapely
 from commands import run
 from measured import lengths, lines_of_dxf, lines_of_pdf, lines_of_svg
+from sizes import slow
 
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
@@ -122,10 +123,12 @@ def test_tiles_meet_at_their_crosses_and_hold_every_line(words, pages, bird, tmp
         assert drawn.difference(wanted.buffer(NEAR)).is_empty
 
 
-def test_equal_things_give_equal_files(bird, tmp_path):
+@pytest.mark.parametrize("pattern", ["four-bar-vertex", slow("bird-base")])
+def test_equal_things_give_equal_files(pattern, data, tmp_path):
     for suffix in ("svg", "pdf", "dxf"):
         for name in "ab":
-            run("template", bird, "--size", 150, "-o", tmp_path / f"{name}.{suffix}")
+            file = data / "patterns" / f"{pattern}.fold"
+            run("template", file, "--size", 150, "-o", tmp_path / f"{name}.{suffix}")
         assert (tmp_path / f"a.{suffix}").read_bytes() == (tmp_path / f"b.{suffix}").read_bytes()
 
 

@@ -16,7 +16,7 @@ from synth.folding.motion import fold
 from synth.patterns.generated import generate
 from synth.realisation.realised import realise
 from synth.templates.template import template_of
-from synth.templates.unfolding import panels_of
+from synth.templates.unfolding import Panels
 
 SIZE = 200
 SIX_LINKS = ("m1:a-b.ac-.bde.cef.d-g.fg-", "m1:a---b.ac--.bde.cef-.d--g.fg--")
@@ -44,7 +44,7 @@ def check(sheet, poses=()):
     template = template_of(sheet, size=SIZE)
     for piece in template.pieces:
         check_cuts(piece)
-    panels = panels_of(whole, places * factor)
+    panels = Panels(whole, places * factor)
     check_closes(panels)
     return check_tabs(panels, template.pieces, [pose * factor for pose in poses])
 

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from commands import run
 from conical import STEPHENSON
-from measured import is_watertight
+from measured import is_watertight, volume_of_mesh
 
 from graphs.errors import UnsolvableError
 from graphs.mechanism.surfaces import Cone, Cylinder
 from synth.candidates.job import CandidateJob
 from synth.conformed.linkages import OnSurface, loop_of_steps
-from synth.templates.on_surface import Dimensions, layered, solids_on_surface
+from synth.templates.on_surface import Dimensions, LayeredLinkage, solids_on_surface
 
 LAMBDA = np.radians(28)
 SIZES = Dimensions(size=90, thickness=1.0)
@@ -22,7 +22,10 @@ SIZES = Dimensions(size=90, thickness=1.0)
 def linkages():
     job = CandidateJob(STEPHENSON)
     rows = job.rows()[::34]
-    return [layered(OnSurface(STEPHENSON, job.places(row).tolist(), LAMBDA), Cone(LAMBDA), SIZES) for row in rows]
+    return [
+        LayeredLinkage(OnSurface(STEPHENSON, job.places(row).tolist(), LAMBDA), Cone(LAMBDA), SIZES)
+        for row in rows
+    ]
 
 
 def volume_of(linkage, link, gap):
@@ -41,10 +44,10 @@ def test_shells_are_closed_the_right_way_round_and_have_the_volume_of_what_was_a
     for linkage in linkages:
         surface, *meshes = solids_on_surface(linkage, 2.0)
         assert is_watertight(surface)
-        assert surface.volume() > 0
+        assert volume_of_mesh(surface) > 0
         for link, mesh in zip(linkage.links, meshes, strict=True):
             assert is_watertight(mesh)
-            assert mesh.volume() == pytest.approx(volume_of(linkage, link, 2.0), rel=2e-3)
+            assert volume_of_mesh(mesh) == pytest.approx(volume_of(linkage, link, 2.0), rel=2e-3)
 
 
 def test_layers_are_apart_and_so_are_neighbours_in_a_layer(linkages):
@@ -67,10 +70,10 @@ def test_layers_are_apart_and_so_are_neighbours_in_a_layer(linkages):
 
 
 def test_a_cylinder_is_closed_and_what_has_no_room_for_the_gap_is_refused():
-    made = layered(loop_of_steps(np.radians([40, 50, 50])), Cylinder(30.0), SIZES)
+    made = LayeredLinkage(loop_of_steps(np.radians([40, 50, 50])), Cylinder(30.0), SIZES)
     for mesh in solids_on_surface(made, 2.0):
         assert is_watertight(mesh)
-        assert mesh.volume() > 0
+        assert volume_of_mesh(mesh) > 0
     with pytest.raises(UnsolvableError, match="narrower than the gap"):
         solids_on_surface(made, 25.0)
 

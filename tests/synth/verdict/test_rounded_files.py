@@ -7,6 +7,7 @@ from math import cos, pi, radians, sin
 import numpy as np
 import pytest
 from commands import run
+from sizes import slow, slow_but
 
 import synth
 from graphs.files.formats import read, write
@@ -98,13 +99,13 @@ ROUNDED = {
 
 
 @pytest.mark.parametrize("how", ROUNDED)
-@pytest.mark.parametrize("name", ["square-twist", "map", "miura"])
+@pytest.mark.parametrize("name", ["square-twist", slow("map"), slow("miura")])
 def test_what_another_program_mapped_moves_as_before(name, how):
     sheet = generate(name).mechanism
     assert told(placed(sheet, ROUNDED[how](np.array(sheet.coordinates)))) == told(sheet)
 
 
-@pytest.mark.parametrize("noise", [1e-3, 1e-5, 1e-7])
+@pytest.mark.parametrize("noise", slow_but([1e-5], [1e-3, 1e-5, 1e-7]))
 def test_noise_that_is_estimated_or_stated(noise):
     sheet = generate("miura").mechanism
     places = np.array(sheet.coordinates)

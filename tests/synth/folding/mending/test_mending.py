@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from sizes import slow
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.files.formats import read
@@ -31,7 +32,7 @@ def farthest(one, other):
     return np.abs(np.array(one.coordinates) - np.array(other.coordinates)).max()
 
 
-@pytest.mark.parametrize(("size", "noise"), [(3, 1e-5), (4, 1e-6), pytest.param(5, 1e-4, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(("size", "noise"), [(3, 1e-5), slow(4, 1e-6), slow(5, 1e-4)])
 def test_a_noisy_miura_sheet_gets_all_its_branches_back(size, noise):
     noisy = disturbed(miura(size, size, 1.0), noise)
     as_written = branches_of(
@@ -152,7 +153,7 @@ def test_meant_angles_hold_at_exact_coordinates():
     [
         ("ossvg_singlesquaretwist.svg", 6),
         ("ossvg_pinwheelBase.svg", 6),
-        ("osbo_birdBase.fold", 16),
+        slow("osbo_birdBase.fold", 16),
         pytest.param("ossvg_flappingBird.svg", 20, marks=pytest.mark.slow),
     ],
 )

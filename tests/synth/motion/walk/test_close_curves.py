@@ -5,6 +5,7 @@ from itertools import islice
 import numpy as np
 import pytest
 import scipy.sparse
+from sizes import slow
 
 from graphs.mechanism.sheet import Sheet
 from synth.folding.configuration import configuration_of_sheet
@@ -43,19 +44,20 @@ def walked(a, apart, side):
 
 
 SIZES = np.linspace(0.3, 1.5, 9)
+QUICK = SIZES[::4]
 
 
-@pytest.mark.parametrize("apart", [0.3, 0.1])
-def test_a_walk_stays_on_its_oval(apart):
-    for a in SIZES:
+@pytest.mark.parametrize(("apart", "sizes"), [(0.3, QUICK), slow(0.3, SIZES), slow(0.1, SIZES)])
+def test_a_walk_stays_on_its_oval(apart, sizes):
+    for a in sizes:
         ended, places = walked(a, apart, 1)
         assert ended == "it comes round"
         assert places[:, 0].min() > 0.0, a
 
 
-@pytest.mark.parametrize("apart", [0.3, 0.1])
-def test_a_walk_goes_all_round_where_the_ovals_are_one(apart):
-    for a in SIZES:
+@pytest.mark.parametrize(("apart", "sizes"), [(0.3, QUICK), slow(0.3, SIZES), slow(0.1, SIZES)])
+def test_a_walk_goes_all_round_where_the_ovals_are_one(apart, sizes):
+    for a in sizes:
         ended, places = walked(a, apart, -1)
         assert ended == "it comes round"
         assert places[:, 0].min() < -a, a

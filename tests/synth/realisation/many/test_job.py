@@ -4,12 +4,13 @@ import json
 from itertools import islice
 
 import pytest
+from read_strings import string_of_chain
 
 from enumerate.runner.job import row_as_dict
 from enumerate.runner.running import run
 from enumerate.runner.store import read_rows
 from enumerate.scd.jobs import scd_rows
-from enumerate.strings.panel_strings import ChainString, string_of_chain
+from enumerate.strings.panel_strings import ChainString
 from graphs.convert.panels import scd_from_panels
 from graphs.convert.table import to_scd
 from graphs.errors import StoreError
