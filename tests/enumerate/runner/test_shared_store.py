@@ -93,7 +93,7 @@ def test_a_reader_in_another_process(tmp_path):
 
 def test_a_store_that_stays_locked_is_told_in_one_line(tmp_path, monkeypatch):
     store = tmp_path / "squares.sqlite"
-    monkeypatch.setattr("enumerate.runner.store.PATIENCE", 0.1)
+    monkeypatch.setattr("enumerate.runner.store_units.PATIENCE", 0.1)
     sink = SqliteSink(store)
     sink.start(Squares())
     sink.take(0, ROWS[:10], 0.0)
