@@ -384,9 +384,9 @@ def frame_of(code: Bytes, n: int) -> Frame:
 
 @compiled
 def with_symmetries(frame: Frame, kept: Flags) -> Frame:
-    """Return a frame with some of its symmetries only."""
-    moved, automorphisms = frame.moved[kept], frame.automorphisms[kept]
-    return Frame(frame.ends, frame.first, moved, automorphisms, frame.sets, frame.needs, frame.links)
+    """Return a frame with some of its symmetries only. Frames of maps have no automorphisms, only what they do."""
+    automorphisms = frame.automorphisms[kept[: len(frame.automorphisms)]]
+    return Frame(frame.ends, frame.first, frame.moved[kept], automorphisms, frame.sets, frame.needs, frame.links)
 
 
 @compiled

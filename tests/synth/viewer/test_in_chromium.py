@@ -92,6 +92,10 @@ class Opened:
         self.tab.get_by_label("Along the path").fill(str(degrees))
 
     def status(self):
+        """The line below the model, once the page is where it was sent: it goes there in parts of a moment each."""
+        self.tab.wait_for_function(
+            "!document.querySelector('.status').textContent.includes('is on its way')", timeout=WAIT
+        )
         return self.tab.locator(".status").text_content()
 
     def closure(self):
