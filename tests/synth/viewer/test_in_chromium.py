@@ -93,9 +93,7 @@ class Opened:
 
     def status(self):
         """The line below the model, once the page is where it was sent: it goes there in parts of a moment each."""
-        self.tab.wait_for_function(
-            "!document.querySelector('.status').textContent.includes('is on its way')", timeout=WAIT
-        )
+        sync_api.expect(self.tab.locator(".status")).not_to_contain_text("is on its way", timeout=WAIT)
         return self.tab.locator(".status").text_content()
 
     def closure(self):
