@@ -108,8 +108,10 @@ def family_of(linkage: PosedLinkage, driven: Sequence[JointId]) -> tuple[Family,
 
     Joints in no loop are left out. Raise `UnsolvableError` if a loop is neither spherical nor planar, or if so
     many driven joints do not determine the others by count, `InvariantError` if a driven joint is in no loop, or
-    named twice.
+    named twice. Without loops there is nothing to solve, which is an `UnsolvableError` too.
     """
+    if not linkage.loops:
+        raise UnsolvableError("positions requires a closed loop; here each joint moves by itself")
     names = list(linkage.graph.joints)
     numbers_in_loops = sorted({joint for loop in linkage.loops for joint in loop.joints})
     joints = tuple(names[joint] for joint in numbers_in_loops)

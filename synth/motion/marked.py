@@ -207,6 +207,8 @@ def marked_rates(space: RateSpace, marks: Floats, starts: int, first: Floats | N
 def _rates_with(basis: Floats, marks: Floats) -> Floats | None:
     """Return rates within a space, float[J, s], of 1 at least along each mark, least in sum; else None."""
     marked = marks != 0.0
+    if not basis.shape[1]:
+        return None
     rows = -marks[marked, None] * basis[marked]
     inside = linprog(-rows.sum(axis=0), A_ub=rows, b_ub=-np.ones(len(rows)), bounds=(None, None), method="highs")
     return np.asarray(basis @ inside.x) if inside.status == 0 else None

@@ -159,3 +159,8 @@ def test_what_cannot_be_answered_is_refused(data):
     stiff = SCGraph(6, [(0, 1), (1, 2), (2, 0), (0, 3), (3, 4), (4, 5), (5, 0)])  # a rigid loop of three
     with pytest.raises(UnsolvableError, match="do not determine the others"):
         positions(spherical(stiff, np.random.default_rng(1)), drive={0: 0.1})
+
+
+def test_an_open_chain_has_no_positions_to_solve_for(data):
+    with pytest.raises(UnsolvableError, match="positions requires a closed loop; here each joint moves by itself"):
+        positions(read(data / "realised" / "chain-US.fold"), drive={})

@@ -152,6 +152,12 @@ def test_directions_that_are_none_are_refused(asked, told):
         fold(VERTEX, **asked)
 
 
+def test_angles_that_one_freedom_cannot_reach_together_are_refused(data):
+    sheet = read(data / "realised" / "two-centres.fold")
+    with pytest.raises(SynthedraError, match="cannot begin to turn in these proportions on this branch"):
+        fold(sheet, drive={2: 1.0, 0: -0.8})
+
+
 def test_a_joint_turns_back_where_it_must():
     """A planar crank and rocker: the rocker's end is where crank and coupler lie in line."""
     graph = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop(range(4), "infinite")])
