@@ -6,7 +6,6 @@ import doctest
 from pathlib import Path
 
 import pytest
-from sizes import slow
 
 from tests.support.examples import agree, commands_of, fences_of, printed_by
 
@@ -16,7 +15,6 @@ DOCUMENTS = [
     *sorted((ROOT / "docs").glob("*.md")),
     *sorted((ROOT / "docs" / "guides").glob("*.md")),
 ]
-HEAVY = ("tutorial.md", "does-it-fold.md")
 """Pages whose examples take seconds."""
 WITH_EXAMPLES = [
     path for path in DOCUMENTS if {"console", "python"} & {one.language for one in fences_of(path.read_text())}
@@ -33,7 +31,7 @@ def beside_the_data(tmp_path, monkeypatch):
 @pytest.mark.usefixtures("beside_the_data")
 @pytest.mark.parametrize(
     "path",
-    [slow(path) if path.name in HEAVY else path for path in WITH_EXAMPLES],
+    WITH_EXAMPLES,
     ids=lambda path: str(path.relative_to(ROOT)),
 )
 def test_examples(path):
