@@ -112,9 +112,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         for name, command in our_jobs(folder).items():
             seconds(synth(8, "-o", f"{folder}/8.g6", "--force"))
-            note(
-                name, lambda command=command, name=name: times(command, 1 if name.startswith("write 16") else RUNS)
-            )
+            note(name, lambda command=command, name=name: times(command, 1 if name.startswith("write 16") else RUNS))
     note("cold, write 14 g6", cold)
     for links in (12, 14, 16):
         command = geng(links)

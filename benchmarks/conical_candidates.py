@@ -60,8 +60,7 @@ def run(chain: str, *words: str) -> dict[str, float]:
 def counted(method: str) -> dict[str, float]:
     """Return time and sum of the cyclic orders of all eight-link chains."""
     queries = [
-        ConicalQuery(tuple(zip(range(graph.number_of_edges()), graph.edges(), strict=True)))
-        for graph in chains(8, 1)
+        ConicalQuery(tuple(zip(range(graph.number_of_edges()), graph.edges(), strict=True))) for graph in chains(8, 1)
     ]
     start = perf_counter()
     total = sum(count_conical_orders(query, method) for query in queries)

@@ -57,9 +57,7 @@ def main() -> None:
             for links in closed
         },
     }
-    (RESULTS / f"contracted_weights-{loops}.json").write_text(
-        json.dumps(figures, indent=2) + "\n", encoding="utf-8"
-    )
+    (RESULTS / f"contracted_weights-{loops}.json").write_text(json.dumps(figures, indent=2) + "\n", encoding="utf-8")
     print(f"{figures['graphs']} graphs with {loops} loops: the sums of weights {'agree' if equal else 'DIFFER'}")
     sys.exit(not equal)
 

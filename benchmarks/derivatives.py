@@ -36,9 +36,7 @@ def gradients(n: int, count: int) -> dict[str, float | int]:
     driven = n  # the first zigzag crease that is no rim
     sign = 1.0 if sheet.assignments[driven] == "V" else -1.0
     frames: list[float] = []
-    folded = fold(
-        sheet, drive={driven: sign * FOLDED}, frames=count, report=lambda _: frames.append(process_time())
-    )
+    folded = fold(sheet, drive={driven: sign * FOLDED}, frames=count, report=lambda _: frames.append(process_time()))
     mechanism = mechanism_of_sheet(sheet)
     linkage = linkage_of_sheet(sheet, mechanism)
     begun = process_time()

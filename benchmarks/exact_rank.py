@@ -48,9 +48,7 @@ print(json.dumps([perf_counter() - start, rank]))
 def mesh(rows: int, columns: int) -> SCGraph:
     """Return a mesh of quadrilaterals: its inner vertices are centres."""
     joints = {("h", i, j): (i * columns + j, i * columns + j + 1) for i in range(rows) for j in range(columns - 1)}
-    joints |= {
-        ("v", i, j): (i * columns + j, (i + 1) * columns + j) for i in range(rows - 1) for j in range(columns)
-    }
+    joints |= {("v", i, j): (i * columns + j, (i + 1) * columns + j) for i in range(rows - 1) for j in range(columns)}
     loops = [
         Loop((("h", i, j), ("v", i, j + 1), ("h", i + 1, j), ("v", i, j)))
         for i in range(rows - 1)

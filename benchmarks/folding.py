@@ -44,9 +44,7 @@ def miura(n: int) -> Sheet:
     letters = ["B" if i in (0, n) else "MV"[i % 2] for i in range(n + 1) for j in range(n)]
     letters += ["B" if j in (0, n) else "VM"[(i + j) % 2] for i in range(n) for j in range(n + 1)]
     faces = [
-        (number[i][j], number[i][j + 1], number[i + 1][j + 1], number[i + 1][j])
-        for i in range(n)
-        for j in range(n)
+        (number[i][j], number[i][j + 1], number[i + 1][j + 1], number[i + 1][j]) for i in range(n) for j in range(n)
     ]
     return Sheet((n + 1) ** 2, (*zigzag, *straight), "".join(letters), tuple(faces), tuple(places))
 
@@ -58,9 +56,7 @@ def frames(n: int, count: int) -> dict[str, float | int]:
     sign = 1.0 if sheet.assignments[driven] == "V" else -1.0
     times: list[float] = []
     start = process_time()
-    folded = fold(
-        sheet, drive={driven: sign * FOLDED}, frames=count, report=lambda _: times.append(process_time())
-    )
+    folded = fold(sheet, drive={driven: sign * FOLDED}, frames=count, report=lambda _: times.append(process_time()))
     whole = process_time() - start
     assert folded.path.stopped == ""
     assert folded.closure < 1e-12

@@ -104,9 +104,7 @@ def counted(sample: Sample, links: int, wanted: int, dice: np.random.Generator) 
         same, seconds["burnside"][n] = each(partial(by_burnside, n, links), some)
         if (same != chains[n]).any():
             sys.exit(f"the methods do not agree on graphs with {n} links")
-        print(
-            n, len(codes), len(some), *(f"{m} {1e6 * s[n].mean():.0f} us" for m, s in seconds.items()), flush=True
-        )
+        print(n, len(codes), len(some), *(f"{m} {1e6 * s[n].mean():.0f} us" for m, s in seconds.items()), flush=True)
     return Counted(chains, seconds)
 
 
@@ -135,9 +133,7 @@ def total(cubic: int, values: dict[int, Floats], numbers: dict[int, Floats]) -> 
     of_cubic = sum((numbers[n] * values[n].mean() for n in numbers), np.zeros(1))  # what each cubic graph brings
     between = (cubic * of_cubic.std(ddof=1)) ** 2 / len(of_cubic)
     within = sum(
-        (cubic * numbers[n].mean()) ** 2 * values[n].var(ddof=1) / len(values[n])
-        for n in numbers
-        if len(values[n]) > 1
+        (cubic * numbers[n].mean()) ** 2 * values[n].var(ddof=1) / len(values[n]) for n in numbers if len(values[n]) > 1
     )
     return {
         "estimate": float(f"{cubic * of_cubic.mean():.4g}"),

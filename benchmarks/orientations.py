@@ -59,8 +59,7 @@ def farthest(problems: int) -> tuple[float, float]:
         found = dyads_of_five(orientations).dyads
         spent += perf_counter() - start
         near = min(
-            max(np.linalg.norm(np.cross(dyad.fixed, g)), np.linalg.norm(np.cross(dyad.moving, w)))
-            for dyad in found
+            max(np.linalg.norm(np.cross(dyad.fixed, g)), np.linalg.norm(np.cross(dyad.moving, w))) for dyad in found
         )
         worst = max(worst, float(near))
     return worst, spent / problems
@@ -81,9 +80,7 @@ def main() -> None:
             "one axis, three checks": round(timed(lambda: analyse_order(five, (1, 2, 3)), 200), 6),
             "all dyads of five orientations": round(each, 6),
             "30 four-bars of six dyads": round(timed(lambda: four_bars(five, dyads)), 4),
-            "curves of four orientations, 360 points": round(
-                timed(lambda: centre_axes(five.subset([1, 2, 3, 4]))), 4
-            ),
+            "curves of four orientations, 360 points": round(timed(lambda: centre_axes(five.subset([1, 2, 3, 4]))), 4),
             "dyads of 20 orientations": round(timed(lambda: dyads_by_least_squares(many)), 4),
         },
         "known dyad": {"problems": PROBLEMS, "largest distance": float(f"{worst:.1e}")},

@@ -57,9 +57,7 @@ def question(n: int) -> dict[str, object]:
 
 def measured(n: int) -> dict[str, float | int]:
     """Return what one size takes in a process of its own."""
-    run = subprocess.run(
-        ["node", ANSWERS], input=json.dumps([question(n)]), capture_output=True, text=True, check=True
-    )
+    run = subprocess.run(["node", ANSWERS], input=json.dumps([question(n)]), capture_output=True, text=True, check=True)
     (answer,) = json.loads(run.stdout)
     frames = answer["frames"]
     assert not any(frame["stopped"] for frame in frames), "a frame did not reach its angle"

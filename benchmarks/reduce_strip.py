@@ -60,9 +60,7 @@ def main() -> None:
         "seconds": [{key: round(value, 4) for key, value in row.items()} for row in rows],
         "slope_log_log": round(slope, 3),
     }
-    Path(__file__).with_name("results").joinpath("reduce_strip.json").write_text(
-        json.dumps(figures, indent=2) + "\n"
-    )
+    Path(__file__).with_name("results").joinpath("reduce_strip.json").write_text(json.dumps(figures, indent=2) + "\n")
     print("slope", figures["slope_log_log"])
 
 

@@ -82,9 +82,7 @@ THREE_LOOP_EIGHT_BAR = [(0, 1, 2, 3), (0, 1, 4), (1, 2, 5), (2, 3, 6), (3, 0, 7)
 TWO_LOOP_SIX_BAR = [(0, 3, 6, 4), (0, 2, 4), (0, 1, 2), (0, 1, 3), (1, 3, 5), (1, 2, 5)]
 
 WIENER = [
-    wiener(
-        "six-bar-loop-spherical", "Table 1", "table1", lambda: SCGraph(6, SIX_BAR, [Loop(range(6))]), "N 6 J 6 M 3"
-    ),
+    wiener("six-bar-loop-spherical", "Table 1", "table1", lambda: SCGraph(6, SIX_BAR, [Loop(range(6))]), "N 6 J 6 M 3"),
     wiener(
         "six-bar-loop-planar",
         "Table 1",
@@ -167,13 +165,9 @@ WIENER = [
         "N 8 J 10 V 8 C 0 E_ext 15 E_int 2 M 1",
         "a topology that fits all printed counts; the figure is not at hand",
     ),
-    wiener(
-        "three-link-chain", "4.1.4.3, Fig. 15", "ex_4_1_4_3", fig15_chain, "N 3 J 2 V 7 C 0 E_ext 9 E_int 4 M 2"
-    ),
+    wiener("three-link-chain", "4.1.4.3, Fig. 15", "ex_4_1_4_3", fig15_chain, "N 3 J 2 V 7 C 0 E_ext 9 E_int 4 M 2"),
     wiener("fortune-teller", "4.1.4.4", "ex_4_1_4_4", fortune_teller, "N 16 J 20 V 13 C 0 E_ext 28 E_int 0 M 5"),
-    wiener(
-        "nine-bar-mesh", "4.1.4.5", "ex_4_1_4_5", lambda: mesh(3, 3), "N 9 J 12 V 16 C 0 E_ext 24 E_int 18 M 0"
-    ),
+    wiener("nine-bar-mesh", "4.1.4.5", "ex_4_1_4_5", lambda: mesh(3, 3), "N 9 J 12 V 16 C 0 E_ext 24 E_int 18 M 0"),
     wiener(
         "hybrid-ten-bar",
         "4.1.4.6",

@@ -49,9 +49,7 @@ def main() -> None:
         print(*sorted({link for page in pages.values() for link in page.links if _is_elsewhere(link)}), sep="\n")
         return
     lost = [f"{place.relative_to(SITE)}: {link}" for place in pages for link in _lost(place, pages)]
-    print(
-        f"{sum(len(page.links) for page in pages.values())} links of {len(pages)} pages, {len(lost)} lead nowhere"
-    )
+    print(f"{sum(len(page.links) for page in pages.values())} links of {len(pages)} pages, {len(lost)} lead nowhere")
     sys.exit("\n".join(lost) or 0)
 
 

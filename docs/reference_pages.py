@@ -64,9 +64,7 @@ def _page_of_room(module: str, names: list[str], place_of: dict[int, str]) -> st
     """Return the page of a room; what another room has documented is named there only."""
     room = import_module(module)
     new = [
-        name
-        for name in names
-        if place_of.setdefault(id(getattr(room, name)), f"{module}.{name}") == f"{module}.{name}"
+        name for name in names if place_of.setdefault(id(getattr(room, name)), f"{module}.{name}") == f"{module}.{name}"
     ]
     rows = [f"   {place_of[id(getattr(room, name))]}" for name in names]
     parts = [with_links(getdoc(room) or ""), ".. autosummary::\n   :nosignatures:\n\n" + "\n".join(rows)]

@@ -163,8 +163,7 @@ class AddendumJob:
         pairs = list(combinations(self.mechanism.nodes, 2))
         number = {frozenset(pair): i for i, pair in enumerate(pairs)}
         moves = [
-            [number[frozenset((moved[a], moved[b]))] for a, b in pairs]
-            for moved in symmetries_of_links(self.mechanism)
+            [number[frozenset((moved[a], moved[b]))] for a, b in pairs] for moved in symmetries_of_links(self.mechanism)
         ]
         least = orbits_of(np.array([range(len(pairs)), *moves], np.int64))
         return [pair for i, pair in enumerate(pairs) if least[i] == i]

@@ -103,9 +103,7 @@ class InvariantError(SynthedraError, ValueError):
     joint 'a' joins link 1 to itself; expected two different links [no self-joint]
     """
 
-    def __init__(
-        self, rule: str, offender: str, expected: str = "", part: tuple[str, object] | None = None
-    ) -> None:
+    def __init__(self, rule: str, offender: str, expected: str = "", part: tuple[str, object] | None = None) -> None:
         super().__init__(rule, offender, expected, part)
         self.rule, self.offender, self.expected, self.part = rule, offender, expected, part
 
@@ -157,9 +155,7 @@ def check_argument(verb: str, value: object, kinds: type | UnionType) -> None:
     if isinstance(value, str | Path):
         name = shown(str(value))
         what = "text" if isinstance(value, str) else "path"
-        raise ArgumentError(
-            f"{verb}: the {what} {name}; expected {expected}; try synth.{verb}(synth.read({name}))"
-        )
+        raise ArgumentError(f"{verb}: the {what} {name}; expected {expected}; try synth.{verb}(synth.read({name}))")
     if value is None or isinstance(value, int | float):
         received = shown(value)
     else:

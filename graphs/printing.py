@@ -111,9 +111,7 @@ def rich_table(*columns: str, numbers: Iterable[str] = (), title: str | None = N
     from rich.table import Table
     from rich.text import Text
 
-    made = Table(
-        box=SIMPLE_HEAD, title=None if title is None else Text(title), title_justify="left", pad_edge=False
-    )
+    made = Table(box=SIMPLE_HEAD, title=None if title is None else Text(title), title_justify="left", pad_edge=False)
     flush = set(numbers)
     for column in columns:
         justify: Literal["left", "right"] = "right" if column in flush else "left"
@@ -188,9 +186,7 @@ def _html_table(table: TableBlock) -> str:
     flush = [' style="text-align: right"' if column in table.numbers else "" for column in table.columns]
 
     def cells(texts: Sequence[str], tag: str) -> str:
-        return "".join(
-            f"<{tag}{style}>{_html_text(text)}</{tag}>" for style, text in zip(flush, texts, strict=True)
-        )
+        return "".join(f"<{tag}{style}>{_html_text(text)}</{tag}>" for style, text in zip(flush, texts, strict=True))
 
     rows = "".join(f"<tr>{cells(row, 'td')}</tr>" for row in table.rows)
     return f"<table><thead><tr>{cells(table.columns, 'th')}</tr></thead><tbody>{rows}</tbody></table>"

@@ -19,9 +19,7 @@ import pytest
 import synth
 
 ROOT = Path(__file__).resolve().parent.parent
-PAPERS = sorted(
-    [*ROOT.glob("*.md"), *(path for path in ROOT.glob("docs/**/*.md") if "reference" not in path.parts)]
-)
+PAPERS = sorted([*ROOT.glob("*.md"), *(path for path in ROOT.glob("docs/**/*.md") if "reference" not in path.parts)])
 CODE = sorted(path for folder in ("graphs", "enumerate", "synth", "tests", "data", "benchmarks")
               for path in (ROOT / folder).rglob("*.py"))  # fmt: skip
 FOLDERS = ("graphs", "enumerate", "synth", "data", "docs", "tests", "benchmarks")
@@ -205,9 +203,7 @@ def test_the_reference_has_every_name_of_the_face(reference):
 
 def test_the_face_is_documented_whole():
     """Functions and classes of the face say what they take or hold, and have an example that runs."""
-    face = {
-        name: getattr(synth, name) for name in synth.__all__ if not isinstance(getattr(synth, name), UnionType)
-    }
+    face = {name: getattr(synth, name) for name in synth.__all__ if not isinstance(getattr(synth, name), UnionType)}
     untold = {
         name: (set(inspect.signature(one).parameters) if isinstance(one, FunctionType) else taken_or_held(one))
         - told(one)
@@ -216,9 +212,7 @@ def test_the_face_is_documented_whole():
     }
     assert not {name: names for name, names in untold.items() if names}
     without = {name for name, one in face.items() if ">>> " not in sections(one, "Examples")}
-    assert without - {"SynthedraError", "FileError", "InvariantError", "UnsolvableError"} == {
-        "load_ipython_extension"
-    }
+    assert without - {"SynthedraError", "FileError", "InvariantError", "UnsolvableError"} == {"load_ipython_extension"}
 
 
 @pytest.mark.parametrize(
@@ -234,9 +228,7 @@ def test_single_files_of_graphs_say_what_they_hold(name):
 
 
 def test_every_misprint_is_told_on_the_page_of_its_theory():
-    items = re.findall(
-        r"^\| (\d{3}-\d+)", (ROOT / "docs" / "misprints.md").read_text(encoding="utf-8"), re.MULTILINE
-    )
+    items = re.findall(r"^\| (\d{3}-\d+)", (ROOT / "docs" / "misprints.md").read_text(encoding="utf-8"), re.MULTILINE)
     assert len(items) > 30
     theory = "".join(page.read_text(encoding="utf-8") for page in (ROOT / "docs" / "theory").glob("*.md"))
     assert not {item for item in items if not re.search(rf"\b{item}\b", theory)}

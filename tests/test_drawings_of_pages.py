@@ -66,7 +66,5 @@ def test_a_drawing_is_the_same_each_time_and_what_is_kept_says_the_same(drawings
     """What is kept is compared by words and shapes: last digits of numbers are those of a machine."""
     once, again = (svg_text(drawings.drawing_of(page)) for _ in range(2))
     assert once == again
-    made, kept = (
-        ElementTree.fromstring(text) for text in (once, (KEPT / f"{page}.svg").read_text(encoding="utf-8"))
-    )
+    made, kept = (ElementTree.fromstring(text) for text in (once, (KEPT / f"{page}.svg").read_text(encoding="utf-8")))
     assert [(one.tag, one.text) for one in made.iter()] == [(one.tag, one.text) for one in kept.iter()]

@@ -149,16 +149,12 @@ def test_a_template_in_one_call_is_that_of_the_command(file, options, words, tmp
 def test_options_of_another_mechanism_are_refused(data):
     with pytest.raises(synth.InvariantError, match="radius for another mechanism; expected a linkage on a cone"):
         synth.template(data / "patterns" / "bird-base.fold", radius=3)
-    with pytest.raises(
-        synth.InvariantError, match="tabs, precision for another mechanism; expected a mechanism with"
-    ):
+    with pytest.raises(synth.InvariantError, match="tabs, precision for another mechanism; expected a mechanism with"):
         synth.template(data / "surfaces" / "fig11-stephenson.json", tabs=3, precision=1e-3)
 
 
 def test_lists_in_one_call_are_those_of_the_command():
-    rows = json.loads(
-        run("enumerate", "conical", "--chain", "k1:Cr", "--ground", "all", "--slots", 5, "--json").stdout
-    )
+    rows = json.loads(run("enumerate", "conical", "--chain", "k1:Cr", "--ground", "all", "--slots", 5, "--json").stdout)
     assert json.loads(json.dumps(list(synth.conical_candidates("k1:Cr", grounds="all", slots=5)))) == rows
     assert synth.count_conical_candidates("k1:Cr", grounds="all", slots=5) == len(rows)
     few = [synth.Filter("layers", most=2)]

@@ -17,9 +17,7 @@ def test_files_that_a_command_changes_are_named(tmp_path):
     child = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert child.returncode == 3
     assert child.stdout.splitlines()[1:] == ["  ./gone", "  ./made", "  ./other"]
-    child = subprocess.run(
-        [str(CHANGED), ".", "--", "true"], cwd=tmp_path, capture_output=True, text=True, check=True
-    )
+    child = subprocess.run([str(CHANGED), ".", "--", "true"], cwd=tmp_path, capture_output=True, text=True, check=True)
     assert child.stdout == "Nothing changed under .\n"
 
 

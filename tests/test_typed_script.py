@@ -36,9 +36,7 @@ def revealed(tmp_path_factory):
     """What mypy infers for the script, and for each name of the face."""
     tmp_path = tmp_path_factory.mktemp("typed")
     names = tmp_path / "names.py"
-    names.write_text(
-        "\n".join(["import synth", *(f"reveal_type(synth.{name})" for name in sorted(synth.__all__))])
-    )
+    names.write_text("\n".join(["import synth", *(f"reveal_type(synth.{name})" for name in sorted(synth.__all__))]))
     (tmp_path / "mypy.ini").write_text(CONFIGURATION.format(root=ROOT), encoding="utf-8")
     words = [
         "--config-file",

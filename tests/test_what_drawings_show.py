@@ -52,9 +52,7 @@ def test_the_four_bars_are_of_the_eight_types(drawn):
 @pytest.mark.parametrize("lengths", turning._LENGTHS)
 def test_a_range_is_whole_exactly_for_a_crank(lengths):
     kind = kind_of_planar(lengths)
-    lines = [
-        shape for shape in turning._ranges(lengths).shapes() if isinstance(shape, Line) and len(shape.points) > 4
-    ]
+    lines = [shape for shape in turning._ranges(lengths).shapes() if isinstance(shape, Line) and len(shape.points) > 4]
     for side, dash in ((kind.input, ()), (kind.output, (3.0, 2.0))):
         arcs = [line for line in lines if line.dash == dash]
         closed = [line for line in arcs if np.allclose(line.points[0], line.points[-1])]

@@ -72,9 +72,7 @@ class _Circle:
     def joints(self, azimuths: Sequence[float], names: Sequence[str], part: float = 1.16) -> list[Shape]:
         """Return joints with their names outside."""
         shapes: list[Shape] = [Disc(self.at(azimuth), 2.4, "paper", "ink", NORMAL) for azimuth in azimuths]
-        return shapes + [
-            Label(self.at(azimuth, part), name) for azimuth, name in zip(azimuths, names, strict=True)
-        ]
+        return shapes + [Label(self.at(azimuth, part), name) for azimuth, name in zip(azimuths, names, strict=True)]
 
     def ring(self) -> Disc:
         """Return the circle itself."""
@@ -201,9 +199,7 @@ def multiloop() -> Scene:
     linkage = synth.read(DATA / "surfaces" / "fig11-stephenson.json")
     places = linkage.places()
     names = [str(joint) for joint in linkage.chain.joints]
-    chain = chain_scene(
-        linkage.chain, PictureOptions(box=(140, 140), caption=None), look=ChainLook(link_numbers=False)
-    )
+    chain = chain_scene(linkage.chain, PictureOptions(box=(140, 140), caption=None), look=ChainLook(link_numbers=False))
     circle = _Circle(58.0)
     shapes: list[Shape] = [circle.ring()]
     told = []

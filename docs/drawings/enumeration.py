@@ -153,9 +153,7 @@ def _type(code: str, side: float) -> Scene:
     graph = synth.read(code)
     if code.startswith("k1:"):
         return cropped(chain_scene(graph, PictureOptions(box=(side, side), caption=None), look=_PLAIN))
-    return cropped(
-        without(legible(synth.draw(graph, kind="graph", caption=None, box=(side, side))), "ride-alongs")
-    )
+    return cropped(without(legible(synth.draw(graph, kind="graph", caption=None, box=(side, side))), "ride-alongs"))
 
 
 def conical_candidates() -> Scene:

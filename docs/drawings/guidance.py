@@ -69,9 +69,7 @@ class _Globe:
             for place, point in zip(places, points, strict=True)
         ]
         beside_them = spread(np.array(places), reach=7.5, gap=9.0).tolist()
-        return shapes + [
-            Label((x, y), str(number), bold=True) for number, (x, y) in enumerate(beside_them, start=1)
-        ]
+        return shapes + [Label((x, y), str(number), bold=True) for number, (x, y) in enumerate(beside_them, start=1)]
 
     def whole(self) -> Disc:
         """Return the sphere itself."""
@@ -137,9 +135,7 @@ def guidance() -> Scene:
     orientations = read_orientations(_CRANK_ROCKER)
     best = synth.four_bars(orientations, synth.guiding_dyads(orientations).dyads)[0]
     pictures = [
-        said(
-            _guided(orientations, best, number), f"orientation {number + 1}, driver at {_driver_at(best, number)}"
-        )
+        said(_guided(orientations, best, number), f"orientation {number + 1}, driver at {_driver_at(best, number)}")
         for number in _SHOWN
     ]
     return beside(*pictures, gap=14.0)

@@ -116,16 +116,12 @@ def activating_constraints() -> Scene:
     poses = pose_scenes(cylinders[0], places, 140.0)
     words = (f"{degrees(_least_left(cylinder)):.0f}° left" for cylinder in cylinders)
     row = beside(*map(said, poses, words), gap=6.0)
-    return said(
-        row, "the triangles on the creases are ride-alongs; once they are straight, no crease can open farther"
-    )
+    return said(row, "the triangles on the creases are ride-alongs; once they are straight, no crease can open farther")
 
 
 def _least_left(cylinder: Sheet) -> float:
     """Return the least angle, radians, that a crease can turn before its ride-along is straight."""
-    ends = [
-        (one.angle, end.angle) for one in limits(cylinder).ride_alongs for end in (one.lower, one.upper) if end
-    ]
+    ends = [(one.angle, end.angle) for one in limits(cylinder).ride_alongs for end in (one.lower, one.upper) if end]
     return min(abs(angle - end) for angle, end in ends)
 
 

@@ -97,9 +97,7 @@ def _two_loops(name: str) -> Scene:
     sc = pattern.mechanism.sc
     numbers = class_numbers(sc)
     thick: list[Shape] = [Line(pattern.crease(joint), "ink", 1.5 * STRONG) for joint in pattern.shared(0, 1)]
-    signs = [
-        shape for place, loop in enumerate(sc.loops) for shape in _meeting(pattern, loop.joints, numbers[place])
-    ]
+    signs = [shape for place, loop in enumerate(sc.loops) for shape in _meeting(pattern, loop.joints, numbers[place])]
     return over(pattern.scene(), [*thick, *signs])
 
 
@@ -175,8 +173,7 @@ def crease_patterns() -> Scene:
     sc = pattern.mechanism.sc
     x, y = pattern.middle_of_hole()
     words: list[Shape] = [
-        Label((x, y + line * SMALL), text, SMALL, halo=False)
-        for line, text in ((-0.7, "hole:"), (0.7, "no centre"))
+        Label((x, y + line * SMALL), text, SMALL, halo=False) for line, text in ((-0.7, "hole:"), (0.7, "no centre"))
     ]
     joints, freedoms = len(sc.joints), len(sc.joints) - 3 * len(sc.centred_loops) - 6 * sc.spatial_loops
     return beside(

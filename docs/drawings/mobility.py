@@ -132,9 +132,7 @@ def pose() -> Scene:
             "Miura sheet, folded;",
             "coordinates with five decimals",
         ),
-        said(
-            picture, f"{found.spectrum.rank} values count, {found.dof} does not: {numbered(found.dof, 'freedom')}"
-        ),
+        said(picture, f"{found.spectrum.rank} values count, {found.dof} does not: {numbered(found.dof, 'freedom')}"),
     )
 
 

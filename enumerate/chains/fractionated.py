@@ -79,11 +79,7 @@ def block_choices(
 
     smaller = [list(combinations_with_replacement(list(of_size(size)), count)) for size, count in runs[1:]]
     size, count = runs[0]
-    first = (
-        ((block,) for block in of_size(size))
-        if count == 1
-        else combinations_with_replacement(of_size(size), count)
-    )
+    first = ((block,) for block in of_size(size)) if count == 1 else combinations_with_replacement(of_size(size), count)
     for largest in first:
         for others in product(*smaller):
             yield (*largest, *(block for run in others for block in run))
@@ -258,9 +254,7 @@ def _placements(frame: Frame, joints: list[list[int]], units: int) -> Iterator[l
     alone, identity = np.arange(len(cost)), np.arange(len(cost), dtype=np.uint8)[None]
     for bound in range(max(int(frame.needs[-1]), 0), min(units, 2 * len(frame.ends)) + 1):
         room, weight = conditions(frame.ends, frame.sets, frame.needs, bound)
-        shares = np.array([weight[cycle].sum(axis=0) for cycle in joints], np.uint64).reshape(
-            len(joints), len(room)
-        )
+        shares = np.array([weight[cycle].sum(axis=0) for cycle in joints], np.uint64).reshape(len(joints), len(room))
         left = Units(bound, units - bound, units)
         problem = room, shares, cost, alone, left, identity, no_prefix()
         count = place(*problem, np.zeros((0, len(cost)), np.uint8), np.zeros(0, np.int64))

@@ -231,9 +231,7 @@ class CountJob(job.QueryCount[ChainQuery]):
         if self.streamed:
             return self._streamed_units()
         return [
-            job.Unit((n, some), len(some))
-            for n, codes in _graphs(self.query)
-            for some in job.batches(codes, _GRAPHS)
+            job.Unit((n, some), len(some)) for n, codes in _graphs(self.query) for some in job.batches(codes, _GRAPHS)
         ]
 
     def _streamed_units(self) -> list[job.Unit]:
@@ -310,9 +308,7 @@ def count_job(
     plain = query.symmetry == job.ONE_OR_MORE and not query.inputs
     streamed = query.loops >= _STREAMED and "graphs_of_a_unit" not in (kept or {})
     if method == "burnside":
-        filtered = (
-            query.assortment is not None or query.planar is not None or query.longest_string != job.ANY_NUMBER
-        )
+        filtered = query.assortment is not None or query.planar is not None or query.longest_string != job.ANY_NUMBER
         if not plain or (query.fractionated and (filtered or query.inversions)):
             raise UnsolvableError(
                 "Burnside's lemma cannot count by input joints or symmetries, nor a part of fractionated chains; "
@@ -370,9 +366,7 @@ def chains(links: int, dof: int, *, workers: int = 1, **options: Unpack[ChainOpt
     yield from graphs_of(rows, lambda code: ChainGraph(chain_from_id(code)))
 
 
-def chain_rows(
-    links: int, dof: int, *, workers: int = 1, **options: Unpack[ChainOptions]
-) -> Iterator[dict[str, Any]]:
+def chain_rows(links: int, dof: int, *, workers: int = 1, **options: Unpack[ChainOptions]) -> Iterator[dict[str, Any]]:
     """Yield a dictionary for each kinematic chain, or inversion, or choice of inputs.
 
     Keys are ``code`` (the id), ``links``, ``joints``, ``dof``, ``loops``, ``assortment`` (numbers of binary,

@@ -262,9 +262,7 @@ def input_choices(
     """
     ordered = sorted((min(joint), max(joint)) for joint in joints)
     number = {joint: i for i, joint in enumerate(ordered)}
-    moves = [
-        (move, [number[min(move[a], move[b]), max(move[a], move[b])] for a, b in ordered]) for move in generators
-    ]
+    moves = [(move, [number[min(move[a], move[b]), max(move[a], move[b])] for a, b in ordered]) for move in generators]
     chosen = [c for c in combinations(range(len(ordered)), dof) if dof == 1 or are_inputs(links, ordered, c)]
     seen: set[tuple[int, tuple[int, ...]]] = set()
     for ground in range(links):

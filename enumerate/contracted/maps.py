@@ -54,9 +54,9 @@ def contracted_maps(loops: int) -> Iterator[tuple[int, Bytes]]:
     """
     expect(placing(loops, 1))
     two_links_with_three_joints = np.array([[JOINT, JOINT + 1, JOINT + 2, END, JOINT, JOINT + 2, JOINT + 1, END]])
-    yield from Growth(
-        MOST_MAP_LOOPS, two_links_with_three_joints.astype(np.uint8), _extend_all, _contract_all
-    ).levels(loops)
+    yield from Growth(MOST_MAP_LOOPS, two_links_with_three_joints.astype(np.uint8), _extend_all, _contract_all).levels(
+        loops
+    )
 
 
 @compiled

@@ -20,9 +20,7 @@ MOST_VERTICES = 22
 """A pair of vertices must fit one byte."""
 
 _MOST_PARALLEL = 32
-_MIX = np.random.default_rng(20161005).integers(
-    1, 2**63, size=(MOST_VERTICES + 1, _MOST_PARALLEL), dtype=np.uint64
-)
+_MIX = np.random.default_rng(20161005).integers(1, 2**63, size=(MOST_VERTICES + 1, _MOST_PARALLEL), dtype=np.uint64)
 """Random words for (colour of a neighbour, number of joints to it); any words give correct labels."""
 
 
@@ -42,9 +40,7 @@ def neighbours(adjacency: Bytes, n: int) -> tuple[Bytes, Bytes, Bytes]:
 
 
 @compiled
-def refine(
-    ends: Bytes, joints: Bytes, count: Bytes, n: int, order: Bytes, colour: Bytes, sums: Words
-) -> np.uint64:
+def refine(ends: Bytes, joints: Bytes, count: Bytes, n: int, order: Bytes, colour: Bytes, sums: Words) -> np.uint64:
     """Refine a colouring in place until it is equitable; return a hash of how it went.
 
     Ends, joints and count are those of `neighbours`; `order` holds the vertices by colour and is sorted anew; a

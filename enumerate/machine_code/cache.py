@@ -35,7 +35,7 @@ _DIGEST = 32
 
 
 class _Place(_numba._CacheLocator):
-    """The name of the folder of a function's module; it changes with all that the code is make_folder of."""
+    """The name of the folder of a function's module; it changes with all that the code is made of."""
 
     def __init__(self, function: Callable[..., object]) -> None:
         self._py_file = function.__code__.co_filename  # numba names it in a warning

@@ -329,8 +329,7 @@ Column = type | ListColumn
 def row_as_dict(columns: Iterable[str], row: tuple[Any, ...]) -> dict[str, Any]:
     """Return a row as a dictionary of its columns, with lists for tuples."""
     return {
-        name: _as_list(value) if isinstance(value, tuple) else value
-        for name, value in zip(columns, row, strict=True)
+        name: _as_list(value) if isinstance(value, tuple) else value for name, value in zip(columns, row, strict=True)
     }
 
 

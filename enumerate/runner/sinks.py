@@ -229,9 +229,7 @@ class ParquetSink(_FileSink):
             import pyarrow as arrow
             from pyarrow import parquet
         except ImportError:
-            raise StoreError(
-                f"{self._path}: Parquet requires pyarrow; try pip install 'synthedra[parquet]'"
-            ) from None
+            raise StoreError(f"{self._path}: Parquet requires pyarrow; try pip install 'synthedra[parquet]'") from None
         super().start(job)
         self._schema = arrow.schema([(column, _arrow_type(kind)) for column, kind in job.columns.items()])
         kinds = enumerate(job.columns.values())

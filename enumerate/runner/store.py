@@ -152,9 +152,7 @@ class SqliteSink:
 
     def _mark_complete(self, connection: sqlite3.Connection) -> None:
         with self._transaction():
-            [units, last, promised] = connection.execute(
-                "SELECT count(*), max(id), sum(rows) FROM unit"
-            ).fetchone()
+            [units, last, promised] = connection.execute("SELECT count(*), max(id), sum(rows) FROM unit").fetchone()
             [rows, greatest] = connection.execute("SELECT count(*), max(rowid) FROM type").fetchone()
             if units and (units != last + 1 or not rows == promised == (greatest or 0)):
                 raise StoreError(f"{self.path}: holds {rows} rows; expected {promised}, as its units say")

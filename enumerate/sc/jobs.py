@@ -28,15 +28,7 @@ from enumerate.kernel.maps import END, JOINT, OPEN, decode_map
 from enumerate.machine_code.weights import drawing, placing
 from enumerate.runner import job
 from enumerate.runner.running import graphs_of, rows_of, total_of
-from enumerate.sc.listing import (
-    Centres,
-    centres_of_all,
-    count_drawn,
-    count_drawn_by_burnside,
-    count_on_map,
-    describe,
-    list_drawn,
-)
+from enumerate.sc import listing
 from enumerate.sc.query import SCOptions, SCQuery
 from graphs.errors import UnsolvableError
 from graphs.identity.drawings import map_text, mechanism_from_map_id
@@ -98,13 +90,13 @@ class DrawnChains:
 def drawn_of(query: SCQuery, part: MapPart) -> DrawnChains:
     """Return the SC graphs of a part that a query admits."""
     strings = PlacementRange(query.links, query.chains.most, part.only)
-    centres = Centres(query.dof, query.spatial, query.infinite)
-    x, labels, order = list_drawn(part.code, part.n, part.outer, strings, part.prefix, centres)
+    centres = listing.Centres(query.dof, query.spatial, query.infinite)
+    x, labels, order = listing.list_drawn(part.code, part.n, part.outer, strings, part.prefix, centres)
     admitted = query.symmetry.admitted(order)
     if len(part.code) and query.longest_string.least > 0:
         admitted &= x.max(axis=1, initial=0) >= query.longest_string.least
     if query.centres != job.ANY_NUMBER:
-        admitted &= query.centres.admitted(centres_of_all(part.code, part.n, query.links, x, labels))
+        admitted &= query.centres.admitted(listing.centres_of_all(part.code, part.n, query.links, x, labels))
     return DrawnChains(x[admitted], labels[admitted], order[admitted])
 
 
@@ -116,7 +108,7 @@ def _rows(query: SCQuery, part: MapPart, drawn: DrawnChains) -> list[job.Row]:
     """Return the rows of the SC graphs of a part; columns are `SC_COLUMNS`."""
     if not len(drawn.x):
         return []
-    codes, joints, sizes, facts, left = describe(
+    codes, joints, sizes, facts, left = listing.describe(
         part.code, part.n, query.links, part.outer, drawn.x, drawn.labels, not query.plain
     )
     ids = map_ids(codes, np.full(len(codes), codes.shape[1]), 0 if query.plain else drawn.labels.shape[1])
@@ -183,7 +175,7 @@ def _parts(query: SCQuery, size: int) -> Iterator[tuple[MapPart, int]]:
 
 def _number_in(query: SCQuery, part: MapPart, only: int, prefix: Ints) -> int:
     """Return the number of drawn chains of a part that begin in one way."""
-    return int(count_on_map(part.code, part.n, part.outer, query.links, query.chains.most, only, prefix))
+    return int(listing.count_on_map(part.code, part.n, part.outer, query.links, query.chains.most, only, prefix))
 
 
 @dataclass(frozen=True)
@@ -241,9 +233,7 @@ class SCCountJob(job.QueryCount[SCQuery]):
     def units(self) -> Sequence[job.Unit]:
         """Units of some hundreds of maps each."""
         return [
-            job.Unit((n, some), len(some))
-            for n, codes in maps_for(self.query)
-            for some in job.batches(codes, _MAPS)
+            job.Unit((n, some), len(some)) for n, codes in maps_for(self.query) for some in job.batches(codes, _MAPS)
         ]
 
     def interpreted(self, weight: int) -> float:
@@ -254,7 +244,7 @@ class SCCountJob(job.QueryCount[SCQuery]):
     def work(self, payload: tuple[int, Bytes]) -> list[job.Row]:
         """Return the number of SC graphs of a unit."""
         (n, codes), query = payload, self.query
-        count = count_drawn_by_burnside if self.method == "burnside" else count_drawn
+        count = listing.count_drawn_by_burnside if self.method == "burnside" else listing.count_drawn
         return [(query.chains.number_within(lambda most: count(codes, n, query.links, most, self.outside)),)]
 
 
@@ -470,6 +460,4 @@ def map_ids(codes: Bytes, lengths: Ints, labels: int) -> list[str]:
         "".join(LABEL_LETTERS[label] for label in row[end + 1 : end + labels])
         for row, end in zip(codes.tolist(), ends, strict=True)
     ]
-    return [
-        f"{text};{suffix}" if set(suffix) - {"f"} else text for text, suffix in zip(texts, suffixes, strict=True)
-    ]
+    return [f"{text};{suffix}" if set(suffix) - {"f"} else text for text, suffix in zip(texts, suffixes, strict=True)]

@@ -284,9 +284,7 @@ def _fixed_by(vertex: Ints, states: Bytes, symmetry: Ints, most: int) -> int:
 
 
 @compiled
-def _ways_in_cycles(
-    vertex: Ints, states: Bytes, symmetry: Ints, link: int, low: int, high: int, done: Flags
-) -> int:
+def _ways_in_cycles(vertex: Ints, states: Bytes, symmetry: Ints, link: int, low: int, high: int, done: Flags) -> int:
     """Return in how many ways a link takes low to high open edges that a symmetry leaves as they are.
 
     The links in its cycle are noted in ``done``.

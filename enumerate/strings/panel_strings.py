@@ -69,9 +69,7 @@ class ChainString:
                 "R/- string", f"{shown(text)} has {shown(odd[0])} at position {odd.start() + 1}", "R and - only"
             )
         if not re.fullmatch("R+(-R+)*", text):
-            raise InvariantError(
-                "R/- string", f"{shown(text)} has a panel without a crease", "R on both sides of -"
-            )
+            raise InvariantError("R/- string", f"{shown(text)} has a panel without a crease", "R on both sides of -")
         return cls(tuple(map(len, text.split("-"))))
 
     @property
@@ -234,9 +232,7 @@ def joint_chain(text: str) -> ChainString:
         if letter == "P" and not inner:
             raise InvariantError("joint chain", f"{place}P at an end", "P between two joints: it needs two panels")
         if letter == "R" and inner:
-            raise InvariantError(
-                "joint chain", f"{place}R between panels", "P: parallel creases make it prismatic"
-            )
+            raise InvariantError("joint chain", f"{place}R between panels", "P: parallel creases make it prismatic")
     return ChainString(tuple(sizes[letter] for letter in text))
 
 
@@ -269,9 +265,7 @@ def strings(
                 yield ChainString(clusters)
 
 
-def count_strings(
-    creases: int, *, max_panels: int | None = MAX_PANELS, max_cluster: int | None = MAX_CLUSTER
-) -> int:
+def count_strings(creases: int, *, max_panels: int | None = MAX_PANELS, max_cluster: int | None = MAX_CLUSTER) -> int:
     """Return the number of strings by generating functions, without listing them.
 
     Compositions of n into m parts of at most c have the generating function (x + ... + x^c)^m, whose coefficients

@@ -50,9 +50,7 @@ def with_exact(
     else:
         size, unit, most = len(mechanism.joints), "joints", MOST_JOINTS
     if size > most and not demanded:
-        return answer.with_notes(
-            warnings=[f"exact rank skipped: {size} {unit}, more than {most}; --exact computes it"]
-        )
+        return answer.with_notes(warnings=[f"exact rank skipped: {size} {unit}, more than {most}; --exact computes it"])
     try:
         exact = rank(mechanism)
     except (UnsolvableError, NumericalError) as error:
@@ -115,9 +113,7 @@ def _flat_notes(answer: MobilityAnswer, pose: PoseMobility) -> list[str]:
     return [f"{flat}: fewer infinitesimal degrees of freedom once folded"]
 
 
-_ASSUMED = (
-    "a link-joint graph without centres: each face of a drawing is assumed to have a finite one, which decides M"
-)
+_ASSUMED = "a link-joint graph without centres: each face of a drawing is assumed to have a finite one, which decides M"
 _ANY_CONE = Cone(pi / 4)
 """Rank at the conformed position does not depend on the cone angle (docs/theory/behaviour.md)."""
 
@@ -187,9 +183,7 @@ def mobility(
     if sc.centres_assumed:
         answer = replace(answer, warnings=(_ASSUMED, *answer.warnings))
     if pose is not None and pose is not False:
-        answer = answer.with_notes(
-            warnings=["no degrees of freedom at a configuration: a graph has no coordinates"]
-        )
+        answer = answer.with_notes(warnings=["no degrees of freedom at a configuration: a graph has no coordinates"])
     if exact is not False:
         answer = with_exact(answer, sc, demanded=demanded)
     if pose is not False and isinstance(mechanism, SurfaceLinkage):

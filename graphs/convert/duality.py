@@ -148,9 +148,7 @@ def _with_loops(sc: SCGraph, loops: Sequence[Loop], notes: _Notes) -> SCGraph:
         added[loop.centre] += 1
     for centre, meet in ((Centre.INFINITE, "are parallel: planar"), (Centre.FINITE, "meet in a point: spherical")):
         if added[centre]:
-            notes.warnings.append(
-                f"geometry: the axes of {numbered(added[centre], 'loop')} round holes or cuts {meet}"
-            )
+            notes.warnings.append(f"geometry: the axes of {numbered(added[centre], 'loop')} round holes or cuts {meet}")
     return sc
 
 
@@ -178,9 +176,7 @@ def _edges_of_faces(sheet: Sheet) -> tuple[dict[Edge, list[int]], dict[Edge, tup
         if letter in HINGES and assignment[edge][0] not in HINGES:
             assignment[edge] = (letter, assignment[edge][1])
     if twice:
-        notes.repairs.append(
-            f"{numbered(twice, 'edge')} listed twice: a crease counts before a border or a flat edge"
-        )
+        notes.repairs.append(f"{numbered(twice, 'edge')} listed twice: a crease counts before a border or a flat edge")
     unlisted = cuts = 0
     for edge, here in faces_at.items():
         if len(here) > 2:

@@ -28,9 +28,7 @@ def block_cycles(links: Iterable[LinkId], joints: Joints) -> list[BlockCycles]:
     return [_cycles(block, joint_of) for block in blocks if block.number_of_edges() >= len(block)]
 
 
-def sc_from_link_joint_graph(
-    graph: nx.Graph, centre: Centre | str = Centre.FINITE, *, closed: bool = False
-) -> SCGraph:
+def sc_from_link_joint_graph(graph: nx.Graph, centre: Centre | str = Centre.FINITE, *, closed: bool = False) -> SCGraph:
     """Give a bare link-joint graph loops and centres: its most general spherical system.
 
     Parameters

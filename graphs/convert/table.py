@@ -132,9 +132,7 @@ def to_polyhedron(mechanism: Mechanism) -> PolyhedronModel:
         for i, vertex in enumerate(vertices):  # vertex i lies after side i, which starts at panel vertex i
             place = mechanism.coordinates[panels[link][(i + 1) % len(vertices)]]
             places[vertex] = (*place, 0.0)[:3]
-    return PolyhedronModel(
-        model.nodes, model.edges, coordinates=places, centres=model.centres, links=dict(model.links)
-    )
+    return PolyhedronModel(model.nodes, model.edges, coordinates=places, centres=model.centres, links=dict(model.links))
 
 
 def to_sheet(mechanism: Mechanism) -> Sheet:

@@ -249,9 +249,7 @@ def _distinct(lines: Lines) -> tuple[Lines, Floats]:
     return Lines(lines.ends[kept], letters, angles), np.delete(lines.ends, kept, axis=0)
 
 
-def _points_on_lines(
-    points: Floats, ends: Floats, tree: shapely.STRtree, tolerance: float
-) -> dict[int, list[int]]:
+def _points_on_lines(points: Floats, ends: Floats, tree: shapely.STRtree, tolerance: float) -> dict[int, list[int]]:
     """Return, for each line, the points within a tolerance of it."""
     at: dict[int, list[int]] = defaultdict(list)
     which, line = tree.query(shapely.points(points), predicate="dwithin", distance=tolerance)

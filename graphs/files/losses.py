@@ -290,9 +290,7 @@ def change_of_type(before: Mechanism, after: Mechanism) -> str | None:
 
 def _as_text(linkage: JointedLinkage) -> tuple[set[str], dict[str, tuple[set[str], JointKind]]]:
     """Return links, and joints with their ends and kinds, by their names: these files keep."""
-    joints = {
-        str(joint): ({*map(str, ends)}, linkage.kinds[joint]) for joint, ends in linkage.chain.joints.items()
-    }
+    joints = {str(joint): ({*map(str, ends)}, linkage.kinds[joint]) for joint, ends in linkage.chain.joints.items()}
     return {*map(str, linkage.chain.nodes)}, joints
 
 

@@ -122,9 +122,7 @@ class _ScParts:
         freedoms = self.check.integer(value["freedoms"], "special.freedoms", 1)
         listed = self.check.items(value["conditions"], "special.conditions", "a list of texts")
         texts = [self.check.text(text, place) for place, text in listed]
-        return self.check.build(
-            lambda: SpecialGeometry(freedoms, texts), lambda _: "special.conditions", "special"
-        )
+        return self.check.build(lambda: SpecialGeometry(freedoms, texts), lambda _: "special.conditions", "special")
 
     def _joints(self, value: Any) -> dict[JointId, tuple[LinkId, LinkId]]:
         joints: dict[JointId, tuple[LinkId, LinkId]] = {}
@@ -210,9 +208,7 @@ def read_polyhedron(value: Mapping[str, Any], check: Checker) -> PolyhedronModel
     )
     vertices, coordinates = _vertices(value["vertices"], check)
     rods = _rods(value["rods"], "rods", check, "a list of rods")
-    centres = [
-        _remote_centre(item, place, check) for place, item in check.items(value.get("centres", []), "centres")
-    ]
+    centres = [_remote_centre(item, place, check) for place, item in check.items(value.get("centres", []), "centres")]
     scissors = [
         tuple_of(item, place, check, 4, "four vertices")
         for place, item in check.items(value.get("scissors", []), "scissors")
@@ -550,9 +546,7 @@ def _matrix(value: Any, place: str, check: Checker) -> tuple[float, ...]:
     return tuple(x for k, row in enumerate(rows) for x in _numbers(row, f"{place}[{k}]", 3, check))
 
 
-NativeObject = (
-    SCGraph | SCDGraph | PolyhedronModel | VertexEdgeGraph | SurfaceLinkage | HingedSolids | JointedLinkage
-)
+NativeObject = SCGraph | SCDGraph | PolyhedronModel | VertexEdgeGraph | SurfaceLinkage | HingedSolids | JointedLinkage
 
 
 def from_document(value: Any, path: Path) -> NativeObject:

@@ -76,9 +76,7 @@ def check_installed(module: str, name: str) -> None:
         extra = _EXTRAS[package]
         raise UnsolvableError(f"{name} requires {package}; try pip install 'synthedra[{extra}]'") from None
     except OSError:  # matplotlib found neither a home nor a temporary folder
-        raise UnsolvableError(
-            f"{package} requires a folder to write to; try to name one in MPLCONFIGDIR"
-        ) from None
+        raise UnsolvableError(f"{package} requires a folder to write to; try to name one in MPLCONFIGDIR") from None
 
 
 def check_writable(path: str | Path, formats: Formats[Content], *, force: bool = False) -> None:

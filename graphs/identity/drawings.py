@@ -89,9 +89,7 @@ def map_code(mechanism: SCGraph) -> tuple[list[int], str]:
             symbols, reads = _reading(turns, corner.link, root)
             found = symbols, ""
             if not plain:  # the face after a joint lies on its left seen from the link, in a mirror on its right
-                met = [
-                    left_of[joint, _across(mechanism, joint, link) if mirrored else link] for link, joint in reads
-                ]
+                met = [left_of[joint, _across(mechanism, joint, link) if mirrored else link] for link, joint in reads]
                 found = symbols, "".join(labels[f] for f in dict.fromkeys(met))[1:]
             if best is None or found < best:
                 best = found
@@ -220,9 +218,7 @@ def mechanism_from_map_id(code: str) -> SCGraph:
                 ends.setdefault(joint, []).append(link)
     for joint, links in ends.items():
         if len(set(links)) != 2 or len(links) != 2:
-            raise InvariantError(
-                "id", f"joint {joint} of {shown(code)} is at links {links}", "two different links"
-            )
+            raise InvariantError("id", f"joint {joint} of {shown(code)} is at links {links}", "two different links")
     joints = {joint: (links[0], links[1]) for joint, links in sorted(ends.items())}
     if not joints or list(joints) != list(range(len(joints))):
         raise InvariantError("id", f"the joints of {shown(code)} are {list(joints)}", "all from the first on")
@@ -246,8 +242,7 @@ def _loops(
     if labels and (len(labels) != len(bounded) or not set(labels) <= set(kinds)):
         raise InvariantError("id", f"the labels {shown(labels)} of {shown(code)}", f"{len(bounded)} of f, i, s")
     return [
-        Loop(faces[f].joints, kinds[letter])
-        for f, letter in zip(bounded, labels or "f" * len(bounded), strict=True)
+        Loop(faces[f].joints, kinds[letter]) for f, letter in zip(bounded, labels or "f" * len(bounded), strict=True)
     ]
 
 

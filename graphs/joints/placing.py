@@ -114,9 +114,7 @@ def placed(linkage: JointedLinkage, seed: int = 0) -> JointedLinkage:
     _turn_to_centres(linkage, points, axes, random)
     for knee in _taken_once(_possible(linkage)):
         _turned(knee, linkage, points, axes)
-    places = {
-        joint: JointPlace(plain_vector(points[joint]), tuple(map(plain_vector, axes[joint]))) for joint in points
-    }
+    places = {joint: JointPlace(plain_vector(points[joint]), tuple(map(plain_vector, axes[joint]))) for joint in points}
     return JointedLinkage(linkage.chain, linkage.kinds, places)
 
 

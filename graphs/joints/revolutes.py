@@ -300,9 +300,7 @@ class _Recognition:
                 if not plain or set(joints) & self._kept or not self._is_parallel(joints):
                     continue
                 normal = self._axes[joints[0]][0]
-                one, middle, other = (
-                    across(self._points[joint] - self._points[joints[0]], normal) for joint in joints
-                )
+                one, middle, other = (across(self._points[joint] - self._points[joints[0]], normal) for joint in joints)
                 arms = np.linalg.norm(middle - one), np.linalg.norm(other - middle)
                 length = float(np.linalg.norm(other - one))
                 if abs(arms[0] - arms[1]) <= self._near < length and min(arms) > self._near:

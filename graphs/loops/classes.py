@@ -218,9 +218,7 @@ def centre_classes(loops: Sequence[Loop]) -> tuple[CentreClass, ...]:
     """
     if _nothing_forced(loops):
         return tuple(
-            CentreClass((i,), frozenset(loop.joints), loop.centre)
-            for i, loop in enumerate(loops)
-            if loop.has_centre
+            CentreClass((i,), frozenset(loop.joints), loop.centre) for i, loop in enumerate(loops) if loop.has_centre
         )
     merged = Merger(loops)
     merged.merge_named()

@@ -72,9 +72,7 @@ class Loop:
                     "centre", f"{self.label} has the centre {shown(self.centre)}", "finite, infinite or none"
                 ) from None
         if self.at is not None and self.centre is Centre.NONE:
-            raise InvariantError(
-                "centre", f"{self.label} has no centre but names one, {shown(self.at)}", "no 'at'"
-            )
+            raise InvariantError("centre", f"{self.label} has no centre but names one, {shown(self.at)}", "no 'at'")
 
     @property
     def has_centre(self) -> bool:
@@ -156,9 +154,7 @@ def _is_cyclic(around: Sequence[JointId], joints: Joints) -> bool:
     return link == start and len(met) == len(around)
 
 
-def _walk(
-    around: Sequence[JointId], at_link: Mapping[LinkId, list[JointId]], joints: Joints
-) -> tuple[JointId, ...]:
+def _walk(around: Sequence[JointId], at_link: Mapping[LinkId, list[JointId]], joints: Joints) -> tuple[JointId, ...]:
     """Follow a 2-regular set of joints from the first."""
     first = around[0]
     start, link = joints[first]
@@ -202,9 +198,7 @@ def split_dependent(cycles: Sequence[Sequence[JointId]]) -> tuple[list[int], lis
     return kept, sorted(dependent)
 
 
-def added_independent(
-    cycles: Sequence[Collection[JointId]], candidates: Sequence[Collection[JointId]]
-) -> list[int]:
+def added_independent(cycles: Sequence[Collection[JointId]], candidates: Sequence[Collection[JointId]]) -> list[int]:
     """Return the indices of the candidates, ascending, that are no GF(2) sum of the cycles and earlier candidates.
 
     The cycles may depend on each other.

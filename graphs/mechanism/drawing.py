@@ -109,9 +109,7 @@ def trace_faces(joints: Joints, rotation: Rotation) -> tuple[tuple[Face, ...], d
 
     A rotation is the sides of each link, counter-clockwise.
     """
-    place = {
-        (link, side): i for link, sides in rotation.items() for i, side in enumerate(sides) if side is not None
-    }
+    place = {(link, side): i for link, sides in rotation.items() for i, side in enumerate(sides) if side is not None}
     leaving = {
         (link, side): _next_joint(sides, i)
         for link, sides in rotation.items()
@@ -129,9 +127,7 @@ def trace_faces(joints: Joints, rotation: Rotation) -> tuple[tuple[Face, ...], d
                 left_of[dart] = len(faces)
                 arriving, here = dart[0], _other(joints[dart[0]], dart[1])
                 departing, gap = leaving[here, arriving]
-                corners.append(
-                    Corner(here, arriving, departing, gap, place[here, arriving], place[here, departing])
-                )
+                corners.append(Corner(here, arriving, departing, gap, place[here, arriving], place[here, departing]))
                 dart = (departing, here)
             faces.append(Face(len(faces), tuple(corners)))
     for link, sides in rotation.items():
@@ -298,9 +294,7 @@ class Drawing:
             return 0
         joint, side = outer
         if joint not in self.joints or side not in ("left", "right"):
-            raise InvariantError(
-                "outer face", f"the outer face is {shown(outer)}", "a joint and 'left' or 'right'"
-            )
+            raise InvariantError("outer face", f"the outer face is {shown(outer)}", "a joint and 'left' or 'right'")
         return self.face_at(joint, side)
 
     def _match_loops(self, independent: int) -> tuple[int | None, ...]:

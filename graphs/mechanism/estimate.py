@@ -445,9 +445,7 @@ def _tops(off: Floats, density: float) -> list[float]:
     within[0] = below[0]  # all that is exact
     # Minus the logarithm of the chance of so many, by the bound of Chernoff for a Poisson distribution.
     unlikely = within * np.log(np.maximum(within, 1) / chance) - within + chance
-    good = (
-        (within >= _LEAST) & (chance <= _BY_CHANCE * within) & (unlikely >= _UNLIKELY) & (within >= _SHARE * below)
-    )
+    good = (within >= _LEAST) & (chance <= _BY_CHANCE * within) & (unlikely >= _UNLIKELY) & (within >= _SHARE * below)
     return [float(top) for top in tops[good]]
 
 

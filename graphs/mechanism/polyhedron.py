@@ -213,9 +213,7 @@ class PolyhedronModel(nx.Graph):
     def _checked_scissors(self, four: Sequence[VertexId]) -> tuple[VertexId, ...]:
         vertices = self._known(four, "scissors")
         if len(set(vertices)) != 4 or len(vertices) != 4:
-            raise InvariantError(
-                "scissors", f"a scissors element has {len(set(vertices))} exposed vertices", "four"
-            )
+            raise InvariantError("scissors", f"a scissors element has {len(set(vertices))} exposed vertices", "four")
         return vertices
 
     def _checked_link(self, link: Hashable, around: Sequence[VertexId]) -> tuple[VertexId, ...]:
@@ -275,9 +273,7 @@ class PolyhedronModel(nx.Graph):
             map(named, self.nodes),
             [(named(a), named(b)) for a, b in self.edges],
             coordinates={named(v): place for v, place in self._coordinates.items()},
-            centres=[
-                RemoteCentre(c.k, tuple((named(a), named(b)) for a, b in c.rods), c.name) for c in self.centres
-            ],
+            centres=[RemoteCentre(c.k, tuple((named(a), named(b)) for a, b in c.rods), c.name) for c in self.centres],
             on_line=map(moved, self.on_line),
             on_plane=map(moved, self.on_plane),
             scissors=[tuple(map(named, four)) for four in self.scissors],

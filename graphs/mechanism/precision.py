@@ -260,9 +260,7 @@ def keeping(sheet: Sheet, precision: Precision) -> Sheet:
 
 def precision_of_axes(points: Floats, directions: Floats) -> Precision:
     """Return how precise axes are: the coarser of their points, in any unit of length, and their directions."""
-    return max(
-        precision_of(points.tolist()), precision_of(directions.tolist()), key=lambda precision: precision.size
-    )
+    return max(precision_of(points.tolist()), precision_of(directions.tolist()), key=lambda precision: precision.size)
 
 
 def precision_of_sheet(sheet: Sheet) -> Precision:

@@ -297,9 +297,7 @@ class SCGraph(nx.MultiGraph):
     ) -> SCGraph:
         """Return the same mechanism under other names; what a mapping leaves out keeps its name."""
         of_link, of_joint = dict(links or {}), dict(joints or {})
-        new_joints = {
-            of_joint.get(j, j): (of_link.get(a, a), of_link.get(b, b)) for j, (a, b) in self._joints.items()
-        }
+        new_joints = {of_joint.get(j, j): (of_link.get(a, a), of_link.get(b, b)) for j, (a, b) in self._joints.items()}
         return SCGraph(
             [of_link.get(n, n) for n in self.nodes],
             new_joints,
@@ -311,9 +309,7 @@ class SCGraph(nx.MultiGraph):
 
     def marked(self, special: SpecialGeometry | None) -> SCGraph:
         """Return the same mechanism with a mark of special geometry, or without one."""
-        return SCGraph(
-            self.nodes, self._joints, self.loops, closing=self.closing, ground=self.ground, special=special
-        )
+        return SCGraph(self.nodes, self._joints, self.loops, closing=self.closing, ground=self.ground, special=special)
 
     def is_identical(self, other: object) -> bool:
         """Return whether two objects are the same graph, ids and all (this is not isomorphism).

@@ -126,8 +126,7 @@ def _check_centre(face: Face, loop: Loop) -> None:
             if not gap:
                 raise InvariantError(
                     "implicit centre",
-                    f"{loop.label} has open edges, but none between joints {shown(last)} and "
-                    f"{shown(corner.leaving)}",
+                    f"{loop.label} has open edges, but none between joints {shown(last)} and {shown(corner.leaving)}",
                     "one in every corner, or none at all",
                 )
             gap, last = 0, corner.leaving
@@ -388,9 +387,7 @@ class SCDGraph(SCGraph):
         return (*super()._identity(), around, boundary)
 
 
-def _of_each_link(
-    links: Iterable[LinkId], rotation: Mapping[Any, Sequence[Side]]
-) -> dict[LinkId, tuple[Side, ...]]:
+def _of_each_link(links: Iterable[LinkId], rotation: Mapping[Any, Sequence[Side]]) -> dict[LinkId, tuple[Side, ...]]:
     """Return the rotations in the order of the links; refuse one for what is no link, and a link without one."""
     known = set(links)
     for link in rotation:

@@ -87,9 +87,7 @@ class PoseMobility:
         }
 
 
-def pose_mobility(
-    sheet: Sheet, mechanism: SheetMechanism | None = None, *, hinge_flat: bool = False
-) -> PoseMobility:
+def pose_mobility(sheet: Sheet, mechanism: SheetMechanism | None = None, *, hinge_flat: bool = False) -> PoseMobility:
     """Return the infinitesimal degrees of freedom of a crease pattern at its coordinates.
 
     Parameters
@@ -214,9 +212,7 @@ def _spectrum(matrix: scipy.sparse.csr_matrix, places: Floats, error: Floats, ne
     return sparse_spectrum(matrix, places, error, nearly)
 
 
-def _mobility(
-    evidence: Spectrum, unknowns: int, equations: int, points: Floats, precision: Precision
-) -> PoseMobility:
+def _mobility(evidence: Spectrum, unknowns: int, equations: int, points: Floats, precision: Precision) -> PoseMobility:
     rank = evidence.rank
     return PoseMobility(
         None if rank is None else unknowns - rank,
@@ -283,9 +279,7 @@ def _centred(coordinates: Sequence[Sequence[float]]) -> Floats:
 
 def _axes(places: Floats, mechanism: SheetMechanism) -> Mapping[JointId, Line]:
     axes: dict[JointId, Line] = {}
-    for (joint, (a, b)), length in zip(
-        mechanism.hinges.items(), _lengths(places, mechanism).tolist(), strict=True
-    ):
+    for (joint, (a, b)), length in zip(mechanism.hinges.items(), _lengths(places, mechanism).tolist(), strict=True):
         p = places[a]
         if length == 0.0:
             raise InvariantError(
@@ -309,8 +303,6 @@ def _matrix(rows: Sequence[Mapping[int, float]], columns: int) -> scipy.sparse.c
 
 def _places_of_rows(points: Floats, mechanism: SheetMechanism, closure: Closure) -> Floats:
     """Return the middle of the hinges of the loop of each row."""
-    middle: dict[JointId, Floats] = {
-        joint: (points[a] + points[b]) / 2 for joint, (a, b) in mechanism.hinges.items()
-    }
+    middle: dict[JointId, Floats] = {joint: (points[a] + points[b]) / 2 for joint, (a, b) in mechanism.hinges.items()}
     by_loop = {loop: np.mean([middle[joint] for joint in loop], axis=0) for loop in dict.fromkeys(closure.loops)}
     return np.array([by_loop[loop] for loop in closure.loops]).reshape(-1, 3)

@@ -25,9 +25,7 @@ Row = dict[tuple[Hashable, int], Any]
 _ATTEMPTS = 24
 
 
-def exact_mobility_of_model(
-    model: PolyhedronModel, primes: Sequence[int] = PRIMES, *, seed: int = 0
-) -> ExactMobility:
+def exact_mobility_of_model(model: PolyhedronModel, primes: Sequence[int] = PRIMES, *, seed: int = 0) -> ExactMobility:
     """Return the generic mobility of a polyhedron model.
 
     Parameters
@@ -183,9 +181,7 @@ class _Placing:
             for span in self.spans.get(point, ()):
                 if all(other in placed for other in span):
                     planes += self._planes_through(span, placed)
-            choices = (
-                null_vectors(planes, field) if planes else [[int(i == j) for j in range(4)] for i in range(4)]
-            )
+            choices = null_vectors(planes, field) if planes else [[int(i == j) for j in range(4)] for i in range(4)]
             if not choices:
                 return None
             weights = [field.random() for _ in choices]
@@ -312,9 +308,7 @@ def _scissors(number: int, model: PolyhedronModel, where: Mapping[Hashable, Plac
     return rows
 
 
-def _crossing(
-    number: int, model: PolyhedronModel, where: Mapping[Hashable, Place], field: Field
-) -> tuple[Any, Any]:
+def _crossing(number: int, model: PolyhedronModel, where: Mapping[Hashable, Place], field: Field) -> tuple[Any, Any]:
     """Return s and t where the bars of a scissors element cross: a + s (d - a) = b + t (c - b).
 
     Where rounded coordinates part the bars a little, s and t are those of the points nearest to each other.

@@ -382,9 +382,7 @@ def _one_cycle(work: WorkingGraph, index: int, dropped: int, done: list[int]) ->
     if index in work.closing:
         return None
     skip = {index, dropped, *done}
-    rest = [
-        tuple(x) for i, x in enumerate(work.loops) if work.alive[i] and i not in work.closing and i not in skip
-    ]
+    rest = [tuple(x) for i, x in enumerate(work.loops) if work.alive[i] and i not in work.closing and i not in skip]
     for part in sorted(parts, key=len, reverse=True):
         if dependent_loop([*rest, tuple(part)]) is None:
             return part

@@ -154,9 +154,7 @@ class Advice(Printed):
 
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
-        where = (
-            "at this configuration" if self.branch is None else f"near this configuration, on branch {self.branch}"
-        )
+        where = "at this configuration" if self.branch is None else f"near this configuration, on branch {self.branch}"
         freedoms = numbered(self.freedoms, "degree of freedom", "degrees of freedom")
         lines: list[Block] = [f"{freedoms} {where}; required: {self.wanted}"]
         if self.wanted < self.freedoms:

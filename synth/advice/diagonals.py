@@ -96,8 +96,7 @@ def loads_on_stresses(pose: GeneralPose, diagonals: Sequence[Diagonal]) -> tuple
     expected = len(linkage.angles) - pose.rates.shape[1]
     if parts.rank != expected:
         raise NumericalError(
-            f"the closure equations in space have rank {parts.rank} at this pose; "
-            f"expected {expected}, as about centres"
+            f"the closure equations in space have rank {parts.rank} at this pose; expected {expected}, as about centres"
         )
     columns = np.array([_column(pose, one) for one in diagonals]).reshape(len(diagonals), len(matrix))
     flaps = [not column.any() for column in columns]
@@ -291,6 +290,4 @@ def _freest(sheet: Sheet) -> int | None:
     known = [branch.freedoms for branch in branches.branches if branch.certainty != "not known"]
     if any(freedoms is None for freedoms in known):
         return None
-    return max(
-        (freedoms for freedoms in known if freedoms is not None), default=0 if branches.exhaustive else None
-    )
+    return max((freedoms for freedoms in known if freedoms is not None), default=0 if branches.exhaustive else None)

@@ -60,9 +60,7 @@ def placed_axes(kind: Type, parameters: Complexes, unknowns: Complexes) -> tuple
 
 
 @compiled
-def evaluated(
-    kind: Type, parameters: Complexes, unknowns: Complexes, residual: Complexes, jacobian: Complexes
-) -> None:
+def evaluated(kind: Type, parameters: Complexes, unknowns: Complexes, residual: Complexes, jacobian: Complexes) -> None:
     """Write the closure residual, complex[3 L], and its derivatives by the unknowns, complex[3 L, U]."""
     loops, signs, axes_of, column = kind
     axes, quaternions = placed_axes(kind, parameters, unknowns)
@@ -229,9 +227,7 @@ def followed(kind: Type, curve: tuple[Complexes, Complexes, Complexes], unknowns
 
 
 @compiled
-def followed_all(
-    kind: Type, curves: tuple[Complexes, Complexes, Complexes], values: Complexes, small: float
-) -> Places:
+def followed_all(kind: Type, curves: tuple[Complexes, Complexes, Complexes], values: Complexes, small: float) -> Places:
     """Follow solutions along curves, each along its own, in place; return STOPPED, ARRIVED or FAR: int[P]."""
     ends = np.empty(len(values), np.int64)
     for path in range(len(values)):

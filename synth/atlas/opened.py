@@ -242,14 +242,11 @@ def _neighbours(connection: sqlite3.Connection, code: str, path: Path) -> tuple[
         Neighbour(relation, other, name, bool(there)) for relation, other, name, there in onward if other != code
     ]
     neighbours += [
-        Neighbour(_REVERSED[relation], other, name, True)
-        for relation, other, name, _ in backward[:_MOST_NEIGHBOURS]
+        Neighbour(_REVERSED[relation], other, name, True) for relation, other, name, _ in backward[:_MOST_NEIGHBOURS]
     ]
     if len(backward) <= _MOST_NEIGHBOURS:
         return neighbours, 0
-    [every] = connection.execute(
-        "SELECT count(*) FROM relations WHERE other = ? AND id <> ?", (code, code)
-    ).fetchone()
+    [every] = connection.execute("SELECT count(*) FROM relations WHERE other = ? AND id <> ?", (code, code)).fetchone()
     return neighbours, every - _MOST_NEIGHBOURS
 
 

@@ -121,9 +121,7 @@ def files_of_type(report: TypeReport, file: str, places: Mapping[str, str]) -> d
     )
     graph = _picture(drawable_of_type(values["kind"], values["id"]))
     files = {
-        f"types/{file}.html": document(
-            values.get("name") or values["id"], ["../page.css", "../gallery.css"], body
-        ),
+        f"types/{file}.html": document(values.get("name") or values["id"], ["../page.css", "../gallery.css"], body),
         f"pictures/{file}.svg": graph if sheet is None else _picture(sheet),
         f"pictures/{file}-graph.svg": graph,
         f"types/{file}.fold": fold,

@@ -33,9 +33,7 @@ def sheet_of_type(values: Mapping[str, Any]) -> Sheet | None:
     try:
         document = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise FileError(
-            place, "", f"is not JSON: {error}", "a FOLD document; try to build the atlas again"
-        ) from None
+        raise FileError(place, "", f"is not JSON: {error}", "a FOLD document; try to build the atlas again") from None
     return sheet_from_fold(document, place)
 
 
@@ -92,9 +90,7 @@ class _Listed:
     def work(self, payload: None) -> list[Row]:
         """Return the rows."""
         columns = self.columns.items()
-        return [
-            tuple(_as_text(row[name]) if kind is str else row[name] for name, kind in columns) for row in self.rows
-        ]
+        return [tuple(_as_text(row[name]) if kind is str else row[name] for name, kind in columns) for row in self.rows]
 
     @staticmethod
     def mechanism_text(row: Mapping[str, Any]) -> str:

@@ -142,9 +142,7 @@ class CandidateChain:
             columns |= {"layers": int} if opposites else {"layers": int, "most_layers": int}
             columns |= {"full_rank": bool} if self.single else {}
         if placed and surface is not None:
-            size, sizes = (
-                ("lambda_deg", "link_angles_deg") if isinstance(surface, Cone) else ("radius", "link_lengths")
-            )
+            size, sizes = ("lambda_deg", "link_angles_deg") if isinstance(surface, Cone) else ("radius", "link_lengths")
             columns |= {size: float, sizes: ListColumn(" ", "-", ":", None)}
         if self.grounded and (placed or self.single):
             columns |= {"ways": ListColumn(" ", ":", kind=str), "linkage": str}

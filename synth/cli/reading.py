@@ -75,9 +75,7 @@ PRECISION = options.value(
 ROW = options.number("--row", "N", "For a store, a list or a folder: number of the row to take, counted from 1.")
 """The option of commands that take one mechanism of many."""
 
-MODE = options.value(
-    "--mode", "SD...", "For an R/- string: its mode, as `synth enumerate strings --modes` lists it."
-)
+MODE = options.value("--mode", "SD...", "For an R/- string: its mode, as `synth enumerate strings --modes` lists it.")
 """The option of commands that take R/- strings."""
 
 

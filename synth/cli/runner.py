@@ -275,9 +275,7 @@ class TablePrinter:
             click.echo("none")
             return
         common = [
-            i
-            for i in range(1, len(self._columns))
-            if len(self._kept) > 1 and len({row[i] for row in self._kept}) == 1
+            i for i in range(1, len(self._columns)) if len(self._kept) > 1 and len({row[i] for row in self._kept}) == 1
         ]
         if common:
             click.echo("  ".join(f"{self._title(i)} {self._kept[0][i] or '-'}" for i in common))

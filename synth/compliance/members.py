@@ -103,9 +103,7 @@ def released(linkage: PosedLinkage, compliant: Members, active: Members) -> Pose
 
 def _without(linkage: PosedLinkage, gone: Collection[LinkId]) -> PosedLinkage:
     """Return a linkage without some links and their joints: its loops are about them now."""
-    joints = {
-        joint: ends for joint, ends in linkage.graph.joints.items() if not (ends[0] in gone or ends[1] in gone)
-    }
+    joints = {joint: ends for joint, ends in linkage.graph.joints.items() if not (ends[0] in gone or ends[1] in gone)}
     names = list(linkage.graph.joints)
     whole = [
         Loop(tuple(names[place] for place in loop.joints), loop.centre)
@@ -122,9 +120,7 @@ def _locked(linkage: PosedLinkage, held: Collection[JointId]) -> PosedLinkage:
     bodies = nx.utils.UnionFind(linkage.graph.nodes)
     for joint in held:
         bodies.union(*linkage.graph.joints[joint])
-    joints = {
-        joint: (bodies[a], bodies[b]) for joint, (a, b) in linkage.graph.joints.items() if bodies[a] != bodies[b]
-    }
+    joints = {joint: (bodies[a], bodies[b]) for joint, (a, b) in linkage.graph.joints.items() if bodies[a] != bodies[b]}
     graph = SCGraph([link for link in linkage.graph.nodes if bodies[link] == link], joints)
     names = list(linkage.graph.joints)
     cycles = []
@@ -253,9 +249,7 @@ def _freedoms(linkage: PosedLinkage) -> tuple[int | None, Certainty]:
     branches = branches_of(linkage, closure, search_for(joints, None))
     if branches.no_motion == "proved":
         return 0, "proved"
-    known = [
-        branch for branch in branches.branches if branch.freedoms is not None and branch.certainty != "not known"
-    ]
+    known = [branch for branch in branches.branches if branch.freedoms is not None and branch.certainty != "not known"]
     if not known:
         return None, "not known"
     freest = max(known, key=lambda branch: branch.freedoms or 0)

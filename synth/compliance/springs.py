@@ -117,9 +117,7 @@ class ElasticLinkage:
             return Tangent(jacobian, np.eye(len(angles)))
         parts, rank = split(jacobian, DOUBLE.clear), len(angles) - self.freedoms
         if parts.rank < rank:
-            raise NumericalError(
-                "springs led to a singular configuration, where the motion branch is undetermined"
-            )
+            raise NumericalError("springs led to a singular configuration, where the motion branch is undetermined")
         return Tangent(jacobian, parts.right[rank:].T)
 
     def expansion(self, angles: Floats, tangent: Tangent, along: Floats, held: tuple[int, ...]) -> EnergyExpansion:

@@ -120,9 +120,7 @@ def sampled(places: npt.ArrayLike, samples: int = _SAMPLES, seed: int = 0) -> Fl
     return np.moveaxis(azimuths, 0, -2)
 
 
-def over_angles(
-    chain: ConformedChain | RateFormulas, places: npt.ArrayLike, samples: int = _SAMPLES
-) -> OverAngles:
+def over_angles(chain: ConformedChain | RateFormulas, places: npt.ArrayLike, samples: int = _SAMPLES) -> OverAngles:
     """Return what orders with opposites allow the links of a chain of one freedom.
 
     Parameters
@@ -250,9 +248,7 @@ def _certain(formulas: tuple[OutwardRate, ...], slots: Ints) -> npt.NDArray[np.i
     """Return the sign of a joint's outward rate where one of its formulas decides, else 0."""
     middle = slots * (np.pi / slots.shape[-1])
     signs = np.zeros(len(slots), np.int8)
-    tests: list[tuple[Callable[..., npt.NDArray[np.int8]], Floats | Ints]] = [
-        (one.signs, middle) for one in formulas
-    ]
+    tests: list[tuple[Callable[..., npt.NDArray[np.int8]], Floats | Ints]] = [(one.signs, middle) for one in formulas]
     for signs_of, places in [*tests, *((one.signs_by_chords, slots) for one in formulas[:_BY_CHORDS])]:
         left = signs == 0
         if not left.any():

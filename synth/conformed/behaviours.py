@@ -180,9 +180,7 @@ def link_arcs(chain: ConformedChain, places: npt.ArrayLike, begins: Mapping[int,
     return np.stack(arcs, axis=-2)
 
 
-def half_turn_arcs(
-    chain: ConformedChain, places: npt.ArrayLike
-) -> dict[int, tuple[tuple[int, int], tuple[int, int]]]:
+def half_turn_arcs(chain: ConformedChain, places: npt.ArrayLike) -> dict[int, tuple[tuple[int, int], tuple[int, int]]]:
     """Return the links that span half a turn and may curve either way, at places float[J]: each with its two arcs.
 
     An arc is the numbers of the joints at which it begins and ends, azimuths growing.
@@ -238,9 +236,7 @@ def instant_centres(motions: npt.ArrayLike) -> Floats:
     [[2.0, 0.0]]
     """
     w = np.asarray(motions, dtype=float)
-    turning = np.where(
-        np.abs(w[..., 1:2]) > DOUBLE.zero_rate * np.abs(w).max(axis=-1, keepdims=True), w[..., 1:2], 0.0
-    )
+    turning = np.where(np.abs(w[..., 1:2]) > DOUBLE.zero_rate * np.abs(w).max(axis=-1, keepdims=True), w[..., 1:2], 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(w[..., ::2] / turning)
 

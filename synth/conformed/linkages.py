@@ -93,9 +93,7 @@ class OnSurface:
         for number, joint in begins.items():
             link = shown(chain.links[number])
             if number not in halves:
-                raise InvariantError(
-                    "arc", f"link {link} does not span half a turn", "one that can curve either way"
-                )
+                raise InvariantError("arc", f"link {link} does not span half a turn", "one that can curve either way")
             if joint not in dict(halves[number]):
                 first, second = (shown(chain.joints[begin]) for begin, _ in halves[number])
                 offender = f"link {link} has no arc from joint {shown(chain.joints[joint])}"
@@ -180,9 +178,7 @@ class LinkageBehaviour(Printed):
         if not halves:
             row, both = self.table_row(), bool(self.behaviour.one_way)
             inward = both and not outward
-            return (
-                ArcChoice({}, inward, both) if row is None else ArcChoice({}, row.intramobile, row.extramobile),
-            )
+            return (ArcChoice({}, inward, both) if row is None else ArcChoice({}, row.intramobile, row.extramobile),)
         choices = []
         for arcs in product(*halves.values()):
             chosen = dict(zip(halves, arcs, strict=True))

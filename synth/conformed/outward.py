@@ -173,22 +173,16 @@ def outward_rates(chain: ConformedChain) -> tuple[tuple[OutwardRate, ...], ...]:
     """
     kernels = _kernels(chain)
     return tuple(
-        () if joint in chain.joints_of[0] else _formulas(chain, joint, kernels)
-        for joint in range(len(chain.joints))
+        () if joint in chain.joints_of[0] else _formulas(chain, joint, kernels) for joint in range(len(chain.joints))
     )
 
 
-def _formulas(
-    chain: ConformedChain, joint: int, kernels: Sequence[Sequence[list[_Term]]]
-) -> tuple[OutwardRate, ...]:
+def _formulas(chain: ConformedChain, joint: int, kernels: Sequence[Sequence[list[_Term]]]) -> tuple[OutwardRate, ...]:
     sums: dict[tuple[tuple[int, int, _Triples], ...], None] = {}
     for kernel in kernels:
         for path in _paths(chain, joint):
             terms = tuple(
-                (sign * factor, i, triples)
-                for i, sign in path.items()
-                if i != joint
-                for factor, triples in kernel[i]
+                (sign * factor, i, triples) for i, sign in path.items() if i != joint for factor, triples in kernel[i]
             )
             if terms and len(terms) <= _TERMS:
                 sums[terms] = None
@@ -227,17 +221,13 @@ def _kernels(chain: ConformedChain) -> list[list[list[_Term]]]:
     places = np.random.default_rng(1).uniform(0, 2 * np.pi, (8, joints))
     kernels: list[list[list[_Term]]] = []
     first: Floats | None = None
-    bases = sorted(
-        combinations(range(len(cycles)), loops), key=lambda chosen: int(np.abs(cycles[list(chosen)]).sum())
-    )
+    bases = sorted(combinations(range(len(cycles)), loops), key=lambda chosen: int(np.abs(cycles[list(chosen)]).sum()))
     for chosen in bases:
         basis = cycles[list(chosen)]
         if rank_of(basis.astype(float)) < loops:
             continue
         kernel = [[((-1) ** i * sign, triples) for sign, triples in _minor(basis, i)] for i in range(joints)]
-        terms_of = [
-            [_product(np.full(8, float(sign)), triples, places) for sign, triples in terms] for terms in kernel
-        ]
+        terms_of = [[_product(np.full(8, float(sign)), triples, places) for sign, triples in terms] for terms in kernel]
         values = np.stack([sum(terms, np.zeros(8)) for terms in terms_of], axis=-1)
         if first is None:
             first = values
@@ -401,9 +391,7 @@ def _follow(known: Signs, unknowns: Ints, sines: Ints, factors: Ints, sine_signs
 
 
 @compiled
-def _follow_all(
-    known: Signs, unknowns: Ints, sines: Ints, factors: Ints, sine_signs: Signs
-) -> npt.NDArray[np.bool_]:
+def _follow_all(known: Signs, unknowns: Ints, sines: Ints, factors: Ints, sine_signs: Signs) -> npt.NDArray[np.bool_]:
     wrong = np.zeros(len(known), np.bool_)
     for i in range(len(known)):
         wrong[i] = _follow(known[i], unknowns, sines, factors, sine_signs[i])

@@ -150,9 +150,7 @@ def first_order(chain: ConformedChain, places: npt.ArrayLike, error: float = DOU
     t = np.asarray(places, dtype=float)
     count = len(chain.joints)
     if t.shape[-1:] != (count,):
-        raise InvariantError(
-            "azimuths", numbered(t.shape[-1] if t.ndim else 0, "azimuth"), f"{count}, one per joint"
-        )
+        raise InvariantError("azimuths", numbered(t.shape[-1] if t.ndim else 0, "azimuth"), f"{count}, one per joint")
     axes = np.stack([np.sin(t), np.ones_like(t), np.cos(t)], axis=-1)  # but for two scales that lambda sets
     closure = np.einsum("lj,...jc->...lcj", chain.loops, axes).reshape(*t.shape[:-1], -1, count)
     if not closure.shape[-2]:
@@ -190,9 +188,7 @@ def signed_cycles(chain: ConformedChain) -> npt.NDArray[np.int64]:
     """
     independent = chain.loops
     if len(independent) > _MOST_LOOPS:
-        raise UnsolvableError(
-            f"the chain has {len(independent)} independent loops; expected {_MOST_LOOPS} at most"
-        )
+        raise UnsolvableError(f"the chain has {len(independent)} independent loops; expected {_MOST_LOOPS} at most")
     cycles: dict[tuple[int, ...], npt.NDArray[np.int64]] = {}
     for factors in product((0, 1, -1), repeat=len(independent)):
         if next((factor for factor in factors if factor), -1) < 0:  # each cycle one way round

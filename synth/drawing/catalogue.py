@@ -65,9 +65,7 @@ def _rows_of_lines(place: Path) -> Iterator[Row]:
             for number, line in enumerate(lines, start=1):
                 row = json.loads(line)
                 if not isinstance(row, dict):
-                    raise FileError(
-                        place, f"line {number}", f"{shown(row)} is not an object", "one object per line"
-                    )
+                    raise FileError(place, f"line {number}", f"{shown(row)} is not an object", "one object per line")
                 yield row
     except OSError as error:
         raise FileError(place, "", f"cannot be read: {error.strerror}", "a readable file") from None
@@ -140,9 +138,7 @@ def drawable_of_type(kind: str, code: str) -> Any:
         return mechanism
     order = joints.split("-")
     if sorted(order) != sorted(map(str, range(len(mechanism.joints)))):
-        raise InvariantError(
-            "type", f"{shown(code)} is not an order of the joints of its chain", "each joint once"
-        )
+        raise InvariantError("type", f"{shown(code)} is not an order of the joints of its chain", "each joint once")
     loops = [list(map(str, loop)) for loop in loops_of_chain(mechanism)]
     slots = [order.index(str(joint)) for joint in range(len(order))]
     row = {"order": order, "slots": slots, "loops": loops, "most_layers": None}  # as of a conical candidate
@@ -268,9 +264,7 @@ def _said(row: Row) -> str:
     return ", ".join(words)
 
 
-def catalogue_pages(
-    entries: Iterable[CatalogueEntry], title: str = "", kind: str | None = None
-) -> Iterator[Scene]:
+def catalogue_pages(entries: Iterable[CatalogueEntry], title: str = "", kind: str | None = None) -> Iterator[Scene]:
     """Yield pages of 24 pictures, with a title above each; an entry is released when its page is made.
 
     `kind` is as for `synth.draw`.

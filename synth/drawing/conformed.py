@@ -239,9 +239,7 @@ def surface_layer(chain: ConformedChain, t: Floats, laid: LinksInLayers, surface
         name = outer + _NAMES if faces_us else inner - _NAMES
         line = page.row(drawn.place(np.full(2, place), np.array([first, outer + _BEYOND]), 0.0))
         (near if faces_us else far).append(Line(line, "ink", NORMAL, data=data))
-        names.append(
-            Label(page.row(drawn.place(place, name, 0.0)[None])[0], str(joint), SMALL, widest=8, data=data)
-        )
+        names.append(Label(page.row(drawn.place(place, name, 0.0)[None])[0], str(joint), SMALL, widest=8, data=data))
     if isinstance(surface, Cone):
         title = f"cone of λ = {degrees(surface.angle):.4g}°, seen from the apex's side"
     else:

@@ -92,9 +92,7 @@ def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Sc
     """
     g = unit_vector(axis, "fixed axis")
     if len(orientations) > _MOST_DRAWN:
-        raise UnsolvableError(
-            f"{len(orientations)} orientations are too many for a picture; at most {_MOST_DRAWN}"
-        )
+        raise UnsolvableError(f"{len(orientations)} orientations are too many for a picture; at most {_MOST_DRAWN}")
     start = unit(across(orientations.relative_axis(1, 2), g))
     beside = np.cross(g, start) * (1.0 if hoop.direction == "ccw" else -1.0)
     needed = set(hoop.required)
@@ -269,9 +267,7 @@ def draw_map(
     frame = framed([(-2 * 2**0.5, -(2**0.5)), (2 * 2**0.5, 2**0.5)], COLUMN, (COLUMN, COLUMN), margin=14.0)
     axes = orientations.relative_axes() if len(orientations) <= _MOST_LABELLED else {}
     lines = [(end, pair_name(pair), "ink") for pair, s in axes.items() for end in (s, -s)]
-    numbers = [
-        (end, str(k), "mountain") for k, dyad in enumerate(dyads, start=1) for end in (dyad.fixed, -dyad.fixed)
-    ]
+    numbers = [(end, str(k), "mountain") for k, dyad in enumerate(dyads, start=1) for end in (dyad.fixed, -dyad.fixed)]
     layers = [
         Layer("regions", tuple(_regions(orientations, frame, width))),
         Layer("lines", (*_graticule_of_map(frame), *_curves(frame, curves))),

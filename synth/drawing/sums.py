@@ -153,7 +153,5 @@ def _legend(special: list[tuple[int, ...]]) -> list[Shape]:
         shapes.append(Label((left + 14, y), text, SMALL, anchor="start", halo=False, widest=16))
     if len(special) > _MOST_NAMED:
         y = _TOP + 1.6 * SMALL * (_MOST_NAMED + 1)
-        shapes.append(
-            Label((left, y), f"and {len(special) - _MOST_NAMED} more", SMALL, "grey", "start", halo=False)
-        )
+        shapes.append(Label((left, y), f"and {len(special) - _MOST_NAMED} more", SMALL, "grey", "start", halo=False))
     return shapes

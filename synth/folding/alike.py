@@ -77,9 +77,7 @@ class _Vertex:
     outwards: Floats
 
 
-def alike_classes(
-    sheet: Sheet, linkage: PosedLinkage, marks: Floats, tolerances: Tolerances = DOUBLE
-) -> list[Ints]:
+def alike_classes(sheet: Sheet, linkage: PosedLinkage, marks: Floats, tolerances: Tolerances = DOUBLE) -> list[Ints]:
     """Return classes of creases of a flat sheet that look alike, int[J] each, those of the largest symmetry first.
 
     First those that are alike in the tessellation that the pattern is a piece of, then the orbits of all motions

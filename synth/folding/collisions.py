@@ -140,9 +140,7 @@ class Collision(Event):
         if self._met is not None:
             walk.ended = self._record(walk, self._met)
 
-    def among(
-        self, closure: ClosureEquations, path: Path, places: Floats, driver: int
-    ) -> tuple[Path, tuple[int, ...]]:
+    def among(self, closure: ClosureEquations, path: Path, places: Floats, driver: int) -> tuple[Path, tuple[int, ...]]:
         """Return a path with the event that panels begin to cross, and the frames in which they do.
 
         Vertices in its frames are float[F, V, 3]. It is known to a thousandth of the way between two.

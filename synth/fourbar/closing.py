@@ -253,9 +253,7 @@ def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Floa
         longest = least.max() > least.sum() - least.max()
         why = "the longest is longer than the others together" if longest else "they are too long for the sphere"
         listed = ", ".join(_degrees(angle) for angle in values[:20])
-        raise InvariantError(
-            "closed loop", f"the link angles {listed} cannot close: {why}", "angles of a closed loop"
-        )
+        raise InvariantError("closed loop", f"the link angles {listed} cannot close: {why}", "angles of a closed loop")
     return least
 
 

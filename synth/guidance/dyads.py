@@ -278,9 +278,7 @@ class _Pencil:
         """
         terms = np.fft.fft(self._discriminant(_EIGHTHS)) / 8.0
         if self._size < DOUBLE.zero:
-            raise UnsolvableError(
-                "every axis is that of a dyad of these orientations (are they turns about one axis?)"
-            )
+            raise UnsolvableError("every axis is that of a dyad of these orientations (are they turns about one axis?)")
         if np.abs(terms).max() < (DOUBLE.zero * self._size) ** 2:  # the two lines are one in every plane
             return [(0.0, np.pi)]
         roots = np.roots(terms[[2, 1, 0, -1, -2]])

@@ -90,9 +90,7 @@ class GuidedFourBar:
 
     def __repr__(self) -> str:
         angles = ", ".join(f"{degrees(angle):.1f}" for angle in self.link_angles)
-        return (
-            f"<GuidedFourBar: {self.kind.name}, links {angles} degrees, {numbered(len(self.defects), 'defect')}>"
-        )
+        return f"<GuidedFourBar: {self.kind.name}, links {angles} degrees, {numbered(len(self.defects), 'defect')}>"
 
     def to_json(self) -> dict[str, Any]:
         """Return the four-bar as plain data, with the keys that scripts rely on (docs/command-json.md)."""
@@ -190,9 +188,7 @@ def four_bar_of(orientations: Orientations, driver: Dyad, follower: Dyad) -> Gui
     """
     links = _link_angles(driver, follower)
     if np.minimum(links, np.pi - links).min() <= DOUBLE.same_configuration:
-        raise UnsolvableError(
-            "a link of this four-bar has no angle, or one of 180 degrees: two of its axes are one"
-        )
+        raise UnsolvableError("a link of this four-bar has no angle, or one of 180 degrees: two of its axes are one")
     m = orientations.matrices
     angles = _azimuths(driver.fixed, follower.fixed, m @ driver.moving)
     sides = _sides(follower.fixed, m @ driver.moving, m @ follower.moving)
@@ -237,9 +233,7 @@ def motion_of(orientations: Orientations, four_bar: GuidedFourBar, steps: int = 
     (0, 4, 8)
     """
     if four_bar.defects or four_bar.direction is None:
-        raise UnsolvableError(
-            f"this four-bar has defects ({', '.join(four_bar.defects)}): it cannot take the motion"
-        )
+        raise UnsolvableError(f"this four-bar has defects ({', '.join(four_bar.defects)}): it cannot take the motion")
     keys = _unwrapped(four_bar.angles, four_bar.direction)
     parts = [np.linspace(a, b, steps, endpoint=False) for a, b in pairwise(keys.tolist())]
     angles = np.concatenate([*parts, keys[-1:]])
@@ -272,9 +266,7 @@ def _reach(links: Floats) -> _Reach:
     return _Reach(*np.isnan(input_limits_spherical(links)).tolist())
 
 
-def _places(
-    angles: Floats, sides: npt.NDArray[np.int64], reach: _Reach
-) -> tuple[tuple[int, ...], tuple[int, ...]]:
+def _places(angles: Floats, sides: npt.NDArray[np.int64], reach: _Reach) -> tuple[tuple[int, ...], tuple[int, ...]]:
     """Return circuit and branch of each orientation.
 
     A driver that turns fully keeps its side, so the sides are the circuits, with a branch each. One that swings

@@ -129,9 +129,7 @@ def hoop(orientations: Orientations, axis: npt.ArrayLike, direction: Direction =
     lines = _lines_off_axis(orientations, g)
     start = across(lines[1, 2], g)
     beside = np.cross(g, start) * (1.0 if direction == "ccw" else -1.0)
-    angles = {
-        pair: float(np.arctan2(s @ beside, s @ start)) % np.pi for pair, s in lines.items() if pair != (1, 2)
-    }
+    angles = {pair: float(np.arctan2(s @ beside, s @ start)) % np.pi for pair, s in lines.items() if pair != (1, 2)}
     pairs = list(angles)
     order = canonical_order([np.array([angles[pair]]) for pair in pairs])
     crossings = tuple(HoopCrossing(pairs[place], angles[pairs[place]]) for place in order)

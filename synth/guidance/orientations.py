@@ -62,9 +62,7 @@ class Orientations:
         if q.ndim != 2 or q.shape[1] != 4 or not np.isfinite(q).all():
             raise InvariantError("quaternions", f"an array of shape {q.shape}", "finite numbers, n by 4")
         if len(q) < _FEWEST:
-            raise InvariantError(
-                "orientations", numbered(len(q), "orientation"), f"{_FEWEST} or more", ("whole", 0)
-            )
+            raise InvariantError("orientations", numbered(len(q), "orientation"), f"{_FEWEST} or more", ("whole", 0))
         with np.errstate(over="ignore"):
             norms = np.linalg.norm(q, axis=1)
         for i in np.flatnonzero(np.abs(norms - 1.0) > _NORM_TOLERANCE):
@@ -178,9 +176,7 @@ class Orientations:
     def relative_axes(self) -> dict[Pair, Floats]:
         """Return the relative axes S_ij of all pairs; `UnsolvableError` for more than 2000 orientations."""
         if len(self) > _MOST_IN_PAIRS:
-            raise UnsolvableError(
-                f"{len(self)} orientations have too many pairs; expected {_MOST_IN_PAIRS} at most"
-            )
+            raise UnsolvableError(f"{len(self)} orientations have too many pairs; expected {_MOST_IN_PAIRS} at most")
         i, j = np.triu_indices(len(self), 1)
         axes = unit(_between(self.quaternions[i], self.quaternions[j])[:, 1:])
         return dict(zip(zip((i + 1).tolist(), (j + 1).tolist(), strict=True), axes, strict=True))

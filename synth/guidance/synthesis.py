@@ -374,9 +374,7 @@ class GuidingDyads(Printed):
         ]
         if self.all_found is not None:
             largest = f"largest residual {self.all_found.residual:.0e}"
-            blocks.append(
-                f"all six solutions found, {self.all_found.complex_solutions} of them complex; {largest}"
-            )
+            blocks.append(f"all six solutions found, {self.all_found.complex_solutions} of them complex; {largest}")
         return blocks
 
     def __repr__(self) -> str:
@@ -397,9 +395,7 @@ class GuidingDyads(Printed):
         return document
 
 
-def guiding_dyads(
-    orientations: Orientations, axes: Sequence[Sequence[float]] = (), samples: int = 36
-) -> GuidingDyads:
+def guiding_dyads(orientations: Orientations, axes: Sequence[Sequence[float]] = (), samples: int = 36) -> GuidingDyads:
     """Return the RR dyads that guide a body through orientations: of five all, of more those that fit best.
 
     Parameters

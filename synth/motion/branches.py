@@ -21,6 +21,7 @@ from graphs.tolerances import DOUBLE, MARGIN, canonical_basis, canonical_order, 
 from graphs.types import Floats, JointId
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, PosedLoop
+from synth.motion.singular import second_order
 from synth.motion.singular.joint_order import in_order, joint_order
 from synth.motion.singular.nearest import spaces_near
 from synth.motion.singular.sampling import (
@@ -30,18 +31,6 @@ from synth.motion.singular.sampling import (
     in_half_tangents,
     rates_towards,
     same_part,
-)
-from synth.motion.singular.second_order import (
-    Quadric,
-    RateSpace,
-    Rigidity,
-    all_quadrics,
-    largest_only,
-    local_forms,
-    rates_at,
-    rates_near,
-    rigidity_of,
-    spaces_within,
 )
 from synth.motion.walk.step import Allowance
 
@@ -193,7 +182,7 @@ class Branch:
 
     freedoms: int | None
     certainty: Certainty
-    space: RateSpace
+    space: second_order.RateSpace
     rates: Floats
     still: tuple[int, ...]
     modes: tuple[tuple[int, int] | None, ...]
@@ -259,7 +248,7 @@ class Branches:
     regular: bool
     complete: bool
     method: Method
-    rigidity: Rigidity | None = None
+    rigidity: second_order.Rigidity | None = None
     order: tuple[int, ...] = ()
 
     @property
@@ -299,7 +288,7 @@ def branches_of(
     branch_search = _BranchSearch(linkage, closure, search or Search())
     spaces, order = branch_search.spaces(), branch_search.order
     if not spaces and branch_search.complete:
-        rigidity = rigidity_of(linkage, closure, branch_search.search.zero)
+        rigidity = second_order.rigidity_of(linkage, closure, branch_search.search.zero)
         proved = rigidity.certainty == "proved"
         return Branches((), proved, False, True, branch_search.method(spaces), rigidity, order)
     regular = branch_search.is_regular(spaces)
@@ -367,10 +356,10 @@ class _BranchSearch:
         self._places_of_loops = [place_of_loop[frozenset(loop.joints)] for loop in linkage.loops]
         self._work = Allowance(search.work)
         self._allowance = Allowance(search.steps)
-        tangent = rates_at(closure or ClosureEquations(linkage), linkage.angles, search.zero)
+        tangent = second_order.rates_at(closure or ClosureEquations(linkage), linkage.angles, search.zero)
         self._tangent = canonical_basis(tangent[self._order])
         self._stresses = self.closure.rows - len(self.linkage.angles) + self._tangent.shape[1]
-        self._quadrics: list[Quadric] = all_quadrics(self.linkage, self._tangent, search.zero)
+        self._quadrics: list[second_order.Quadric] = second_order.all_quadrics(self.linkage, self._tangent, search.zero)
 
     @property
     def order(self) -> tuple[int, ...]:
@@ -395,10 +384,10 @@ class _BranchSearch:
             sample=self.as_filed(branch.sample),
         )
 
-    def spaces(self) -> list[RateSpace]:
+    def spaces(self) -> list[second_order.RateSpace]:
         """Return the spaces of rates that agree to second order, as far as the search goes."""
-        spaces: list[RateSpace] = []
-        for space in spaces_within(self._tangent, self._quadrics, self.search.zero, self._work):
+        spaces: list[second_order.RateSpace] = []
+        for space in second_order.spaces_within(self._tangent, self._quadrics, self.search.zero, self._work):
             if len(spaces) == self.search.most:
                 self.complete = False
                 break
@@ -406,19 +395,19 @@ class _BranchSearch:
         self.complete = self.complete and not self._work.used_up
         if not self.complete:
             spaces = [*self._towards(), *spaces]
-        return largest_only(spaces, self.search.zero)
+        return second_order.largest_only(spaces, self.search.zero)
 
-    def _towards(self) -> list[RateSpace]:
+    def _towards(self) -> list[second_order.RateSpace]:
         """Return the space near to the rates that are wanted, if any are."""
         wanted = self.search.towards
         if wanted is None:
             return []
-        rates = rates_near(self.closure, self.linkage.angles, self._quadrics, wanted)
+        rates = second_order.rates_near(self.closure, self.linkage.angles, self._quadrics, wanted)
         near = wanted if rates is None else rates
         spaces = spaces_near(self._tangent, self._quadrics, near, self.search.zero)
         return [space for space in islice(spaces, _DEAD_ENDS) if space is not None][:1]
 
-    def is_regular(self, spaces: list[RateSpace]) -> bool:
+    def is_regular(self, spaces: list[second_order.RateSpace]) -> bool:
         """Tell whether all rates that agree to first order agree to second."""
         alone = self.complete and len(spaces) == 1 and not spaces[0].left
         return alone and spaces[0].basis.shape[1] == self._tangent.shape[1]
@@ -428,11 +417,11 @@ class _BranchSearch:
         free = len(self.linkage.angles) - len({joint for loop in self.linkage.loops for joint in loop.joints})
         if self._stresses != 1 or len(self._quadrics) != 1:
             return False
-        forms = local_forms(self._tangent, self._quadrics)
+        forms = second_order.local_forms(self._tangent, self._quadrics)
         rank = int((inertia(forms, max(self.search.zero, DOUBLE.clear), scale=1.0).signs != 0).sum())
         return bool(rank == self._tangent.shape[1] - free)
 
-    def method(self, spaces: list[RateSpace]) -> Method:
+    def method(self, spaces: list[second_order.RateSpace]) -> Method:
         """Return how branches are found at a singular pose."""
         if any(len(space.left) > 1 for space in spaces):
             return "random starts"
@@ -443,9 +432,9 @@ class _BranchSearch:
         _, jacobian = self.closure.at(self.linkage.angles)
         return spectrum(jacobian.toarray(), DOUBLE.derivative).rank == self.closure.rows
 
-    def parts(self, spaces: list[RateSpace]) -> list[tuple[RateSpace, Floats]]:
+    def parts(self, spaces: list[second_order.RateSpace]) -> list[tuple[second_order.RateSpace, Floats]]:
         """Return general rates of each part of all spaces, with the space, in the order of branches."""
-        parts: list[tuple[RateSpace, Floats]] = []
+        parts: list[tuple[second_order.RateSpace, Floats]] = []
         search, work = self.search, self._work
         for space in spaces:
             here, whole = general_rates(space, search.most, search.towards, lambda: not work.take(_START))
@@ -453,14 +442,14 @@ class _BranchSearch:
             parts += [(space, rates) for rates in here]
         return [parts[place] for place in canonical_order([_rank_of(*part) for part in parts])]
 
-    def branches(self, spaces: list[RateSpace], *, proved: bool) -> tuple[Branch, ...]:
+    def branches(self, spaces: list[second_order.RateSpace], *, proved: bool) -> tuple[Branch, ...]:
         """Return the branches of all spaces in the order of the file, those that were not followed last."""
         branches = [self.branch_as_filed(branch) for branch in self._branches(spaces, proved=proved)]
         ranks = canonical_order([_rank_of(branch.space, branch.rates) for branch in branches])
         ranked = [branches[place] for place in ranks]
         return tuple(sorted(ranked, key=lambda branch: (not branch.begun, branch.certainty == "not known")))
 
-    def _branches(self, spaces: list[RateSpace], *, proved: bool) -> Iterator[Branch]:
+    def _branches(self, spaces: list[second_order.RateSpace], *, proved: bool) -> Iterator[Branch]:
         """Yield the branches of all spaces; that near to wanted rates, or the first, is followed in any case."""
         parts = self.parts(spaces)
         nearest = self._nearest(parts)
@@ -475,7 +464,7 @@ class _BranchSearch:
         """Return rates or their negatives: those whose first is positive, in the order of the file."""
         return np.asarray(signed(self.as_filed(rates))[self._order])
 
-    def _nearest(self, parts: Sequence[tuple[RateSpace, Floats]]) -> int:
+    def _nearest(self, parts: Sequence[tuple[second_order.RateSpace, Floats]]) -> int:
         """Return the number of the part on which most joints go as is wanted."""
         towards = self.search.towards
         if towards is None or len(parts) < 2:
@@ -503,7 +492,7 @@ class _BranchSearch:
         independent = rank_of(slopes, DOUBLE.clear, scale=1.0) == self._stresses
         return int(slopes.shape[1] - self._stresses) if independent else None
 
-    def branch(self, space: RateSpace, rates: Floats, *, proved: bool, late: bool) -> Branch:
+    def branch(self, space: second_order.RateSpace, rates: Floats, *, proved: bool, late: bool) -> Branch:
         """Return a branch that begins at some rates, followed unless it is late."""
         still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= DOUBLE.zero_rate).tolist())
         linear = self.vertices.linear and not space.left
@@ -527,7 +516,7 @@ def signs_of(rates: Floats) -> str:
     return "".join("0" if abs(rate) <= DOUBLE.zero_rate else "+-"[int(rate < 0)] for rate in rates)
 
 
-def _rank_of(space: RateSpace, rates: Floats) -> Floats:
+def _rank_of(space: second_order.RateSpace, rates: Floats) -> Floats:
     """Return what branches are listed by: most joints that move, most rates, signs in order of joints, rates."""
     signs = [" +-0".index(sign) for sign in signs_of(rates)]
     return np.array([signs.count(3), -space.basis.shape[1], *signs, *rates], dtype=float)

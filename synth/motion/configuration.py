@@ -43,9 +43,7 @@ def doubt_of(precision: Precision) -> str:
     return f", with the coordinates as written; {precise}, and exact coordinates may allow motion"
 
 
-def doubt_of_rigid(
-    precision: Precision, misfit: float | None, unsettled: bool = False, too_large: str = ""
-) -> str:
+def doubt_of_rigid(precision: Precision, misfit: float | None, unsettled: bool = False, too_large: str = "") -> str:
     """Return how near a rigid pattern is to one that moves, after "rigid"; empty where there is nothing to add.
 
     The misfit is that of the nearest pattern that moves (`Configuration.misfit`), None if none was found;

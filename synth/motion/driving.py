@@ -225,9 +225,7 @@ def _signs(configuration: Configuration, rates: Floats, driven: Sequence[int]) -
     return np.asarray(signs)
 
 
-def _path(
-    closure: ClosureEquations, start: Floats, places: list[int], values: Floats, options: PathOptions
-) -> Path:
+def _path(closure: ClosureEquations, start: Floats, places: list[int], values: Floats, options: PathOptions) -> Path:
     """Return the path on which joints that do not begin to move are locked, or if it ends before, a longer one."""
     if not options.locked or set(options.locked) & set(places):
         return driven_path(closure, start, places, values, options=replace(options, locked=()))

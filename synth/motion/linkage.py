@@ -309,9 +309,7 @@ def link_motions(
     return {link: motions.get(link, still) for link in linkage.graph.nodes}
 
 
-def joints_outwards(
-    linkage: PosedLinkage, ground: LinkId | None = None
-) -> Iterator[tuple[LinkId, LinkId, int, float]]:
+def joints_outwards(linkage: PosedLinkage, ground: LinkId | None = None) -> Iterator[tuple[LinkId, LinkId, int, float]]:
     """Yield from the fixed link outwards: a link, the one it carries, the place of their joint, and its sense."""
     graph = linkage.graph
     column = {joint: place for place, joint in enumerate(graph.joints)}

@@ -159,9 +159,7 @@ def driven_path(
 class Drive:
     """Joints driven from one goal to the next; with one freedom past the turning points of the driven joint."""
 
-    def __init__(
-        self, closure: ClosureEquations, start: Floats, drivers: Sequence[int], options: PathOptions
-    ) -> None:
+    def __init__(self, closure: ClosureEquations, start: Floats, drivers: Sequence[int], options: PathOptions) -> None:
         moving = closure.locked(options.locked) if options.locked else closure
         watch = RankWatch(closure) if 0 < closure.joints <= WATCHED and closure.rows else None
         self._walk = Walk(

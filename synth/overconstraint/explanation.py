@@ -11,14 +11,8 @@ from graphs.tolerances import Tolerances
 from graphs.types import JointId
 from synth.motion.configuration import Configuration
 from synth.moving.made import Movable, configuration_of
+from synth.overconstraint import redundancy
 from synth.overconstraint.reasons import reasons_of, turning_reasons
-from synth.overconstraint.redundancy import (
-    Tolerance,
-    active_at_second_order,
-    axis_tolerances,
-    first_order_closure,
-    smallest_sets,
-)
 
 _LISTED = 12
 """Axes of which tolerances are printed; data has all."""
@@ -75,7 +69,7 @@ class Explanation(Printed):
     idle: int
     active: int
     sets: tuple[IdleSet, ...]
-    tolerances: tuple[Tolerance, ...]
+    tolerances: tuple[redundancy.Tolerance, ...]
     smallest: float
     gap: float
 
@@ -104,9 +98,7 @@ class Explanation(Printed):
         """Return the lines and the table that are printed."""
         freedoms = numbered(self.freedoms, "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
         head = f"{freedoms}, M = {self.count} by count: h = {self.idle}"
-        evidence = (
-            f"singular-value gap {power_of_ten(self.gap)}" if isfinite(self.gap) else "no zero singular value"
-        )
+        evidence = f"singular-value gap {power_of_ten(self.gap)}" if isfinite(self.gap) else "no zero singular value"
         blocks: list[Block] = [f"{head}   ({evidence})"]
         if not self.idle:
             general = "no closure equation is redundant: a generic realisation has these degrees of freedom too"
@@ -130,8 +122,7 @@ class Explanation(Printed):
         if not self.tolerances:
             return []
         rows = [
-            (plain(axis.joint), _figure(degrees(axis.turn)), _figure(axis.shift))
-            for axis in self.tolerances[:_LISTED]
+            (plain(axis.joint), _figure(degrees(axis.turn)), _figure(axis.shift)) for axis in self.tolerances[:_LISTED]
         ]
         more = len(self.tolerances) - len(rows)
         errors = ("rotation, degrees", "translation")
@@ -178,17 +169,17 @@ def explain(mechanism: Movable, *, precision: float | None = None) -> Explanatio
     check_argument("explain", mechanism, Movable)
     at = configuration_of(mechanism, precision=precision)
     linkage = at.linkage
-    order = first_order_closure(linkage, at.tolerances)
+    order = redundancy.first_order_closure(linkage, at.tolerances)
     meant = Tolerances.of(at.precision.size)  # mended coordinates move, but are not all that they were meant to be
     names = list(linkage.graph.joints)
-    active = active_at_second_order(linkage, order)
+    active = redundancy.active_at_second_order(linkage, order)
     sets = tuple(
         IdleSet(
             tuple(tuple(names[joint] for joint in linkage.loops[loop].joints) for loop in loops),
             number,
             tuple(reasons_of(linkage, loops, meant) or turning_reasons(linkage, order, loops, meant)),
         )
-        for loops, number in smallest_sets(linkage, order)
+        for loops, number in redundancy.smallest_sets(linkage, order)
     )
     freedoms, idle = order.rates.shape[1], order.stresses.shape[1]
     return Explanation(
@@ -198,7 +189,7 @@ def explain(mechanism: Movable, *, precision: float | None = None) -> Explanatio
         idle=idle,
         active=active,
         sets=sets,
-        tolerances=tuple(axis_tolerances(linkage, order)) if idle and freedoms and not active else (),
+        tolerances=tuple(redundancy.axis_tolerances(linkage, order)) if idle and freedoms and not active else (),
         smallest=order.smallest,
         gap=order.gap,
     )

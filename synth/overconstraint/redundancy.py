@@ -43,9 +43,7 @@ class FirstOrderClosure:
 def first_order_closure(linkage: PosedLinkage, tolerances: Tolerances = DOUBLE) -> FirstOrderClosure:
     """Return the closure equations of a linkage with their rank; `NumericalError` if that is undecided."""
     matrix, loop_of = _by_loops(linkage, linkage.angles)
-    ranked = spectrum(
-        matrix, np.maximum(tolerances.derivative, 2.0 * tolerances.precision / axis_lengths(linkage))
-    )
+    ranked = spectrum(matrix, np.maximum(tolerances.derivative, 2.0 * tolerances.precision / axis_lengths(linkage)))
     if ranked.rank is None:
         raise NumericalError("the rank of the closure equations at this configuration is unclear")
     parts = split(matrix)

@@ -407,6 +407,4 @@ _SCISSORS = (
 )  # fmt: skip
 
 
-GENERATORS: dict[str, Generator] = {
-    one.name: one for one in (*_CREASES, *_RINGS, *_GOODS, *_PLATFORMS, *_SCISSORS)
-}
+GENERATORS: dict[str, Generator] = {one.name: one for one in (*_CREASES, *_RINGS, *_GOODS, *_PLATFORMS, *_SCISSORS)}

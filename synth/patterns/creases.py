@@ -133,9 +133,7 @@ def map_sheet(rows: int, columns: int, width: float = 1.3, height: float = 1.0) 
     return _mesh(rows, columns, lambda i, j: (width * j, height * i), "U", "V", f"Map {rows} x {columns}")
 
 
-def _mesh(
-    rows: int, columns: int, place: Callable[[int, int], Place], across: str, along: str, title: str
-) -> Sheet:
+def _mesh(rows: int, columns: int, place: Callable[[int, int], Place], across: str, along: str, title: str) -> Sheet:
     """Return a mesh by its vertices; edges in rows have letters in turn by row, others by diagonal."""
     number = {(i, j): i * (columns + 1) + j for i in range(rows + 1) for j in range(columns + 1)}
     letters = {}
@@ -164,9 +162,7 @@ def _meeting(start: Place, way: float, other_start: Place, other_way: float) -> 
 def freedoms_of_triangles(sheet: Sheet) -> int:
     """Return the freedoms of a disc of triangles: its border's vertices less three."""
     # Each triangle more adds a border vertex and a freedom, or closes a vertex with three equations.
-    border = {
-        v for edge, letter in zip(sheet.edges, sheet.assignments, strict=True) if letter == "B" for v in edge
-    }
+    border = {v for edge, letter in zip(sheet.edges, sheet.assignments, strict=True) if letter == "B" for v in edge}
     return len(border) - 3
 
 
@@ -303,9 +299,7 @@ def _rigid_twist(other: int) -> float:
 
     def product(twist: float) -> float:
         half = tan((pi / 2 - twist) / 2)
-        return other * log((slope * half + 1) / (slope * half - 1)) - (6 - other) * log(
-            (slope + half) / (slope - half)
-        )
+        return other * log((slope * half + 1) / (slope * half - 1)) - (6 - other) * log((slope + half) / (slope - half))
 
     return float(brentq(product, 0.0, pi / 6 - 1e-9, xtol=1e-16, rtol=1e-15))
 

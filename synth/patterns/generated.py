@@ -117,9 +117,7 @@ def generate(name: str, *, fold: float | None = None, **parameters: float) -> Ge
     mechanism = generator.make(**values)
     if fold is not None:
         if not generator.foldable or not isinstance(mechanism, Sheet):
-            raise UnsolvableError(
-                f"{name} is not a flat pattern, so it is not folded: its parameters set its shape"
-            )
+            raise UnsolvableError(f"{name} is not a flat pattern, so it is not folded: its parameters set its shape")
         fold = FOLD.checked(fold)
         last_frame = fold_to(mechanism, fold).frames()[-1]  # on the branch of its assignment
         assert isinstance(last_frame, Sheet)

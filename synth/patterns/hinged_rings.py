@@ -295,9 +295,7 @@ def _flattest(start: Floats) -> Floats:
 def _numbered(angles: Floats) -> list[Floats]:
     """Return the angles of a ring as it may be numbered: from each solid, either way round, from either side."""
     both_ways = [angles, angles[::-1]]
-    return [
-        sign * np.roll(way, shift) for way in both_ways for shift in range(len(angles)) for sign in (1.0, -1.0)
-    ]
+    return [sign * np.roll(way, shift) for way in both_ways for shift in range(len(angles)) for sign in (1.0, -1.0)]
 
 
 def _off_flattest(state: Floats) -> Floats:

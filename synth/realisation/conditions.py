@@ -52,9 +52,7 @@ def flat_folding(pattern: Pattern) -> Condition:
             where = "a vertex" if place < len(inner) else "a hole"
             names = ", ".join(shown(pattern.joints[crease]) for crease in met)
             number = numbered(len(met), "crease")
-            raise UnsolvableError(
-                f"the type cannot fold flat: {number}, an odd number, about {where} (joints {names})"
-            )
+            raise UnsolvableError(f"the type cannot fold flat: {number}, an odd number, about {where} (joints {names})")
     alternate = np.zeros((len(inner), len(pattern.corners)))  # the corners round each vertex, + and - by turns
     for row, (vertex, met) in enumerate(zip(inner, pattern.rounds, strict=False)):
         for place, crease in enumerate(met):
@@ -452,9 +450,7 @@ class DrawingConditions:
         return ConditionErrors(off, self.symmetry.error(places), str(self.symmetry))
 
 
-def choices_of_conditions(
-    pattern: Pattern, *, flat_foldable: bool, symmetric: bool
-) -> tuple[DrawingConditions, ...]:
+def choices_of_conditions(pattern: Pattern, *, flat_foldable: bool, symmetric: bool) -> tuple[DrawingConditions, ...]:
     """Return the conditions to try one after the other, the largest group of symmetries first.
 
     Raises `UnsolvableError` if it cannot be flat-foldable, or has no symmetry that keeps its border.

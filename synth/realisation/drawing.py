@@ -27,9 +27,7 @@ from synth.realisation.pattern import Pattern
 _SPREAD = 0.5
 
 
-def barycentric_start(
-    pattern: Pattern, random: np.random.Generator | None = None
-) -> tuple[Floats, Floats, Floats]:
+def barycentric_start(pattern: Pattern, random: np.random.Generator | None = None) -> tuple[Floats, Floats, Floats]:
     """Return places of the vertices, hubs of holes, and hubs of panels that cannot be convex.
 
     Edges are about 1 long. The generator gives every edge a weight; without it all weights are equal.

@@ -163,9 +163,7 @@ class Realisation(Printed):
             lines.append(f"not convex: {listed('panel', self.bent)}, with three axes or more through one centre")
         if not self.convex:
             lines.append("the border is not convex")
-        lines.append(
-            f"mobility {self.mobility}, exact; {first_order_freedoms(self.freedoms)} at this configuration"
-        )
+        lines.append(f"mobility {self.mobility}, exact; {first_order_freedoms(self.freedoms)} at this configuration")
         if self.folds:
             lines.append("folds on every crease, with the mountain-valley assignment written")
         elif self.folds is False:

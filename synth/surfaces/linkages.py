@@ -160,16 +160,12 @@ def sizes_on(linkage: SurfaceLinkage, surface: Surface, places: Mapping[JointId,
             return float(loop_maps.chords(step, surface.radius))
         return float(link_angles(step, surface.angle))
 
-    return {
-        (a, b): size(places[b] - places[a]) for a, b in link_pairs(linkage.chain) if a in places and b in places
-    }
+    return {(a, b): size(places[b] - places[a]) for a, b in link_pairs(linkage.chain) if a in places and b in places}
 
 
 def _coordinates(surface: Cylinder, places: Mapping[JointId, float]) -> dict[JointId, list[float]]:
     """Return where joints are across the axis."""
-    return dict(
-        zip(places, loop_maps.joint_coordinates(surface.radius, list(places.values())).tolist(), strict=True)
-    )
+    return dict(zip(places, loop_maps.joint_coordinates(surface.radius, list(places.values())).tolist(), strict=True))
 
 
 def _coordinates_table(surface: Cylinder, places: Mapping[JointId, float]) -> TableBlock:
@@ -201,9 +197,7 @@ def by_sizes(linkage: SurfaceLinkage) -> SurfaceLinkage:
     if linkage.steps is None:
         return linkage
     if linkage.surface is None:
-        missing = (
-            "lengths; expected 'radius'" if linkage.kind == "cylinder" else "link angles; expected 'lambda_deg'"
-        )
+        missing = "lengths; expected 'radius'" if linkage.kind == "cylinder" else "link angles; expected 'lambda_deg'"
         raise UnsolvableError(f"steps without a {linkage.kind} have no {missing}")
     at = dict(zip(linkage.chain.joints, linkage.places(), strict=True))
     sizes = sizes_on(linkage, linkage.surface, at)
@@ -377,9 +371,7 @@ def common_surfaces(
     return tuple(surfaces), tuple(families)
 
 
-def _checked_pairs(
-    chain: SCGraph, sizes: Mapping[Pair, float], *, lengths: bool
-) -> tuple[dict[Pair, int], Floats]:
+def _checked_pairs(chain: SCGraph, sizes: Mapping[Pair, float], *, lengths: bool) -> tuple[dict[Pair, int], Floats]:
     """Return the number of each pair, and the sizes in that order."""
     if not chain.loops:
         raise UnsolvableError("the chain has no loops; expected one or more, by their joints")
@@ -436,9 +428,7 @@ def _closing(cycle: _Cycle, size: float, links: SizedLinks, tolerance: float) ->
     return patterns[_closes(patterns, size, SizedLinks(links.reach[cycle.pairs], links.base), tolerance)]
 
 
-def _closes(
-    patterns: npt.NDArray[np.int8], size: float, links: SizedLinks, tolerance: float
-) -> npt.NDArray[np.bool_]:
+def _closes(patterns: npt.NDArray[np.int8], size: float, links: SizedLinks, tolerance: float) -> npt.NDArray[np.bool_]:
     """Check which signed steps sum to a multiple of 2 pi, within a tolerance that shrinks with small loops."""
     steps = links.spans(size)
     sums = patterns @ steps
@@ -626,6 +616,4 @@ def supplementary_linkages(angles: npt.ArrayLike) -> SupplementaryLinkages:
     if len(checked) != 4:
         raise InvariantError("four-bar", f"{len(checked)} link angles", "the four of a four-bar")
     turned = [tuple(joint + 1 for joint in range(4) if ends[joint]) for ends in product((0, 1), repeat=4)]
-    return SupplementaryLinkages(
-        tuple(turned), tuple(loop_maps.map_to_cones(one) for one in supplementary(checked))
-    )
+    return SupplementaryLinkages(tuple(turned), tuple(loop_maps.map_to_cones(one) for one in supplementary(checked)))

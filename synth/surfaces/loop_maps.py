@@ -21,17 +21,9 @@ from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.fourbar import closing
+from synth.surfaces import mapping
 from synth.surfaces.circuit import azimuths
 from synth.surfaces.loop_sums import sign_patterns
-from synth.surfaces.mapping import (
-    FamilyOfCircles,
-    MappedLoop,
-    cautions_of,
-    circles_table,
-    in_degrees,
-    kind_line,
-    mapped_loop,
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,9 +51,9 @@ class ConeMap(Printed):
     """
 
     angles: tuple[float, ...]
-    cones: tuple[MappedLoop, ...]
-    flat: tuple[MappedLoop, ...]
-    families: tuple[FamilyOfCircles, ...]
+    cones: tuple[mapping.MappedLoop, ...]
+    flat: tuple[mapping.MappedLoop, ...]
+    families: tuple[mapping.FamilyOfCircles, ...]
     kind: closing.FourBarKind | None
     solutions: str | None
     why: str
@@ -69,17 +61,17 @@ class ConeMap(Printed):
 
     def cautions(self) -> tuple[str, ...]:
         """Return where rounding decides: the type and class, circles, or families."""
-        return cautions_of(self.kind, (*self.flat, *self.cones), self.families)
+        return mapping.cautions_of(self.kind, (*self.flat, *self.cones), self.families)
 
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
         blocks: list[Block] = []
         if self.kind is not None:
-            blocks.append(kind_line(self.kind, angular=True))
+            blocks.append(mapping.kind_line(self.kind, angular=True))
             if self.solutions in ("a", "b", "c", "d"):
                 blocks.append(f"class {self.solutions} of Hyatt et al. 2020, Fig. 10")
         blocks.append("chords, 2 sin(phi / 2): " + ", ".join(f"{x:.6g}" for x in cone_chords(self.angles)))
-        blocks += circles_table([*self.flat, *self.cones], self.families, flat=self.flat, angular=True)
+        blocks += mapping.circles_table([*self.flat, *self.cones], self.families, flat=self.flat, angular=True)
         blocks += [f"caution: {caution}" for caution in self.cautions()]
         if self.why:
             blocks.append(f"no cone: {self.why}")
@@ -98,7 +90,7 @@ class ConeMap(Printed):
     def to_json(self) -> dict[str, Any]:
         """Return the map as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         document: dict[str, Any] = {
-            "angles_deg": in_degrees(self.angles),
+            "angles_deg": mapping.in_degrees(self.angles),
             "chords": cone_chords(self.angles).tolist(),
             **({} if self.kind is None else self.kind.to_json(angular=True)),
             "cones": [cone.to_json(angular=True) for cone in self.cones],
@@ -155,7 +147,7 @@ def map_to_cones(angles: npt.ArrayLike) -> ConeMap:
     (25.21, 'open')
     """
     links = closing.checked_link_angles(angles)
-    loops, families = mapped_loop(cone_reach(links), 1, links)
+    loops, families = mapping.mapped_loop(cone_reach(links), 1, links)
     flat = tuple(loop for loop in loops if is_flat(loop.size, links.max()))
     cones = loops[len(flat) :]  # in the order of their sizes
     why = "" if cones or families else _why_not(links, bool(flat))
@@ -229,8 +221,8 @@ class CylinderMap(Printed):
     """
 
     lengths: tuple[float, ...]
-    cylinders: tuple[MappedLoop, ...]
-    families: tuple[FamilyOfCircles, ...]
+    cylinders: tuple[mapping.MappedLoop, ...]
+    families: tuple[mapping.FamilyOfCircles, ...]
     kind: closing.FourBarKind | None
     why: str
     stretched: tuple[tuple[int, ...], ...]
@@ -238,12 +230,12 @@ class CylinderMap(Printed):
     def cautions(self) -> tuple[str, ...]:
         """Return where rounding decides: the type, circles, families, or one more cylinder beyond them."""
         large = f"{closing.ILL_CONDITIONED}: stretched out within rounding: one more cylinder may be very large"
-        return cautions_of(self.kind, self.cylinders, self.families, large if self.stretched else "")
+        return mapping.cautions_of(self.kind, self.cylinders, self.families, large if self.stretched else "")
 
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
-        blocks: list[Block] = [] if self.kind is None else [kind_line(self.kind, angular=False)]
-        blocks += circles_table(self.cylinders, self.families, flat=(), angular=False)
+        blocks: list[Block] = [] if self.kind is None else [mapping.kind_line(self.kind, angular=False)]
+        blocks += mapping.circles_table(self.cylinders, self.families, flat=(), angular=False)
         blocks += [f"caution: {caution}" for caution in self.cautions()]
         for number, cylinder in enumerate(self.cylinders, start=1):
             rows = [
@@ -271,7 +263,7 @@ class CylinderMap(Printed):
         }
 
 
-def _coordinates(cylinder: MappedLoop) -> list[list[float]]:
+def _coordinates(cylinder: mapping.MappedLoop) -> list[list[float]]:
     places: list[list[float]] = joint_coordinates(cylinder.size, azimuths(cylinder.steps)).tolist()
     return places
 
@@ -312,10 +304,9 @@ def map_to_cylinders(lengths: npt.ArrayLike) -> CylinderMap:
     """
     sides = closing.checked_link_lengths(lengths)
     unit = unit_of(sides)
-    loops, families = mapped_loop(cylinder_reach(sides / unit), 0)
+    loops, families = mapping.mapped_loop(cylinder_reach(sides / unit), 0)
     cylinders = tuple(
-        replace(loop, size=loop.size * unit, bounds=(loop.bounds[0] * unit, loop.bounds[1] * unit))
-        for loop in loops
+        replace(loop, size=loop.size * unit, bounds=(loop.bounds[0] * unit, loop.bounds[1] * unit)) for loop in loops
     )
     families = tuple(replace(family, interval=(family.interval[0] * unit, inf)) for family in families)
     kind = closing.kind_of_planar(sides) if len(sides) == 4 else None

@@ -366,6 +366,4 @@ def in_a_family(signs: npt.NDArray[np.int8], half: npt.NDArray[Any], families: I
     Half turns, which have no sign, are the numbers of the steps, or a mask.
     """
     rest = np.delete(signs, half)
-    return any(
-        np.array_equal(rest, mirrored * np.delete(family, half)) for family in families for mirrored in (1, -1)
-    )
+    return any(np.array_equal(rest, mirrored * np.delete(family, half)) for family in families for mirrored in (1, -1))

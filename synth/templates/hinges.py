@@ -83,9 +83,7 @@ class _Strip:
 
     def ends(self) -> list[pieces.TemplateLine]:
         """Return the cuts at its ends."""
-        return [
-            pieces.TemplateLine("CUT", self.at(along, -1), self.at(along, 1)) for along in (self.first, self.last)
-        ]
+        return [pieces.TemplateLine("CUT", self.at(along, -1), self.at(along, 1)) for along in (self.first, self.last)]
 
     def polygon(self) -> Any:
         """Return its area."""
@@ -142,9 +140,7 @@ def _all_strips(folds: Sequence[pieces.TemplateLine], panels: Sequence[Any], hin
     areas = [strip.polygon() for strip in strips]
     together = float(pieces.united(areas).area)
     if sum(area.area for area in areas) - together > _SPECK:
-        raise UnsolvableError(
-            f"hinges of {hinges.width:g} mm overlap; try a smaller --hinge-width, or a larger --size"
-        )
+        raise UnsolvableError(f"hinges of {hinges.width:g} mm overlap; try a smaller --hinge-width, or a larger --size")
     return strips
 
 

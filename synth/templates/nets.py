@@ -73,9 +73,7 @@ def tab_shapes(start: Floats, end: Floats, depth: float) -> Iterator[Floats]:
             return
         for slant in _SLANTS:
             if (inset := slant * deep) <= _MOST_SLANT * length:
-                yield np.array(
-                    [start, end, end - inset * along + deep * right, start + inset * along + deep * right]
-                )
+                yield np.array([start, end, end - inset * along + deep * right, start + inset * along + deep * right])
 
 
 def slot_of(shape: Floats) -> Floats:

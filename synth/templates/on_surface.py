@@ -382,15 +382,12 @@ def _steps(linkage: LayeredLinkage) -> list[str]:
     surface = linkage.surface
     if isinstance(surface, Cone):
         sector = 360 * cos(surface.angle)
-        rolled = (
-            f"a sector of {sector:.4g} degrees, as a cone; its ruling lines stand {degrees(surface.angle):.4g} "
-        )
+        rolled = f"a sector of {sector:.4g} degrees, as a cone; its ruling lines stand {degrees(surface.angle):.4g} "
         rolled += "degrees off the plane across its axis"
     else:
         rolled = f"as a cylinder of radius {surface.radius:.4g} mm"
     steps = [
-        f"Cut out {numbered(len(linkage.links) + 1, 'piece')} along the black lines, slots too. You see their "
-        "outside.",
+        f"Cut out {numbered(len(linkage.links) + 1, 'piece')} along the black lines, slots too. You see their outside.",
         f"Roll the surface, {rolled}; glue its seam.",
         f"Lay the links on it in {numbered(count, 'layer')}, layer 0 first, each along the lines of its joints.",
     ]

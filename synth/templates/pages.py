@@ -355,8 +355,7 @@ def _written_steps(steps: Sequence[str], corner: tuple[float, float], width: flo
         lines += wrap(step, letters, initial_indent=f"{number}. ", subsequent_indent=" " * 5)
     left, top = corner
     texts = [
-        Text((left, top - (number + 0.5) * _LINE), line, _STEP_SIZE, middle=False)
-        for number, line in enumerate(lines)
+        Text((left, top - (number + 0.5) * _LINE), line, _STEP_SIZE, middle=False) for number, line in enumerate(lines)
     ]
     return texts, len(lines) * _LINE
 
@@ -436,8 +435,7 @@ def _page(template: Template, paper: Paper, content: _Laid | Tile, number: int, 
 def _in_the_middle(laid: _Laid, paper: Paper) -> tuple[list[TemplateLine], list[Text]]:
     """Return the strokes and texts of pieces, moved to the middle of the page."""
     free = [
-        most - max(shift[axis] + piece.size[axis] for piece, *shift in laid)
-        for axis, most in enumerate(paper.window)
+        most - max(shift[axis] + piece.size[axis] for piece, *shift in laid) for axis, most in enumerate(paper.window)
     ]
     left, low = MARGIN + free[0] / 2, MARGIN + FOOTER + free[1] / 2
     return strokes_and_texts((piece, left + right, low + up) for piece, right, up in laid)

@@ -62,9 +62,7 @@ class Plates:
         for pose, places in enumerate(poses):
             for mesh, face in enumerate(self.faces):
                 corners = places[list(sheet.faces[face])]
-                turns[pose, mesh], shifts[pose, mesh] = _frame(
-                    corners, self.planes[face], f"{face} in pose {pose}"
-                )
+                turns[pose, mesh], shifts[pose, mesh] = _frame(corners, self.planes[face], f"{face} in pose {pose}")
         return turns, shifts
 
 

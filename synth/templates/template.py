@@ -160,9 +160,7 @@ def folded_pose(sheet: Sheet) -> tuple[Sheet | None, str]:
     if not lies_flat(placed):
         return placed, "as it stands"
     frames = [] if sheet.frames is None else list(map(sheet.frames.frame, range(1, sheet.frames.others + 1)))
-    standing = [
-        frame for frame in frames if frame.coordinates is not None and frame.faces and not lies_flat(frame)
-    ]
+    standing = [frame for frame in frames if frame.coordinates is not None and frame.faces and not lies_flat(frame)]
     if standing:
         return standing[len(standing) // 2], "in a frame of its file"
     if len(placed.faces) > _MOST:
@@ -328,9 +326,7 @@ def pictured(template: Template, sheet: Sheet) -> tuple[Template, str]:
         return template, seen
     picture = folded_scene(pose, PictureOptions(numbers=False, box=_BOX, caption=None))
     sides = "; the printed side is grey, its back blue" if list(pose.faces) == same_side_up(pose.faces) else ""
-    return replace(
-        template, picture=picture, steps=(*template.steps, f"It then looks as below, {seen}{sides}.")
-    ), ""
+    return replace(template, picture=picture, steps=(*template.steps, f"It then looks as below, {seen}{sides}.")), ""
 
 
 def panels_of_mechanism(
@@ -366,9 +362,7 @@ def panels_of_mechanism(
     sheet = sheet_of(mechanism) if not isinstance(mechanism, ChainString) else None
     if sheet is not None:
         if kind is not None or mode is not None:
-            raise UnsolvableError(
-                "a kind or a mode of realisation requires a type, and the mechanism has coordinates"
-            )
+            raise UnsolvableError("a kind or a mode of realisation requires a type, and the mechanism has coordinates")
         return sheet, ""
     if not isinstance(mechanism, SCGraph | SCDGraph | ChainString):
         raise UnsolvableError(f"a template requires panels, and {mechanism!r} has none")

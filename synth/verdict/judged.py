@@ -77,9 +77,7 @@ def verdict_of_motion(configuration: Configuration, generic: int | None = None) 
     return replace(verdict, within_precision=within, places=configuration.ends_of(verdict.stiff_joints))
 
 
-def _worded(
-    findings: MotionFindings, basis: Basis, *, exhaustive: bool = False, further: int | None = None
-) -> Verdict:
+def _worded(findings: MotionFindings, basis: Basis, *, exhaustive: bool = False, further: int | None = None) -> Verdict:
     """Return a verdict with its sentences, and with the links that move as one."""
     clusters = clusters_of(findings.at.linkage.graph, findings.immobile)
     return Verdict(
@@ -119,9 +117,7 @@ def _of_one_motion(configuration: Configuration, generic: int | None) -> Verdict
     branch = MotionBranch(signs_of(rates), freedoms, "numerical", still, far, misfit, from_folded)
     immobile = still if freedoms == 1 and not configuration.flat else ()
     marked = _as_marked(configuration.marks, rates)
-    findings = MotionFindings(
-        configuration, (branch,), branch, freedoms, "numerical", False, generic, immobile, marked
-    )
+    findings = MotionFindings(configuration, (branch,), branch, freedoms, "numerical", False, generic, immobile, marked)
     return _worded(findings, "motion")
 
 
@@ -136,9 +132,7 @@ def _of_no_motion(configuration: Configuration, generic: int | None, *, rigid: b
     certainty: Certainty = ("numerical" if by_digits else "proved") if settled else "not known"
     freedoms, immobile = (0, configuration.joints) if settled else (None, ())
     written = AsWritten(0, "proved") if rigid else None
-    findings = MotionFindings(
-        configuration, (), None, freedoms, certainty, rigid, generic, immobile, written=written
-    )
+    findings = MotionFindings(configuration, (), None, freedoms, certainty, rigid, generic, immobile, written=written)
     return _worded(findings, "motion", exhaustive=settled)
 
 
@@ -175,9 +169,7 @@ def _of_branches(configuration: Configuration, search: Branches, generic: int | 
         branches += (_branch(other, branch),)
     known = search.complete and all(branch.freedoms is not None for branch in branches)
     stated = _stated(branches, number)
-    freedoms, certainty = (
-        _unmoved(configuration, search) if stated is None else (stated.freedoms, stated.certainty)
-    )
+    freedoms, certainty = _unmoved(configuration, search) if stated is None else (stated.freedoms, stated.certainty)
     immobile: tuple[JointId, ...] = ()
     if known and (branches or freedoms is not None):  # those that are immobile on every branch
         still = [set(branch.stiff_joints) for branch in branches]

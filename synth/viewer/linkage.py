@@ -211,8 +211,7 @@ def solver_data(linkage: PosedLinkage, *, limited: bool, ground: LinkId | None =
     """
     number = {link: place for place, link in enumerate(linkage.graph.nodes)}
     tree = [
-        (number[near], number[far], joint, int(sign))
-        for near, far, joint, sign in joints_outwards(linkage, ground)
+        (number[near], number[far], joint, int(sign)) for near, far, joint, sign in joints_outwards(linkage, ground)
     ]
     kinds: dict[tuple[Centre, int], list[PosedLoop]] = {}
     for loop in linkage.loops:

@@ -124,9 +124,7 @@ def _start_of_branch(number: int, branch: Branch, rates: Floats, closure: Closur
     return Beginning(f"branch {number}: {degrees}, {branch.certainty}", rates, drivers, branch.still, freedoms)
 
 
-def _driven(
-    closure: ClosureEquations, angles: Floats, moving: Ints, first: int
-) -> tuple[int | None, tuple[int, ...]]:
+def _driven(closure: ClosureEquations, angles: Floats, moving: Ints, first: int) -> tuple[int | None, tuple[int, ...]]:
     """Return the degrees of freedom at some angles, and the indices of the joints that drive them."""
     basis = free_rates(closure, angles, moving)
     if basis is None or first not in moving:
@@ -265,9 +263,7 @@ def shown_of(
     ('Rigid-foldable from the flat state: 1 degree of freedom. 2 folding branches.', 2)
     """
     placed = (
-        mechanism.frames.first_placed()
-        if isinstance(mechanism, Sheet) and mechanism.frames is not None
-        else mechanism
+        mechanism.frames.first_placed() if isinstance(mechanism, Sheet) and mechanism.frames is not None else mechanism
     )
     notes: list[str] = []
     on_request = isinstance(placed, Sheet) and len(placed.faces) > MOST_PANELS and not motion

@@ -24,9 +24,7 @@ def main() -> int:
     options = _options()
     verbs = [verb for verb in VERBS if verb.name in options.verbs]
     if not folder_of_patterns().is_dir():
-        print(
-            f"no crease patterns at {folder_of_patterns()}; name their folder in SYNTHEDRA_FOLD", file=sys.stderr
-        )
+        print(f"no crease patterns at {folder_of_patterns()}; name their folder in SYNTHEDRA_FOLD", file=sys.stderr)
     table = Table()
     with suppress(KeyboardInterrupt), TemporaryDirectory() as folder:  # what was compared so far is counted
         for one in comparisons(

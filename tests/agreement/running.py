@@ -62,9 +62,7 @@ def comparisons(
             if variants in variant:
                 file = specimen.file if variant == "as it is" else None
                 subject = _subject(thing, folder, file)
-                outcomes = {
-                    (verb.name, door): asked(verb, door, subject, seconds) for verb in verbs for door in doors
-                }
+                outcomes = {(verb.name, door): asked(verb, door, subject, seconds) for verb in verbs for door in doors}
                 if variant.startswith("frame"):
                     outcomes |= _by_frame(specimen, subject, int(variant.split()[1]), seconds)
                 yield Comparison(specimen.name, variant, outcomes, disagreements(outcomes))

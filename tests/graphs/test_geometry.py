@@ -245,6 +245,4 @@ def test_nothing_has_no_area():
 
 def test_matrices_of_cross_products_over_any_leading_axes(rng):
     vectors, others = rng.normal(size=(2, 4, 5, 3))
-    np.testing.assert_allclose(
-        (crossing(vectors) @ others[..., None])[..., 0], np.cross(vectors, others), atol=1e-14
-    )
+    np.testing.assert_allclose((crossing(vectors) @ others[..., None])[..., 0], np.cross(vectors, others), atol=1e-14)

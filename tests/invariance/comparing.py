@@ -64,6 +64,4 @@ class Table:
     def __str__(self) -> str:
         rows = [(guise, self.compared[guise], self.differ[guise]) for guise in self.compared]
         rows.append((f"all, of {len(self.patterns)} patterns", self.compared.total(), self.differ.total()))
-        return "\n".join(
-            f"{name:28}{count:>9}{other:>9}" for name, count, other in [("", "compared", "differ"), *rows]
-        )
+        return "\n".join(f"{name:28}{count:>9}{other:>9}" for name, count, other in [("", "compared", "differ"), *rows])

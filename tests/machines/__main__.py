@@ -56,9 +56,7 @@ def main() -> int:
 
 def _options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m tests.machines", description=__doc__)
-    parser.add_argument(
-        "factors", nargs="*", metavar="FACTOR", help=f"Factors: {', '.join(FACTORS)}; default all."
-    )
+    parser.add_argument("factors", nargs="*", metavar="FACTOR", help=f"Factors: {', '.join(FACTORS)}; default all.")
     parser.add_argument("--commands", choices=["quick", "all"], default="quick", help="Set of commands.")
     parser.add_argument("--no-tests", action="store_true", help="Run the commands only.")
     parser.add_argument("--side-by-side", type=int, default=os.cpu_count(), help="Factors that run at a time.")
@@ -70,9 +68,7 @@ def _options() -> argparse.Namespace:
     return options
 
 
-def _report(
-    factor: Factor, options: argparse.Namespace, place: Path, here: list[Answer]
-) -> tuple[bool, list[str]]:
+def _report(factor: Factor, options: argparse.Namespace, place: Path, here: list[Answer]) -> tuple[bool, list[str]]:
     """Return whether all is the same under a factor, and the lines that say so."""
     start = monotonic()
     if reason := reason_to_leave_out(factor):
@@ -104,9 +100,7 @@ def _failures(factor: Factor) -> Iterator[str]:
         )
         if child.returncode:
             failures = [line for line in child.stdout.splitlines() if line.startswith(("FAILED", "ERROR"))]
-            yield from (
-                f"  {line}" for line in failures or [f"pytest: {child.stdout[-500:]} {child.stderr[-500:]}"]
-            )
+            yield from (f"  {line}" for line in failures or [f"pytest: {child.stdout[-500:]} {child.stderr[-500:]}"])
 
 
 def _printed(report: tuple[bool, list[str]]) -> bool:

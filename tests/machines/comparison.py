@@ -54,9 +54,7 @@ def differences(first: list[Answer], second: list[Answer]) -> Iterator[Differenc
     """Yield the commands whose answers are not the same; both transcripts are of the same commands."""
     for one, other in zip(first, second, strict=True):
         assert one.command == other.command
-        pairs = [
-            pair for pair in zip(_padded(one, other), _padded(other, one), strict=True) if not same_line(*pair)
-        ]
+        pairs = [pair for pair in zip(_padded(one, other), _padded(other, one), strict=True) if not same_line(*pair)]
         if one.status != other.status:
             pairs.insert(0, (f"exit status {one.status}", f"exit status {other.status}"))
         if pairs:

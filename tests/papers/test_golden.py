@@ -25,9 +25,7 @@ def test_every_entry_of_a_paper_is_read(paper, tmp_path):
     files = [str(HERE.parent / name) for name in TESTS[paper]]
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *files]
     environment = {**os.environ, RECORD: str(record)}
-    run = subprocess.run(
-        command, cwd=HERE.parents[1], env=environment, capture_output=True, text=True, check=False
-    )
+    run = subprocess.run(command, cwd=HERE.parents[1], env=environment, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stdout[-2000:]
     read = set(record.read_text(encoding="utf-8").split())
     entries = {f"{paper}/{name}" for name in golden_numbers()[paper] if name != "_title"}

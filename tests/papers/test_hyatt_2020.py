@@ -247,9 +247,7 @@ def test_a_crossed_cone_with_t4_below_zero(golden):
     np.testing.assert_allclose(np.degrees(angles), wanted["link_angles"], atol=entry["tol"])
     # their T1 to T3 name the sides in loop order from alpha; ours from the ground link, gamma
     t = np.degrees(spherical_differences(np.roll(angles, 1)))
-    np.testing.assert_allclose(
-        sorted(np.abs(t)), sorted(abs(wanted[f"T{i}"]) for i in (1, 2, 3, 4)), atol=entry["tol"]
-    )
+    np.testing.assert_allclose(sorted(np.abs(t)), sorted(abs(wanted[f"T{i}"]) for i in (1, 2, 3, 4)), atol=entry["tol"])
     assert t[3] == pytest.approx(wanted["T4"])
     assert t.prod() == pytest.approx(wanted["product"], rel=1e-9)
     found = map_to_cones(angles)
@@ -329,8 +327,7 @@ def test_fig_11_is_a_stephenson_candidate(every, golden):
         found = sorted(angle for _, _, angle in told["link_angles_deg"])
         pairs = wanted["all_pairs"]
         golden_angles = [
-            pairs[a + b]["link_angle"] if a + b in pairs else pairs[b + a]["link_angle"]
-            for a, b in link_pairs(chain)
+            pairs[a + b]["link_angle"] if a + b in pairs else pairs[b + a]["link_angle"] for a, b in link_pairs(chain)
         ]
         np.testing.assert_allclose(found, sorted(golden_angles), atol=1e-6)
         assert told["rank"] == 6
@@ -343,8 +340,7 @@ def test_memberships_of_fig_11_by_brute_force():
 
     ends = [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (4, 5), (5, 2)]
     fits = sum(
-        all(set(ends[a]) & set(ends[b]) for a, b in zip(run, run[1:], strict=False))
-        for run in permutations(range(7))
+        all(set(ends[a]) & set(ends[b]) for a, b in zip(run, run[1:], strict=False)) for run in permutations(range(7))
     )
     assert fits == 15 * 4
 

@@ -208,9 +208,7 @@ def test_equations_17_and_18():
     angles = np.radians(list(entry["inputs"].values()))
     found = quadrilaterals_by_coordinates(chords(angles, 1.0))
     wanted = {(abs(one["K"]), one["R"]) for one in entry["computed"]["solutions"]}
-    np.testing.assert_allclose(
-        sorted(zip(found.centre, found.radius, strict=True)), sorted(wanted), atol=entry["tol"]
-    )
+    np.testing.assert_allclose(sorted(zip(found.centre, found.radius, strict=True)), sorted(wanted), atol=entry["tol"])
     assert 1 / (2 * np.sin(angles[0] / 2)) == pytest.approx(entry["computed"]["solutions"][0]["d"])
     lam = np.degrees(cone_angles_by_coordinates(angles))
     assert lam[0] == pytest.approx(entry["computed"]["solutions"][0]["lambda_deg"], abs=entry["tol"])
@@ -356,9 +354,7 @@ def test_the_twelve_cases_come_out_of_the_enumeration_of_candidates():
     for case, told in found.items():
         assert set(told) == {"one way" if ROWS[case][0].startswith("Y") else "both ways"}
     pair = np.array([[0, 1, 2, 3], [3, 2, 1, 0], [1, 0, 3, 2], [2, 3, 0, 1]])  # symmetries that keep {CO, AB}
-    assert (
-        count_rounds_by_burnside(Rounds(4, 2 * 4, 4), pair) == len(placements(Rounds(4, 2 * 4, 4), pair)[0]) == 12
-    )
+    assert count_rounds_by_burnside(Rounds(4, 2 * 4, 4), pair) == len(placements(Rounds(4, 2 * 4, 4), pair)[0]) == 12
     # the same by angles: all four-bars on 11 slots, none of which lies opposite to another
     placed = CandidateJob(FOUR_BAR, (0,), slots=11)
     seen = set()
@@ -383,6 +379,4 @@ def test_crossed_on_a_cylinder_is_grashof(golden, rng):
 
 def test_equations_13_and_14():
     entry = PAPER["eq13_14"]
-    np.testing.assert_allclose(
-        chords(np.radians(entry["inputs"]["alpha"]), 1.0), entry["computed"]["r"], atol=1e-9
-    )
+    np.testing.assert_allclose(chords(np.radians(entry["inputs"]["alpha"]), 1.0), entry["computed"]["r"], atol=1e-9)

@@ -69,9 +69,7 @@ def test_rows_cover_the_golden_values_and_the_misprints():
                if isinstance(one, dict)}  # fmt: skip
     assert listed <= entries.keys()
     assert {name for name, one in entries.items() if one.get("printed") is not None} <= listed
-    items = re.findall(
-        r"^\| (\d{3}-\d+)", (ROOT / "docs" / "misprints.md").read_text(encoding="utf-8"), re.MULTILINE
-    )
+    items = re.findall(r"^\| (\d{3}-\d+)", (ROOT / "docs" / "misprints.md").read_text(encoding="utf-8"), re.MULTILINE)
     told = " ".join(f"{row.misprint} {row.remark}" for _, _, row in ROWS)
     assert len(items) > 30
     assert {item for item in items if not re.search(rf"{item}\b", told)} == set()
@@ -103,9 +101,7 @@ def test_rows_that_print_counts_have_those_of_the_golden_file():
             paper, name = row.golden.split("/")
             printed = GOLDEN[paper][name]["printed"]
             if isinstance(printed, dict):
-                known = [
-                    (value, printed[key]) for key, value in zip(keys, row.printed, strict=True) if key in printed
-                ]
+                known = [(value, printed[key]) for key, value in zip(keys, row.printed, strict=True) if key in printed]
                 assert all(one == other for one, other in known), row.golden
                 compared += len(known)
     assert compared > 60

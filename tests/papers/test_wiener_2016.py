@@ -179,9 +179,7 @@ def test_relative_mobility(name, golden):
 def test_relative_mobility_of_ride_alongs_creases_and_centres(golden):
     """Misprint 003-3: 4.2.4.3 lacks parentheses, dM = 3(n + m - 5) - (3n + 3m - 15) = 0."""
     entry = golden["003"]["ride_along_vertex_edge"]
-    for (n, m), dv, de in zip(
-        entry["inputs"]["n_m"], entry["computed"]["dV"], entry["computed"]["dE"], strict=True
-    ):
+    for (n, m), dv, de in zip(entry["inputs"]["n_m"], entry["computed"]["dV"], entry["computed"]["dE"], strict=True):
         assert (dv, de) == (n + m - 5, 3 * n + 3 * m - 15)
         assert relative_polyhedron(dv, 0, de) == 0
     entry = golden["003"]["crease"]["computed"]

@@ -214,9 +214,7 @@ def polygons_by_coordinates(sides: npt.ArrayLike, largest: float = np.inf) -> Po
     found = [_newton(points, centre, unit) for points, centre in starts]
     kept: list[int] = []
     for i, (points, centre, residual) in enumerate(found):
-        same = any(
-            (signs[i] == signs[j]).all() and abs(centre - found[j][1]) < 1e-8 * (1 + abs(centre)) for j in kept
-        )
+        same = any((signs[i] == signs[j]).all() and abs(centre - found[j][1]) < 1e-8 * (1 + abs(centre)) for j in kept)
         if residual < 1e-10 and not same and np.isfinite(points).all():
             kept.append(i)
     kept.sort(key=lambda i: abs(found[i][1]))

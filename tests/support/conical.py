@@ -9,9 +9,7 @@ from graphs.mechanism.sc import SCGraph
 from synth.fourbar.closing import can_close
 from synth.surfaces.circuit import link_angles
 
-FOUR_BAR = SCGraph(
-    4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)], strict=True)), [Loop(tuple("OABC"))], ground=0
-)
+FOUR_BAR = SCGraph(4, dict(zip("OABC", [(0, 1), (1, 2), (2, 3), (3, 0)], strict=True)), [Loop(tuple("OABC"))], ground=0)
 """Joints O, A, B, C; the ground link carries C and O."""
 WATT = SCGraph(
     6, [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)], [Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))], ground=0
@@ -59,9 +57,7 @@ def crosses(points):
     p = np.moveaxis(points, -2, 0)
 
     def area(a, b, c):
-        return (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (
-            c[..., 0] - a[..., 0]
-        )
+        return (b[..., 0] - a[..., 0]) * (c[..., 1] - a[..., 1]) - (b[..., 1] - a[..., 1]) * (c[..., 0] - a[..., 0])
 
     def cut(a, b, c, d):
         return (area(a, b, c) * area(a, b, d) < 0) & (area(c, d, a) * area(c, d, b) < 0)

@@ -9,6 +9,4 @@ from graphs.mechanism.sheet import Sheet
 
 def is_zigzag(sheet: Sheet, joints) -> np.ndarray:
     """Return which creases of a Miura sheet lie on its zigzags: they do not go straight up."""
-    return np.array(
-        [sheet.coordinates[a][0] != sheet.coordinates[b][0] for a, b in (sheet.edges[j] for j in joints)]
-    )
+    return np.array([sheet.coordinates[a][0] != sheet.coordinates[b][0] for a, b in (sheet.edges[j] for j in joints)])

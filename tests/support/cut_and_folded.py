@@ -114,9 +114,7 @@ def check_tabs(panels, pieces, poses):
             assert all(tab.intersection(one).area < 1e-4 for one in glued[other])
             glued[other].append(tab)
             count += 1
-            for (
-                places
-            ) in poses:  # it goes where its panel goes, and its fold stays on the edge of the one it is of
+            for places in poses:  # it goes where its panel goes, and its fold stays on the edge of the one it is of
                 stands = _in_space(places, panels, other, edge, face, local)
                 line = places[list(panels.sheet.edges[edge])]
                 base = stands[np.abs(local[:, 1]) < 1e-5]

@@ -19,9 +19,7 @@ from synth.cli.main import main
 
 __all__ = ["Command", "Fence", "agree", "commands_of", "fences_of", "printed_by"]
 
-_FENCE = re.compile(
-    r"(?:as `(?P<place>[\w.-]+)`:\n\n)?^```(?P<language>\w+)\n(?P<text>.*?)^```$", re.M | re.S | re.I
-)
+_FENCE = re.compile(r"(?:as `(?P<place>[\w.-]+)`:\n\n)?^```(?P<language>\w+)\n(?P<text>.*?)^```$", re.M | re.S | re.I)
 _NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.])")
 _DOTS = "..."
 _ROUNDING = 1e-6

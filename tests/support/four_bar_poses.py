@@ -46,9 +46,7 @@ def check_pose(angles: npt.ArrayLike, steps: npt.ArrayLike, cone_angle: npt.Arra
     measured = sectors(axes)
     lam = np.asarray(cone_angle, dtype=float)[..., np.newaxis]
     tilt = np.arctan2(-axes[..., 1], np.hypot(axes[..., 0], axes[..., 2]))
-    return PoseCheck(
-        np.abs(measured - np.asarray(angles, dtype=float)).max(axis=-1), np.abs(tilt - lam).max(axis=-1)
-    )
+    return PoseCheck(np.abs(measured - np.asarray(angles, dtype=float)).max(axis=-1), np.abs(tilt - lam).max(axis=-1))
 
 
 @dataclass(frozen=True, slots=True)

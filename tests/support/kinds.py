@@ -77,9 +77,7 @@ def _seconds(item: pytest.Item) -> float:
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Add the option that writes the durations anew."""
-    parser.addoption(
-        "--store-durations", action="store_true", help="Write tests/durations.json anew from this run."
-    )
+    parser.addoption("--store-durations", action="store_true", help="Write tests/durations.json anew from this run.")
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -195,9 +195,7 @@ def _of_solids(generator, draw):
             axes = solids(numbers).axes.values()
             return np.array([[*point, *np.array(along) / np.linalg.norm(along)] for point, along in axes])
 
-        dependence = dependence_on_axes(linkage_of(numbers)).after(
-            derivatives_by_parameters(lines, numbers).matrix
-        )
+        dependence = dependence_on_axes(linkage_of(numbers)).after(derivatives_by_parameters(lines, numbers).matrix)
         return _of_axes(linkage_of, numbers, rng.normal(size=len(numbers)), dependence, rng)
 
     return make
@@ -312,9 +310,7 @@ _MAKERS = {
     "spatial 7R": _spatial(7),
     "spatial 8R": _spatial(8),
     "Bennett": _of_solids(five_bars.bennett, _between((0.5, 2.5), (0.3, 0.9), (1.1, 2.0))),
-    "Goldberg": _of_solids(
-        five_bars.goldberg, _between((0.6, 2.0), (0.4, 0.9), (1.1, 1.4), (1.7, 2.0), (0.2, 1.0))
-    ),
+    "Goldberg": _of_solids(five_bars.goldberg, _between((0.6, 2.0), (0.4, 0.9), (1.1, 1.4), (1.7, 2.0), (0.2, 1.0))),
     "Myard": _of_solids(five_bars.myard, _between((0.6, 2.0), (0.4, 0.9))),
     "Bricard, line": _of_solids(_line_symmetric, lambda rng: rng.normal(size=18)),
     "Bricard, plane": _of_solids(hinged_rings.plane_symmetric, _between((0.0, 0.5))),

@@ -39,9 +39,7 @@ def lines_of_pdf(data):
         matrix = re.match(r"1 0 0 1 0 0 cm", text)  # user space is never scaled
         assert matrix
         assert text.count(" cm") == 1
-        for found in re.finditer(
-            r"([\d.]+ [\d.]+ [\d.]+) RG|n ([-\d.]+) ([-\d.]+) m ([-\d.]+) ([-\d.]+) l\s+S", text
-        ):
+        for found in re.finditer(r"([\d.]+ [\d.]+ [\d.]+) RG|n ([-\d.]+) ([-\d.]+) m ([-\d.]+) ([-\d.]+) l\s+S", text):
             if found[1]:
                 kind = COLOURS.get(found[1], "MARKS")
             else:
@@ -58,9 +56,7 @@ def lines_of_dxf(text):
     for code, value in pairs:
         if code == 0:
             if now is not None and now["0"] == "LINE":
-                lines[now["8"]].append(
-                    [[float(now["10"]), float(now["20"])], [float(now["11"]), float(now["21"])]]
-                )
+                lines[now["8"]].append([[float(now["10"]), float(now["20"])], [float(now["11"]), float(now["21"])]])
             now = {}
         if now is not None:
             now[str(code)] = value

@@ -110,11 +110,7 @@ def _values_changed(seed: bytes, rng: random.Random, times: int) -> bytes:
         numbers = list(re.finditer(rb"(?<![\w.])-?\d+(\.\d+)?(e[-+]?\d+)?(?![\w.])", raw))
         if numbers and rng.random() < 0.7:
             old = rng.choice(numbers)
-            new = (
-                rng.choice(numbers).group()
-                if rng.random() < 0.5
-                else str(_other_number(old.group(), rng)).encode()
-            )
+            new = rng.choice(numbers).group() if rng.random() < 0.5 else str(_other_number(old.group(), rng)).encode()
             raw = raw[: old.start()] + new + raw[old.end() :]
             continue
         lines = raw.splitlines(keepends=True)

@@ -66,9 +66,7 @@ def _grid(rng):
 def _prism(rng):
     """Quads with all lines one way parallel, folded: its freedoms are those of its cross-section, and special."""
     rows, columns = (int(n) for n in rng.integers(2, 6, size=2))
-    section = np.cumsum(
-        rng.integers(100, 250, size=(columns + 1, 2)) * [[1, (-1) ** j] for j in range(columns + 1)], 0
-    )
+    section = np.cumsum(rng.integers(100, 250, size=(columns + 1, 2)) * [[1, (-1) ** j] for j in range(columns + 1)], 0)
     along = np.cumsum(rng.integers(120, 250, size=rows + 1))
     places = [(section[j, 0], along[i], section[j, 1]) for i in range(rows + 1) for j in range(columns + 1)]
     return _sheet(np.array(places), _quads(rows, columns))

@@ -28,9 +28,7 @@ def tapered(size):
         places.append(((line + 1) * turn, radius))
         inside = across
     corners = tuple(
-        (0.72**row * far * cos(angle), 0.72**row * far * sin(angle))
-        for row in range(size + 1)
-        for angle, far in places
+        (0.72**row * far * cos(angle), 0.72**row * far * sin(angle)) for row in range(size + 1) for angle, far in places
     )
     wide = size + 1
     faces = tuple(

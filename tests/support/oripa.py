@@ -3,9 +3,7 @@
 from collections.abc import Iterable
 
 HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n<java version="1.8.0_202" class="java.beans.XMLDecoder">\n'
-OLD = (
-    '<object class="oripa.DataSet"><void property="paperSize"><double>400.0</double></void><void property="lines">'
-)
+OLD = '<object class="oripa.DataSet"><void property="paperSize"><double>400.0</double></void><void property="lines">'
 OLD_END = "</void></object></java>\n"
 NEW = (
     '<object class="oripa.DataSet" id="DataSet0"><void class="oripa.DataSet" method="getField">'

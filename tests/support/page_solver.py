@@ -32,9 +32,7 @@ def node() -> str:
 def answers(questions: list[dict]) -> list[dict]:
     """What the solver of the page says."""
     asked = json.dumps(questions)
-    run = subprocess.run(
-        [node(), WEB / "src" / "answers.js"], input=asked, capture_output=True, text=True, check=False
-    )
+    run = subprocess.run([node(), WEB / "src" / "answers.js"], input=asked, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stderr
     return json.loads(run.stdout)
 

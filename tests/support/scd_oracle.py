@@ -25,9 +25,7 @@ def placements(rotation, most):
     """Every way to give each link three to ``most`` sides by open edges after its joints."""
     choices = []
     for sides in rotation.values():
-        ways = [
-            w for k in range(most - len(sides) + 1) for w in combinations_with_replacement(range(len(sides)), k)
-        ]
+        ways = [w for k in range(most - len(sides) + 1) for w in combinations_with_replacement(range(len(sides)), k)]
         choices.append([w for w in ways if len(sides) + len(w) >= 3])
     for choice in product(*choices):
         yield {

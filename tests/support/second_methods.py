@@ -47,14 +47,10 @@ def pole_axes(motions: npt.ArrayLike, cone_angle: npt.ArrayLike) -> Floats:
     """Return the angular velocities of links on cones, along their pole axes, from motions w, float[..., N, 3]."""
     lam = np.asarray(cone_angle, dtype=float)[..., np.newaxis, np.newaxis]
     w = np.asarray(motions, dtype=float)
-    return np.concatenate(
-        [np.cos(lam) * w[..., :1], -np.sin(lam) * w[..., 1:2], np.cos(lam) * w[..., 2:]], axis=-1
-    )
+    return np.concatenate([np.cos(lam) * w[..., :1], -np.sin(lam) * w[..., 1:2], np.cos(lam) * w[..., 2:]], axis=-1)
 
 
-def hoop_sequence(
-    orientations: Orientations, axis: npt.ArrayLike, direction: Direction = "ccw"
-) -> tuple[Pair, ...]:
+def hoop_sequence(orientations: Orientations, axis: npt.ArrayLike, direction: Direction = "ccw") -> tuple[Pair, ...]:
     """Return all relative axes but S_12 in the order of crossing: the geometric form, without angles.
 
     The end of each axis line that lies ahead of the plane of the hoop at its start is the one that the hoop meets;

@@ -50,9 +50,7 @@ def random_sc(rng: random.Random, *, largest: int = 8) -> SCGraph:
             names = [f"link {k}" for k in range(n)]
             names[0] = rng.choice(ODD_NAMES)
         try:
-            return SCGraph(
-                names, [(names[a], names[b]) for a, b in pairs], loops, ground=rng.choice([None, names[-1]])
-            )
+            return SCGraph(names, [(names[a], names[b]) for a, b in pairs], loops, ground=rng.choice([None, names[-1]]))
         except InvariantError as error:
             assert error.rule == "centre classes"
 

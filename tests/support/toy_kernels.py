@@ -37,8 +37,6 @@ def run(code: str, folder: Path, cache: Path, machine_code: str = "always"):
     path = os.pathsep.join([str(folder), str(ROOT)])
     environment = {**os.environ, "PYTHONPATH": path, "SYNTHEDRA_CACHE": str(cache), "PYTHONDONTWRITEBYTECODE": "1"}
     environment["SYNTHEDRA_MACHINE_CODE"] = machine_code
-    done = subprocess.run(
-        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False
-    )
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout), done.stderr

@@ -77,9 +77,7 @@ reveal_type(synth.map_to_cones([2.1, 1.7, 0.8, 1.5]).cones)
 reveal_type(synth.map_to_cylinders([4.0, 3.0, 5.0, 1.0]))
 orientations = synth.Orientations(np.eye(4))
 dyads = synth.guiding_dyads(orientations)
-reveal_type(
-    (dyads, synth.analyse_order(orientations, (0.0, 0.0, 1.0)), synth.four_bars(orientations, dyads.dyads))
-)
+reveal_type((dyads, synth.analyse_order(orientations, (0.0, 0.0, 1.0)), synth.four_bars(orientations, dyads.dyads)))
 
 # Pictures, templates, pages, the atlas
 picture = synth.draw(sheet, colour="none")

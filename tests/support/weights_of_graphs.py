@@ -60,8 +60,7 @@ def _order(code: Bytes, n: int) -> int:
 def _two_connected(links: int, joints: int) -> Series:
     """Return the generating function of 2-connected multigraphs without self-joints, up to a size."""
     every = [
-        [Fraction(comb(n, 2) ** m, factorial(m) * factorial(n)) for m in range(joints + 1)]
-        for n in range(links + 1)
+        [Fraction(comb(n, 2) ** m, factorial(m) * factorial(n)) for m in range(joints + 1)] for n in range(links + 1)
     ]
     connected = _logarithm(every)
     rooted = [[n * value for value in row] for n, row in enumerate(connected)]

@@ -27,9 +27,7 @@ class Served:
     def __init__(self, *files):
         command = [sys.executable, "-u", "-m", "synth.cli", "view", *map(str, files)]
         quiet = {**os.environ, "BROWSER": shutil.which("true") or "true"}
-        self.process = subprocess.Popen(
-            command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=quiet
-        )
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=quiet)
         self.address = self.process.stdout.readline().split()[1]
 
     def asked(self, name, content, *edits):

@@ -236,9 +236,7 @@ def rgb_of_number(number: int) -> Rgb | None:
         return None
     # From 10 on each ten is a hue, 15 degrees from the last; odd numbers are pale.
     hue, shade = divmod(number - 10, 10)
-    red, green, blue = (
-        round(255 * part) for part in hsv_to_rgb(hue / 24, 1.0 - shade % 2 / 2, _VALUES[shade // 2])
-    )
+    red, green, blue = (round(255 * part) for part in hsv_to_rgb(hue / 24, 1.0 - shade % 2 / 2, _VALUES[shade // 2]))
     return red, green, blue
 
 

@@ -74,9 +74,7 @@ def _first_with_pattern(frames: list[Mapping[str, Any]], check: Checker, notes: 
     return 0
 
 
-def _ancestors(
-    frames: list[Mapping[str, Any]], index: int, check: Checker, known: Container[int] = ()
-) -> list[int]:
+def _ancestors(frames: list[Mapping[str, Any]], index: int, check: Checker, known: Container[int] = ()) -> list[int]:
     """Return a frame, its parent, and so on up to one that is known or inherits nothing."""
     chain: dict[int, None] = {}
     above: int | None = index

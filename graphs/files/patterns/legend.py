@@ -280,9 +280,7 @@ class Legend:
         kinds = Counter(stroke.kind for stroke in unread)
         missing, every = (sum(stroke.lines for stroke in some) for some in (unread, strokes))
         if 2 * missing > every:
-            raise InvariantError(
-                "strokes", f"{missing} of {numbered(every, 'line')} {_NOT}: {_listed(kinds)}", _WAYS
-            )
+            raise InvariantError("strokes", f"{missing} of {numbered(every, 'line')} {_NOT}: {_listed(kinds)}", _WAYS)
         return Interpretation(tuple(letters), notes, described_strokes(kinds))
 
     def _stated(self, stroke: Stroke) -> str | None:

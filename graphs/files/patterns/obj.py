@@ -45,9 +45,7 @@ def sheet_from_obj(path: Path) -> Sheet:
             raise FileError(path, f"line {number}", shown(line.strip()), expected) from None
     if not faces:
         raise FileError(path, "", "no faces", "lines 'f a b c ...'")
-    known = {
-        (a, b): edge for (a, b), edge in edges.items() if a != b and 0 <= min(a, b) <= max(a, b) < len(places)
-    }
+    known = {(a, b): edge for (a, b), edge in edges.items() if a != b and 0 <= min(a, b) <= max(a, b) < len(places)}
     letters = "".join(letter for letter, _ in known.values())
     angles = tuple(angle for _, angle in known.values())
     return Checker(path).build(

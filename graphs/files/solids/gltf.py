@@ -49,9 +49,7 @@ class _Buffer:
         return len(self.accessors) - 1
 
 
-def gltf_text(
-    meshes: Sequence[Mesh], turns: Floats, shifts: Floats, *, seconds: float = 4.0, title: str = ""
-) -> str:
+def gltf_text(meshes: Sequence[Mesh], turns: Floats, shifts: Floats, *, seconds: float = 4.0, title: str = "") -> str:
     """Return meshes, each in its own frame, that move, as glTF text; all in millimetres.
 
     A corner c of a mesh is at turn @ c + shift, with rotation matrices float[poses, meshes, 3, 3] and shifts

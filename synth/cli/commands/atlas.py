@@ -34,12 +34,8 @@ def atlas_group() -> None:
 @options.value("--max-links", "N", "Largest number of links of SC and SCD graphs.", default=8, type=int)
 @options.repeated("--dof dofs", "M", "Degrees of freedom, 1 by default; may be repeated.", default=(1,), type=int)
 @options.value("--max-degree", "D", "Largest number of sides of a link.", default=4, type=int)
-@options.value(
-    "--chain-links", "N", "Largest number of links of chains. By default that of --max-links.", type=int
-)
-@options.value(
-    "--creases", "N", "Largest number of creases of R/- strings; 0 leaves strings out.", default=6, type=int
-)
+@options.value("--chain-links", "N", "Largest number of links of chains. By default that of --max-links.", type=int)
+@options.value("--creases", "N", "Largest number of creases of R/- strings; 0 leaves strings out.", default=6, type=int)
 @options.repeated(
     "--orders-of", "CHAIN",
     "Chain (a name or an id k1:...) whose joints are placed round a cone in every order; none leaves conical "

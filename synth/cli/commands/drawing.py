@@ -236,9 +236,7 @@ _SPELLED = {"cone_angle": "--lambda", "number": "--cone", "hinge_kind": "--hinge
 @options.value("--hinge-width", "MM", "Width of offset, living or gap hinges.", type=options.LENGTH)
 @options.value("--lambda cone_angle", "DEGREES", "For a linkage on a cone: cone angle.", type=float)
 @options.NUMBER_OF_SURFACE
-@options.value(
-    "--radius", "MM", "Radius of the cylinder.  [default: that of the linkage, in mm]", type=options.LENGTH
-)
+@options.value("--radius", "MM", "Radius of the cylinder.  [default: that of the linkage, in mm]", type=options.LENGTH)
 @options.value(
     "--thickness", "MM", "For a linkage on a cone or cylinder: thickness of the material.  [default: 0.3]",
     type=options.LENGTH,

@@ -159,9 +159,7 @@ def _counted(*methods: str) -> Callable[[Callable[..., None]], Callable[..., Non
 @_LONGEST_STRING
 @options.limits("--symmetry", "Number of automorphisms, as a number or range: 1, 2.. or 2..8.")
 @_counted("orbits", "burnside")
-def chains(
-    links: int, dof: int, only_count: bool, method: str | None, running: RunOptions, **properties: Any
-) -> None:
+def chains(links: int, dof: int, only_count: bool, method: str | None, running: RunOptions, **properties: Any) -> None:
     """List or count all kinematic chains of N links and M degrees of freedom.
 
     Chains are link-joint graphs with single joints in which no part is rigid; isomorphic chains are listed once.
@@ -193,9 +191,7 @@ def _say_if_odd(links: int, dof: int, spatial: int = 0) -> None:
     """Say on standard error that there are no mechanisms of a size if its parity excludes them."""
     if (links - 1 - dof - 3 * spatial) % 2:
         freedoms = "M + 3 S" if spatial else "M"
-        click.echo(
-            f"{links} links with M = {dof}: none; N - 1 and {freedoms} must be both even or both odd", err=True
-        )
+        click.echo(f"{links} links with M = {dof}: none; N - 1 and {freedoms} must be both even or both odd", err=True)
 
 
 @click.command(short_help="List or count SC graphs: planar chains drawn on the sphere, with centres.")
@@ -248,9 +244,7 @@ def sc(
 @click.command(short_help="List or count SCD graphs: mechanisms with all sides of their links.")
 @options.number("--links", "N", "Number of links.", 2)
 @options.number("--dof", "M", "Degrees of freedom; N - 1 gives open chains.")
-@options.value(
-    "--of file", "FILE", "File of an SC or SCD graph: list only its SCD graphs.", type=options.FILE_NAME
-)
+@options.value("--of file", "FILE", "File of an SC or SCD graph: list only its SCD graphs.", type=options.FILE_NAME)
 @options.number("--max-degree", "D", "Largest number of sides of a link.", 3, required=True)
 @_SPATIAL
 @_INFINITE

@@ -133,9 +133,7 @@ def _drawn(orientations: synth.guidance.Orientations, guiding: tuple[synth.guida
 @options.flag("--usable", "List only four-bars without defects.")
 @options.flag("--cones", "Map each four-bar listed to cones.")
 @options.output("Write the motion of the best four-bar without defects, as orientations.", "OUT.json", "--motion")
-@options.number(
-    "--steps", "N", "Number of steps of the motion between two orientations.", most=100_000, default=20
-)
+@options.number("--steps", "N", "Number of steps of the motion between two orientations.", most=100_000, default=20)
 @options.FORCE
 @options.JSON
 def fourbar(
@@ -182,9 +180,7 @@ def fourbar(
         )
         return
     out = console()
-    out.print(
-        f"{len(orientations)} orientations: {numbered(len(ranked), 'four-bar')}, {len(good)} without defects"
-    )
+    out.print(f"{len(orientations)} orientations: {numbered(len(ranked), 'four-bar')}, {len(good)} without defects")
     out.print(_table(listed))
     if cones:
         out.print(_table_of_cones(listed))

@@ -31,9 +31,7 @@ _LONGEST_PATH = 4096
 )  # fmt: skip
 @options.flag("--hinge-flat", "Treat the flat (F) edges of a crease pattern as hinges too.")
 @options.number("--pose", "FRAME", "Analyse this frame of a FOLD file; 0 is the key frame.", 0)
-@options.flag(
-    "--no-geometry", "Treat every loop round a hole or cut as spatial, even if its axes meet in a point."
-)
+@options.flag("--no-geometry", "Treat every loop round a hole or cut as spatial, even if its axes meet in a point.")
 @options.flag("--no-pose", "Leave out the infinitesimal degrees of freedom at the configuration of the file.")
 @options.flag(
     "--motion/--no-motion look_for_motion",
@@ -41,9 +39,7 @@ _LONGEST_PATH = 4096
     "mechanism is large.",
 )  # fmt: skip
 @PRECISION
-@options.flag(
-    "--more", "Search for motion branches with a hundred times the usual allowance, and list all of them."
-)
+@options.flag("--more", "Search for motion branches with a hundred times the usual allowance, and list all of them.")
 @options.flag("--verbose", "List all equations of mobility, with the reason why each applies or does not.")
 def mobility(
     files: tuple[str, ...], as_json: bool, pose: int | None, no_pose: bool, no_geometry: bool,

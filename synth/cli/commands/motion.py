@@ -149,9 +149,7 @@ def _point(graph: synth.SCGraph, text: str) -> tuple[LinkId, list[float]]:
     "--drive", "JOINT=DEGREES",
     "Angle of a driven joint in degrees, or length of a prismatic one; once for each degree of freedom."
 )  # fmt: skip
-@options.flag(
-    "--circuits/--no-circuits", "Sort the assembly modes by circuit and branch of the circuit.", default=True
-)
+@options.flag("--circuits/--no-circuits", "Sort the assembly modes by circuit and branch of the circuit.", default=True)
 @options.seed("Random seed.")
 @_answering(no=lambda modes: not modes.positions or not modes.exhaustive)
 def positions(mechanism: Any, drive: tuple[str, ...], **how: Any) -> Any:
@@ -340,9 +338,7 @@ def _mass(graph: synth.SCGraph, word: str) -> synth.compliance.Mass:
 
 @click.command()
 @MECHANISM
-@options.repeated(
-    "--keep", "LINK", "Link that belongs to the mechanism proper, not to a ride-along; may be repeated."
-)
+@options.repeated("--keep", "LINK", "Link that belongs to the mechanism proper, not to a ride-along; may be repeated.")
 @_answering()
 def limits(mechanism: Any, keep: tuple[str, ...]) -> Any:
     """Find the joint limits that ride-alongs impose, and the mobility while one is held straight.

@@ -102,9 +102,7 @@ def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _C
     """Return what adds the options for a linkage on a cone or a cylinder; the command takes them as ``chosen``."""
     sizes, size = ("--angles", "--lambda") if kind == "cone" else ("--lengths", "--radius")
     what = (
-        "Link angles in loop order, in degrees."
-        if kind == "cone"
-        else "Link lengths in loop order, in any one unit."
+        "Link angles in loop order, in degrees." if kind == "cone" else "Link lengths in loop order, in any one unit."
     )
     steps = "Signed steps round the surface in loop order, in degrees; the last may be left out."
     metavar, measure = ("DEGREES", "angle") if kind == "cone" else ("R", "radius")
@@ -228,9 +226,7 @@ def map_command(kind: Kind) -> click.Command:
     """Return the command that finds the surfaces of a kind on which a linkage lies."""
     sizes, link_sizes = ("angles", "link angles") if kind == "cone" else ("lengths", "lengths")
 
-    by_text = (
-        f"For --steps or a FILE: find every {kind} on which the {link_sizes} lie, not only that of the steps."
-    )
+    by_text = f"For --steps or a FILE: find every {kind} on which the {link_sizes} lie, not only that of the steps."
 
     def options_of_kind(command: _Command) -> _Command:
         if kind == "cone":
@@ -305,9 +301,7 @@ def behaviour_command(kind: Kind) -> click.Command:
     @options.output("Draw the first linkage, as a circle and on its surface (.png, .svg, .pdf).", "PICTURE")
     @options.FORCE
     @options.JSON
-    def command(
-        chosen: LinkageOptions, ground: str | None, output: str | None, force: bool, as_json: bool
-    ) -> None:
+    def command(chosen: LinkageOptions, ground: str | None, output: str | None, force: bool, as_json: bool) -> None:
         out.check_picture(output, force=force)
         with chosen.about():
             linkages = chosen.on_surfaces()

@@ -261,9 +261,7 @@ def bodies(incidence: Neighbours, mirror: Mapping[Node, Node] | None = None) -> 
     for joint, row in incidence.items():
         if joint[0] == "joint":
             around[joint] = tuple(node for link in row for node in towards[joint][link])
-    return Skeleton(
-        around, outlines, None if mirror is None else {**mirror, **{n: _moved(n, mirror) for n in around}}
-    )
+    return Skeleton(around, outlines, None if mirror is None else {**mirror, **{n: _moved(n, mirror) for n in around}})
 
 
 def _moved(node: Node, mirror: Mapping[Node, Node]) -> Node:

@@ -226,9 +226,7 @@ def _drawn_crossing(part: nx.Graph, as_bodies: bool) -> _Part:
     incidence = {node: tuple(part[node]) for node in part}
     if as_bodies:
         skeleton = embedding.bodies(incidence)
-        graph = nx.Graph(
-            (a, b) for row in skeleton.outlines.values() for i, a in enumerate(row) for b in row[i + 1 :]
-        )
+        graph = nx.Graph((a, b) for row in skeleton.outlines.values() for i, a in enumerate(row) for b in row[i + 1 :])
     else:
         skeleton = embedding.dots(incidence)
         graph = nx.Graph((a, b) for a, row in skeleton.around.items() for b in row)
@@ -263,9 +261,7 @@ def _side_by_side(parts: Sequence[_Part], joints: Joints) -> Layout:
     faces: list[PlacedFace] = []
     right = 0.0
     for part in parts:
-        shift = np.array(
-            [right - part.places[:, 0].min(), -(part.places[:, 1].min() + part.places[:, 1].max()) / 2]
-        )
+        shift = np.array([right - part.places[:, 0].min(), -(part.places[:, 1].min() + part.places[:, 1].max()) / 2])
         right += float(np.ptp(part.places[:, 0])) + _GAP
         _name(part, shift, joints, layout)
         for row, at in part.faces:
@@ -305,9 +301,7 @@ def _middle(places: Sequence[Place]) -> Place:
     return sum(x for x, _ in places) / len(places), sum(y for _, y in places) / len(places)
 
 
-def _joints_of_face(
-    row: Sequence[embedding.Node], joints: Joints, skeleton: embedding.Skeleton
-) -> tuple[JointId, ...]:
+def _joints_of_face(row: Sequence[embedding.Node], joints: Joints, skeleton: embedding.Skeleton) -> tuple[JointId, ...]:
     """Return the joints round a face, from the nodes round it."""
     if skeleton.outlines:
         return tuple(node[1] for node in row if node[0] == "joint")

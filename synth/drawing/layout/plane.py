@@ -166,9 +166,7 @@ def _images(graph: PlaneGraph, mirror: Mapping[Node, Node]) -> Ints:
 class _Forces:
     """Forces on the nodes of a graph; sums over nodes are products with matrices made once."""
 
-    def __init__(
-        self, graph: PlaneGraph, sides: Sequence[tuple[int, int]], bodies: Sequence[Sequence[int]]
-    ) -> None:
+    def __init__(self, graph: PlaneGraph, sides: Sequence[tuple[int, int]], bodies: Sequence[Sequence[int]]) -> None:
         size = len(graph.nodes)
         self._graph, self._own = graph, graph.own
         springs = [(side, 1.0, 1.0) for side in sides]

@@ -219,9 +219,7 @@ def strip_scene(chain: ChainString, options: PictureOptions = PLAIN) -> Scene:
         for number, (bottom, top) in enumerate(creases)
     )
     said = f"{chain.text}: {chain.creases} creases"
-    return page_of(
-        frame, [Layer("panels", tuple(panels)), Layer("creases", lines)], captions_of(options.caption, said)
-    )
+    return page_of(frame, [Layer("panels", tuple(panels)), Layer("creases", lines)], captions_of(options.caption, said))
 
 
 def _creases_of_strip(chain: ChainString) -> list[tuple[float, float]]:

@@ -153,9 +153,7 @@ def crease_scene(
     if options.numbers:
         layers.append(Layer("labels", tuple(_labels(drawn, graph))))
     said = () if overlay is None else overlay.said
-    return page_of(
-        frame, layers, captions_of(options.caption, _said(drawn, colour, graph), drawn.motions.said, *said)
-    )
+    return page_of(frame, layers, captions_of(options.caption, _said(drawn, colour, graph), drawn.motions.said, *said))
 
 
 def places_on_page(sheet: Sheet, box: Box = BOX) -> list[Point]:
@@ -371,9 +369,7 @@ def motions_on_branch(sheet: Sheet | SheetConfiguration, branch: int | str | Non
     chosen = branches.branches[number or 0] if branches is not None else None
     immobile = set(chosen.still) if chosen is not None else set()
     of: dict[JointId, Doing] = {}
-    for index, (joint, rate) in enumerate(
-        zip(pattern.linkage.graph.joints, rates / np.abs(rates).max(), strict=True)
-    ):
+    for index, (joint, rate) in enumerate(zip(pattern.linkage.graph.joints, rates / np.abs(rates).max(), strict=True)):
         if abs(rate) > DOUBLE.zero_rate:
             of[joint] = "valley" if rate > 0 else "mountain"
         else:

@@ -120,9 +120,7 @@ def _suiting(drawable: object) -> str:
         return "graph"
     if isinstance(drawable, Orientations):
         return "sphere"
-    if isinstance(drawable, OrderOnCircle) or (
-        isinstance(drawable, SurfaceLinkage) and drawable.steps is not None
-    ):
+    if isinstance(drawable, OrderOnCircle) or (isinstance(drawable, SurfaceLinkage) and drawable.steps is not None):
         return "circle"
     assumed = getattr(drawable, "centres_assumed", isinstance(drawable, nx.Graph))
     return "chain" if assumed else "graph"

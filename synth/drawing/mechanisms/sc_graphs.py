@@ -178,9 +178,7 @@ def _stubs(
     for link, sides in scd.rotation.items():
         x, y = links[link]
         for angle in _open_angles(sides, partial(_direction, ways, (x, y))):
-            ends = [
-                (x + far * cos(angle), y - far * sin(angle)) for far in (radius, radius + _STUB * radius / _LINK)
-            ]
+            ends = [(x + far * cos(angle), y - far * sin(angle)) for far in (radius, radius + _STUB * radius / _LINK)]
             shapes.append(Line(ends, "grey", STRONG, data=(("link", str(link)),)))
     return shapes
 

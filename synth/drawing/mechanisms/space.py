@@ -86,9 +86,7 @@ def _numbers_of_hinges(
     return placed(wishes, (), lines)[len(others) :]
 
 
-def _is_seen(
-    panels: SpatialPanels, ends: frozenset[int], middle: Point, visible: Mapping[int, list[Point]]
-) -> bool:
+def _is_seen(panels: SpatialPanels, ends: frozenset[int], middle: Point, visible: Mapping[int, list[Point]]) -> bool:
     """Check whether the middle of a hinge is on a face that is drawn, and on none of those drawn later."""
     from shapely.geometry import Point as Spot, Polygon as Area
 

@@ -70,9 +70,7 @@ class PictureFrame:
         return [self.at(place) for place in places]
 
 
-def framed(
-    places: Iterable[Sequence[float]], unit: float, box: Box = BOX, margin: float = _MARGIN
-) -> PictureFrame:
+def framed(places: Iterable[Sequence[float]], unit: float, box: Box = BOX, margin: float = _MARGIN) -> PictureFrame:
     """Return a frame round places for a box, (width, height), and a margin on each side, all in points.
 
     A unit of the layout is `unit` points long, if there is room.

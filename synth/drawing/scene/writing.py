@@ -118,9 +118,7 @@ def in_points(scene: Scene) -> Scene:
     if scene.unit == "pt":
         return scene
     layers = tuple(scaled(layer, _MILLIMETRE) for layer in scene.layers)
-    return replace(
-        scene, width=_MILLIMETRE * scene.width, height=_MILLIMETRE * scene.height, layers=layers, unit="pt"
-    )
+    return replace(scene, width=_MILLIMETRE * scene.width, height=_MILLIMETRE * scene.height, layers=layers, unit="pt")
 
 
 def svg_text(scene: Scene, *, paper: str = "light") -> str:
@@ -325,11 +323,7 @@ def _letters(text: str, bold: bool) -> tuple[Any, float]:
     corners, codes = maker.get_text_path(font, text, ismath=False)
     wide, _, _ = maker.get_text_width_height_descent(text, font, ismath=False)
     scale = 1.0 / drawn_at
-    path = (
-        Path(np.asarray(corners, dtype=float).reshape(-1, 2) * scale, codes)
-        if len(corners)
-        else Path([(0.0, 0.0)])
-    )
+    path = Path(np.asarray(corners, dtype=float).reshape(-1, 2) * scale, codes) if len(corners) else Path([(0.0, 0.0)])
     return path, float(wide) * scale
 
 

@@ -297,10 +297,7 @@ def hinge_ends(linkage: PosedLinkage) -> Floats:
     ]
     middles = np.array([np.mean(each, axis=0) for each in feet]).reshape(-1, 3)
     apart = [
-        float(np.linalg.norm(middles[i] - middles[j]))
-        for i, others in enumerate(neighbours)
-        for j in others
-        if i < j
+        float(np.linalg.norm(middles[i] - middles[j])) for i, others in enumerate(neighbours) for j in others if i < j
     ]
     half = _HALF * float(np.median(apart)) if apart else _HALF
     if half < DOUBLE.same_point:

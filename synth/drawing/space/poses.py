@@ -145,9 +145,7 @@ MOTIONS = {
 """Suffix to the format in which motions are written; solids are only drawn."""
 
 
-def save_moving_poses(
-    panels: Sheet | SpatialPanels, places: Floats, path: str | Path, *, force: bool = False
-) -> None:
+def save_moving_poses(panels: Sheet | SpatialPanels, places: Floats, path: str | Path, *, force: bool = False) -> None:
     """Draw poses: as a GIF that moves there and back, or as a strip.
 
     Parameters

@@ -497,9 +497,7 @@ class _Equations(NamedTuple):
         if max([len(self.fixed), *(len(pose.residual) for pose in self.poses)]) > _DENSE:
             return self._solved_sparse(state)
         least = max(_LEAST_VALUE, _SHARE * self.error)
-        return state.onwards(
-            np.concatenate(_least_step(self.fixed, self.by_vertices.toarray(), self.poses, least))
-        )
+        return state.onwards(np.concatenate(_least_step(self.fixed, self.by_vertices.toarray(), self.poses, least)))
 
     def _solved_sparse(self, state: _State) -> _State:
         """Return the same by regularised normal equations, of large sheets."""

@@ -18,14 +18,7 @@ from graphs.types import Floats
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import PosedLinkage, moved
 from synth.motion.path import PathOptions, driven_path
-from synth.motion.singular.second_order import (
-    RateSpace,
-    all_quadrics,
-    largest_only,
-    local_forms,
-    rates_at,
-    spaces_within,
-)
+from synth.motion.singular import second_order
 from synth.motion.walk.step import Allowance
 
 _STEPS = 6
@@ -142,7 +135,7 @@ def walked(
     return path.angles[-1], float(path.errors[-1])
 
 
-def in_half_tangents(closure: ClosureEquations, space: RateSpace, rates: Floats) -> TracedBranch:
+def in_half_tangents(closure: ClosureEquations, space: second_order.RateSpace, rates: Floats) -> TracedBranch:
     """Return a pose of a branch along which tan(fold / 2) is any of its rates: its freedoms are as many."""
     end = 2.0 * np.arctan(tan(FOLLOWED / 2.0) * rates)
     return TracedBranch(space.basis.shape[1], end, closure.error(end), FOLLOWED)
@@ -163,15 +156,15 @@ def finite_rates(linkage: PosedLinkage, closure: ClosureEquations, angles: Float
     to second order are returned; None if they are no linear space, or not known to be one.
     """
     angles = located(closure, angles)
-    tangent = rates_at(closure, angles)
-    quadrics = all_quadrics(moved(linkage, angles), tangent)
-    spaces = largest_only(list(islice(spaces_within(tangent, quadrics), _SPACES)))
+    tangent = second_order.rates_at(closure, angles)
+    quadrics = second_order.all_quadrics(moved(linkage, angles), tangent)
+    spaces = second_order.largest_only(list(islice(second_order.spaces_within(tangent, quadrics), _SPACES)))
     if len(spaces) != 1 or spaces[0].left:
         return angles, None if spaces else tangent[:, :0]
     return angles, spaces[0].basis
 
 
-def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
+def rates_towards(space: second_order.RateSpace, wanted: Floats) -> Floats:
     """Return rates of a space near wanted ones, the largest 1 or -1; zeros if there are none.
 
     By symmetry the way from wanted rates onto the equations may lead to where parts of their solutions meet, at
@@ -184,7 +177,7 @@ def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
     size = float(np.linalg.norm(start))
     if size <= DOUBLE.zero * np.linalg.norm(wanted):
         return np.zeros_like(wanted)
-    forms = local_forms(space.basis, space.left)
+    forms = second_order.local_forms(space.basis, space.left)
     x = _on_equations(forms, start)
     if x is not None and (rank := _slopes(forms, x)) < len(forms):
         chances = (np.random.default_rng((*space.basis.shape, number)) for number in range(_BESIDE))
@@ -196,7 +189,10 @@ def rates_towards(space: RateSpace, wanted: Floats) -> Floats:
 
 
 def general_rates(
-    space: RateSpace, most: int, towards: Floats | None = None, late: Callable[[], bool] = lambda: False
+    space: second_order.RateSpace,
+    most: int,
+    towards: Floats | None = None,
+    late: Callable[[], bool] = lambda: False,
 ) -> tuple[list[Floats], bool]:
     """Return general rates of a space, one for each part that its equations leave; and whether these are all.
 
@@ -210,7 +206,7 @@ def general_rates(
         chance = np.random.default_rng(space.basis.shape)
         x = chance.uniform(0.5, 1.0, size) * chance.choice([-1.0, 1.0], size)
         return [signed(_scaled(space.basis @ x))], True
-    forms = local_forms(space.basis, space.left)
+    forms = second_order.local_forms(space.basis, space.left)
     halves = _halves(space)
     parts = 2 ** max(len(halves) - 1, 0)
     found: dict[tuple[int, ...], Floats] = {}
@@ -237,7 +233,7 @@ def general_rates(
     return [*first, *others], False
 
 
-def same_part(space: RateSpace, one: Floats, other: Floats) -> bool:
+def same_part(space: second_order.RateSpace, one: Floats, other: Floats) -> bool:
     """Tell whether two rates of a space are, up to their sign, on the same part of what its equations leave."""
     halves = _halves(space)
     mine, theirs = _side(halves, one), _side(halves, other)
@@ -277,10 +273,10 @@ def _side(halves: list[Floats], rates: Floats) -> tuple[int, ...]:
     return tuple(int(np.sign(half @ rates)) for half in halves)
 
 
-def _halves(space: RateSpace) -> list[Floats]:
+def _halves(space: second_order.RateSpace) -> list[Floats]:
     """Return, for each equation whose solutions are two cones tip to tip, what has one sign on one of them."""
     found = []
-    for one in map(inertia, local_forms(space.basis, space.left)):
+    for one in map(inertia, second_order.local_forms(space.basis, space.left)):
         singles = [np.flatnonzero(one.signs == sign) for sign in (1, -1)]
         found += [signed(space.basis @ one.vectors[:, single[0]]) for single in singles if len(single) == 1][:1]
     return found

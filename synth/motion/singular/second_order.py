@@ -285,9 +285,7 @@ def rates_at(closure: ClosureEquations, angles: Floats, zero: float = DOUBLE.zer
     return canonical_basis(columns[:, int((sizes > zero * sizes.max(initial=0.0)).sum()) :])
 
 
-def _within_one(
-    space: RateSpace, spaces: Sequence[RateSpace], kept: Mapping[int, Sequence[int]], zero: float
-) -> bool:
+def _within_one(space: RateSpace, spaces: Sequence[RateSpace], kept: Mapping[int, Sequence[int]], zero: float) -> bool:
     """Tell whether all rates of a space are those of one of the spaces kept, which are listed by their size."""
     same = max(DOUBLE.clear, _LOST * zero)
     one = space.basis.sum(axis=1)  # most spaces differ here already
@@ -405,9 +403,7 @@ class Rigidity:
         return "proved" if self.proof else "not known"
 
 
-def rigidity_of(
-    linkage: PosedLinkage, closure: ClosureEquations | None = None, zero: float = DOUBLE.zero
-) -> Rigidity:
+def rigidity_of(linkage: PosedLinkage, closure: ClosureEquations | None = None, zero: float = DOUBLE.zero) -> Rigidity:
     """Look for a proof that a linkage cannot move from its configuration.
 
     Parameters

@@ -177,9 +177,7 @@ def _automorphisms(graph: SCGraph) -> list[Image]:
     """Return the images of joints and centre classes in every symmetry but the identity."""
     joints, classes, links = list(graph.joints), graph.centre_classes(), list(graph.nodes)
     first = len(joints) + len(classes)
-    kinds = (
-        ["joint"] * len(joints) + [centre_class.centre.value for centre_class in classes] + ["link"] * len(links)
-    )
+    kinds = ["joint"] * len(joints) + [centre_class.centre.value for centre_class in classes] + ["link"] * len(links)
     whole = nx.Graph()
     whole.add_nodes_from((node, {"kind": kind}) for node, kind in enumerate(kinds))
     number_of = {link: first + number for number, link in enumerate(links)}

@@ -31,15 +31,7 @@ from synth.motion.walk.step import Allowance
 from synth.moving.made import configuration_of
 from synth.overconstraint.explanation import explain
 from synth.realisation.pattern import Pattern, check_holes, check_search, pattern_of
-from synth.realisation.special.families import (
-    AxisFamily,
-    TypeOfAxes,
-    axis_families,
-    degenerate,
-    sheet_families,
-    solids_of,
-    type_of_axes,
-)
+from synth.realisation.special import families
 
 _SHARE = 0.02
 """A joint that turns by less than this part of the largest turn hardly moves."""
@@ -321,18 +313,17 @@ def _rigid_loop(graph: SCGraph) -> str | None:
 def _trials(graph: SCGraph, wishes: SpecialWishes) -> Iterator[FamilyTrial]:
     """Yield the result of each family with the name in `wishes`: flat sheets first, then axes in space."""
     pattern = _pattern(graph) if wishes.flat else None
-    for family in [] if pattern is None else sheet_families(pattern):
+    for family in [] if pattern is None else families.sheet_families(pattern):
         if pattern is not None and wishes.geometry in family.name:
             work = Allowance(_DRAWING)
             sheets = family.members(pattern, wishes.seed, wishes.tries, work)
             # of a drawing with further conditions the type may be another: it is read back
             read = (
-                (number, sheet if map_id(to_scd(sheet)) == map_id(graph) else OTHER_TYPE)
-                for number, sheet in sheets
+                (number, sheet if map_id(to_scd(sheet)) == map_id(graph) else OTHER_TYPE) for number, sheet in sheets
             )
             yield _trial(f"flat sheet: {family.name}", read, work, wishes)
-    of = type_of_axes(graph if not isinstance(graph, SCDGraph) else graph.sc_graph())
-    for axis_family in axis_families(of):
+    of = families.type_of_axes(graph if not isinstance(graph, SCDGraph) else graph.sc_graph())
+    for axis_family in families.axis_families(of):
         if wishes.geometry in axis_family.name:
             work = Allowance(_WORK)
             members = _members(of, axis_family, work, wishes)
@@ -340,7 +331,7 @@ def _trials(graph: SCGraph, wishes: SpecialWishes) -> Iterator[FamilyTrial]:
 
 
 def _members(
-    of: TypeOfAxes, family: AxisFamily, work: Allowance, wishes: SpecialWishes
+    of: families.TypeOfAxes, family: families.AxisFamily, work: Allowance, wishes: SpecialWishes
 ) -> Iterator[tuple[int, HingedSolids | str]]:
     """Yield the number of each start with the member that it led to, or why it led to none."""
     for number in range(wishes.tries):
@@ -348,8 +339,8 @@ def _members(
         if axes is None:
             yield number, "conditions were not met"
         else:
-            why = degenerate(of, axes)
-            yield number, solids_of(of, axes) if why is None else why
+            why = families.degenerate(of, axes)
+            yield number, families.solids_of(of, axes) if why is None else why
         if work.used_up:
             return
 
@@ -386,9 +377,7 @@ def _trial(
     return FamilyTrial(name, starts, begun - work.left, None, tuple(reasons.items()), work.used_up)
 
 
-def _judged(
-    realisation: Sheet | HingedSolids, family: str, start: int, wishes: SpecialWishes
-) -> SpecialMember | str:
+def _judged(realisation: Sheet | HingedSolids, family: str, start: int, wishes: SpecialWishes) -> SpecialMember | str:
     """Return a member that moves as required, or why it does not.
 
     Only branches count that were followed by a finite motion and have the freedoms there; of those the first on

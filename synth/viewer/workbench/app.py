@@ -162,9 +162,7 @@ def application(place: Place, text: str, presence: Presence, sources: Sequence[b
         content, words = await _file_and_edits(request)
         kind, size = request.query_params.get("kind", ""), _size(request.query_params.get("size", ""))
         if kind not in KINDS or size is None:
-            return _error(
-                f"expected a kind, one of {', '.join(KINDS)}, and a size up to {_LARGEST:g} millimetres", 400
-            )
+            return _error(f"expected a kind, one of {', '.join(KINDS)}, and a size up to {_LARGEST:g} millimetres", 400)
         name, *edits = words
         status, output = await engine.whole("template", [name, f"{size}", kind, *edits], content)
         if status == REFUSED:

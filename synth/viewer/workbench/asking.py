@@ -90,9 +90,7 @@ async def beating(pieces: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
 async def _begun(task: str, words: Sequence[str]) -> asyncio.subprocess.Process:
     pipe = asyncio.subprocess.PIPE
     command = (sys.executable, "-m", f"{__package__}.reading", task, *words)
-    return await asyncio.create_subprocess_exec(
-        *command, stdin=pipe, stdout=pipe, stderr=asyncio.subprocess.DEVNULL
-    )
+    return await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe, stderr=asyncio.subprocess.DEVNULL)
 
 
 async def _fed(process: asyncio.subprocess.Process, content: bytes) -> None:

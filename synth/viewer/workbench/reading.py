@@ -168,9 +168,7 @@ def _show(name: str, *words: str) -> None:
 
     motion = True if MOTION in words else None
     edits = [word for word in words if word != MOTION]
-    print(
-        json.dumps(answered(name, sys.stdin.buffer.read(), edits, motion=motion, report=report), allow_nan=False)
-    )
+    print(json.dumps(answered(name, sys.stdin.buffer.read(), edits, motion=motion, report=report), allow_nan=False))
 
 
 def _print_template(name: str, size: str, kind: str, *edits: str) -> None:

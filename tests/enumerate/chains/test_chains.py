@@ -256,9 +256,7 @@ def test_shapes_hold_every_fractionated_chain(sizes):
 
 def test_glued_chains_of_three_rings():
     ring = (4, ((0, 1), (0, 3), (1, 2), (2, 3)))
-    assert (
-        len(glued([ring] * 3)) == 3
-    )  # all on one link, or on two joined, or two opposite links of the middle one
+    assert len(glued([ring] * 3)) == 3  # all on one link, or on two joined, or two opposite links of the middle one
 
 
 @pytest.mark.parametrize(
@@ -282,9 +280,7 @@ def test_impossible_numbers_give_nothing(links, dof):
     assert count_chains(links, dof) == count_chains(links, dof, "burnside") == 0
 
 
-@pytest.mark.parametrize(
-    "options", [{"inputs": True}, {"symmetry": (2, None)}, {"fractionated": True, "planar": True}]
-)
+@pytest.mark.parametrize("options", [{"inputs": True}, {"symmetry": (2, None)}, {"fractionated": True, "planar": True}])
 def test_what_burnside_does_not_count(options):
     with pytest.raises(UnsolvableError, match="Burnside"):
         count_chains(8, 3, "burnside", **options)

@@ -146,9 +146,7 @@ def test_portions_hold_every_placement_once(name):
         whole = placements(rounds, symmetries)[0].tolist()
         for most in (1, 30, 1000):
             parts = [
-                row
-                for prefix in prefixes(rounds, most)
-                for row in placements(rounds, symmetries, prefix)[0].tolist()
+                row for prefix in prefixes(rounds, most) for row in placements(rounds, symmetries, prefix)[0].tolist()
             ]
             assert parts == whole
 

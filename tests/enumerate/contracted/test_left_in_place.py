@@ -23,9 +23,7 @@ def fixed_ones(frame, moved, units, most):
     return found
 
 
-@pytest.mark.parametrize(
-    ("loops", "dof"), [(2, 1), (2, 5), (3, 1), (3, 2), pytest.param(4, 1, marks=pytest.mark.slow)]
-)
+@pytest.mark.parametrize(("loops", "dof"), [(2, 1), (2, 5), (3, 1), (3, 2), pytest.param(4, 1, marks=pytest.mark.slow)])
 def test_of_every_automorphism(loops, dof):
     links = dof + 2 * loops + 1
     for n, codes in contracted_graphs(loops):

@@ -44,9 +44,7 @@ def largest_ones(frame, units, most):
     return found
 
 
-@pytest.mark.parametrize(
-    ("loops", "dof"), [(2, 1), (2, 5), (3, 1), (3, 2), pytest.param(4, 1, marks=pytest.mark.slow)]
-)
+@pytest.mark.parametrize(("loops", "dof"), [(2, 1), (2, 5), (3, 1), (3, 2), pytest.param(4, 1, marks=pytest.mark.slow)])
 def test_of_every_orbit_the_largest(loops, dof):
     links = dof + 2 * loops + 1
     for n, codes in graphs(loops):

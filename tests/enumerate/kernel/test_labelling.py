@@ -60,19 +60,14 @@ def test_all_automorphisms_and_no_others(adjacency):
 def test_groups_of_named_graphs(graph, size):
     canonical, automorphisms = form(matrix(graph))
     assert len(automorphisms) == size
-    shuffled = nx.relabel_nodes(
-        graph, dict(zip(graph, np.random.default_rng(1).permutation(len(graph)), strict=True))
-    )
+    shuffled = nx.relabel_nodes(graph, dict(zip(graph, np.random.default_rng(1).permutation(len(graph)), strict=True)))
     assert np.array_equal(form(nx.to_numpy_array(shuffled, range(len(graph)), dtype=np.uint8))[0], canonical)
 
 
 def test_forms_part_graphs_that_refinement_cannot():
     rook = nx.line_graph(nx.complete_bipartite_graph(4, 4))
     shrikhande = nx.Graph(
-        ((i, j), ((i + a) % 4, (j + b) % 4))
-        for i in range(4)
-        for j in range(4)
-        for a, b in ((0, 1), (1, 0), (1, 1))
+        ((i, j), ((i + a) % 4, (j + b) % 4)) for i in range(4) for j in range(4) for a, b in ((0, 1), (1, 0), (1, 1))
     )
     one, two = form(matrix(rook)), form(matrix(shrikhande))
     assert not np.array_equal(one[0], two[0])

@@ -256,9 +256,7 @@ def test_a_long_run_on_a_cluster(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("links", "dof", "longest", "number"), [(15, 2, 0.5, 1_432_730), (16, 1, 10.0, 19_819_281)]
-)
+@pytest.mark.parametrize(("links", "dof", "longest", "number"), [(15, 2, 0.5, 1_432_730), (16, 1, 10.0, 19_819_281)])
 def test_long_runs_that_are_killed_lose_nothing(tmp_path, links, dof, longest, number):
     whole = tmp_path / "whole.sqlite"
     run(ChainJob(ChainQuery(links, dof)), SqliteSink(whole), workers=2)

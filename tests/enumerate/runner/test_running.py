@@ -35,12 +35,8 @@ def test_rows_come_in_order(workers):
 
 def test_progress_is_told():
     told = []
-    run(
-        Squares(), CountSink(), workers=2, report=lambda p: told.append((p.done, p.rows, p.weight, p.seconds_left))
-    )
-    assert [(done, rows, weight) for done, rows, weight, _ in told] == [
-        (k, 10 * k, 1000 * k) for k in range(1, 21)
-    ]
+    run(Squares(), CountSink(), workers=2, report=lambda p: told.append((p.done, p.rows, p.weight, p.seconds_left)))
+    assert [(done, rows, weight) for done, rows, weight, _ in told] == [(k, 10 * k, 1000 * k) for k in range(1, 21)]
     assert told[-1][3] == 0 <= told[5][3]
 
 

@@ -109,9 +109,7 @@ def test_a_slider_crank_is_found_to_be_planar_by_where_its_joints_are():
 
 def test_joints_that_leave_the_plane_are_refused():
     for kind in "SUC":
-        with pytest.raises(
-            InvariantError, match=r"which is planar, is .*; expected a revolute, a slide or a planar"
-        ):
+        with pytest.raises(InvariantError, match=r"which is planar, is .*; expected a revolute, a slide or a planar"):
             ring(f"RRR{kind}", PLANAR)
     with pytest.raises(InvariantError, match="which has a finite centre, is prismatic"):
         ring("RRRP", (Loop(range(4)),))

@@ -32,9 +32,7 @@ def test_relative_spherical_system_is_a_difference(n, j, dn, dj):
 def test_relative_polyhedron_is_a_difference_between_mechanisms(one, two):
     a, b = one.counts, two.counts
     before, after = (polyhedron_equation(c.vertices, c.implicit_centres, c.edges) for c in (a, b))
-    change = relative_polyhedron(
-        b.vertices - a.vertices, b.implicit_centres - a.implicit_centres, b.edges - a.edges
-    )
+    change = relative_polyhedron(b.vertices - a.vertices, b.implicit_centres - a.implicit_centres, b.edges - a.edges)
     assert change == after - before == mobility_report(two).mobility - mobility_report(one).mobility
 
 

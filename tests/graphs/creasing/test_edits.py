@@ -91,9 +91,7 @@ def test_all_pieces_of_a_joint_go_together():
 def test_a_bent_face_is_creased_inside_only():
     bent = Sheet(6, (), "", ((0, 1, 2, 3, 4, 5),), ((0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (0, 1)))
     assert len(crease_sheet(bent, 1, 4).sheet.faces) == 2
-    with pytest.raises(
-        UnsolvableError, match=r"between vertex 3 \(2, 3\) and vertex 5 \(0, 1\) the crease lies in no"
-    ):
+    with pytest.raises(UnsolvableError, match=r"between vertex 3 \(2, 3\) and vertex 5 \(0, 1\) the crease lies in no"):
         crease_sheet(bent, 3, 5)
 
 
@@ -104,9 +102,7 @@ def test_creases_that_cannot_be():
         InvariantError, match=r"9 is no vertex; expected a vertex from 0 to 4; the last is vertex 4 \(1, 1\)"
     ):
         crease_sheet(FAN, 0, 9)
-    with pytest.raises(
-        InvariantError, match=r"\(0.1, 0.4\) is on no edge; .* vertex 0 \(0, 0\) and edge 7 \(B\) from"
-    ):
+    with pytest.raises(InvariantError, match=r"\(0.1, 0.4\) is on no edge; .* vertex 0 \(0, 0\) and edge 7 \(B\) from"):
         crease_sheet(FAN, (0.1, 0.4), 1)
     with pytest.raises(InvariantError, match="starts and ends at vertex 0"):
         crease_sheet(FAN, 0, (0, 0))
@@ -137,7 +133,5 @@ def test_joints_are_named_by_id_number_or_links():
     with pytest.raises(InvariantError, match=r"'slid' is no link; expected one of .*; the nearest is 'slide'"):
         link_named(sc, "slid")
     assert joint_of_sheet_named(FAN, "1,2") == 2
-    with pytest.raises(
-        InvariantError, match=r"edge 4 \(B\) from vertex 0 \(0, 0\) to vertex 1 \(2, 0\) is no joint"
-    ):
+    with pytest.raises(InvariantError, match=r"edge 4 \(B\) from vertex 0 \(0, 0\) to vertex 1 \(2, 0\) is no joint"):
         joint_of_sheet_named(FAN, "4")

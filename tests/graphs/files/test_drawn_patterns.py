@@ -96,9 +96,7 @@ def test_strokes_that_are_not_understood_are_told_by_kind_and_number(tmp_path):
     svg(file, (BLACK, BORDER), (dashed, CROSS))
     assert len(read(file).faces) == 1
     svg(file, (dashed, BORDER), ('stroke="orange"', CROSS))
-    with pytest.raises(
-        FileError, match=r"6 of 6 lines have strokes that are not understood: 4 dashed #000000, 2 #ffa"
-    ):
+    with pytest.raises(FileError, match=r"6 of 6 lines have strokes that are not understood: 4 dashed #000000, 2 #ffa"):
         read(file)
     svg(file, (dashed, BORDER), (RED, CROSS * 2))
     with pytest.raises(FileError, match=r"no border among 4 lines; 4 shape.* 4 dashed #000000"):

@@ -22,17 +22,13 @@ def line(start, end, *groups):
 
 
 def outline(*groups, name="LWPOLYLINE"):
-    return record(
-        name, *groups, (70, 1), *((code + 10 * k, at[k]) for at in SQUARE for code in (10,) for k in (0, 1))
-    )
+    return record(name, *groups, (70, 1), *((code + 10 * k, at[k]) for at in SQUARE for code in (10,) for k in (0, 1)))
 
 
 def drawing(*entities, layers=()):
     tables = "".join(record("LAYER", (2, name), *groups) for name, *groups in layers)
     sections = [("TABLES", tables), ("ENTITIES", "".join(entities))]
-    return "".join(record("SECTION", (2, name)) + held + record("ENDSEC") for name, held in sections) + record(
-        "EOF"
-    )
+    return "".join(record("SECTION", (2, name)) + held + record("ENDSEC") for name, held in sections) + record("EOF")
 
 
 def sheet_of(text, folder):
@@ -76,9 +72,7 @@ def test_what_a_line_is_is_told_by_its_layer_or_else_its_colour(groups, letter, 
     ids=lambda value: value if isinstance(value, str) and value[0] == "1" else "",
 )
 def test_what_is_not_understood_is_left_out_and_told(entity, told, tmp_path):
-    sheet = sheet_of(
-        drawing(outline(), line((0, 0), (10, 10), (62, 1)), entity, layers=[("off", (62, -7))]), tmp_path
-    )
+    sheet = sheet_of(drawing(outline(), line((0, 0), (10, 10), (62, 1)), entity, layers=[("off", (62, -7))]), tmp_path)
     assert sorted(sheet.assignments) == sorted("BBBBM")
     assert sheet.repairs[-1].endswith(told)
 

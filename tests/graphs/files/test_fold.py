@@ -123,9 +123,7 @@ def test_a_pattern_that_is_read_is_checked_once(tmp_path, monkeypatch):
     checked, measured = [], []
     check, as_written = Sheet.__post_init__, precision.precision_as_written
     monkeypatch.setattr(Sheet, "__post_init__", lambda sheet: checked.append(sheet) or check(sheet))
-    monkeypatch.setattr(
-        precision, "precision_as_written", lambda sheet: measured.append(sheet) or as_written(sheet)
-    )
+    monkeypatch.setattr(precision, "precision_as_written", lambda sheet: measured.append(sheet) or as_written(sheet))
     sheet = read(tmp_path / "a.fold")
     assert (sheet.frames.others, len(checked)) == (0, 1)
     assert not measured  # a sheet that stands on an axis is flat, however precise it is

@@ -192,9 +192,7 @@ def test_a_grid_of_lines(tmp_path):
 def test_equal_lines_are_one(tmp_path):
     """20 000 equal lines have 200 million pairs, each of which was found, seven times."""
     path = tmp_path / "a.cp"
-    square = "".join(
-        f"1 {a} {b} {c} {d}\n" for (a, b), (c, d) in pairwise([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)])
-    )
+    square = "".join(f"1 {a} {b} {c} {d}\n" for (a, b), (c, d) in pairwise([(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)]))
     path.write_text(square + "4 0 0 1 1\n" + "3 0 0 1 1\n2 1 1 0 0\n" * 10_000)
     sheet = read(path)
     assert sorted(sheet.assignments) == sorted("BBBBM")
@@ -205,9 +203,7 @@ def test_lines_that_are_nearly_equal_are_too_many_pairs(tmp_path, monkeypatch):
     monkeypatch.setenv(VARIABLE, "meetings=10000")
     path = tmp_path / "a.cp"
     heights = np.linspace(0, 1e-9, 300)
-    path.write_text(
-        "1 0 0 1 0\n1 1 0 1 1\n1 1 1 0 0\n" + "".join(f"2 0 {y!r} 1 {1 - y!r}\n" for y in heights.tolist())
-    )
+    path.write_text("1 0 0 1 0\n1 1 0 1 1\n1 1 1 0 0\n" + "".join(f"2 0 {y!r} 1 {1 - y!r}\n" for y in heights.tolist()))
     refused(path, "meetings")
 
 

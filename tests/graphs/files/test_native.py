@@ -26,9 +26,7 @@ VALIDATORS = {name: jsonschema.validators.validator_for(schema)(schema) for name
 """Made once: jsonschema.validate looks first, every time, whether the schema is one."""
 WHERE = Path("some.json")
 NATIVE = [
-    path
-    for folder in ("wampler", "wiener", "linkages")
-    for path in sorted((ROOT / "data" / folder).glob("*.json"))
+    path for folder in ("wampler", "wiener", "linkages") for path in sorted((ROOT / "data" / folder).glob("*.json"))
 ]
 
 
@@ -69,9 +67,7 @@ def test_vertex_edge_graphs_survive_write_and_read():
 
 
 def test_a_file_survives(tmp_path):
-    sc = SCGraph(
-        ["α", "b"], {"a": ("α", "b"), "b": ("b", "α")}, [Loop(("a", "b"), name="ring", at="O")], ground="b"
-    )
+    sc = SCGraph(["α", "b"], {"a": ("α", "b"), "b": ("b", "α")}, [Loop(("a", "b"), name="ring", at="O")], ground="b")
     assert write(sc, tmp_path / "a.json") == ()
     assert read(tmp_path / "a.json").is_identical(sc)
     assert [p.name for p in tmp_path.iterdir()] == ["a.json"]

@@ -41,9 +41,7 @@ def test_graphml_has_the_types(seed, tmp_path):
     assert "the places of its joints" in lost
     back = read(tmp_path / "a.graphml")
     assert dict(back.kinds) == dict(linkage.kinds)
-    assert {j: set(e) for j, e in back.chain.joints.items()} == {
-        j: set(e) for j, e in linkage.chain.joints.items()
-    }
+    assert {j: set(e) for j, e in back.chain.joints.items()} == {j: set(e) for j, e in linkage.chain.joints.items()}
     assert "the kinds of its joints" not in lost
 
 

@@ -35,9 +35,7 @@ def svg_of(sheet, decimals, transform, form="line"):
         else:
             at = {"x1": x1, "y1": y1, "x2": x2, "y2": y2}
             unit = "mm" if form == "mm" else ""
-            rows.append(
-                "<line " + " ".join(f'{k}="{v:.{decimals}f}{unit}"' for k, v in at.items()) + f" {stroke}/>"
-            )
+            rows.append("<line " + " ".join(f'{k}="{v:.{decimals}f}{unit}"' for k, v in at.items()) + f" {stroke}/>")
     around = "".join(f'<g transform="{one}">' for one in transform)
     return f'<svg xmlns="http://www.w3.org/2000/svg">{around}{"".join(rows)}{"</g>" * len(transform)}</svg>'
 
@@ -54,9 +52,7 @@ def svg_of(sheet, decimals, transform, form="line"):
     ],
 )
 def test_decimals_of_svg_go_through_transforms_and_units(tmp_path, transform, form, length):
-    (tmp_path / "a.svg").write_text(
-        svg_of(generate("chickenwire").mechanism, 2, transform, form), encoding="utf-8"
-    )
+    (tmp_path / "a.svg").write_text(svg_of(generate("chickenwire").mechanism, 2, transform, form), encoding="utf-8")
     sheet = read(tmp_path / "a.svg")
     assert sheet.precision.length == pytest.approx(length, rel=1e-6)
     found = precision_of_sheet(sheet)
@@ -64,9 +60,7 @@ def test_decimals_of_svg_go_through_transforms_and_units(tmp_path, transform, fo
 
 
 def test_decimals_of_matrices_and_of_shifts_that_differ_are_errors(tmp_path):
-    rows = svg_of(generate("chickenwire").mechanism, 9, ()).replace(
-        "<line ", '<line transform="translate(0.25 0)" '
-    )
+    rows = svg_of(generate("chickenwire").mechanism, 9, ()).replace("<line ", '<line transform="translate(0.25 0)" ')
     (tmp_path / "alike.svg").write_text(rows, encoding="utf-8")
     assert read(tmp_path / "alike.svg").precision.length == pytest.approx(0.5e-9)
     head, first, rest = rows.partition("<line ")
@@ -124,8 +118,7 @@ def as_opx(rows):
 def test_decimals_of_lines_are_those_before_welding(tmp_path, suffix, text, decimals):
     rng = np.random.default_rng(2)
     shift = [
-        [rng.uniform(-1, 1, 2) * 10.0**-decimals for _ in "ab"]
-        for _ in lines_of(generate("square-twist").mechanism)
+        [rng.uniform(-1, 1, 2) * 10.0**-decimals for _ in "ab"] for _ in lines_of(generate("square-twist").mechanism)
     ]
     rows = [
         ((a + da).round(decimals).tolist(), (b + db).round(decimals).tolist(), letter)

@@ -26,9 +26,7 @@ REMOTE = "m1:a-b-.a-c-.b-d-.c-d-"
 
 def test_a_remote_centre_is_no_vertex_of_a_pattern(tmp_path):
     remote = mechanism_of_id(REMOTE)
-    with pytest.raises(
-        UnsolvableError, match=r"M = 1 spherical becomes M = -2 spatial; it cannot hold 1 implicit"
-    ):
+    with pytest.raises(UnsolvableError, match=r"M = 1 spherical becomes M = -2 spatial; it cannot hold 1 implicit"):
         write(remote, tmp_path / "a.fold")
     assert not list(tmp_path.iterdir())
     assert write(remote, tmp_path / "a.fold", lossy=True) == ("1 implicit centre",)
@@ -112,9 +110,7 @@ def test_what_could_not_be_read_again_is_not_written(tmp_path):
 def test_a_file_is_replaced_by_force_only(tmp_path):
     path = tmp_path / "a.json"
     write(SCGraph(4, RING), path)
-    with pytest.raises(
-        FileError, match=r"exists already; expected another name, or --force \(in Python force=True\)"
-    ):
+    with pytest.raises(FileError, match=r"exists already; expected another name, or --force \(in Python force=True\)"):
         write(SCGraph(2, [(0, 1)]), path)
     assert len(read(path)) == 4
     write(SCGraph(2, [(0, 1)]), path, force=True)
@@ -177,8 +173,7 @@ def test_degrees_of_files_are_written_again_as_they_were(suffix, tmp_path):
     assert [in_degrees(angle) for angle in angles] == listed
     again = read(tmp_path / f"a{suffix}")
     assert (
-        dict(zip(again.edges, again.fold_angles, strict=True)).items()
-        >= dict(zip(ends, angles, strict=True)).items()
+        dict(zip(again.edges, again.fold_angles, strict=True)).items() >= dict(zip(ends, angles, strict=True)).items()
     )
     write(again, tmp_path / f"b{suffix}")
     assert (tmp_path / f"a{suffix}").read_bytes() == (tmp_path / f"b{suffix}").read_bytes()
@@ -259,8 +254,6 @@ def test_a_missing_folder_is_told_before_anything_is_written(tmp_path, force):
         lambda: check_place(tmp_path / "no" / "a.fold", force=force),
         lambda: check_new_folder(tmp_path / "no" / "a"),
     ):
-        with pytest.raises(
-            FileError, match=r"a(\.fold)?: there is no folder '.*no'; expected a folder that exists"
-        ):
+        with pytest.raises(FileError, match=r"a(\.fold)?: there is no folder '.*no'; expected a folder that exists"):
             check()
     assert list(tmp_path.iterdir()) == []

@@ -46,9 +46,7 @@ def random_graphs(number, chance):
     for _ in range(number):
         seed = chance.randrange(10**9)
         yield nx.gnp_random_graph(chance.randint(2, 12), chance.random(), seed=seed)
-        cubic = [
-            nx.random_regular_graph(chance.choice([2, 3]), chance.choice([4, 6, 8]), seed=seed) for _ in "abc"
-        ]
+        cubic = [nx.random_regular_graph(chance.choice([2, 3]), chance.choice([4, 6, 8]), seed=seed) for _ in "abc"]
         yield cubic[0]
         yield nx.disjoint_union_all(cubic[: chance.randint(2, 3)])
         yield nx.complement(cubic[1])

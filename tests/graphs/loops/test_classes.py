@@ -86,9 +86,7 @@ def test_crowded_joints_give_the_same_classes():
     for _ in range(60):
         joints = rng.randint(30, 120)
         loops = [
-            Loop(
-                (*rng.choice([("a",), ("a",), ("a", "b"), ("b",)]), *rng.sample(range(joints), rng.randint(1, 2)))
-            )
+            Loop((*rng.choice([("a",), ("a",), ("a", "b"), ("b",)]), *rng.sample(range(joints), rng.randint(1, 2))))
             for _ in range(rng.randint(20, 60))
         ]
         classes = centre_classes(loops)

@@ -56,9 +56,7 @@ def test_distances_and_the_side_that_is_seen_are_kept(name):
 @pytest.mark.parametrize("suffix", [".svg", ".cp"])
 def test_flat_formats_take_sheets_flat_in_any_plane(name, suffix, tmp_path):
     tilt, told = TILTS[name]
-    (tmp_path / "a.fold").write_text(
-        json.dumps(FAN | {"vertices_coords": [tilt(*p) for p in FAN["vertices_coords"]]})
-    )
+    (tmp_path / "a.fold").write_text(json.dumps(FAN | {"vertices_coords": [tilt(*p) for p in FAN["vertices_coords"]]}))
     sheet = read(tmp_path / "a.fold")
     assert mobility(sheet).pose.flat
     lost = write(sheet, tmp_path / f"a{suffix}")

@@ -136,9 +136,7 @@ def test_random_drawings_meet_most_rules(number):
         mobility_report(random_scd(random.Random(seed), refused=refused)).mechanism_class for seed in range(number)
     )
     assert {"spatial", "spherical", "spherical system", "hybrid"} <= set(kinds)
-    assert {"S1", "S2", "implicit centre", "spatial face", "outer face", "joint ends", "link corners"} <= set(
-        refused
-    )
+    assert {"S1", "S2", "implicit centre", "spatial face", "outer face", "joint ends", "link corners"} <= set(refused)
 
 
 @given(scd_graphs)

@@ -118,9 +118,7 @@ def grid(side, height=0.0):
     corners = [(float(x), float(y), 0.0) for y in range(side + 1) for x in range(side + 1)]
     corners[-1] = (*corners[-1][:2], height)
     starts = [y * (side + 1) + x for y in range(side) for x in range(side)]
-    return Sheet(
-        len(corners), (), "", tuple((v, v + 1, v + side + 2, v + side + 1) for v in starts), tuple(corners)
-    )
+    return Sheet(len(corners), (), "", tuple((v, v + 1, v + side + 2, v + side + 1) for v in starts), tuple(corners))
 
 
 @pytest.mark.parametrize(("height", "lies"), [(0.0, "flat"), (1.0, "in space")])

@@ -136,9 +136,7 @@ def test_three_centres_in_line():
 def test_points_that_cannot_be_placed():
     """Seven points and seven lines of three points, each pair of points on one: no such figure in space."""
     fano = [(0, 1, 2), (0, 3, 4), (0, 5, 6), (1, 3, 5), (1, 4, 6), (2, 3, 6), (2, 4, 5)]
-    points = tuple(
-        (frozenset(k for k, line in zip(range(7), fano, strict=True) if p in line), False) for p in range(7)
-    )
+    points = tuple((frozenset(k for k, line in zip(range(7), fano, strict=True) if p in line), False) for p in range(7))
     for field in (PrimeField(PRIMES[0]), Reals()):
         with pytest.raises(UnsolvableError, match="not realised"):
             realise_points(Incidence(tuple(range(7)), points), field)

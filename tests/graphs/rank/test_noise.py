@@ -131,9 +131,7 @@ def test_the_precision_of_coordinates():
     for decimals in (1, 2, 3, 6, 9):
         found = precision_of(exact.round(decimals).tolist())
         assert found.source == f"{decimals} decimals"
-        np.testing.assert_allclose(
-            found.size, 0.5 * 10.0**-decimals / np.abs(exact - exact.mean(0)).max(), rtol=0.01
-        )
+        np.testing.assert_allclose(found.size, 0.5 * 10.0**-decimals / np.abs(exact - exact.mean(0)).max(), rtol=0.01)
     for chosen in (
         rng.integers(0, 400, (40, 2)),
         rng.integers(0, 64, (40, 2)) / 16,
@@ -198,9 +196,7 @@ def test_small_singular_values_by_parts(size):
     left, values, right = np.linalg.svd(bands, full_matrices=False)
     values[-4:] = small * values[0]
     matrix = scipy.sparse.csr_matrix(left @ np.diag(values) @ right)
-    found = sparse_spectrum(
-        matrix, np.arange(float(size))[:, None], np.full(size + 4, 1e-12), np.full(size + 4, 1e-3)
-    )
+    found = sparse_spectrum(matrix, np.arange(float(size))[:, None], np.full(size + 4, 1e-12), np.full(size + 4, 1e-3))
     assert (found.rank, found.nearly) == (size - 1, 3)
     np.testing.assert_allclose(found.smallest, 1e-8, rtol=0.01)
     assert number_below(matrix, 1e-4 * values[0]) == 4 + 3

@@ -87,15 +87,11 @@ def test_wamplers_first_figure_at_its_poses():
     """One freedom in general, two on the folded branch (B = F, C = E), three where all is flat."""
     names = dict(zip("BCHGFEAD", range(8), strict=True))
     links = {"".join(p): tuple(p) for p in ("BCHG", "FEHG", "AGB", "AGF", "DHC", "DHE")}
-    rods = {
-        frozenset(side) for around in links.values() for side in zip(around, around[1:] + around[:1], strict=True)
-    }
+    rods = {frozenset(side) for around in links.values() for side in zip(around, around[1:] + around[:1], strict=True)}
     rods |= {frozenset(pair) for pair in ("BH", "CG", "FH", "EG")}
 
     def dof(places):
-        made = PolyhedronModel(
-            sorted(names), [tuple(sorted(rod)) for rod in rods], coordinates=places, links=links
-        )
+        made = PolyhedronModel(sorted(names), [tuple(sorted(rod)) for rod in rods], coordinates=places, links=links)
         return pose_mobility_of_model(made).dof
 
     base = {"G": (0.0, 0.0, 0.0), "H": (2.0, 0.0, 0.0), "B": (0.0, 1.0, 0.0), "C": (2.0, 1.0, 0.0)}
@@ -169,9 +165,7 @@ def test_bennetts_linkage_with_noise():
     axes, _ = bennett(0.6, 1.1, 1.4)
     rng = np.random.default_rng(0)
     for noise in (*np.repeat(10.0 ** -np.arange(4, 15), 5),):
-        moved = {
-            i: (p + rng.normal(size=3) * noise, u + rng.normal(size=3) * noise) for i, (p, u) in enumerate(axes)
-        }
+        moved = {i: (p + rng.normal(size=3) * noise, u + rng.normal(size=3) * noise) for i, (p, u) in enumerate(axes)}
         found = pose_mobility_of_axes(ring, moved)
         assert found.dof in (None, 1) or (found.dof, found.spectrum.nearly) == (0, 1)
 

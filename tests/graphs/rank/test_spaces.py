@@ -70,9 +70,7 @@ def test_zeros_have_no_rank():
 
 def test_inertia_of_many_forms():
     turn = scipy.linalg.qr(RANDOM.normal(size=(4, 4)))[0]
-    forms = np.stack(
-        [turn @ np.diag(values) @ turn.T for values in ([1, -2, 0, 3], [0, 0, 0, 0], [1, 1e-12, 2, 1])]
-    )
+    forms = np.stack([turn @ np.diag(values) @ turn.T for values in ([1, -2, 0, 3], [0, 0, 0, 0], [1, 1e-12, 2, 1])])
     found = inertia(forms)
     assert found.positive.tolist() == [2, 0, 3]
     assert found.negative.tolist() == [1, 0, 0]

@@ -142,9 +142,7 @@ def test_ground_and_kept_links_stay():
 
 def test_a_four_bar_of_two_centres_is_no_ride_along():
     """The cycle a-u-v-b must have a centre: a spatial one stays."""
-    sc = strip(3).with_loops(
-        [Loop(loop.joints, "none" if i else "finite") for i, loop in enumerate(strip(3).loops)]
-    )
+    sc = strip(3).with_loops([Loop(loop.joints, "none" if i else "finite") for i, loop in enumerate(strip(3).loops)])
     assert len(reduce(sc).steps) == 1
     spatial = strip(3).with_loops([Loop(loop.joints, "none") for loop in strip(3).loops])
     assert not reduce(spatial).steps
@@ -184,9 +182,7 @@ def test_a_closed_surface_stays_closed():
     graph = nx.MultiGraph(nx.complete_graph(4))
     nx.add_path(graph, [0, 4, 5, 1])
     for start in range(2):
-        sc = sc_from_link_joint_graph(
-            nx.relabel_nodes(graph, {k: (k + 3 * start) % 6 for k in range(6)}), closed=True
-        )
+        sc = sc_from_link_joint_graph(nx.relabel_nodes(graph, {k: (k + 3 * start) % 6 for k in range(6)}), closed=True)
         assert sc.is_closed
         loops = [*sc.loops, *sc.closing]
         for last in range(len(loops)):  # whichever face is the dependent one

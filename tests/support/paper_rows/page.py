@@ -46,15 +46,15 @@ def page(figures: dict[int, Any]) -> str:
             text += f"\n## {paper}\n\n| # | where | what | how it is asked | printed | ours | |\n|---|---|---|---|---|---|---|\n"
             last = paper
         ours = "-" if row.why else shown(figures[number])
-        text += f"| {number} | {row.place} | {row.what} | {_asked(row)} | {_printed(row)} | {ours} | {_verdict(row)} |\n"
+        text += (
+            f"| {number} | {row.place} | {row.what} | {_asked(row)} | {_printed(row)} | {ours} | {_verdict(row)} |\n"
+        )
     return text
 
 
 def _summary() -> str:
     number = Counter(row.status for _, _, row in numbered())
-    listed = ", ".join(
-        f"{number[status]} {status}" for status in sorted(number, key=lambda status: -number[status])
-    )
+    listed = ", ".join(f"{number[status]} {status}" for status in sorted(number, key=lambda status: -number[status]))
     return f"{number.total()} rows: {listed}.\n"
 
 

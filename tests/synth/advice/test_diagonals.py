@@ -29,9 +29,7 @@ def creased(sheet, diagonals):
     return sheet
 
 
-@pytest.mark.parametrize(
-    "sheet", [folded_miura(3), slow(generate("box-pop-up").mechanism)], ids=["miura", "pop-up"]
-)
+@pytest.mark.parametrize("sheet", [folded_miura(3), slow(generate("box-pop-up").mechanism)], ids=["miura", "pop-up"])
 def test_columns_say_what_the_creased_sheet_does(sheet):
     """Rates by columns on the self-stresses, and by the closure equations of the sheet with the creases."""
     pose = general_pose(configuration_of(sheet))
@@ -40,9 +38,7 @@ def test_columns_say_what_the_creased_sheet_does(sheet):
     assert any(flaps)
     rng = np.random.default_rng(0)
     pairs = [
-        pair
-        for pair in combinations(range(len(diagonals)), 2)
-        if not diagonals[pair[0]].crosses(diagonals[pair[1]])
+        pair for pair in combinations(range(len(diagonals)), 2) if not diagonals[pair[0]].crosses(diagonals[pair[1]])
     ]
     for places in [*((k,) for k in range(len(diagonals))), *rng.permutation(pairs)[:20].tolist()]:
         gained = len(places) - np.linalg.matrix_rank(loads[:, list(places)], tol=1e-8)

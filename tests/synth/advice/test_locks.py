@@ -100,9 +100,7 @@ def test_the_cheapest_come_first_and_what_is_protected_stays(seed):
     assert (few.locks, few.more) == (every[:3], True)
 
 
-@pytest.mark.parametrize(
-    ("name", "has"), [("waterbomb-base", 3), pytest.param("bird-base", 5, marks=pytest.mark.slow)]
-)
+@pytest.mark.parametrize(("name", "has"), [("waterbomb-base", 3), pytest.param("bird-base", 5, marks=pytest.mark.slow)])
 def test_locked_creases_of_a_sheet_are_rigid_by_its_panels(name, has):
     """The sheet with the creases made flat: its mechanism is another, with fewer links."""
     sheet = generate(name).mechanism
@@ -159,9 +157,7 @@ def test_what_is_protected_may_leave_too_little():
         UnsolvableError, match=r"at least 1 of 3 degrees of freedom remain: .* removes 2, and 3 are to be removed"
     ):
         advise(flapped(), 0, flaps=False)
-    with pytest.raises(
-        UnsolvableError, match=r"at least 3 of 3 degrees of freedom remain: .* removes 0, and 1 are"
-    ):
+    with pytest.raises(UnsolvableError, match=r"at least 3 of 3 degrees of freedom remain: .* removes 0, and 1 are"):
         advise(flapped(), 2, links=range(6))
 
 

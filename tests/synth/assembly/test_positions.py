@@ -78,9 +78,7 @@ def test_eight_bars():
             linkage = spherical(graph, random)
             found = positions(linkage, drive={joint: 0.3}, circuits=False)
             assert found.exhaustive
-            assert all(
-                is_among(angles, found.positions) for angles in by_newton(linkage, {joint: 0.3}, random, 15)
-            )
+            assert all(is_among(angles, found.positions) for angles in by_newton(linkage, {joint: 0.3}, random, 15))
             numbers.add(found.general)
     assert numbers == {8, 16, 24, 32}
 

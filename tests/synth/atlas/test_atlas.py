@@ -61,9 +61,7 @@ def test_kinds_have_values_where_columns_say(small_atlas: Atlas) -> None:
 def test_queries(small_atlas: Atlas) -> None:
     rows = small_atlas.query("links = 6 and dof = 1 and centres >= 2 and all_explicit")
     assert {(row["links"], row["all_explicit"]) for row in rows} == {(6, True)}
-    assert len(rows) == sum(
-        row["implicit"] == 0 and row["centres"] >= 2 for row in small_atlas.query("kind = scd")
-    )
+    assert len(rows) == sum(row["implicit"] == 0 and row["centres"] >= 2 for row in small_atlas.query("kind = scd"))
     falling = [row["joints"] for row in small_atlas.query(sort="-joints", columns=["joints"], limit=50)]
     assert falling == sorted(falling, reverse=True)
     first = small_atlas.query(limit=3)
@@ -316,9 +314,7 @@ def test_rows_of_an_atlas_are_realised_and_drawn(tmp_path: Path) -> None:
 
 
 def test_types_with_coordinates(real_atlas: Atlas, tmp_path: Path) -> None:
-    rows = real_atlas.query(
-        "kind = scd", columns=["id", "realised", "flat", "all_explicit", "fold_deg", "fold_file"]
-    )
+    rows = real_atlas.query("kind = scd", columns=["id", "realised", "flat", "all_explicit", "fold_deg", "fold_file"])
     assert len(rows) == 7
     for number, row in enumerate(rows):
         assert row["realised"]

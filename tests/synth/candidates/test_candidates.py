@@ -279,10 +279,7 @@ def test_candidates_on_a_cylinder_have_lengths(data):
         "enumerate", "conical", "--chain", data / "surfaces" / "fig10-four-bar.json", "--slots", 7, "--radius", 3
     )
     assert "radius 3.0" in told.stdout
-    assert (
-        "one of them"
-        in run("enumerate", "conical", "--chain", "watt", "--radius", 3, "--lambda", 3, code=2).output
-    )
+    assert "one of them" in run("enumerate", "conical", "--chain", "watt", "--radius", 3, "--lambda", 3, code=2).output
 
 
 def test_a_crossed_loop_need_not_be_grashof_on_a_steep_cone():

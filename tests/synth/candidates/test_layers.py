@@ -95,9 +95,7 @@ def test_the_layers_of_the_picture_are_those_of_its_title(every):
             ]
             assert min(gaps, default=1.0) > 0.02
         on_cone = {
-            dict(shape.data)["link"]: dict(shape.data)["layer"]
-            for shape in cone.shapes
-            if "layer" in dict(shape.data)
+            dict(shape.data)["link"]: dict(shape.data)["layer"] for shape in cone.shapes if "layer" in dict(shape.data)
         }
         on_circle = {
             dict(shape.data)["link"]: dict(shape.data)["layer"]

@@ -67,20 +67,14 @@ def test_reduce_shows_chains_and_writes_what_is_left(data, tmp_path):
     assert told["before"] == {"links": 16, "joints": 20, "mobility": 5}
     assert told["after"] == {"links": 8, "joints": 8, "mobility": 5}
     assert [step["sits_on"] for step in told["steps"]] == [None] * 4
+    assert "nothing to take off" in run("reduce", data / "wiener" / "watt.json", "--keep", "1", "--keep", "4").stdout
     assert (
-        "nothing to take off" in run("reduce", data / "wiener" / "watt.json", "--keep", "1", "--keep", "4").stdout
-    )
-    assert (
-        "after   links 2, joints 1, mobility 1"
-        in run("reduce", "--fully", data / "wampler" / "fig12-scd.json").stdout
+        "after   links 2, joints 1, mobility 1" in run("reduce", "--fully", data / "wampler" / "fig12-scd.json").stdout
     )
     result = run("reduce", data / "wiener" / "watt.json", "--keep", "sky", code=2)
     assert "'sky' is no link; expected one of 0, 1, 2, 3, 4, 5" in result.stderr
     stephenson = data / "wiener" / "stephenson.json"
-    assert (
-        "requires --ground LINK, and an --input JOINT"
-        in run("reduce", "--rule", "assur", stephenson, code=2).stderr
-    )
+    assert "requires --ground LINK, and an --input JOINT" in run("reduce", "--rule", "assur", stephenson, code=2).stderr
     words = ("reduce", stephenson, "--rule", "assur", "--ground", 0, "--input", 0)
     out = run(*words).stdout
     assert re.search(r"group 1: links 1, joints 0, input 0\n", out)
@@ -170,9 +164,7 @@ def test_a_loop_between_links_that_are_not_adjacent_goes_through_named_joints(da
     assert (told["predicted"], told["counted"], told["mobility"], told["equation"]) == (-1, -1, 2, "Eq. 5")
     made, known = read(ten), read(data / "wiener" / "hybrid-ten-bar.json")
     assert chain_id(made) == chain_id(known)
-    assert (
-        (len(made.centred_loops), made.spatial_loops) == (len(known.centred_loops), known.spatial_loops) == (1, 1)
-    )
+    assert (len(made.centred_loops), made.spatial_loops) == (len(known.centred_loops), known.spatial_loops) == (1, 1)
     (told,) = json.loads(run("edit", "--json", ring, "--add-loop", "0,3,2:0,1,2").stdout)["edits"]
     assert (told["predicted"], told["counted"], told["mobility"], told["equation"]) == (0, 0, 3, "Eq. 6")
     refused = run("edit", ring, "--add-spatial-loop", "0,2,4", code=2).stderr

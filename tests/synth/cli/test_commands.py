@@ -47,9 +47,7 @@ def test_odd_names_do_no_harm(name, tmp_path):
 
 def test_terminal_control_in_names_is_not_printed(tmp_path):
     path = tmp_path / "a.json"
-    scd = SCDGraph(
-        ["\x1b[2Jx", "b"], [("\x1b[2Jx", "b")], rotation={"\x1b[2Jx": (0, None, None), "b": (0, None, None)}
-    )
+    scd = SCDGraph(["\x1b[2Jx", "b"], [("\x1b[2Jx", "b")], rotation={"\x1b[2Jx": (0, None, None), "b": (0, None, None)})
     write(scd, path)
     assert "\x1b" not in run("reconstruct", path).stdout
 

@@ -41,9 +41,7 @@ def test_arguments_and_options_that_name_files_are_completed_as_files():
         assert [item.type for item in parameter.shell_complete(context, "da")] == ["file"], parameter
 
 
-@pytest.mark.skipif(
-    not shutil.which("bash") or not SYNTH.exists(), reason="bash, and synth as a program, are needed"
-)
+@pytest.mark.skipif(not shutil.which("bash") or not SYNTH.exists(), reason="bash, and synth as a program, are needed")
 def test_bash_completes_options():
     lines = [
         'eval "$(_SYNTH_COMPLETE=bash_source synth)"',

@@ -103,9 +103,7 @@ def test_enumerate_inversions_and_inputs(tmp_path):
     assert {(row["code"], row["ground"]) for row in grounds} == {(row["code"], row["ground"]) for row in inputs}
     assert all(len(pair) == 2 for row in inputs for pair in row["inputs"])
     run(*base, "--inversions", "-o", tmp_path / "mechanisms")
-    assert [read(file).ground for file in sorted((tmp_path / "mechanisms").iterdir())] == [
-        r["ground"] for r in grounds
-    ]
+    assert [read(file).ground for file in sorted((tmp_path / "mechanisms").iterdir())] == [r["ground"] for r in grounds]
     message = run(*base, "--inversions", "-o", tmp_path / "c.g6", code=2).stderr
     assert "graph6 cannot hold the ground link" in message
 

@@ -46,9 +46,7 @@ def test_order_tells_crossings_and_verdict(printed):
     assert told["breaks_at"] == {"due": [1, 3], "crossed": [2, 5]}
     assert told["checks"] == {"hoop": None, "inequalities": None, "crank_angles": None}
     assert told["dyad"]["misfit_deg"] > 0.1
-    told = json.loads(
-        run("order", "--orientations", printed, "--axis", AXIS_2, "--direction", "cw", "--json").stdout
-    )
+    told = json.loads(run("order", "--orientations", printed, "--axis", AXIS_2, "--direction", "cw", "--json").stdout)
     assert told["in_order"] is True
     assert told["breaks_at"] is None
     assert set(told["checks"].values()) == {"cw"}
@@ -80,9 +78,7 @@ def test_dyads_of_five(corrected, tmp_path):
 
 
 def test_dyads_of_three_four_and_more(some, tmp_path):
-    told = json.loads(
-        run("dyads", "--orientations", some(3), "--axis", "0,0,1", "--axis", "-1,2,0", "--json").stdout
-    )
+    told = json.loads(run("dyads", "--orientations", some(3), "--axis", "0,0,1", "--axis", "-1,2,0", "--json").stdout)
     assert [np.round(np.abs(dyad["G"]), 3).tolist() for dyad in told["dyads"]] == [[0, 0, 1], [0.447, 0.894, 0]]
     told = json.loads(
         run("dyads", "--orientations", some(4), "--samples", 50, "--json", "-o", tmp_path / "four.png").stdout
@@ -116,9 +112,7 @@ def test_four_bars_and_their_motion(data, tmp_path):
 
 
 def test_four_bars_of_three_and_four(some):
-    told = json.loads(
-        run("fourbar", "--orientations", some(3), "--axis", "0,0,1", "--axis", "1,0,0", "--json").stdout
-    )
+    told = json.loads(run("fourbar", "--orientations", some(3), "--axis", "0,0,1", "--axis", "1,0,0", "--json").stdout)
     assert told["found"] == 2
     told = json.loads(run("fourbar", "--orientations", some(4), "--samples", 8, "--best", 5, "--json").stdout)
     assert len(told["fourbars"]) == 5
@@ -178,9 +172,7 @@ def test_an_axis_on_a_relative_axis_is_one_line(printed):
 def test_bad_files_are_one_line(command, tmp_path, data):
     words = ["--axis", "0,0,1"] if command == "order" else []
     bad = tmp_path / "bad.json"
-    bad.write_text(
-        '{"format": "synthedra/orientations", "version": 1, "quaternions": [[1,0,0,0],[0,0,0,0],[0,1,0,0]]}'
-    )
+    bad.write_text('{"format": "synthedra/orientations", "version": 1, "quaternions": [[1,0,0,0],[0,0,0,0],[0,1,0,0]]}')
     for path, message in ((bad, "quaternions[1]: orientation 2 has a quaternion of norm 0"),
                           (tmp_path / "none.json", "no such file"),
                           (data / "wiener" / "watt.json", "unknown key")):  # fmt: skip

@@ -142,8 +142,7 @@ def test_a_pattern_without_frames_lies_one_way(data, tmp_path):
 
 def test_a_pose_of_what_has_none(data):
     assert (
-        "no degrees of freedom at a configuration"
-        in run("mobility", "--pose", 0, data / "wiener" / "watt.json").stdout
+        "no degrees of freedom at a configuration" in run("mobility", "--pose", 0, data / "wiener" / "watt.json").stdout
     )
 
 

@@ -97,9 +97,7 @@ def test_help_names_options_that_exist(path):
     here = _spellings(COMMANDS[path])
     for text in _texts(COMMANDS[path]):
         other = {
-            spelling
-            for named in re.findall(r"`(synth [^`]+)`", text)
-            for spelling in _spellings(_named(named.split()))
+            spelling for named in re.findall(r"`(synth [^`]+)`", text) for spelling in _spellings(_named(named.split()))
         }
         for option in OPTION.findall(text):
             assert option in here | other, (option, text)

@@ -78,8 +78,7 @@ def test_a_count_shows_units_and_the_time_left(terminal):
     assert shown.startswith("\r  0%  listing the units of the job\r")
     lines = [line.rstrip() for line in shown.split("\r") if line.strip()]
     assert all(
-        re.fullmatch(rf" *\d+%  {done} of 7 units counted, \d+ s left", line)
-        for done, line in enumerate(lines[1:], 1)
+        re.fullmatch(rf" *\d+%  {done} of 7 units counted, \d+ s left", line) for done, line in enumerate(lines[1:], 1)
     )
     assert lines[-1] == "100%  7 of 7 units counted, 0 s left"
     assert command_line(*words, "--quiet").stderr == ""

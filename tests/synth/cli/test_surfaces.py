@@ -32,9 +32,7 @@ def test_cones_of_a_loop():
     assert [(one["circuit"], one["signs"], one["k"]) for one in found["cones"]] == [
         ("open", [1, 1, 1, 1], 1), ("crossed", [1, -1, 1, -1], 0)
     ]  # fmt: skip
-    np.testing.assert_allclose(
-        [one["lambda_deg"] for one in found["cones"]], [13.9983566781, 29.0444694333], atol=1e-8
-    )
+    np.testing.assert_allclose([one["lambda_deg"] for one in found["cones"]], [13.9983566781, 29.0444694333], atol=1e-8)
     assert (found["families"], found["flat"], found["class"], found["grashof"]) == ([], [], "a", "Grashof")
     out = run("cone", "map", "--angles", "120,95,45,85").stdout
     assert re.search(r"13\.99835668 +open +\+\+\+\+ +1 ", out)
@@ -69,8 +67,7 @@ def test_what_rounding_decides_is_said():
     family = told("cylinder", "map", "--lengths", "5,3,5,3.0000000000000004")["families"][0]
     assert "within the rounding" in family["caution"]
     assert (
-        "every one of these, ill-conditioned"
-        in run("cylinder", "map", "--lengths", "5,3,5,3.0000000000000004").stdout
+        "every one of these, ill-conditioned" in run("cylinder", "map", "--lengths", "5,3,5,3.0000000000000004").stdout
     )
 
 
@@ -178,9 +175,7 @@ def test_a_loop_is_written_by_its_angles_or_on_a_cone(whole, tmp_path):
     assert run("cone", "map", *angles, "-o", by_angles).stdout.endswith(f"\nwritten: {by_angles}\n")
     both = told("cone", "map", by_angles)["cones"]
     named = told("cone", "map", *angles)["cones"]
-    np.testing.assert_allclose(
-        [one["lambda_deg"] for one in both], [one["lambda_deg"] for one in named], atol=1e-9
-    )
+    np.testing.assert_allclose([one["lambda_deg"] for one in both], [one["lambda_deg"] for one in named], atol=1e-9)
     moved = told("cone", "move", *angles)["linkages"]
     for number, given in ((2, (by_angles,)), *(((1, angles), (2, angles)) if whole else ())):
         placed = tmp_path / "placed.json"
@@ -284,6 +279,4 @@ def test_the_inverse_of_a_candidate():
     assert {tuple(pair[:2]): pair[2] for pair in same["link_angles_deg"]} == pytest.approx(
         {tuple(pair[:2]): pair[2] for pair in steps[0]["link_angles_deg"]}, abs=1e-6
     )
-    assert (
-        "--by-angles requires a FILE" in run("cone", "map", "--angles", "60,70,80", "--by-angles", code=2).stderr
-    )
+    assert "--by-angles requires a FILE" in run("cone", "map", "--angles", "60,70,80", "--by-angles", code=2).stderr

@@ -61,9 +61,7 @@ def test_a_process_ends_with_70_too():
         "import sys, graphs.files.formats as formats\nfrom synth.cli.__main__ import run\n"
         "def read(_): raise ZeroDivisionError\nformats.read = read\nsys.argv = ['synth', 'fold', 'a.fold']\nrun()"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False, env={}
-    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False, env={})
     assert (done.returncode, done.stdout, len(done.stderr.splitlines())) == (70, "", 1)
 
 

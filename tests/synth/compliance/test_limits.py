@@ -117,9 +117,7 @@ def test_a_planar_ride_along_on_a_four_bar():
     solids = HingedSolids(SCGraph("abcduv", joints, loops), axes)
     [found] = limits(solids, keep="cd").ride_alongs
     assert (found.joint, found.freedoms) == ("A", 0)
-    widest = acos(
-        (1.0 + 0.6**2 - 1.5**2) / 1.2
-    )  # the bars in line; folded they reach less than 0.4, and never are
+    widest = acos((1.0 + 0.6**2 - 1.5**2) / 1.2)  # the bars in line; folded they reach less than 0.4, and never are
     assert sorted((found.lower.angle, found.upper.angle)) == pytest.approx([pi / 2 - widest, pi / 2 + widest])
     assert {found.lower.how, found.upper.how} == {"stretched"}
 

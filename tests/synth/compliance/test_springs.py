@@ -48,9 +48,7 @@ def turned(crank):
         return [np.arctan2(v[..., 1], v[..., 0]) for v in (a - o, b - a, d - b)]
 
     now, then = ways(crank), ways(START)
-    crank_turn, coupler_turn, rocker_turn = (
-        np.angle(np.exp(1j * (n - t))) for n, t in zip(now, then, strict=True)
-    )
+    crank_turn, coupler_turn, rocker_turn = (np.angle(np.exp(1j * (n - t))) for n, t in zip(now, then, strict=True))
     return np.stack([crank_turn, coupler_turn - crank_turn, rocker_turn - coupler_turn, -rocker_turn], axis=-1)
 
 
@@ -77,9 +75,7 @@ def test_equilibrium_is_the_minimum_of_the_closed_form():
     best = minimize_scalar(energy, bounds=(START - 0.7, START + 0.7), method="bounded", options={"xatol": 1e-12})
     found = equilibrium(elastic())
     assert found.energy == pytest.approx(best.fun, abs=1e-12)
-    assert found.angles == pytest.approx(
-        turned(best.x), abs=1e-6
-    )  # of a minimum the place is known to half the digits
+    assert found.angles == pytest.approx(turned(best.x), abs=1e-6)  # of a minimum the place is known to half the digits
     assert found.stable
     assert found.error < 1e-12
     slope = (energy(START + found.angles[0] + 1e-5) - energy(START + found.angles[0] - 1e-5)) / 2e-5
@@ -120,9 +116,7 @@ def test_a_joint_that_is_not_the_crank_is_driven_as_well():
 
 def test_a_joint_at_rest_in_two_poses_makes_it_rigid_in_both():
     """The angle between coupler and rocker is that of the distance from A to D: the same at opposite crank angles."""
-    asked = DrivenJoint(
-        0, -2.0 * START, 3
-    )  # an odd number: the crank does not stop half-way, where it is a dead point
+    asked = DrivenJoint(0, -2.0 * START, 3)  # an odd number: the crank does not stop half-way, where it is a dead point
     found = synth.states(four_bar(), springs=Springs({2: 1.0}), drive=asked).elastic
     kinds = [one.state.kind for one in found.path]
     assert kinds == ["rigid immobile", *2 * ["compliant mobile"], "rigid immobile"]

@@ -47,9 +47,7 @@ def by_velocities(graph, axes, held):
     return 3 * len(place) - np.linalg.matrix_rank(np.array(rows), tol=1e-9) - 3
 
 
-@pytest.mark.parametrize(
-    "seed", [*range(2), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(2, 40))]
-)
+@pytest.mark.parametrize("seed", [*range(2), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(2, 40))])
 def test_freedoms_of_every_set_are_those_of_trying(seed):
     linkage, axes = random_about_a_point(seed)
     compliant = Members(tuple(np.random.default_rng(seed).permutation(8)[:5].tolist()))
@@ -144,14 +142,9 @@ def test_the_command(tmp_path):
     }  # fmt: skip
     assert [one["freedoms"] for one in told["sets"]] == [0, 0, 0, 1]
     assert told["elastic"] is None
-    out = run(
-        "states", file, "--stiffness", "1=2", "--drive", "0=40", "--frames", "4", "--mass", "1=1@1,0,0"
-    ).stdout
+    out = run("states", file, "--stiffness", "1=2", "--drive", "0=40", "--frames", "4", "--mass", "1=1@1,0,0").stdout
     assert "load path of joint 0" in out
     assert "small motions about the equilibrium" in out
     assert "expected one or more compliant joints or links" in run("states", file, code=2).stderr
     assert "'1=1' is not LINK=M@X,Y,Z" in run("states", file, "--stiffness", "1=2", "--mass", "1=1", code=2).stderr
-    assert (
-        "joint 1 has -2.0; expected a number, 0 or more"
-        in run("states", file, "--stiffness", "1=-2", code=2).stderr
-    )
+    assert "joint 1 has -2.0; expected a number, 0 or more" in run("states", file, "--stiffness", "1=-2", code=2).stderr

@@ -90,9 +90,7 @@ def test_orders_with_opposites_are_those_that_are_enumerated(name):
     assert set(map(tuple, listed.tolist())) <= set(map(tuple, both.tolist()))
 
 
-@pytest.mark.parametrize(
-    ("sc", "unknown"), [(FOUR_BAR, 0.0), (WATT, 0.01), slow(STEPHENSON, 0.03)], ids=list(CHAINS)
-)
+@pytest.mark.parametrize(("sc", "unknown"), [(FOUR_BAR, 0.0), (WATT, 0.01), slow(STEPHENSON, 0.03)], ids=list(CHAINS))
 def test_what_holds_for_all_angles_holds_for_random_ones(sc, unknown, rng):
     """Against velocities at angles of their own; both examples exist where it is by angles."""
     joints = len(sc.joints)

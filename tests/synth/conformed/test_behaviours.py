@@ -31,9 +31,7 @@ def test_table_4_is_first_order_behaviour(count, rng):
     assert (shadow_allows(places) == found.one_way).all()
 
 
-@pytest.mark.parametrize(
-    "chain", [FOUR_BAR, WATT, STEPHENSON, FIVE, EIGHT], ids=["4", "watt", "stephenson", "5", "8"]
-)
+@pytest.mark.parametrize("chain", [FOUR_BAR, WATT, STEPHENSON, FIVE, EIGHT], ids=["4", "watt", "stephenson", "5", "8"])
 def test_rates_close_the_loops_in_space(chain, rng):
     """The closure of the true axes at any lambda has the same rank; angular velocities follow from w."""
     made = ConformedChain.of(chain)

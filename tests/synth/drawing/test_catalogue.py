@@ -54,9 +54,7 @@ def test_labels_do_not_overlap_on_the_catalogue_of_ten_link_chains(tmp_path):
 def test_a_catalogue_names_what_is_known(six_links):
     (page,) = catalogue_pages(catalogue_entries(six_links), "six links")
     texts = [label.text for label in page.labels()]
-    assert {"1", "2", "k1:E`hW", "stephenson, M = 1, symmetry 4"} <= set(
-        texts
-    ) or "watt, M = 1, symmetry 4" in texts
+    assert {"1", "2", "k1:E`hW", "stephenson, M = 1, symmetry 4"} <= set(texts) or "watt, M = 1, symmetry 4" in texts
 
 
 def test_filters_keep_the_numbers(tmp_path):
@@ -64,13 +62,9 @@ def test_filters_keep_the_numbers(tmp_path):
     out = tmp_path / "a.svg"
     run("draw", rows, "-o", out, "--where", "symmetry=4..", "--where", "assortment=4,4")
     numbers = [label for label in ElementTree.parse(out).iter() if label.get("font-weight") == "bold"]
-    symmetric = [
-        i for i, row in enumerate(chain_rows(8, 1), 1) if row["symmetry"] >= 4 and row["assortment"] == [4, 4]
-    ]
+    symmetric = [i for i, row in enumerate(chain_rows(8, 1), 1) if row["symmetry"] >= 4 and row["assortment"] == [4, 4]]
     assert symmetric
-    below = [
-        label.text for label in numbers if label.get("fill") == "#1a1a1a" and label.get("text-anchor") == "start"
-    ]
+    below = [label.text for label in numbers if label.get("fill") == "#1a1a1a" and label.get("text-anchor") == "start"]
     assert below == ["a.jsonl", *map(str, symmetric)]
 
 

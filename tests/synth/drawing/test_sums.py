@@ -56,9 +56,7 @@ def test_families_that_lie_on_one_another_are_seen_in_turn():
 def test_every_curve_lies_in_the_frame():
     for mapped in MAPS.values():
         scene = draw_loop_sums(mapped)
-        places = np.concatenate(
-            [np.asarray(line.points) for line in layer(scene, "sums") if isinstance(line, Line)]
-        )
+        places = np.concatenate([np.asarray(line.points) for line in layer(scene, "sums") if isinstance(line, Line)])
         assert (places > 0).all()
         assert (places < (scene.width, scene.height)).all()
 

@@ -49,9 +49,7 @@ def test_patterns_fold_to_an_angle_with_rigid_panels(name, parameters, goal):
         assert letter not in letters or letters[letter] * angle > radians(0.1)
     before, after = (np.array(sheet.coordinates) for sheet in (flat, last))
     for face in flat.faces:
-        sides = [
-            np.linalg.norm(p[list(face), None, : p.shape[1]] - p[list(face)], axis=2) for p in (before, after)
-        ]
+        sides = [np.linalg.norm(p[list(face), None, : p.shape[1]] - p[list(face)], axis=2) for p in (before, after)]
         np.testing.assert_allclose(*sides, atol=1e-10)
 
 

@@ -37,9 +37,7 @@ def miura():
 def test_the_creases_that_were_turned_over_are_named(miura):
     sheet, at = miura
     (number, signs), *_ = [
-        (n, signs_of(one))
-        for n, one in enumerate(at.branches.branches)
-        if one.freedoms == 1 and "0" not in one.signs
+        (n, signs_of(one)) for n, one in enumerate(at.branches.branches) if one.freedoms == 1 and "0" not in one.signs
     ]
     for wrong in ([0], [3, 7]):
         turned = signs.copy()
@@ -63,8 +61,7 @@ def test_the_nearest_branch_is_that_of_the_least_distance(miura):
         signs = rng.choice([-1, 1], len(at.joints))
         here = configuration_of_sheet(marked(sheet, signs, at))
         least = min(
-            min(np.count_nonzero(signs_of(one) != turn * signs) for turn in (1, -1))
-            for one in here.branches.branches
+            min(np.count_nonzero(signs_of(one) != turn * signs) for turn in (1, -1)) for one in here.branches.branches
         )
         assert here.disagreement.size == least
 
@@ -87,9 +84,7 @@ def test_on_branches_of_several_freedoms_none_can_be_left_out():
             next(
                 size
                 for size in range(len(signs), -1, -1)
-                if any(
-                    feasible(one.space.basis, signs, list(kept)) for kept in combinations(range(len(signs)), size)
-                )
+                if any(feasible(one.space.basis, signs, list(kept)) for kept in combinations(range(len(signs)), size))
             )
             for one in here.branches.branches
         )

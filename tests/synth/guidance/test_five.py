@@ -128,9 +128,7 @@ def test_orientations_that_are_nearly_one(size):
         turns = size * rng.uniform(-1.0, 1.0, (5, 2))
         body = Rotation.from_rotvec(np.outer(turns[:, 0], g)) * Rotation.from_rotvec(np.outer(turns[:, 1], w))
         found = dyads_of_five(Orientations.from_rotation(body)).dyads
-        assert (
-            min((distance(dyad, g / np.linalg.norm(g), w / np.linalg.norm(w)) for dyad in found), default=1) < 1e-3
-        )
+        assert min((distance(dyad, g / np.linalg.norm(g), w / np.linalg.norm(w)) for dyad in found), default=1) < 1e-3
 
 
 @pytest.mark.parametrize("cases", [2, slow(12)])
@@ -187,9 +185,7 @@ def test_four_of_five_turns_about_one_axis_have_dyads_without_number():
 
 
 def test_turns_about_one_axis_have_dyads_without_number():
-    with pytest.raises(
-        UnsolvableError, match="infinitely many dyads, complex ones counted, take these orientations"
-    ):
+    with pytest.raises(UnsolvableError, match="infinitely many dyads, complex ones counted, take these orientations"):
         dyads_of_five(Orientations.from_axis_angles([(1, 2, 3)] * 5, [0.0, 0.3, 0.9, 1.4, 2.2]))
 
 

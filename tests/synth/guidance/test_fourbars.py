@@ -178,9 +178,7 @@ def test_the_motion_passes_the_orientations_on_both_dyads(wanted):
             assert np.allclose(np.abs((at * given.quaternions).sum(axis=1)), 1.0, atol=1e-10)
             steps = np.diff(motion.angles)
             assert np.all(steps > 0) or np.all(steps < 0)
-            turned = 2.0 * np.arccos(
-                np.clip((motion.quaternions[1:] * motion.quaternions[:-1]).sum(axis=1), -1, 1)
-            )
+            turned = 2.0 * np.arccos(np.clip((motion.quaternions[1:] * motion.quaternions[:-1]).sum(axis=1), -1, 1))
             assert turned.max() < 1.0  # no jump to another branch
             assert least_transmission(one, m) == pytest.approx(one.transmission, abs=0.02)
             assert least_transmission(one, m) > one.transmission - 1e-9

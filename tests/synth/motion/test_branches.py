@@ -36,9 +36,7 @@ def test_miura_sheets(rows, columns):
     assert len({branch.signs for branch in found.branches}) == len(found.branches)
 
 
-@pytest.mark.parametrize(
-    ("size", "patterns"), [(2, 2), (3, 5), (4, 11), pytest.param(5, 23, marks=pytest.mark.slow)]
-)
+@pytest.mark.parametrize(("size", "patterns"), [(2, 2), (3, 5), (4, 11), pytest.param(5, 23, marks=pytest.mark.slow)])
 def test_mountains_and_valleys_of_miura_sheets(size, patterns, rng):
     """Letters that some pose near flat has, up to turning the sheet over: each line its own, where lines fold alone."""
     seen = set()

@@ -40,9 +40,7 @@ def counted(monkeypatch):
 
 
 @pytest.mark.parametrize("name", [slow("bird-base.fold"), "four-bar-vertex.fold"])
-@pytest.mark.parametrize(
-    "ask", [synth.mobility, synth.fold, shown_of, synth.explain], ids=lambda ask: ask.__name__
-)
+@pytest.mark.parametrize("ask", [synth.mobility, synth.fold, shown_of, synth.explain], ids=lambda ask: ask.__name__)
 def test_one_question_makes_the_linkage_once(data, name, ask, counted):
     sheet = read(data / "patterns" / name)
     counted.clear()

@@ -254,9 +254,7 @@ def test_six_equations_see_axes_that_no_longer_meet():
     """Three do not: about a centre only directions count."""
     made = random_made("spherical four-bar", 0)
     linkage = made.linkage(made.numbers)
-    change = dependence_on_axes(linkage).forward(
-        np.eye(24)[6:9].sum(axis=0)
-    )  # the second axis moved off the centre
+    change = dependence_on_axes(linkage).forward(np.eye(24)[6:9].sum(axis=0))  # the second axis moved off the centre
     residuals = []
     for one in (linkage, spatial(linkage)):
         at = Sensitivity(ClosureEquations(one), made.angles, made.driven)

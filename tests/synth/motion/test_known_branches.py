@@ -175,9 +175,7 @@ def test_sheets_with_more_branches_than_are_told_fold_as_they_are_marked():
     start = linkage(miura(5, 3, np.radians(60)))
     every = branches_of(start).branches
     assert len(every) == 16
-    unseen = {one.signs for one in every} - {
-        one.signs for one in branches_of(start, search=Search(most=2)).branches
-    }
+    unseen = {one.signs for one in every} - {one.signs for one in branches_of(start, search=Search(most=2)).branches}
     for wanted in [one for one in every if one.signs in unseen][-3:]:
         found = branches_of(start, search=Search(most=2, towards=wanted.rates))
         assert (len(found.branches), found.complete, found.exhaustive) == (3, False, False)

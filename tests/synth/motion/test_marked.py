@@ -42,9 +42,7 @@ def random_signs(sheet, count):
     return set(map(tuple, np.sign(low @ tangent.T).astype(int).tolist()))
 
 
-@pytest.mark.parametrize(
-    "headings", [(0, 50, 130, 200, 290), slow((0, 60, 120, 180, 240, 300)), (0, 40, 110, 250)]
-)
+@pytest.mark.parametrize("headings", [(0, 50, 130, 200, 290), slow((0, 60, 120, 180, 240, 300)), (0, 40, 110, 250)])
 def test_the_marks_that_a_vertex_can_begin_with_are_those_of_random_rates(headings):
     sheet = fan(np.radians(headings))
     pattern = configuration_of_sheet(sheet)

@@ -97,9 +97,7 @@ def test_bricards_plane_symmetric_linkage(data):
     np.testing.assert_allclose(angles[:, [4, 5]], angles[:, [2, 1]], atol=CLOSE)
 
     def moment(first, second):
-        carried = screw(here.points[1], here.directions[1], first) @ screw(
-            here.points[2], here.directions[2], second
-        )
+        carried = screw(here.points[1], here.directions[1], first) @ screw(here.points[2], here.directions[2], second)
         axis, point = carried[:3, :3] @ here.directions[3], carried[:3, :3] @ here.points[3] + carried[:3, 3]
         return np.cross(point - here.points[0], axis) @ here.directions[0]
 

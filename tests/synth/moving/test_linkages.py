@@ -137,9 +137,7 @@ def test_axes_may_be_given_by_the_apex_itself():
     """A point in the apex says nothing of where a ray goes; the direction does."""
     directions = [np.cos(t) * np.eye(3)[0] + np.sin(t) * np.eye(3)[1] for t in np.radians([0, 60, 140, 260])]
     axes = {i: ((0, 0, 0), tuple(d)) for i, d in enumerate(directions)}
-    motion = move(
-        configuration_of(HingedSolids(SCGraph(4, RING, [Loop(range(4))]), axes)), drive={0: 0.5}, frames=1
-    )
+    motion = move(configuration_of(HingedSolids(SCGraph(4, RING, [Loop(range(4))]), axes)), drive={0: 0.5}, frames=1)
     assert len(motion.branches.branches) == 2  # the two modes of a flat vertex
     assert motion.path.stopped == ""
 
@@ -156,9 +154,7 @@ def test_what_models_say_beyond_their_panels_is_not_dropped(more, told):
     corners = {0: (0, 0, 0), 1: (1, 0, 0), 2: (0, 1, 0), 3: (1, 1, 0)}
     rods = [(0, 1), (1, 2), (2, 0), (1, 3), (2, 3)]
     links = {"a": (0, 1, 2), "b": (1, 3, 2)}
-    assert (
-        len(configuration_of(PolyhedronModel(4, rods, coordinates=corners, links=links)).linkage.graph.joints) == 1
-    )
+    assert len(configuration_of(PolyhedronModel(4, rods, coordinates=corners, links=links)).linkage.graph.joints) == 1
     with pytest.raises(UnsolvableError, match=told):
         configuration_of(PolyhedronModel(4, rods, coordinates=corners, links=links, **more))
 

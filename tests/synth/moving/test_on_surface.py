@@ -123,9 +123,7 @@ def test_the_beginning_is_first_order(rocker):
     rates = behaviour(rocker.chain, rocker.on_surface.places)
     expected = [Way(int(way)) for way in rates.ways]
     mirrored = [Way(-way) if abs(way) == 1 else way for way in expected]
-    begun = [
-        [sense.ways[link][0].way for link in rocker.chain.links] for sense in (rocker.forward, rocker.backward)
-    ]
+    begun = [[sense.ways[link][0].way for link in rocker.chain.links] for sense in (rocker.forward, rocker.backward)]
     assert begun in ([expected, mirrored], [mirrored, expected])
 
 
@@ -181,9 +179,7 @@ def test_several_loops_go_as_far_as_a_driven_path_does(data):
 
 
 def test_what_is_no_motion_of_one_freedom_is_refused(rocker):
-    with pytest.raises(
-        UnsolvableError, match="2 infinitesimal degrees of freedom at this configuration, expected 1"
-    ):
+    with pytest.raises(UnsolvableError, match="2 infinitesimal degrees of freedom at this configuration, expected 1"):
         move_on_surface(loop_of_steps(np.radians([70, 80, 60, 75, 75]), Cone(0.3)))
     with pytest.raises(UnsolvableError, match="any cone or cylinder"):
         move_on_surface(loop_of_steps(np.radians([40, 50, 60])))
@@ -382,10 +378,5 @@ def test_points_and_axes_at_the_command_line(whole):
         assert "points of links" in out
         assert "instant centres" in out
     for bad in (("--point", "1"), ("--point", "1,x"), ("--axes", "1")):
-        assert (
-            "Usage:" in run("cone", "move", "--steps", "50,110,80", "--lambda", 20, "--at", 1, *bad, code=2).output
-        )
-    assert (
-        "require --at"
-        in run("cone", "move", "--steps", "50,110,80", "--lambda", 20, "--axes", "1,2", code=2).output
-    )
+        assert "Usage:" in run("cone", "move", "--steps", "50,110,80", "--lambda", 20, "--at", 1, *bad, code=2).output
+    assert "require --at" in run("cone", "move", "--steps", "50,110,80", "--lambda", 20, "--axes", "1,2", code=2).output

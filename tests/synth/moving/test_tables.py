@@ -40,9 +40,7 @@ def test_vertices_and_axes_of_every_frame_are_those_of_the_folding(framed, tmp_p
     assert len(rows) == 4 * joints
     for frame, (sheet, angles) in enumerate(zip(folding.frames(), folding.path.angles, strict=True)):
         points = in_space(sheet.coordinates)
-        for row, joint, angle in zip(
-            rows[joints * frame : joints * (frame + 1)], folding.joints, angles, strict=True
-        ):
+        for row, joint, angle in zip(rows[joints * frame : joints * (frame + 1)], folding.joints, angles, strict=True):
             start, end = points[list(sheet.edges[joint])]
             point, axis = (np.array([float(row[key]) for key in keys]) for keys in ("xyz", ("dx", "dy", "dz")))
             assert row["joint"] == str(joint)

@@ -110,9 +110,7 @@ def test_what_is_made_goes_to_a_file_and_back(name, tmp_path):
 
 def test_a_folded_sheet_has_the_angle():
     made = generate("miura", rows=2, columns=2, fold=radians(50))
-    assert max(abs(angle) for angle in made.mechanism.fold_angles if angle is not None) == pytest.approx(
-        radians(50)
-    )
+    assert max(abs(angle) for angle in made.mechanism.fold_angles if angle is not None) == pytest.approx(radians(50))
     flat = generate("miura", rows=2, columns=2).mechanism
     assert made.mechanism.edges == flat.edges
     with pytest.raises(InvariantError, match="fold = 175 degrees; expected an angle from"):

@@ -26,9 +26,7 @@ def lengths(linkage):
             of[link].append(joint)
     at = {joint: np.array(place.point) for joint, place in linkage.places.items()}
     return {
-        (link, a, b): np.linalg.norm(at[a] - at[b])
-        for link, joints in of.items()
-        for a, b in combinations(joints, 2)
+        (link, a, b): np.linalg.norm(at[a] - at[b]) for link, joints in of.items() for a, b in combinations(joints, 2)
     }
 
 

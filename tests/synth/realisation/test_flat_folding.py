@@ -46,9 +46,7 @@ def _folded_flat(sheet) -> dict[int, np.ndarray]:
 def _alternate_sums(sheet) -> list[float]:
     """Of each vertex off the border, every other sector summed, less 180 degrees."""
     points = np.array(sheet.coordinates)
-    border = {
-        v for edge, letter in zip(sheet.edges, sheet.assignments, strict=True) if letter == "B" for v in edge
-    }
+    border = {v for edge, letter in zip(sheet.edges, sheet.assignments, strict=True) if letter == "B" for v in edge}
     off = []
     for vertex in set(range(sheet.vertices)) - border:
         ends = [b if a == vertex else a for a, b in sheet.edges if vertex in (a, b)]

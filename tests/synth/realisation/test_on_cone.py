@@ -34,9 +34,7 @@ def test_the_file_leads_back_to_the_cone_by_steps_and_by_arcs(stephenson, tmp_pa
 def test_axes_meet_in_one_point_at_the_arcs_that_are_told(stephenson):
     found = realise_on_cone(stephenson, cone_angle=LAMBDA)
     t = np.array(found.linkage.places())
-    axes = np.column_stack(
-        [np.cos(LAMBDA) * np.sin(t), np.full(len(t), -np.sin(LAMBDA)), np.cos(LAMBDA) * np.cos(t)]
-    )
+    axes = np.column_stack([np.cos(LAMBDA) * np.sin(t), np.full(len(t), -np.sin(LAMBDA)), np.cos(LAMBDA) * np.cos(t)])
     number = {joint: place for place, joint in enumerate(stephenson.joints)}
     arcs = [np.arccos(axes[number[a]] @ axes[number[b]]) for a, b in found.arcs]
     assert arcs == pytest.approx(list(found.arcs.values()), abs=1e-12)

@@ -32,9 +32,7 @@ def _maps(sheet) -> int:
         for image in (points * other / first, points.conjugate() * other / first.conjugate()):
             gaps = np.abs(image[:, None] - points[None])
             goes = gaps.argmin(axis=1)
-            count += (
-                gaps.min(axis=1).max() < 1e-12 and {frozenset(goes[list(edge)]) for edge in creases} == creases
-            )
+            count += gaps.min(axis=1).max() < 1e-12 and {frozenset(goes[list(edge)]) for edge in creases} == creases
     return count
 
 
@@ -107,9 +105,7 @@ def _is_explicit(scd) -> bool:
 def test_the_largest_group_is_that_of_a_search(links, most):
     """With a centre across a hole too, as long as it is finite."""
     types = [
-        scd
-        for scd in scd_graphs(links, 1, most)
-        if all(one.centre.value == "finite" for one in scd.centre_classes())
+        scd for scd in scd_graphs(links, 1, most) if all(one.centre.value == "finite" for one in scd.centre_classes())
     ]
     orders = []
     for scd in types:

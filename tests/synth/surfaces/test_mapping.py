@@ -131,9 +131,7 @@ def test_loops_drawn_on_cones_are_found_again(links, count, rng):
     _, steps, lam, angles = random_linkages(rng, count, links)
     found = loop_roots(cone_reach(angles), 1)
     signs = np.sign(steps) * np.sign(steps[:, :1])
-    hit = (np.abs(np.arctan(np.sqrt(found.size)) - lam[found.loop]) < 1e-6) & (
-        found.signs == signs[found.loop]
-    ).all(1)
+    hit = (np.abs(np.arctan(np.sqrt(found.size)) - lam[found.loop]) < 1e-6) & (found.signs == signs[found.loop]).all(1)
     assert set(found.loop[hit].tolist()) == set(range(count))
     assert np.abs(found.residual).max() < 1e-7
 
@@ -213,10 +211,7 @@ def touching_loops(over, wanted):
     [
         slow(-1e-7, 0, 1),
         (1e-10, 2, 1),
-        *(
-            pytest.param(*case, 4, marks=pytest.mark.slow)
-            for case in ((-1e-7, 0), (0.0, 1), (1e-7, 2), (1e-10, 2))
-        ),
+        *(pytest.param(*case, 4, marks=pytest.mark.slow) for case in ((-1e-7, 0), (0.0, 1), (1e-7, 2), (1e-10, 2))),
     ],
 )
 def test_a_sum_that_touches_a_multiple_of_360_degrees(over, count, loops):

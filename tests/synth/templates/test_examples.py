@@ -14,9 +14,7 @@ EXAMPLES = {"watt": 1, "chain-UPS": 6, "fortune-teller": 5, "miura-tube": 1}
 """Freedoms on the way."""
 
 
-@pytest.mark.parametrize(
-    "name", [slow(one) if one in ("fortune-teller", "miura-tube") else one for one in EXAMPLES]
-)
+@pytest.mark.parametrize("name", [slow(one) if one in ("fortune-teller", "miura-tube") else one for one in EXAMPLES])
 def test_examples_print_with_a_picture_and_fold(name, data):
     path = data / "realised" / f"{name}.fold"
     sheet = read(path) if path.exists() else generate(name).mechanism

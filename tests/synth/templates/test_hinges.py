@@ -85,9 +85,7 @@ def test_two_folds_stand_for_one_so_far_apart(sheet):
         np.testing.assert_allclose(lines[0][0] - lines[1][0], lines[0][1] - lines[1][1], atol=1e-6)
     assert len(cut_apart(piece)) == 1
     lines = shapely.union_all([shapely.LineString([s.start, s.end]) for s in piece.strokes], grid_size=1e-6)
-    enclosed = sorted(
-        one.area for one in shapely.polygonize([lines]).geoms if piece.covered.buffer(1e-3).covers(one)
-    )
+    enclosed = sorted(one.area for one in shapely.polygonize([lines]).geoms if piece.covered.buffer(1e-3).covers(one))
     assert len(enclosed) == len(sheet.faces) + hinges
     for area in panels_shrunk(sheet, WIDTH):
         assert min(abs(area - one) for one in enclosed) < 1e-3

@@ -43,11 +43,7 @@ CASES = {
 
 @cache
 def sheet_of(case):
-    return (
-        generate(case, fold=1.0 if GENERATORS[case].foldable else None).mechanism
-        if isinstance(case, str)
-        else case
-    )
+    return generate(case, fold=1.0 if GENERATORS[case].foldable else None).mechanism if isinstance(case, str) else case
 
 
 def area(corners):
@@ -75,9 +71,7 @@ def test_cuts_are_the_outline_and_the_panels_are_all_there_with_tabs_beside_them
         assert piece.covered.boundary.difference(cuts(piece).buffer(1e-5)).is_empty
         assert piece.covered.buffer(1e-5).contains(cuts(piece))
         lengths_of_cuts = [np.subtract(one.end, one.start) for one in piece.strokes if one.kind == "CUT"]
-        assert np.linalg.norm(lengths_of_cuts, axis=1).sum() == pytest.approx(
-            cuts(piece).length
-        )  # none is cut twice
+        assert np.linalg.norm(lengths_of_cuts, axis=1).sum() == pytest.approx(cuts(piece).length)  # none is cut twice
         lines = shapely.union_all([shapely.LineString([s.start, s.end]) for s in piece.strokes], grid_size=1e-7)
         enclosed = list(shapely.polygonize([lines]).geoms)
         assert sum(one.area for one in enclosed) == pytest.approx(piece.covered.area, rel=1e-6)
@@ -143,8 +137,7 @@ def test_a_closed_surface_has_one_net_of_mountains_seen_from_outside():
 def test_folds_are_those_seen_from_the_first_panel_whichever_way_others_go_round(other_way):
     faces = tuple(face[::-1] if number == other_way else face for number, face in enumerate(CUBE))
     first, turned = (
-        {stroke.kind for stroke in template_of(Sheet(8, (), "", one, CORNERS), size=50).pieces[0].strokes}
-        - {"CUT"}
+        {stroke.kind for stroke in template_of(Sheet(8, (), "", one, CORNERS), size=50).pieces[0].strokes} - {"CUT"}
         for one in (CUBE, faces)
     )
     assert len(first) == len(turned) == 1

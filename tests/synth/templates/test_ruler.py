@@ -91,8 +91,7 @@ def test_tiles_meet_at_their_crosses_and_hold_every_line(words, pages, bird, tmp
     assert len(tiles) == pages
     shifts = {0: np.zeros(2)}
     crosses = [
-        {word: np.array(at) for word, at in words.items() if re.fullmatch(r"[A-Z]+", word)}
-        for _, words, _ in tiles
+        {word: np.array(at) for word, at in words.items() if re.fullmatch(r"[A-Z]+", word)} for _, words, _ in tiles
     ]
     for _ in tiles:
         for one in range(len(tiles)):

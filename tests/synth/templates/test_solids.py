@@ -201,9 +201,7 @@ def test_gltf_moves_every_plate_with_its_panel(motion, tmp_path):
             np.testing.assert_allclose(np.abs(heights), 0.4, atol=1e-3)
             first = turned(turns[0], corners) + shifts[0]
             for vertex in face:  # corners of the plate keep their distances to those of the panel
-                apart = [
-                    np.linalg.norm(plate - at[vertex], axis=1) for plate, at in ((now, places), (first, poses[0]))
-                ]
+                apart = [np.linalg.norm(plate - at[vertex], axis=1) for plate, at in ((now, places), (first, poses[0]))]
                 np.testing.assert_allclose(*apart, atol=1e-3)
 
 

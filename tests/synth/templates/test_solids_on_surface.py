@@ -23,8 +23,7 @@ def linkages():
     job = CandidateJob(STEPHENSON)
     rows = job.rows()[::34]
     return [
-        LayeredLinkage(OnSurface(STEPHENSON, job.places(row).tolist(), LAMBDA), Cone(LAMBDA), SIZES)
-        for row in rows
+        LayeredLinkage(OnSurface(STEPHENSON, job.places(row).tolist(), LAMBDA), Cone(LAMBDA), SIZES) for row in rows
     ]
 
 

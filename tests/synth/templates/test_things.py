@@ -43,9 +43,7 @@ def test_a_string_is_printed_in_the_mode_that_is_asked_for(mode, tmp_path):
 
 def test_a_row_of_a_list_prints_as_what_it_is_a_row_of(tmp_path):
     rows = tmp_path / "types.jsonl"
-    rows.write_text(
-        "".join(json.dumps(row) + "\n" for row in ({"code": FOUR_BAR}, {"string": "RR-RRR", "mode": "D"}))
-    )
+    rows.write_text("".join(json.dumps(row) + "\n" for row in ({"code": FOUR_BAR}, {"string": "RR-RRR", "mode": "D"})))
     run("template", rows, "--row", 1, "--size", 150, "-o", tmp_path / "first.svg")
     run("template", FOUR_BAR, "--size", 150, "-o", tmp_path / "id.svg")
     first, by_id = (lines_of_svg(tmp_path / f"{name}.svg")[0] for name in ("first", "id"))

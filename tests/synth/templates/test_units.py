@@ -26,9 +26,7 @@ def square(tmp_path):
     return made
 
 
-@pytest.mark.parametrize(
-    ("unit", "side"), [("cm", 60), ("in", 152.4), ("mm", 6), ("pt", 6 * 25.4 / 72), ("m", 6000)]
-)
+@pytest.mark.parametrize(("unit", "side"), [("cm", 60), ("in", 152.4), ("mm", 6), ("pt", 6 * 25.4 / 72), ("m", 6000)])
 def test_edges_are_as_long_as_the_unit_of_the_file_says(unit, side, square, tmp_path):
     words = ("template", square(unit), "--page", "200x200", "--no-note", "-o", tmp_path / "a.svg")
     if side < 10:

@@ -80,9 +80,7 @@ def test_a_tapered_miura_in_svg_under_transforms(tmp_path):
     exact = told(sheet)
     assert exact[0] == 1
     assert len(exact[1]) == 16
-    (tmp_path / "a.svg").write_text(
-        svg_of(sheet, 2, ("translate(60 20) rotate(7)", "scale(2.8346)")), encoding="utf-8"
-    )
+    (tmp_path / "a.svg").write_text(svg_of(sheet, 2, ("translate(60 20) rotate(7)", "scale(2.8346)")), encoding="utf-8")
     drawn = read(tmp_path / "a.svg")
     answer = synth.mobility(drawn)
     assert told(drawn) == exact

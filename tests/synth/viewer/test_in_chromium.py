@@ -117,9 +117,7 @@ def opened(browser, tmp_path):
 
     def open_(*things, name="a", **look):
         place = tmp_path / "page.html"
-        place.write_text(
-            page([shown_of(thing, f"{name} {n}") for n, thing in enumerate(things)]), encoding="utf-8"
-        )
+        place.write_text(page([shown_of(thing, f"{name} {n}") for n, thing in enumerate(things)]), encoding="utf-8")
         windows.append(Opened(browser, place, **look))
         return windows[-1]
 
@@ -132,8 +130,7 @@ def spans(pose):
     """Distances of all pairs of corners of each face."""
     places = np.array(pose["vertices_coords"])
     return [
-        np.linalg.norm(places[face][:, None] - places[face][None], axis=-1).ravel()
-        for face in pose["faces_vertices"]
+        np.linalg.norm(places[face][:, None] - places[face][None], axis=-1).ravel() for face in pose["faces_vertices"]
     ]
 
 

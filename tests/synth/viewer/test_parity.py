@@ -26,9 +26,7 @@ SAME_RESIDUAL, SAME_POSE, SAME_PATH = 1e-12, 1e-9, 1e-9
 
 def compare(things: list[MovingLinkage], *, panels: bool = True) -> int:
     """Compare both solvers on everything that moves; return how many paths were compared to their ends."""
-    asked = [
-        asked_of(moving, np.random.default_rng(number), panels=panels) for number, moving in enumerate(things)
-    ]
+    asked = [asked_of(moving, np.random.default_rng(number), panels=panels) for number, moving in enumerate(things)]
     whole = 0
     for one, answer in zip(asked, answers([one.question for one in asked]), strict=True):
         np.testing.assert_allclose(answer["residual"], one.residual, rtol=0, atol=SAME_RESIDUAL)
@@ -95,9 +93,7 @@ def test_joints_that_are_held():
         "goals": goals[:, 0].tolist(),
     }
     (answer,) = answers([question])
-    np.testing.assert_allclose(
-        [one["angles"] for one in answer["frames"]], path.angles[1:], rtol=0, atol=SAME_POSE
-    )
+    np.testing.assert_allclose([one["angles"] for one in answer["frames"]], path.angles[1:], rtol=0, atol=SAME_POSE)
     assert [one["angles"][second] for one in answer["frames"]] == [0.0, 0.0, 0.0]
 
 
@@ -125,9 +121,7 @@ def test_panels_that_cross():
     (answer,) = answers([question])
     panels = PanelShapes(faces, range(3), moving.bodies.vertices)
     expected = [panels.crossing(np.reshape(frame["places"], (-1, 3))) for frame in answer["frames"]]
-    assert [frame["crossings"] for frame in answer["frames"]] == [
-        [list(pair)] if pair else [] for pair in expected
-    ]
+    assert [frame["crossings"] for frame in answer["frames"]] == [[list(pair)] if pair else [] for pair in expected]
     assert expected[0] is None
     assert (1, 2) in expected
 

@@ -53,9 +53,7 @@ def test_letters_differ_in_colour_and_dash():
     sheet = Sheet(5, edges, "BBBBMVUM", ((0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)), places)
     scene = draw(sheet, numbers=False)
     lines = {shape.data: shape for shape in scene.shapes() if isinstance(shape, Line)}
-    looks = [
-        (lines[("joint", str(joint)),].colour, bool(lines[("joint", str(joint)),].dash)) for joint in (4, 5, 6)
-    ]
+    looks = [(lines[("joint", str(joint)),].colour, bool(lines[("joint", str(joint)),].dash)) for joint in (4, 5, 6)]
     assert [colour for colour, _ in looks] == ["mountain", "valley", "unassigned"]
     assert [dashed for _, dashed in looks] == [False, True, True]
     assert lines[("joint", "5"),].dash != lines[("joint", "6"),].dash
@@ -68,9 +66,7 @@ def test_dashes_of_cuts_shrink_as_those_of_creases_do():
         places = tuple((x, y) for y in (0, 1) for x in range(wide + 1))
         faces = tuple((i, i + 1, i + wide + 2, i + wide + 1) for i in range(wide))
         edges = [(i, i + wide + 1) for i in range(1, wide)]
-        scene = draw(
-            Sheet(len(places), (*edges[1:], edges[0]), "V" * (wide - 2) + "C", faces, places), numbers=False
-        )
+        scene = draw(Sheet(len(places), (*edges[1:], edges[0]), "V" * (wide - 2) + "C", faces, places), numbers=False)
         dashes = [shape.dash for shape in scene.shapes() if isinstance(shape, Line) and shape.colour == "cut"]
         shrunk[wide] = dashes[0][0]
     assert shrunk[40] == pytest.approx(0.6 * shrunk[2])
@@ -103,8 +99,7 @@ def test_signs_of_centres():
     joints = [(0, 1), (1, 2), (2, 3), (3, 0)]
     of = {centre: draw(SCGraph(4, joints, [Loop((0, 1, 2, 3), centre)])) for centre in Centre}
     signs = {
-        centre: next(layer for layer in scene.layers if layer.name == "centres").shapes
-        for centre, scene in of.items()
+        centre: next(layer for layer in scene.layers if layer.name == "centres").shapes for centre, scene in of.items()
     }
     assert [type(shape) for shape in signs[Centre.FINITE]] == [Disc, Disc]
     assert [type(shape) for shape in signs[Centre.INFINITE]] == [Line, Line]

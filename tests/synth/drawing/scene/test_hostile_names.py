@@ -45,9 +45,7 @@ def of_kind(kind, name):
     if kind == "circle":
         return SurfaceLinkage(chain, steps={(name, 1): 1.0, (1, 2): 1.0, (2, 3): 1.5})
     if kind == "stubs":
-        return SCDGraph(
-            [name, "b"], {name: (name, "b")}, rotation={name: (name, None, None), "b": (name, None, None)}
-        )
+        return SCDGraph([name, "b"], {name: (name, "b")}, rotation={name: (name, None, None), "b": (name, None, None)})
     return chain
 
 

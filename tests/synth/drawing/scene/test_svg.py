@@ -43,9 +43,7 @@ def test_papers_differ_in_colours_only():
     scene = draw(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)]))
     light, dark = svg_text(scene), svg_text(scene, paper="dark")
     assert light != dark
-    assert [e.tag for e in ElementTree.fromstring(light).iter()] == [
-        e.tag for e in ElementTree.fromstring(dark).iter()
-    ]
+    assert [e.tag for e in ElementTree.fromstring(light).iter()] == [e.tag for e in ElementTree.fromstring(dark).iter()]
 
 
 @pytest.mark.parametrize("shape", [Line([(0, 0), (float("nan"), 1)]), Disc((float("inf"), 0), 1)])
@@ -54,9 +52,7 @@ def test_places_that_are_none(shape):
         svg_text(Scene(9, 9, (Layer("a", (shape,)),)))
 
 
-@pytest.mark.parametrize(
-    "shape", [Label((0, 0), "a", colour="no"), Polygon([(0, 0)], "no"), Disc((0, 0), 1, "no")]
-)
+@pytest.mark.parametrize("shape", [Label((0, 0), "a", colour="no"), Polygon([(0, 0)], "no"), Disc((0, 0), 1, "no")])
 def test_colours_that_are_none(shape):
     with pytest.raises(InvariantError, match="unknown colour 'no'"):
         svg_text(Scene(9, 9, (Layer("a", (shape,)),)))

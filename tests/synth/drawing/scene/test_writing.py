@@ -30,9 +30,7 @@ def test_a_folder_that_is_not_there(tmp_path):
 
 
 def test_pictures_of_other_kinds_are_refused(tmp_path):
-    with pytest.raises(
-        FileError, match=r"files ending in '\.jpeg' are not known; expected one of \.png \.svg \.pdf"
-    ):
+    with pytest.raises(FileError, match=r"files ending in '\.jpeg' are not known; expected one of \.png \.svg \.pdf"):
         SCENE.save(tmp_path / "a.jpeg")
 
 
@@ -56,6 +54,4 @@ except UnsolvableError as error:
     done = subprocess.run(
         [sys.executable, "-c", code], env=os.environ | nowhere, capture_output=True, text=True, check=False
     )
-    assert done.stdout == "matplotlib requires a folder to write to; try to name one in MPLCONFIGDIR\n", (
-        done.stderr
-    )
+    assert done.stdout == "matplotlib requires a folder to write to; try to name one in MPLCONFIGDIR\n", done.stderr

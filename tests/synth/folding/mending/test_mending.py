@@ -35,16 +35,12 @@ def farthest(one, other):
 @pytest.mark.parametrize(("size", "noise"), [(3, 1e-5), slow(4, 1e-6), slow(5, 1e-4)])
 def test_a_noisy_miura_sheet_gets_all_its_branches_back(size, noise):
     noisy = disturbed(miura(size, size, 1.0), noise)
-    as_written = branches_of(
-        linkage_of_sheet(noisy)
-    ).branches  # squares of a noise of 1e-5 are hardly told from zero
+    as_written = branches_of(linkage_of_sheet(noisy)).branches  # squares of a noise of 1e-5 are hardly told from zero
     assert len(as_written) < 2 ** (size - 1)
     assert all(branch.certainty != "proved" for branch in as_written)
     pattern = configuration_of_sheet(noisy)
     assert [branch.certainty for branch in pattern.branches.branches] == ["proved"] * 2 ** (size - 1)
-    assert sorted(branch.freedoms for branch in pattern.branches.branches) == [1] * (2 ** (size - 1) - 1) + [
-        size - 1
-    ]
+    assert sorted(branch.freedoms for branch in pattern.branches.branches) == [1] * (2 ** (size - 1) - 1) + [size - 1]
     assert 0.0 < farthest(pattern.sheet, noisy) < 4 * noise
     assert "so that angles that nearly agree are equal (coordinates precise to " in str(pattern.repairs[0])
 
@@ -102,9 +98,7 @@ def test_a_sheet_is_put_into_its_plane():
 def test_a_crease_of_two_pieces_is_made_straight():
     """Two squares joined along an edge with a vertex in the middle, turned so that rounding puts it off."""
     places = np.array([(0, 0), (0.7, 0), (2, 0), (2, 1), (0, 1), (2, -1), (0, -1)]) @ [[0.96, 0.28], [-0.28, 0.96]]
-    sheet = Sheet(
-        7, ((0, 1), (1, 2)), "VV", ((0, 1, 2, 3, 4), (2, 1, 0, 6, 5)), tuple(map(tuple, places.tolist()))
-    )
+    sheet = Sheet(7, ((0, 1), (1, 2)), "VV", ((0, 1, 2, 3, 4), (2, 1, 0, 6, 5)), tuple(map(tuple, places.tolist())))
     bent = disturbed(sheet, 1e-5)
     folded = fold(bent, frames=2)
     assert folded.configuration.repairs

@@ -40,9 +40,7 @@ def test_the_way_back_ends_at_rates_of_the_flat_state(name):
     at = configuration_of_sheet(TESSELLATIONS[name])
     found = folded_start(at.closure, at.wanted)
     _, jacobian = at.closure.at(at.linkage.angles)
-    off = [
-        one.form @ found.rates[list(one.joints)] @ found.rates[list(one.joints)] for one in quadrics_of(at.linkage)
-    ]
+    off = [one.form @ found.rates[list(one.joints)] @ found.rates[list(one.joints)] for one in quadrics_of(at.linkage)]
     assert np.abs(jacobian @ found.rates).max() < found.back_to
     assert np.abs(off).max() < 3.0 * found.back_to**2
     angles = found.back_to * found.rates

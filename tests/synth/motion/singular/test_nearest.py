@@ -40,9 +40,7 @@ def test_all_spaces_are_those_of_the_search_of_all(sheet):
     tangent = rates_at(closure, linkage.angles)
     every = projectors(largest_only(list(spaces_within(tangent, quadrics))))
     wanted = np.random.default_rng(3).normal(size=closure.joints)
-    near = projectors(
-        largest_only([space for space in spaces_near(tangent, quadrics, wanted) if space is not None])
-    )
+    near = projectors(largest_only([space for space in spaces_near(tangent, quadrics, wanted) if space is not None]))
     assert len(near) == len(every)
     for one in near:
         assert min(np.abs(one - other).max() for other in every) < 1e-9

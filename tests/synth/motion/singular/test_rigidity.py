@@ -66,9 +66,7 @@ def test_proofs_by_cases():
     sheet = miura(3, 3, np.radians(50))
     places = list(sheet.coordinates)
     places[5], places[10] = (0.77137, 1.64113), (1.50231, 1.90417)
-    linkage = linkage_of_sheet(
-        type(sheet)(sheet.vertices, sheet.edges, sheet.assignments, sheet.faces, tuple(places))
-    )
+    linkage = linkage_of_sheet(type(sheet)(sheet.vertices, sheet.edges, sheet.assignments, sheet.faces, tuple(places)))
     found = rigidity_of(linkage)
     assert (found.proof, found.stress) == ("cases", None)
     assert branches_of(linkage).no_motion == "proved"
@@ -99,9 +97,7 @@ def test_equations_are_those_of_differences(linkage, rng):
         samples.append(across.T @ (ends[0] + ends[1]) / (2 * step**2))
         ours.append(np.einsum("i,nij,j->n", x, forms, x))
     samples, ours = np.array(samples), np.array(ours).reshape(60, -1)
-    ranks = [
-        np.linalg.matrix_rank(one, tol=1e-3) for one in (samples, ours, np.concatenate([samples, ours], axis=1))
-    ]
+    ranks = [np.linalg.matrix_rank(one, tol=1e-3) for one in (samples, ours, np.concatenate([samples, ours], axis=1))]
     assert ranks[0] == ranks[1] == ranks[2]
 
 

@@ -53,9 +53,7 @@ def test_turning_points_of_the_driver_are_passed():
     by_crank = driven_path(closure, linkage.angles, [0], np.append(np.radians([80, 150, 220]), path.angles[-1][0]))
     np.testing.assert_allclose(by_crank.angles[-1], path.angles[-1], atol=1e-9)
     for top in path.events:  # the crank a little before and after: the driver is less far at both
-        near = [
-            driven_path(closure, top.angles, [0], [top.angles[0] + step]).angles[-1][6] for step in (-0.01, 0.01)
-        ]
+        near = [driven_path(closure, top.angles, [0], [top.angles[0] + step]).angles[-1][6] for step in (-0.01, 0.01)]
         assert len(set(np.sign(np.array(near) - top.angles[6]))) == 1
 
 
@@ -66,9 +64,7 @@ def test_what_is_out_of_reach_is_told_with_how_far_it_came():
     path = driven_path(closure, valley, [6], np.radians([2.0]))
     assert kinds(path) == ["turning point"] * 3
     assert path.angles[-1][6] == path.angles[:, 6].max()
-    round_the_top = driven_path(
-        closure, path.angles[-1], [0], path.angles[-1][0] + np.radians([-0.2, -0.1, 0.1, 0.2])
-    )
+    round_the_top = driven_path(closure, path.angles[-1], [0], path.angles[-1][0] + np.radians([-0.2, -0.1, 0.1, 0.2]))
     assert (round_the_top.angles[1:, 6] < path.angles[-1][6]).all()
     assert "turns back at 1.03816°" in path.stopped
     assert "before 2°; past that, the path comes round to there" in path.stopped
@@ -87,9 +83,7 @@ def test_a_rocker_turns_back_where_crank_and_coupler_are_in_line():
     assert "turns back" in path.stopped
 
 
-@pytest.mark.parametrize(
-    "angles", [(80, 200), pytest.param((90, 200), marks=pytest.mark.slow), (45, 90, 100, 200)]
-)
+@pytest.mark.parametrize("angles", [(80, 200), pytest.param((90, 200), marks=pytest.mark.slow), (45, 90, 100, 200)])
 def test_a_parallelogram_stays_one_past_its_flat_position(angles):
     linkage = four_bar((0, 0), (2, 0), (2, 1), (0, 1))
     path = driven_path(ClosureEquations(linkage), linkage.angles, [0], np.radians(angles))

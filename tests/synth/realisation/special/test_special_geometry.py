@@ -91,14 +91,10 @@ def inner_sectors(sheet):
     """The sectors about each inner vertex, in order."""
     places = np.array(sheet.coordinates)
     for vertex in range(sheet.vertices):
-        round_it = [
-            side for face in sheet.faces if vertex in face for side in sides_of_face(face) if vertex in side
-        ]
+        round_it = [side for face in sheet.faces if vertex in face for side in sides_of_face(face) if vertex in side]
         ends = {a if b == vertex else b for a, b in round_it}
         if len(round_it) == 2 * len(ends):
-            arms = sorted(
-                (places[end] - places[vertex] for end in ends), key=lambda arm: np.arctan2(arm[1], arm[0])
-            )
+            arms = sorted((places[end] - places[vertex] for end in ends), key=lambda arm: np.arctan2(arm[1], arm[0]))
             yield sectors(np.column_stack([np.array(arms), np.zeros(len(arms))]))
 
 
@@ -181,9 +177,7 @@ def test_a_general_member_is_rigid():
 @pytest.mark.parametrize("tries", [1, slow(2)])
 def test_none_is_an_answer_with_the_work_done(tries):
     """A spatial ring of five: nothing in the families that end at once."""
-    answer = synth.realise(
-        ring(5), freedoms=1, geometry="joint and 1 link on themselves", tries=tries, kind="space"
-    )
+    answer = synth.realise(ring(5), freedoms=1, geometry="joint and 1 link on themselves", tries=tries, kind="space")
     assert answer.members == ()
     assert answer.work > 0
     assert sum(number for _, number in answer.trials[0].reasons) == tries
@@ -192,9 +186,7 @@ def test_none_is_an_answer_with_the_work_done(tries):
 
 
 def test_what_never_moves_is_proved():
-    chain = SCGraph(
-        6, [(0, 1), (1, 2), (2, 0), (2, 3), (3, 4), (4, 5), (5, 2)], [Loop((0, 1, 2)), Loop((3, 4, 5, 6))]
-    )
+    chain = SCGraph(6, [(0, 1), (1, 2), (2, 0), (2, 3), (3, 4), (4, 5), (5, 2)], [Loop((0, 1, 2)), Loop((3, 4, 5, 6))])
     answer = synth.realise(chain, freedoms=2)
     assert "three axes about a point" in answer.proof
     assert not answer.trials

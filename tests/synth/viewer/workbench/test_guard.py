@@ -102,9 +102,7 @@ def test_malformed_requests_get_a_message_and_nothing_else(count):
     for _ in range(count):
         path = "/" + noise(40).decode("utf-8", "surrogateescape")
         headers = [(draw.choice([b"host", b"origin", noise(8)]), noise(30)) for _ in range(draw.randrange(4))]
-        status, text = asked(
-            path, [*OWN, *headers] if draw.random() < 0.5 else headers, draw.choice(["GET", "POST"])
-        )
+        status, text = asked(path, [*OWN, *headers] if draw.random() < 0.5 else headers, draw.choice(["GET", "POST"]))
         assert status in (403, 404)
         assert "inside" not in text
 

@@ -52,8 +52,7 @@ def test_creases_are_locked_and_removed_one_after_the_other(data):
     assert len(told["moving"]["joints"]) == 3
     twice = remove_crease(lock_crease(sheet, 0).sheet, 2).sheet
     assert (
-        answered(place.name, content, ["lock:0", "remove:2"])["shown"]["verdict"]
-        == synth.mobility(twice).verdict.text
+        answered(place.name, content, ["lock:0", "remove:2"])["shown"]["verdict"] == synth.mobility(twice).verdict.text
     )
 
 

@@ -137,9 +137,7 @@ def test_the_answer_and_the_drawing_are_downloaded(served, tab, data):
     opened(tab, served(place))
     with tab.expect_download() as got:
         tab.get_by_role("button", name="JSON").click()
-    assert json.loads(got.value.path().read_text()) == json.loads(
-        json.dumps(synth.mobility(read(place)).to_json())
-    )
+    assert json.loads(got.value.path().read_text()) == json.loads(json.dumps(synth.mobility(read(place)).to_json()))
     with tab.expect_download() as got:
         tab.locator("main > .row").get_by_role("button", name="SVG").click()
     assert got.value.path().read_text().startswith("<svg")
