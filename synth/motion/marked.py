@@ -4,10 +4,9 @@ Theory: docs/theory/verdict.md.
 """
 
 from collections.abc import Sequence
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
-from scipy.optimize import linprog
 
 from graphs.tolerances import DOUBLE, signed
 from graphs.types import Floats
@@ -139,13 +138,20 @@ def _differing(number: int, rates: Floats, marks: Floats) -> Disagreement:
     return Disagreement(number, tuple(opposite.tolist()), tuple(immobile.tolist()), rates)
 
 
+def _cheapest(cost: Floats, rows: Floats, most: Floats, bounds: Any) -> Any:
+    """Return scipy's result for the x within bounds with ``rows @ x <= most`` that costs least."""
+    from scipy.optimize import linprog  # takes a third of a second to load
+
+    return linprog(cost, A_ub=rows, b_ub=most, bounds=bounds, method="highs")
+
+
 def _least_against(basis: Floats, marks: Floats) -> Floats:
     """Return rates that miss the marks least: each joint by how far its rate is below 1 along its mark, in sum."""
     marked = np.flatnonzero(marks)
     rows = np.hstack([-marks[marked, None] * basis[marked], -np.eye(len(marked))])
     cost = np.repeat([0.0, 1.0], [basis.shape[1], len(marked)])
     bounds = [(None, None)] * basis.shape[1] + [(0.0, None)] * len(marked)
-    solution = linprog(cost, A_ub=rows, b_ub=-np.ones(len(marked)), bounds=bounds, method="highs")
+    solution = _cheapest(cost, rows, -np.ones(len(marked)), bounds)
     return np.asarray(basis @ solution.x[: basis.shape[1]])
 
 
@@ -168,7 +174,7 @@ def _fewer(one: Disagreement, space: RateSpace, marks: Floats) -> Disagreement:
     rows = np.block([[keep, np.zeros((len(agree), room))], [turn, np.eye(room)]])
     most = np.repeat([-1.0, 0.0], [len(agree), room])
     bounds = [(None, None)] * free + [(0.0, 1.0)] * room
-    solution = linprog(np.repeat([0.0, -1.0], [free, room]), A_ub=rows, b_ub=most, bounds=bounds, method="highs")
+    solution = _cheapest(np.repeat([0.0, -1.0], [free, room]), rows, most, bounds)
     return one if solution.x is None else _differing(one.number, space.basis @ solution.x[:free], marks)
 
 
@@ -210,5 +216,5 @@ def _rates_with(basis: Floats, marks: Floats) -> Floats | None:
     if not basis.shape[1]:
         return None
     rows = -marks[marked, None] * basis[marked]
-    inside = linprog(-rows.sum(axis=0), A_ub=rows, b_ub=-np.ones(len(rows)), bounds=(None, None), method="highs")
+    inside = _cheapest(-rows.sum(axis=0), rows, -np.ones(len(rows)), (None, None))
     return np.asarray(basis @ inside.x) if inside.status == 0 else None

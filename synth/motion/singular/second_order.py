@@ -21,7 +21,6 @@ from typing import Literal
 import numpy as np
 import scipy.linalg
 import scipy.sparse
-from scipy.optimize import nnls
 
 from graphs.loops.loop import Centre
 from graphs.rank.singular_values import inertia, null_space, row_space, spectrum, split
@@ -182,6 +181,8 @@ def _shares(points: Floats) -> Floats | None:
 
     None where it is so near to zero that they are not clear.
     """
+    from scipy.optimize import nnls  # takes a third of a second to load
+
     with_sum = np.concatenate([points, np.ones((len(points), 1))], axis=1)
     try:
         shares = nnls(with_sum.T, np.eye(1, with_sum.shape[1], points.shape[1])[0], maxiter=30 * len(points))[0]

@@ -15,7 +15,6 @@ from typing import Any, Literal
 
 import numpy as np
 import scipy.linalg
-from scipy.optimize import brentq, minimize_scalar
 
 from graphs.errors import numbered, shown
 from graphs.tolerances import DOUBLE
@@ -172,6 +171,8 @@ class Step:
         """Return the part of the step at which a function is zero; None if its sign does not change."""
         if of(self.before) * of(self.after) > 0.0:
             return None
+        from scipy.optimize import brentq  # takes a third of a second to load
+
         return float(brentq(lambda part: of(self.at(part)), 0.0, 1.0, xtol=_NEAR))
 
     def landing(self, joint: int, value: float) -> Corrected | None:
@@ -323,6 +324,8 @@ class RankWatch:
 
         def square(part: float) -> float:
             return float(self._squares(step.expected(part))[freedoms])
+
+        from scipy.optimize import minimize_scalar  # takes a third of a second to load
 
         least = minimize_scalar(square, bounds=(0.0, 1.0), method="bounded", options={"xatol": exact})
         return float(least.x), float(least.fun)

@@ -12,7 +12,6 @@ from collections.abc import Iterator, Sequence
 from math import inf, sqrt
 
 import numpy as np
-from scipy.optimize import nnls
 
 from graphs.errors import shown
 from graphs.tolerances import DOUBLE, leading
@@ -415,6 +414,8 @@ def _least_change(moves: Floats, wanted: Floats) -> tuple[Floats | None, Flags]:
     The least-distance problem: of non-negative multiples of the rows [moves, wanted] that sum is taken which is
     nearest to the last unit vector. What is left of that is x, but for a factor; if nothing is, there is no x.
     """
+    from scipy.optimize import nnls  # takes a third of a second to load
+
     size = max(float(np.abs(wanted).max()), DOUBLE.zero)
     rows = np.concatenate([moves, wanted[:, None] / size], axis=1)
     target = np.eye(1, rows.shape[1], rows.shape[1] - 1)[0]
