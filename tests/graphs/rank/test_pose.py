@@ -124,9 +124,9 @@ DIFFERENT = {
 
 # Single precision, or one decimal, leaves singular values that are near the noise, or all in it.
 ROUNDED = {
-    "osbo_huffmanExdentedBoxes.fold": None,  # 43 near the noise
+    "osbo_huffmanExdentedBoxes.fold": 211,  # 584 vertices are flat within 1e-6, as its geometry shows
     "osbo_huffmanRectangularWeave.fold": 156,  # 101 more are noise: 420 vertices are flat
-    "osbo_huffmanWaterbomb.fold": None,  # 33 near the noise
+    "osbo_huffmanWaterbomb.fold": 357,  # 360 vertices are flat within 3e-6
     "ossvg_triPerfTess.svg": None,  # coordinates of one decimal, narrow triangles
     "ossvg_shell6.svg": None,  # ends that were welded lay 4e-05 of the extent apart
     "ossvg_geometricPopup.svg": None,  # 2e-04; all its creases are parallel within that
@@ -156,6 +156,8 @@ def test_crease_patterns_as_they_lie(fold_folder, most, least):
         if row["name"] in ROUNDED:
             assert found.dof == ROUNDED[row["name"]]
             assert found.dof is not None or found.spectrum.undecided
+            # of three equations of a flat vertex one says nothing
+            assert found.self_stresses in (found.flat_loops, None)
         elif found.dof == expected:
             same += 1
         else:
