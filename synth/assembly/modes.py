@@ -153,12 +153,12 @@ class PositionSet(Printed):
             else f"joint {plain(joint)} at {degrees(value):g}°"
             for joint, value in self.driven.items()
         )
-        count = numbered(len(self.positions), "position")
+        count = numbered(len(self.positions), "assembly mode")
         blocks: list[Block] = [f"{count} with {inputs}" if inputs else count]
         if self.positions:
             all_rigid = all(mode.regular for mode in self.positions)
             rigid = () if all_rigid else ("rigid",)
-            titles = ("position", *rigid, "circuit", "branch", *map(plain, self.joints))
+            titles = ("assembly mode", *rigid, "circuit", "branch", *map(plain, self.joints))
             rows = []
             for number, mode in enumerate(self.positions, start=1):
                 values = zip(self.joints, mode.angles.tolist(), strict=True)
@@ -178,7 +178,7 @@ class PositionSet(Printed):
         if movable:
             parts[0] += f" ({movable} of them singular)"
         if self.singular:
-            parts.append(f"{self.singular} at singular configurations, where the linkage moves or positions coincide")
+            parts.append(f"{self.singular} at singular configurations, where the linkage moves or assembly modes coincide")
         if self.lost:
             parts.append(f"{self.lost} lost in tracking")
         counted = f"a generic realisation has {self.general}, counted over {numbered(self.curves, 'closed curve')}"

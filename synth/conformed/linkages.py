@@ -359,7 +359,8 @@ def linkage_on_surfaces(
     if linkage.steps is not None:
         return [OnSurface(linkage.chain, linkage.places(), surface or linkage.surface)]
     if surface is not None:
-        option, sizes = ("lambda", "link angles") if linkage.kind == "cone" else ("radius", "lengths")
+        sizes = "link angles" if linkage.kind == "cone" else "lengths"
+        option = "lambda" if isinstance(surface, Cone) else "radius"
         raise UnsolvableError(f"{sizes} determine the {linkage.kind}: remove --{option}")
     return [
         OnSurface(linkage.chain, [one.places[joint] for joint in linkage.chain.joints], one.surface)

@@ -107,7 +107,7 @@ def test_four_bars_by_their_closed_form(turn):
 def test_inputs_out_of_reach_have_no_position():
     found = positions(spherical_ring(np.radians([100, 40, 40, 40])), drive={0: radians(150)}, circuits=False)
     assert (found.positions, found.imaginary, found.exhaustive) == ((), 2, True)
-    assert "0 positions" in str(found)
+    assert "0 assembly modes" in str(found)
 
 
 @pytest.mark.parametrize(
