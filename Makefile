@@ -10,7 +10,7 @@ PARALLEL ?= -n logical --dist worksteal
 # Byte code is kept, whatever the shell says: the tests start many processes, and pytest rewrites every file.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo compiled test test-unit test-slow test-night durations test-web test-machines page check data pictures docs examples release clean help
+.PHONY: demo bench compiled test test-unit test-slow test-night durations test-web test-machines page check data pictures docs examples release clean help
 
 help:
 	@echo "make demo       install into $(VENV) what users need, and run the first examples"
@@ -22,6 +22,7 @@ help:
 	@echo "make durations  run all tests except those of the night and the web, and write their durations to tests/durations.json"
 	@echo "make test-web   run a notebook and test its displays, and test the page of synth view in node and in Chromium"
 	@echo "make test-machines  check that answers are the same under other BLAS kernels, threads, hash seeds, and without AVX2"
+	@echo "make bench      measure what people wait for, beside other programs where they are at hand: some minutes"
 	@echo "make page       build the script of that page, if its sources have changed"
 	@echo "make check      ruff and mypy"
 	@echo "make data       write the files under data/ anew, and list those that change"
@@ -159,6 +160,11 @@ release: $(STAMP)
 
 examples: $(STAMP)
 	@.ci/changed README.md docs -- sh -ec '$(BIN)/python docs/papers.py; $(BIN)/python docs/examples.py'
+
+# Kept figures, and the page of docs/ that shows them.
+bench: $(STAMP) $(COMPILED)
+	$(BIN)/python benchmarks/table.py
+	$(BIN)/python docs/growth.py
 
 pictures: $(STAMP)
 	@.ci/changed docs/pictures -- env BIN=$(BIN) sh docs/pictures.sh

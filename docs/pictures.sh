@@ -7,6 +7,7 @@ mkdir -p docs/pictures
 
 "${BIN:+$BIN/}python" docs/overview.py
 "${BIN:+$BIN/}python" docs/rooms.py
+"${BIN:+$BIN/}python" docs/growth.py
 "${BIN:+$BIN/}python" docs/drawings/pages.py
 
 "$synth" draw data/patterns/bird-base.fold --graph --colour centres --force -o docs/pictures/bird-base-centres.svg
