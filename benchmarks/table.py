@@ -4,8 +4,8 @@
 
 measures each row, or those named, and writes benchmarks/results/table.json: the median, all runs, other programs on
 the same input in turn, ratios, and the machine. Processor time, children included, since other work on the machine
-does not count in it. Other programs are looked for in the folder that SYNTHEDRA_PEERS names, or in ../shared/peers;
-`nauty-geng` on the path. Rows that take minutes are measured only if they are named.
+does not count in it. Other programs are looked for in the folder that SYNTHEDRA_PEERS names, or in ../shared/peers.
+Rows that take minutes are measured only if they are named.
 """
 
 from __future__ import annotations
@@ -32,6 +32,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
+from benchmarks.gensparseg import built
 from benchmarks.osbo import frames_of_osbo
 from benchmarks.page_solver import measured as frames_of_page
 from graphs.files.formats import write
@@ -131,15 +132,15 @@ def _page(n: int) -> Figures | None:
 
 
 def counted(links: int) -> Figures:
-    """Measure a count of chains with machine code, and nauty's list of the graphs that hold them."""
+    """Measure a count of chains with machine code, and the program that holds the record of listing them."""
     words = ("enumerate", "chains", "--links", str(links), "--dof", "1", "--count")
     synth(*words, runs=1)
     found: Figures = {"runs": synth(*words), "others": {}}
-    geng = shutil.which("nauty-geng") or shutil.which("geng")
-    if geng is not None:
-        joints = (3 * (links - 1) - 1) // 2
-        taken = processor_seconds(geng, "-Ctd2", "-uq", str(links), f"{joints}:{joints}")
-        found["others"]["nauty's geng"] = {"median": median(taken)}
+    with tempfile.TemporaryDirectory() as folder:
+        program = built(Path(folder))
+        if program is not None:
+            taken = processor_seconds(str(program), str(links), "-K3/2", "-L2", "-uq", runs=1)
+            found["others"]["gensparseg"] = {"median": median(taken)}
     return found
 
 
