@@ -11,7 +11,7 @@ Eqs. 4, 5, 11 to 14). Theory: docs/theory/loop-sums.md, docs/theory/mapping.md, 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -19,6 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import UnsolvableError
+from graphs.tolerances import EPSILON
 from graphs.types import Flags, Floats
 from synth.fourbar.closing import rounding_of
 
@@ -26,6 +27,7 @@ Base = Literal[0, 1]
 
 MOST_LINKS = 16
 """Most links of a loop: it has 2^15 sign patterns then."""
+_MOST_STEPS = 200
 _ROWS = 200_000
 """Sign patterns treated at a time."""
 _MOST_SENSITIVE = 1.0 / np.sqrt(8.0 * np.finfo(float).eps)
@@ -236,8 +238,7 @@ def _between_zeros(nodes: Floats, weights: Floats, reach: Floats, level: int) ->
     zeros = np.broadcast_to(nodes[:, -1:], (len(nodes), nodes.shape[1] - 1)).copy()
     if len(row):
 
-        def value(z: Floats, number: Floats) -> Floats:
-            at = number.astype(np.intp)
+        def value(z: Floats, at: npt.NDArray[np.intp]) -> Floats:
             return _of_tower(z, level, nearest[at], weights[at], reach[at])
 
         zeros[row, left] = _bisected(value, nodes[row, left], nodes[row, left + 1], row)
@@ -287,12 +288,14 @@ def _crossings(
         row, left = np.nonzero(side[:, :-1] * side[:, 1:] < 0)
         if len(row):
 
-            def value(z: Floats, number: Floats, rows: npt.NDArray[np.intp] = rows, goal: float = goal) -> Floats:
-                of = rows[number.astype(np.intp)]
+            def value(
+                z: Floats, at_row: npt.NDArray[np.intp], rows: npt.NDArray[np.intp] = rows, goal: float = goal
+            ) -> Floats:
+                of = rows[at_row]
                 return loop_sum(z, at.reach[of], at.weights[of], base) - goal
 
             size = _bisected(value, at.nodes[rows[row], left], at.nodes[rows[row], left + 1], row)
-            yield turns, rows[row], size, value(size, row.astype(float)), np.zeros(len(row), dtype=bool)
+            yield turns, rows[row], size, value(size, row), np.zeros(len(row), dtype=bool)
         touching = side == 0
         touching[:, 1:] &= side[:, :-1] != 0  # neighbouring nodes may be the same root
         if base == 0 and turns == 0:
@@ -302,11 +305,39 @@ def _crossings(
             yield turns, rows[row], at.nodes[rows[row], node], over[row, node], np.ones(len(row), dtype=bool)
 
 
-def _bisected(value: object, low: Floats, high: Floats, number: npt.NDArray[np.intp]) -> Floats:
-    """Return the root of each row between two points where its values differ in sign."""
-    from scipy.optimize import elementwise
+_Rows = npt.NDArray[np.intp]
 
-    return np.asarray(elementwise.find_root(value, (low, high), args=(number.astype(float),)).x)
+
+def _bisected(value: Callable[[Floats, _Rows], Floats], low: Floats, high: Floats, number: _Rows) -> Floats:
+    """Return the root of each row between two points where its values differ in sign: Chandrupatla's method.
+
+    As `scipy.optimize.elementwise.find_root`, which spends ten times as long on the few rows of one linkage.
+    """
+    first, second = low.copy(), high.copy()
+    at_first, at_second = value(first, number), value(second, number)
+    part = np.full(len(number), 0.5)
+    for _ in range(_MOST_STEPS):
+        tried = first + part * (second - first)
+        at_tried = value(tried, number)
+        same = np.sign(at_tried) == np.sign(at_first)
+        third, at_third = np.where(same, first, second), np.where(same, at_first, at_second)
+        second, at_second = np.where(same, second, first), np.where(same, at_second, at_first)
+        first, at_first = tried, at_tried
+        best = np.where(np.abs(at_first) < np.abs(at_second), first, second)
+        width = np.abs(second - first)
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            least = (4.0 * EPSILON * np.abs(best) + np.finfo(float).tiny) / width
+            along, up = (first - second) / (third - second), (at_first - at_second) / (at_third - at_second)
+            curved = at_first / (at_second - at_first) * at_third / (at_second - at_third)
+            slope = at_first / (at_third - at_first) * at_second / (at_third - at_second)
+            curved += (third - first) / (second - first) * slope
+        found = (least > 0.5) | (at_first == 0.0) | (at_second == 0.0) | (width == 0.0)
+        if found.all():
+            break
+        part = np.where((up**2 < along) & ((1.0 - up) ** 2 < 1.0 - along), curved, 0.5)
+        part = np.clip(part, np.minimum(least, 0.5), np.maximum(1.0 - least, 0.5))
+        part[found] = 0.0  # what is found stays, whatever rows are beside it
+    return best
 
 
 @dataclass(frozen=True, slots=True)
