@@ -178,7 +178,9 @@ class PositionSet(Printed):
         if movable:
             parts[0] += f" ({movable} of them singular)"
         if self.singular:
-            parts.append(f"{self.singular} at singular configurations, where the linkage moves or assembly modes coincide")
+            parts.append(
+                f"{self.singular} at singular configurations, where the linkage moves or assembly modes coincide"
+            )
         if self.lost:
             parts.append(f"{self.lost} lost in tracking")
         counted = f"a generic realisation has {self.general}, counted over {numbered(self.curves, 'closed curve')}"
