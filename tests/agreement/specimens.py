@@ -23,7 +23,7 @@ from synth.patterns.generated import generate
 from synth.patterns.generator import Generator
 from tests.support.real_patterns import folder_of_patterns, names_of_patterns
 
-__all__ = ["MOST_PANELS", "Placed", "Specimen", "is_placed", "specimens"]
+__all__ = ["MOST_PANELS", "Placed", "Specimen", "is_placed", "is_wanted", "named_specimens", "specimens"]
 
 ROOT = Path(__file__).resolve().parents[2]
 MOST_PANELS = 400
@@ -42,10 +42,15 @@ class Specimen:
     file: Path | None = None
 
 
+def named_specimens() -> Iterator[Specimen]:
+    """Yield all that may be mechanisms with coordinates, each source in its order; none is read yet."""
+    return chain(_of_the_project(), _generated(), _with_frames(), _by_other_people())
+
+
 def specimens(part: str = "") -> Iterator[Specimen]:
-    """Yield all mechanisms with coordinates whose names contain a text, each source in its order."""
-    for specimen in chain(_of_the_project(), _generated(), _with_frames(), _by_other_people()):
-        if part in specimen.name and _is_wanted(specimen):
+    """Yield all mechanisms with coordinates whose names contain a text."""
+    for specimen in named_specimens():
+        if part in specimen.name and is_wanted(specimen):
             yield specimen
 
 
@@ -58,7 +63,7 @@ def is_placed(thing: object) -> bool:
     return isinstance(thing, HingedSolids) or (isinstance(thing, JointedLinkage) and bool(thing.places))
 
 
-def _is_wanted(specimen: Specimen) -> bool:
+def is_wanted(specimen: Specimen) -> bool:
     """Tell whether a mechanism can be made, has coordinates, and if it is other people's is not too large."""
     try:
         thing = specimen.load()

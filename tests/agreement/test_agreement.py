@@ -7,10 +7,9 @@ from graphs.mechanism.precision import in_space
 from synth.patterns.creases import miura
 from tests.agreement.comparison import Table, disagreements
 from tests.agreement.running import comparisons
-from tests.agreement.specimens import specimens
+from tests.agreement.specimens import is_wanted, named_specimens, specimens
 from tests.agreement.variants import VARIANTS, variants_of
 from tests.agreement.verbs import DOORS, VERBS, Outcome
-from tests.support.real_patterns import folder_of_patterns
 
 SAMPLE = {
     "data/patterns/four-bar-vertex.fold": VARIANTS,
@@ -139,14 +138,15 @@ def test_all_verbs_agree_on_a_sample(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("part", "doors"), [("data/", DOORS), ("generate/", DOORS[:1]), ("fold/", DOORS[:1])])
-def test_all_verbs_agree_on_all(part, doors, tmp_path):
-    """As `python -m tests.agreement` asks, less what takes longer; the table is printed with `pytest -s`."""
-    if part == "fold/" and not folder_of_patterns().is_dir():
-        pytest.skip(f"no crease patterns at {folder_of_patterns()}; name their folder in SYNTHEDRA_FOLD")
+@pytest.mark.parametrize("specimen", list(named_specimens()), ids=lambda one: one.name)
+def test_all_verbs_agree_on(specimen, tmp_path):
+    """As `python -m tests.agreement` asks, less what takes longer; a table is printed with `pytest -s`."""
+    if not is_wanted(specimen):
+        pytest.skip("no mechanism with coordinates, or too large")
     table, wrong = Table(), []
-    for one in comparisons(specimens(part), tmp_path, doors=doors, seconds=3.0):
+    doors = DOORS if specimen.file is not None and not specimen.name.startswith("fold/") else DOORS[:1]
+    for one in comparisons([specimen], tmp_path, doors=doors, seconds=3.0):
         table.add(one.variant, one.outcomes, one.disagreements)
-        wrong += [f"{one.file} | {one.variant} | {each}" for each in one.disagreements]
+        wrong += [f"{one.variant} | {each}" for each in one.disagreements]
     print(table)
     assert wrong == []

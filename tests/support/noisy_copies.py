@@ -3,6 +3,7 @@
 from collections import Counter
 from dataclasses import replace
 from functools import cache
+from itertools import pairwise
 from math import cos, pi, radians, sin, sqrt
 
 import numpy as np
@@ -53,6 +54,16 @@ def bent(sheet, size, seed):
     return with_places(sheet, np.array(sheet.coordinates) + by)
 
 
+def misdrawn(sheet, corners, size, seed):
+    """A sheet of which some corners within were displaced far, as in a drawing with faults; all others lie as they should."""
+    edges = Counter(frozenset((a, b)) for face in sheet.faces for a, b in pairwise((*face, face[0])))
+    outline = {corner for edge, faces in edges.items() if faces == 1 for corner in edge}
+    within = [corner for corner in range(sheet.vertices) if corner not in outline][:corners]
+    places = np.array(sheet.coordinates, dtype=float)
+    places[within] += np.random.default_rng(seed).uniform(-size, size, (len(within), 2))
+    return with_places(sheet, places)
+
+
 def with_places(sheet, places):
     return replace(sheet, coordinates=tuple(map(tuple, places.tolist())), fold_angles=None)
 
@@ -81,17 +92,25 @@ RIGID = {
     "bent map 3 x 3": lambda: bent(generated("map", rows=3, columns=3), 0.1, 3),
     "bent square twist": lambda: bent(generated("square-twist"), 0.08, 5),
 }
+MISDRAWN = {
+    "misdrawn miura 3 x 3": lambda: misdrawn(generated("miura", rows=3, columns=3), 2, 0.08, 1),
+    "misdrawn miura 4 x 4": lambda: misdrawn(generated("miura", rows=4, columns=4), 6, 0.08, 2),
+    "misdrawn map 3 x 3": lambda: misdrawn(generated("map", rows=3, columns=3), 4, 0.1, 3),
+    "misdrawn square twist": lambda: misdrawn(generated("square-twist"), 2, 0.08, 5),
+}
+"""Rigid too, but with most of what drawings are: a precision can be estimated, as it cannot where every vertex is bent."""
+PATTERNS = {**MOVING, **RIGID, **MISDRAWN}
 
 
 @cache
 def exact(name):
     """The verdict on the pattern itself."""
-    return verdict_of_motion(configuration_of_sheet({**MOVING, **RIGID}[name]()))
+    return verdict_of_motion(configuration_of_sheet(PATTERNS[name]()))
 
 
 def copy_of(name, size, seed):
     """A copy with errors up to a size of the extent, turned and scaled, some of single precision; and the size of the errors."""
-    sheet, rng = {**MOVING, **RIGID}[name](), np.random.default_rng((seed, len(name)))
+    sheet, rng = PATTERNS[name](), np.random.default_rng((seed, len(name)))
     places = np.array(sheet.coordinates, dtype=float)
     places = places + rng.uniform(-size, size, places.shape) * extent_of(places)
     angle, factor = rng.uniform(0.0, 2.0 * pi), 10.0 ** rng.uniform(-2, 3)

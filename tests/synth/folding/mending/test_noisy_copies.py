@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from noisy_copies import (
     MOVING,
-    RIGID,
+    PATTERNS,
     agrees,
     copy_of,
     exact,
@@ -93,35 +93,35 @@ def test_copies_of_what_is_rigid_never_fold(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [*MOVING, *RIGID])
+@pytest.mark.parametrize("name", PATTERNS)
 def test_fifty_copies_of_each(name):
     verdicts = []
     for seed in range(50):
         size = 10.0 ** np.random.default_rng((seed, 7)).uniform(-8, -3)
         verdicts.append(verdict_on_copy(name, size, seed))
     assert not any(wrongly_proved(name, verdict) for verdict in verdicts)
-    if name in RIGID:
+    if not exact(name).freedoms:
         assert all(sentence(verdict) != "moves" for verdict in verdicts)
     else:
         assert sum(agrees(name, verdict) for verdict in verdicts) >= 49
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [*MOVING, *RIGID])
+@pytest.mark.parametrize("name", PATTERNS)
 def test_fifty_copies_whose_precision_is_estimated(name):
-    verdicts, near, estimated = [], 0, 0
+    verdicts, near = [], 0
     for seed in range(50):
         sheet, size = copy_of(name, 10.0 ** np.random.default_rng((seed, 7)).uniform(-8, -3), seed)
         configuration = configuration_of_sheet(sheet)
-        if configuration.precision.evidence != BY_DIGITS:
-            estimated += 1
-            near += size / 3 <= configuration.precision.size <= 3 * size
+        if name.startswith("bent"):  # nothing in it is as drawings are
+            assert configuration.precision.evidence == BY_DIGITS
+        near += size / 3 <= configuration.precision.size <= 3 * size
         verdicts.append(verdict_of_motion(configuration))
     agreeing = sum(agrees(name, verdict) for verdict in verdicts)
-    print(f"{name}: {agreeing} agree, {near} of {estimated} estimates within a factor of 3")
+    print(f"{name}: {agreeing} agree, {near} estimates within a factor of 3")
     assert not any(wrongly_proved(name, verdict) for verdict in verdicts)
-    assert agreeing >= 45 or (name in RIGID and all(sentence(verdict) != "moves" for verdict in verdicts))
-    assert near >= 0.9 * estimated
+    assert agreeing >= 45 or (not exact(name).freedoms and all(sentence(verdict) != "moves" for verdict in verdicts))
+    assert near >= 40 or name.startswith("bent")
 
 
 @pytest.mark.parametrize(
