@@ -42,7 +42,13 @@ $(USER): pyproject.toml
 	$(BIN)/python -m pip install --quiet -e '.[draw,view]'
 	@touch $@
 
-$(STAMP): $(USER)
+# Libraries of C, built by the installation too; again where a source has changed since.
+LIBRARIES := $(VENV)/.libraries
+$(LIBRARIES): $(USER) $(shell find graphs enumerate synth -name '*.c')
+	$(BIN)/python -m graphs.compiled
+	@touch $@
+
+$(STAMP): $(LIBRARIES)
 	$(BIN)/python -m pip install --quiet -e '.[all]'
 	@touch $@
 
@@ -56,11 +62,11 @@ install-venv:
 	  echo "This Python cannot make virtual environments. Install them first: sudo apt-get install $$pkg" >&2; exit 2; \
 	fi
 
-demo: $(USER) page
+demo: $(LIBRARIES) page
 	@BIN=$(BIN) sh data/demo.sh
 	@echo "Next: . $(BIN)/activate, then synth --help"
 
-compiled: $(USER)
+compiled: $(USER) $(LIBRARIES)
 	$(BIN)/python -m synth.cli.ahead
 
 # Compiled once before the tests, so that two of them do not compile the same function side by side.

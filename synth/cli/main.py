@@ -169,9 +169,14 @@ def _print_version(ctx: click.Context, _parameter: click.Parameter, requested: b
     from importlib.metadata import version
     from platform import python_version
 
+    from graphs.compiled import library, sources
+
     click.echo(f"synth, version {version('synthedra')}")
     parts = [f"Python {python_version()}", *(f"{name} {version(name)}" for name in _VERSIONED)]
     click.echo(", ".join(parts))
+    missing = [source.stem for source in sources() if library(source) is None]
+    if missing:
+        click.echo(f"not compiled, Python does the work: {', '.join(missing)}")
     ctx.exit()
 
 

@@ -35,6 +35,7 @@ from synth.motion.path import PathOptions, driven_path
 from synth.motion.singular.nearest import spaces_near
 from synth.motion.singular.sampling import rates_towards
 from synth.motion.singular.second_order import quadrics_of, rates_at
+from synth.motion.tangent import TangentSpace
 from synth.motion.walk.step import Allowance
 
 _LARGEST_GROUP = 24
@@ -182,11 +183,18 @@ class AlikeClosure(ClosureEquations):
         self._unlike = (every[others] - every[first[others]]).tocsr()
         self.rows += len(others)
 
-    def at(self, angles: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
-        """Return residuals of loops and classes at joint angles, and their derivatives by these."""
-        residual, jacobian = super().at(angles)
-        both = scipy.sparse.vstack([jacobian, self._unlike], format="csr")
-        return np.concatenate([residual, self._unlike @ angles]), both
+    def evaluated(self, angles: Floats) -> tuple[Floats, Floats]:
+        """Return residuals of loops and classes at joint angles, and the entries of the derivatives of loops."""
+        residual, entries = super().evaluated(angles)
+        return np.concatenate([residual, self._unlike @ angles]), entries
+
+    def matrix(self, entries: Floats) -> scipy.sparse.csr_matrix:
+        """Return the derivatives of loops and classes."""
+        return scipy.sparse.vstack([super().matrix(entries), self._unlike], format="csr")
+
+    def space(self, entries: Floats) -> TangentSpace:
+        """Return the rates where derivatives have these entries."""
+        return TangentSpace(self.matrix(entries))
 
 
 _WEIGHTS = (1.01, 0.8, 2.0, 0.5, 4.0, 0.25)

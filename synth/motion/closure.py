@@ -10,22 +10,23 @@ docs/theory/folding.md.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from copy import copy
+from ctypes import CDLL
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import scipy.linalg
 import scipy.sparse
-from scipy.sparse.linalg import splu
 
-from graphs.errors import NumericalError, UnsolvableError
+from graphs.errors import UnsolvableError
 from graphs.geometry import common_direction, frame_about, rotations
 from graphs.loops.loop import Centre
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints
+from synth.motion.kernel import KernelEquations, KernelFactor, kernel
 from synth.motion.linkage import PosedLinkage, PosedLoop
+from synth.motion.tangent import REGULAR, TangentSpace, largest_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +142,8 @@ class ClosureEquations:
         self._groups = _grouped(linkage)
         self.joints = len(linkage.angles)
         self.rows = sum(group.equations * len(group.joints) for group in self._groups)
-        self._places, self._columns, self._starts = self._pattern()
+        library = kernel()
+        self._kernel = None if library is None else _in_kernel(library, self.joints, self._groups)
         self._free: Floats | None = None
 
     def locked(self, joints: Sequence[int]) -> ClosureEquations:
@@ -172,8 +174,9 @@ class ClosureEquations:
         places = (np.concatenate(rows), np.concatenate(columns))
         return scipy.sparse.csr_matrix((np.concatenate(values), places), shape=(self.rows, 6 * self.joints))
 
+    @cached_property
     def _pattern(self) -> tuple[Ints, Ints, Ints]:
-        """Return where in a row-by-row matrix each derivative goes, its columns and the starts of its rows."""
+        """Where in a row-by-row matrix each derivative of the groups goes, its columns and the starts of its rows."""
         rows, columns, start = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)], 0
         for group in self._groups:
             loops, k = group.joints.shape
@@ -183,26 +186,41 @@ class ClosureEquations:
             start += loops * group.equations
         row_of, column_of = np.concatenate(rows), np.concatenate(columns)
         order = np.lexsort((column_of, row_of))
-        starts = np.searchsorted(row_of[order], np.arange(self.rows + 1))
+        starts = np.searchsorted(row_of[order], np.arange(start + 1))
         return order, column_of[order], starts
+
+    def evaluated(self, angles: Floats) -> tuple[Floats, Floats]:
+        """Return the residuals float[rows] at joint angles float[J], and the entries of their derivatives in order."""
+        if self._kernel is not None:
+            return self._kernel.at(angles - self._zero, self._free)
+        places, columns, _ = self._pattern
+        evaluated = [group.evaluated(angles - self._zero) for group in self._groups]
+        residual = np.concatenate([np.zeros(0), *(off.ravel() for off, _ in evaluated)])
+        entries = np.concatenate([np.zeros(0), *(twists.ravel() for _, twists in evaluated)])[places]
+        return residual, entries if self._free is None else entries * self._free[columns]
+
+    def matrix(self, entries: Floats) -> scipy.sparse.csr_matrix:
+        """Return derivatives by their entries: sparse float[rows, J]."""
+        _, columns, starts = self._pattern
+        return scipy.sparse.csr_matrix((entries, columns, starts), shape=(len(starts) - 1, self.joints))
+
+    def space(self, entries: Floats) -> TangentSpace:
+        """Return the rates where derivatives have these entries."""
+        if self._kernel is None:
+            return TangentSpace(self.matrix(entries))
+        return TangentSpace(KernelFactor(self._kernel, entries, REGULAR))
 
     def at(self, angles: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
         """Return the residuals float[rows] at joint angles float[J], and their derivatives, sparse float[rows, J].
 
         Angles are radians, from the zero of each joint; residuals are radians, and lengths in units of the extent.
         """
-        evaluated = [group.evaluated(angles - self._zero) for group in self._groups]
-        residual = np.concatenate([np.zeros(0), *(off.ravel() for off, _ in evaluated)])
-        values = np.concatenate([np.zeros(0), *(twists.ravel() for _, twists in evaluated)])[self._places]
-        if self._free is not None:
-            values = values * self._free[self._columns]
-        shape = (len(self._starts) - 1, self.joints)
-        matrix = scipy.sparse.csr_matrix((values, self._columns, self._starts), shape=shape)
-        return residual, matrix
+        residual, entries = self.evaluated(angles)
+        return residual, self.matrix(entries)
 
     def error(self, angles: Floats) -> float:
         """Return the loop-closure residual at joint angles, float[J]: the largest equation."""
-        return float(np.abs(self.at(angles)[0]).max(initial=0.0))
+        return largest_of(self.evaluated(angles)[0])
 
     def check_closed(self, angles: Floats) -> None:
         """Raise `UnsolvableError` if loops miss by more than 1e-12 at joint angles, float[J]."""
@@ -238,6 +256,19 @@ def _grouped(linkage: PosedLinkage) -> list[_LoopGroup]:
     return groups
 
 
+def _in_kernel(library: CDLL, joints: int, groups: Sequence[_LoopGroup]) -> KernelEquations:
+    """Return the same equations in the library, loop after loop."""
+    kinds = [group.centre for group in groups for _ in group.joints]
+    lengths = [group.joints.shape[1] for group in groups for _ in group.joints]
+    begin = np.concatenate([np.zeros(1, dtype=np.int64), np.cumsum(lengths, dtype=np.int64)])
+    shapes = {"joints": (-1,), "signs": (-1,), "turning": (-1,), "axes": (-1, 3), "points": (-1, 3), "frames": (-1, 9)}
+    parts = {
+        name: np.concatenate([np.zeros(0), *(getattr(group, name).ravel() for group in groups)]).reshape(shape)
+        for name, shape in shapes.items()
+    }
+    return KernelEquations(library, joints, kinds, begin, parts)
+
+
 def frames_of(axes: Floats) -> Floats:
     """Return orthonormal frames of loops with parallel axes: two directions across them, then theirs."""
     return frame_about(common_direction(axes))
@@ -253,167 +284,11 @@ def _rotation_vectors(rotations: Floats) -> Floats:
     return sine * np.where(small, 1.0, angle / np.where(small, 1.0, s))[:, None]
 
 
-_REGULAR = 1e-9
-"""Part of the largest diagonal entry that is added to all: what is less than its root is no equation. Rounding
-along freedoms is multiplied by its inverse."""
-_DENSE = 40
-"""Matrices of up to this many joints are full; larger full ones would wait for threads of BLAS."""
 _STEPS = 12
 _HOLDS = 2
 """Corrections after held joints were put back."""
 _SLOW = 0.1
 """A step that leaves more of the error than this is the last with its derivatives."""
-_FREE = 0.5
-"""Part of a vector across the freedoms that is left, at most, where it has become one of them after a step."""
-_SWEEPS = 24
-_SETTLED, _UNSETTLED = 1e-14, 1e-9
-"""Refinement ends where a sweep changes less than the first; where the last one changed more than the second, a
-singular value is too small to count and too large to be none."""
-
-
-class TangentSpace:
-    """Least-squares solutions with derivatives of closure equations, sparse float[rows, J], at one place.
-
-    `regular` times the largest diagonal entry of the normal equations is added to all of them.
-    """
-
-    def __init__(self, jacobian: scipy.sparse.csr_matrix, regular: float = _REGULAR) -> None:
-        self._jacobian = jacobian
-        self._transposed = jacobian.T.tocsr()
-        self._solve, self._added = _solver(jacobian, self._transposed, regular)
-        self._joints = jacobian.shape[1]
-        self._moves: dict[int, Floats] = {}
-
-    def step(self, residual: Floats, held: Sequence[int] = ()) -> Floats:
-        """Return the least change of angles that takes a residual away; held joints stay if they can."""
-        change = self._least_exactly(-residual)
-        if not held:
-            return change
-        moves = np.stack([self.move(joint) for joint in held])
-        places = list(held)
-        shares = np.linalg.lstsq(moves[:, places], change[places], rcond=DOUBLE.zero)[0]
-        return np.asarray(change - shares @ moves)
-
-    def projected(self, rates: Floats) -> Floats:
-        """Return the rates nearest to some at which all loops stay closed to first order: float[J]."""
-        kept = rates
-        for _ in range(2):  # the second takes off what regularisation left
-            kept = kept - self._least(self._jacobian @ kept)
-        return kept
-
-    def sharpened(self, across: Floats) -> Floats:
-        """Return a unit vector nearer to the least singular vector across the freedoms: inverse iteration.
-
-        Of a vector that has become a freedom, its part along the freedoms.
-        """
-        free = self.projected(across)
-        kept = across - free
-        size = float(np.linalg.norm(kept))
-        if size <= _FREE * float(np.linalg.norm(across)):
-            return np.asarray(free / np.linalg.norm(free))
-        sharper = self._solve(kept / size)
-        sharper = sharper - self.projected(sharper)
-        return np.asarray(sharper / np.linalg.norm(sharper))
-
-    def solution(self, off: Floats) -> tuple[Floats, Floats]:
-        """Return the least rates that part loops nearly by `off`, and what is left of that, to all digits."""
-        left = self.beyond(off)
-        within, none = off - left, np.zeros(self._joints)
-        return _refined(lambda rates: self._least(within - self._jacobian @ rates), none, off), left
-
-    def beyond(self, off: Floats) -> Floats:
-        """Return the part of float[rows] that no rates make: what redundant equations say of it, to all digits."""
-        none = np.zeros_like(off)
-        return off - _refined(lambda part: self.image(self._solve(self._transposed @ (off - part))), none, off)
-
-    def free(self, rates: Floats) -> Floats:
-        """Return the rates nearest to some that keep loops closed: `projected` to all digits, float[J]."""
-        none = np.zeros_like(rates)
-        return rates - _refined(lambda across: self._least(self._jacobian @ (rates - across)), none, rates)
-
-    def forces(self, rates: Floats) -> Floats:
-        """Return the least forces float[rows] whose sum of rows is the part of float[J] across the freedoms."""
-        across, none = rates - self.free(rates), np.zeros(self._jacobian.shape[0])
-        return _refined(lambda forces: self.image(self._solve(across - self._transposed @ forces)), none, rates)
-
-    def image(self, rates: Floats) -> Floats:
-        """Return by what loops part at some rates: float[rows]."""
-        return np.asarray(self._jacobian @ rates)
-
-    def _least(self, off: Floats) -> Floats:
-        """Return the least rates at which loops part by float[rows]: none of them along freedoms.
-
-        The solution x of (J' J + e) x = J' b is J' (b - J x) / e too. Solved for, it has rounding along freedoms
-        that was divided by e, and paths with several freedoms would go where that leads; a sum of rows of J has
-        no part along freedoms. Across them half the digits are lost.
-        """
-        return self._sum_of_rows(off, self._solve(self._transposed @ off))
-
-    def _least_exactly(self, off: Floats) -> Floats:
-        """Return the same with all digits: what two solutions differ by has the lost ones across freedoms."""
-        rates = self._solve(self._transposed @ off)
-        least = self._sum_of_rows(off, rates)
-        return least + self._least(self._jacobian @ (rates - least))
-
-    def _sum_of_rows(self, off: Floats, rates: Floats) -> Floats:
-        """Return a solution of the normal equations, float[J], as a sum of the rows of J."""
-        return np.asarray(self._transposed @ ((off - self._jacobian @ rates) / self._added))
-
-    def move(self, joint: int) -> Floats:
-        """Return the rates nearest to those of one joint alone at which loops stay closed: float[J]."""
-        if joint not in self._moves:
-            self._moves[joint] = self.projected(np.eye(1, self._joints, joint)[0])
-        return self._moves[joint]
-
-    def least_rates(self, joints: Sequence[int], wanted: Floats) -> Floats:
-        """Return the least rates at which some joints have wanted ones; zeros if they cannot: float[J]."""
-        moves = np.stack([self.move(joint) for joint in joints])
-        places = list(joints)
-        shares, _, rank, _ = np.linalg.lstsq(moves[:, places], wanted, rcond=DOUBLE.zero)
-        rates = shares @ moves
-        # normal equations keep half the digits
-        possible = rank and np.abs(rates[places] - wanted).max() <= DOUBLE.zero**0.5 * np.abs(wanted).max()
-        return rates if possible and moves[:, places].max() > DOUBLE.zero else np.zeros_like(rates)
-
-
-def _refined(correction: Callable[[Floats], Floats], total: Floats, residual: Floats) -> Floats:
-    """Return the sum of corrections, each of which leaves a part m / (s^2 + m) of what was to be taken off.
-
-    Here s is a singular value and m the regularisation; corrections are measured by the sum so far or the
-    residual.
-    """
-    last, size = np.inf, _largest(residual)
-    for _ in range(_SWEEPS):
-        change = correction(total)
-        total = total + change
-        largest, whole = _largest(change), max(_largest(total), size)
-        if largest <= _SETTLED * whole or (last / 2 <= largest <= _UNSETTLED * whole):
-            return total
-        last = largest
-    if last > _UNSETTLED * whole:
-        unclear = "the rank of the closure equations is not clear"
-        raise NumericalError(f"the configuration is nearly singular: {unclear}")
-    return total
-
-
-def _solver(
-    jacobian: scipy.sparse.csr_matrix, transposed: scipy.sparse.csr_matrix, regular: float
-) -> tuple[Callable[[Floats], Floats], float]:
-    """Return what solves the normal equations, and what is added to their diagonal."""
-    if jacobian.shape[1] <= _DENSE:
-        full = jacobian.toarray()
-        normal = full.T @ full
-        diagonal = np.einsum("ii->i", normal)
-        added = regular * max(float(diagonal.max(initial=0.0)), 1.0)
-        diagonal += added
-        factor = scipy.linalg.cho_factor(normal, lower=True, overwrite_a=True, check_finite=False)
-        return lambda right_side: np.asarray(scipy.linalg.cho_solve(factor, right_side, check_finite=False)), added
-    sparse = (transposed @ jacobian).tocsc()
-    diagonal = sparse.diagonal()
-    added = regular * max(float(diagonal.max(initial=0.0)), 1.0)
-    sparse.setdiag(diagonal + added)
-    factors = splu(sparse, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-    return lambda right_side: np.asarray(factors.solve(right_side)), added
 
 
 @dataclass(frozen=True)
@@ -423,7 +298,8 @@ class Corrected:
     angles: Floats
     error: float
     steps: int
-    jacobian: scipy.sparse.csr_matrix
+    closure: ClosureEquations
+    entries: Floats
 
     @property
     def closed(self) -> bool:
@@ -433,7 +309,12 @@ class Corrected:
     @cached_property
     def space(self) -> TangentSpace:
         """Rates there. A little beside a closed pose overconstrained linkages have none."""
-        return TangentSpace(self.jacobian)
+        return self.closure.space(self.entries)
+
+    @property
+    def jacobian(self) -> scipy.sparse.csr_matrix:
+        """The derivatives of the closure equations there: sparse float[rows, J]."""
+        return self.closure.matrix(self.entries)
 
 
 def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = ()) -> Corrected:
@@ -442,16 +323,16 @@ def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = (
     Matrices are factorised anew only where a step with the last one left too much. It ends when loops are closed
     and a further step would not make them better, or steps do not make the error less.
     """
-    residual, jacobian = closure.at(angles)
-    best, off = Corrected(angles, _largest(residual), 0, jacobian), residual
+    residual, entries = closure.evaluated(angles)
+    best, off = Corrected(angles, largest_of(residual), 0, closure, entries), residual
     space, fresh = None, True
     for steps in range(1, _STEPS + 1):
         if best.error <= DOUBLE.closed / 100:
             break
         space = space or best.space
         moved = best.angles + space.step(off, held)
-        residual, jacobian = closure.at(moved)
-        tried = Corrected(moved, _largest(residual), steps, jacobian)
+        residual, entries = closure.evaluated(moved)
+        tried = Corrected(moved, largest_of(residual), steps, closure, entries)
         slow = tried.error > _SLOW * best.error
         if tried.error < best.error:
             best, off, fresh = tried, residual, False
@@ -478,9 +359,5 @@ def exactly_held(closure: ClosureEquations, pose: Corrected, held: Sequence[int]
         pose = corrected(closure, angles, held)
     angles = pose.angles.copy()
     angles[places] = values
-    residual, jacobian = closure.at(angles)
-    return Corrected(angles, _largest(residual), pose.steps, jacobian)
-
-
-def _largest(residual: Floats) -> float:
-    return float(np.abs(residual).max(initial=0.0))
+    residual, entries = closure.evaluated(angles)
+    return Corrected(angles, largest_of(residual), pose.steps, closure, entries)

@@ -21,8 +21,9 @@ from graphs.geometry import crossing
 from graphs.loops.loop import Centre
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints, LinkId
-from synth.motion.closure import ClosureEquations, TangentSpace, carried
+from synth.motion.closure import ClosureEquations, carried
 from synth.motion.linkage import PosedLinkage, joints_outwards
+from synth.motion.tangent import TangentSpace
 
 _NUDGE = 1e-4
 """Radians, of the differences that say whether ranks change: their error is 1e-8."""

@@ -22,6 +22,7 @@ _VARIED = (
     "OMP_NUM_THREADS",
     "PYTHONHASHSEED",
     "NPY_DISABLE_CPU_FEATURES",
+    "SYNTHEDRA_COMPILED",
 )
 _SYNONYMS = {"Katmai": "Prescott"}
 """Builds for x86-64 have one kernel for the oldest processors, asked for by one name and reported by another."""
@@ -72,6 +73,7 @@ FACTORS = {
         *map(_kernel, ("SkylakeX", "Haswell", "Sandybridge", "Nehalem", "Prescott")),
         Factor("one-thread", {"OPENBLAS_NUM_THREADS": "1"}),
         Factor("hash-seed", {"PYTHONHASHSEED": "20212020"}),
+        Factor("not-compiled", {"SYNTHEDRA_COMPILED": "never"}),
         Factor("no-avx2", {"NPY_DISABLE_CPU_FEATURES": "X86_V3"}, "X86_V3 False"),
     )
 }

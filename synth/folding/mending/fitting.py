@@ -26,8 +26,9 @@ from graphs.rank.singular_values import row_space, split
 from graphs.tolerances import DOUBLE, EPSILON, leading
 from graphs.types import Floats, Ints
 from synth.folding.derivatives import axis_motions
-from synth.motion.closure import ClosureEquations, TangentSpace, corrected
+from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import PosedLinkage
+from synth.motion.tangent import TangentSpace
 from synth.motion.walk.step import Allowance
 
 

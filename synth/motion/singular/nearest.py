@@ -17,10 +17,11 @@ import numpy as np
 from graphs.rank.singular_values import Inertia, inertia, split
 from graphs.tolerances import DOUBLE, MARGIN, canonical_basis, canonical_order, signed, trailing
 from graphs.types import Floats, Ints
-from synth.motion.closure import ClosureEquations, TangentSpace, corrected
+from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import PosedLinkage
 from synth.motion.singular.sampling import rates_towards
 from synth.motion.singular.second_order import Quadric, RateSpace, quadrics_of, rates_at, rates_near
+from synth.motion.tangent import TangentSpace
 from synth.motion.walk.step import STRAY
 
 _SCALES, _WEIGHTS = (0.4, 0.2, 0.6), (1.0, 0.7, 1.4)

@@ -26,8 +26,9 @@ from graphs.loops.loop import Centre
 from graphs.rank.singular_values import inertia, null_space, row_space, spectrum, split
 from graphs.tolerances import DOUBLE, canonical_basis, canonical_order, signed
 from graphs.types import Floats, Ints
-from synth.motion.closure import ClosureEquations, TangentSpace
+from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, PosedLoop
+from synth.motion.tangent import TangentSpace
 from synth.motion.walk.step import Allowance
 
 MOST_ROWS = 600

@@ -11,7 +11,8 @@ import numpy as np
 from graphs.rank.singular_values import row_space, split
 from graphs.tolerances import DOUBLE, pivots
 from graphs.types import Flags, Floats, Ints, JointId
-from synth.motion.closure import ClosureEquations, Corrected, TangentSpace, corrected
+from synth.motion.closure import ClosureEquations, Corrected, corrected
+from synth.motion.tangent import TangentSpace
 from synth.motion.walk.step import Step, named
 from synth.motion.walk.walking import Event, Walk, only_rates
 

@@ -19,7 +19,8 @@ import scipy.linalg
 from graphs.errors import numbered, shown
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId
-from synth.motion.closure import ClosureEquations, Corrected, TangentSpace, corrected, exactly_held
+from synth.motion.closure import ClosureEquations, Corrected, corrected, exactly_held
+from synth.motion.tangent import TangentSpace
 
 
 @dataclass(slots=True)

@@ -16,7 +16,8 @@ import numpy as np
 from graphs.errors import shown
 from graphs.tolerances import DOUBLE, leading
 from graphs.types import Flags, Floats, JointId
-from synth.motion.closure import ClosureEquations, Corrected, TangentSpace, corrected, exactly_held
+from synth.motion.closure import ClosureEquations, Corrected, corrected, exactly_held
+from synth.motion.tangent import TangentSpace
 from synth.motion.walk.step import STRAY, Allowance, EventKind, PathEvent, RankWatch, Step, in_degrees
 
 _FIRST, _LARGEST, _LEAST = 0.02, 0.2, 1e-6

@@ -8,10 +8,11 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import Tolerances
-from synth.motion.closure import ClosureEquations, TangentSpace, corrected
+from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import linkage_of_axes, linkage_of_sheet
 from synth.motion.path import driven_path
 from synth.motion.singular.sampling import freedoms_at
+from synth.motion.tangent import TangentSpace
 from synth.patterns.creases import fan, miura
 from synth.patterns.hinged_rings import bennett
 

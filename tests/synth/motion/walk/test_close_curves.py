@@ -11,6 +11,7 @@ from graphs.mechanism.sheet import Sheet
 from synth.folding.configuration import configuration_of_sheet
 from synth.motion.closure import corrected
 from synth.motion.path import PathOptions, driven_path
+from synth.motion.tangent import TangentSpace
 from synth.motion.walk import Walk
 from synth.motion.walk.events import Return
 
@@ -23,7 +24,9 @@ class Cassini:
     def __init__(self, a, b):
         self.a, self.b = a, b
 
-    def at(self, place):
+    matrix, space = staticmethod(lambda entries: entries), staticmethod(TangentSpace)
+
+    def evaluated(self, place):
         x, y = place
         a, scale = self.a, 4 * self.a**3
         square = x * x + y * y

@@ -5,7 +5,7 @@ import pytest
 import scipy.linalg
 import scipy.sparse
 
-from synth.motion.closure import TangentSpace
+from synth.motion.tangent import TangentSpace
 
 
 def with_freedoms(rows, joints, rank, weakest, chance):

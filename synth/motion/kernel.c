@@ -1,0 +1,649 @@
+/* The closure equations of a linkage, their derivatives, and the factor of their normal equations.
+
+The same as the numpy version beside it (closure.py), which does the work where no compiler was at hand. Plain C,
+without Python's API: arrays go in and out, nothing is kept but what a handle holds, which never changes after it
+was made, so that several threads may use it. All matrices are rows by columns. Theory: docs/theory/folding.md. */
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef _WIN32
+#define EXPORTED __declspec(dllexport)
+#else
+#define EXPORTED __attribute__((visibility("default")))
+#endif
+
+enum { FINITE = 0, INFINITE = 1, NONE = 2 }; /* the centre of a loop: a point, a direction, or none */
+
+/* The equations: loops one after the other, each with its joints in loop order. A derivative stands in row-by-row
+   order, the columns of a row sorted; `column` says where those of each joint of a loop stand in its rows.
+   `order` is the order of elimination of the joints, `first` and `row` the pattern of the factor column by column,
+   `start` and `left` the same row by row; `place` says where the products of two columns of a loop are added in
+   the normal matrix, whose upper triangle stands column by column, the diagonal last. */
+typedef struct {
+    int64_t joints, loops, rows, derivatives;
+    int64_t *begin, *value, *equation;
+    int32_t *kind, *joint, *column;
+    double *sign, *turning, *axis, *point, *frame;
+    int32_t *order, *rank;
+    int64_t *first, *start, *upper;
+    int32_t *row, *left, *above;
+    int64_t *place;
+    int analysed;
+} Equations;
+
+static int equations_of(int kind) { return kind == NONE ? 6 : 3; }
+
+static void *copied(const void *from, size_t bytes)
+{
+    void *to = malloc(bytes ? bytes : 1);
+    if (to && bytes) memcpy(to, from, bytes);
+    return to;
+}
+
+EXPORTED void equations_free(Equations *e)
+{
+    if (!e) return;
+    free(e->begin), free(e->value), free(e->equation), free(e->kind), free(e->joint), free(e->column);
+    free(e->sign), free(e->turning), free(e->axis), free(e->point), free(e->frame);
+    free(e->order), free(e->rank), free(e->first), free(e->start), free(e->upper);
+    free(e->row), free(e->left), free(e->above), free(e->place), free(e);
+}
+
+/* Loops of some kinds: begin[loops + 1] says where their joints begin in the lists that follow; frames are nine
+   numbers for each loop, read where its axes are parallel. Returns NULL if there is no memory. */
+EXPORTED Equations *equations_new(int64_t joints, int64_t loops, const int64_t *begin, const int32_t *kind,
+                                  const int32_t *joint, const double *sign, const double *turning,
+                                  const double *axis, const double *point, const double *frame)
+{
+    Equations *e = calloc(1, sizeof *e);
+    if (!e) return NULL;
+    size_t members = (size_t)begin[loops];
+    e->joints = joints, e->loops = loops;
+    e->begin = copied(begin, (loops + 1) * sizeof *begin);
+    e->kind = copied(kind, loops * sizeof *kind);
+    e->joint = copied(joint, members * sizeof *joint);
+    e->sign = copied(sign, members * sizeof *sign);
+    e->turning = copied(turning, members * sizeof *turning);
+    e->axis = copied(axis, 3 * members * sizeof *axis);
+    e->point = copied(point, 3 * members * sizeof *point);
+    e->frame = copied(frame, 9 * loops * sizeof *frame);
+    e->value = malloc((loops + 1) * sizeof *e->value);
+    e->equation = malloc((loops + 1) * sizeof *e->equation);
+    e->column = malloc((members ? members : 1) * sizeof *e->column);
+    if (!(e->begin && e->kind && e->joint && e->sign && e->turning && e->axis && e->point && e->frame && e->value &&
+          e->equation && e->column)) {
+        equations_free(e);
+        return NULL;
+    }
+    e->value[0] = e->equation[0] = 0;
+    for (int64_t l = 0; l < loops; l++) {
+        int64_t from = begin[l], k = begin[l + 1] - from;
+        e->equation[l + 1] = e->equation[l] + equations_of(kind[l]);
+        e->value[l + 1] = e->value[l] + equations_of(kind[l]) * k;
+        for (int64_t i = 0; i < k; i++) {
+            int32_t before = 0;
+            for (int64_t j = 0; j < k; j++) before += joint[from + j] < joint[from + i];
+            e->column[from + i] = before;
+        }
+    }
+    e->rows = e->equation[loops], e->derivatives = e->value[loops];
+    return e;
+}
+
+EXPORTED int64_t equations_rows(const Equations *e) { return e->rows; }
+EXPORTED int64_t equations_entries(const Equations *e) { return e->derivatives; }
+
+static void times3(const double m[9], const double v[3], double out[3])
+{
+    for (int i = 0; i < 3; i++) out[i] = m[3 * i] * v[0] + m[3 * i + 1] * v[1] + m[3 * i + 2] * v[2];
+}
+
+static void cross3(const double a[3], const double b[3], double out[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1], out[1] = a[2] * b[0] - a[0] * b[2], out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/* A rotation about a unit vector after another rotation: turned = turned * exp([axis] angle). Rodrigues. */
+static void turn(double turned[9], const double a[3], double angle)
+{
+    double c = cos(angle), s = sin(angle), v = 1.0 - c, x = a[0], y = a[1], z = a[2];
+    double m[9] = {c + x * x * v,     x * y * v - z * s, x * z * v + y * s, x * y * v + z * s, c + y * y * v,
+                   y * z * v - x * s, x * z * v - y * s, y * z * v + x * s, c + z * z * v};
+    for (int i = 0; i < 3; i++) {
+        double p = turned[3 * i], q = turned[3 * i + 1], r = turned[3 * i + 2];
+        for (int j = 0; j < 3; j++) turned[3 * i + j] = p * m[j] + q * m[3 + j] + r * m[6 + j];
+    }
+}
+
+/* Axis times angle of a rotation. */
+static void rotation_vector(const double m[9], double out[3])
+{
+    double w[3] = {0.5 * (m[7] - m[5]), 0.5 * (m[2] - m[6]), 0.5 * (m[3] - m[1])};
+    double sine = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    double factor = 1.0; /* to the last digit where the angle is small; where it is pi no axis is known */
+    if (sine >= 1e-8) factor = atan2(sine, 0.5 * (m[0] + m[4] + m[8] - 1.0)) / sine;
+    for (int i = 0; i < 3; i++) out[i] = factor * w[i];
+}
+
+static const double IDENTITY[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+/* How far loops are from closing at joint angles from the pose, residual[rows], and the derivatives[derivatives]:
+   of joints whose `freed` is 0 these are 0; NULL frees all. */
+EXPORTED void equations_at(const Equations *e, const double *angles, const double *freed, double *residual,
+                           double *derivatives)
+{
+    for (int64_t l = 0; l < e->loops; l++) {
+        int64_t from = e->begin[l], k = e->begin[l + 1] - from;
+        int kind = e->kind[l], many = equations_of(kind);
+        double turned[9], moved[3] = {0, 0, 0}, off[6];
+        const double *frame = e->frame + 9 * l;
+        double *out = derivatives + e->value[l];
+        memcpy(turned, IDENTITY, sizeof turned);
+        for (int64_t i = 0; i < k; i++) {
+            const double *axis = e->axis + 3 * (from + i), *point = e->point + 3 * (from + i);
+            int32_t joint = e->joint[from + i];
+            double sign = e->sign[from + i], value = angles[joint] * sign, twist[6];
+            int turns = e->turning[from + i] != 0.0;
+            times3(turned, axis, twist);
+            if (kind != FINITE) {
+                double place[3], at[3];
+                times3(turned, point, place);
+                for (int c = 0; c < 3; c++) at[c] = place[c] + moved[c];
+                if (turns) {
+                    cross3(at, twist, twist + 3);
+                    turn(turned, axis, value);
+                    times3(turned, point, place);
+                    for (int c = 0; c < 3; c++) moved[c] = at[c] - place[c];
+                } else {
+                    for (int c = 0; c < 3; c++) {
+                        twist[3 + c] = twist[c], twist[c] = 0.0;
+                        moved[c] += value * twist[3 + c];
+                    }
+                }
+            } else {
+                turn(turned, axis, value);
+            }
+            if (freed) sign *= freed[joint];
+            double *at = out + e->column[from + i];
+            if (kind == INFINITE) {
+                double w[3], v[3];
+                times3(frame, twist, w), times3(frame, twist + 3, v);
+                at[0] = sign * w[2], at[k] = sign * v[0], at[2 * k] = sign * v[1];
+            } else {
+                for (int r = 0; r < many; r++) at[r * k] = sign * twist[r];
+            }
+        }
+        rotation_vector(turned, off);
+        double *to = residual + e->equation[l];
+        if (kind == INFINITE) {
+            double w[3], v[3];
+            times3(frame, off, w), times3(frame, moved, v);
+            to[0] = w[2], to[1] = v[0], to[2] = v[1];
+        } else {
+            memcpy(to, off, 3 * sizeof *to);
+            if (kind == NONE) memcpy(to + 3, moved, 3 * sizeof *to);
+        }
+    }
+}
+
+/* By what loops part at some rates: image[rows] = J rates. */
+EXPORTED void image_of(const Equations *e, const double *derivatives, const double *rates, double *image)
+{
+    double local[64], *values = local, *more = NULL;
+    for (int64_t l = 0; l < e->loops; l++) {
+        int64_t from = e->begin[l], k = e->begin[l + 1] - from, rows = e->equation[l + 1] - e->equation[l];
+        if (k > 64) values = more = realloc(more, k * sizeof *more);
+        for (int64_t i = 0; i < k; i++) values[e->column[from + i]] = rates[e->joint[from + i]];
+        const double *row = derivatives + e->value[l];
+        for (int64_t r = 0; r < rows; r++, row += k) {
+            double sum = 0.0;
+            for (int64_t i = 0; i < k; i++) sum += row[i] * values[i];
+            image[e->equation[l] + r] = sum;
+        }
+        values = local;
+    }
+    free(more);
+}
+
+/* A sum of rows: sum[joints] = J' forces. */
+EXPORTED void sum_of_rows(const Equations *e, const double *derivatives, const double *forces, double *sum)
+{
+    memset(sum, 0, e->joints * sizeof *sum);
+    for (int64_t l = 0; l < e->loops; l++) {
+        int64_t from = e->begin[l], k = e->begin[l + 1] - from, rows = e->equation[l + 1] - e->equation[l];
+        const double *block = derivatives + e->value[l], *force = forces + e->equation[l];
+        for (int64_t i = 0; i < k; i++) {
+            double part = 0.0;
+            const double *at = block + e->column[from + i];
+            for (int64_t r = 0; r < rows; r++) part += at[r * k] * force[r];
+            sum[e->joint[from + i]] += part;
+        }
+    }
+}
+
+/* The order of elimination: of the joints that are left always one that is joined to the fewest, approximately, as
+   elimination joins them (P. R. Amestoy, T. A. Davis, I. S. Duff, An approximate minimum degree ordering algorithm,
+   SIAM J. Matrix Anal. Appl. 17, 1996). A joint has the joints beside it, and the elements, cliques that
+   eliminated joints left; both lists share the room that its neighbours took at the beginning, elements first. */
+typedef struct {
+    int64_t n, *start, *elements, *length; /* of each joint: where its list starts, how many of it are elements, all */
+    int32_t *list;                         /* elements by the joint whose elimination made them */
+    int32_t **clique, *size;               /* of each element its joints, NULL once absorbed */
+    int32_t *degree, *head, *next, *before, least;
+    int64_t *mark, tag;
+    char *gone;
+} Ordering;
+
+static void unlisted(Ordering *o, int32_t i)
+{
+    if (o->next[i] >= 0) o->before[o->next[i]] = o->before[i];
+    if (o->before[i] >= 0) o->next[o->before[i]] = o->next[i];
+    else o->head[o->degree[i]] = o->next[i];
+}
+
+static void listed(Ordering *o, int32_t i, int32_t degree)
+{
+    o->degree[i] = degree, o->before[i] = -1, o->next[i] = o->head[degree];
+    if (o->next[i] >= 0) o->before[o->next[i]] = i;
+    o->head[degree] = i;
+    if (degree < o->least) o->least = degree;
+}
+
+/* Eliminate a joint: its clique is all that it is joined to, of which each is joined to each from then on. */
+static int eliminated(Ordering *o, int32_t p, int64_t left)
+{
+    int64_t most = 0, from = o->start[p];
+    for (int64_t q = 0; q < o->length[p]; q++)
+        most += q < o->elements[p] ? o->size[o->list[from + q]] : 1;
+    int32_t *clique = malloc((most ? most : 1) * sizeof *clique), size = 0;
+    if (!clique) return 0;
+    int64_t here = ++o->tag;
+    o->mark[p] = here;
+    for (int64_t q = 0; q < o->length[p]; q++) {
+        int32_t one = o->list[from + q];
+        int32_t *members = q < o->elements[p] ? o->clique[one] : &one;
+        int32_t many = q < o->elements[p] ? o->size[one] : 1;
+        for (int32_t m = 0; m < many; m++)
+            if (o->mark[members[m]] != here && !o->gone[members[m]])
+                o->mark[members[m]] = here, clique[size++] = members[m];
+        if (q < o->elements[p]) free(o->clique[one]), o->clique[one] = NULL;
+    }
+    o->gone[p] = 1, o->clique[p] = clique, o->size[p] = size;
+    /* Of each element beside the clique, how many of its joints are outside: mark[n + element] counts down. */
+    int64_t base = o->tag;
+    for (int32_t m = 0; m < size; m++) {
+        int32_t i = clique[m];
+        for (int64_t q = 0; q < o->elements[i]; q++) {
+            int32_t one = o->list[o->start[i] + q];
+            if (!o->clique[one] || one == p) continue;
+            int64_t *outside = o->mark + o->n + one;
+            if (*outside < base) *outside = base + o->size[one];
+            (*outside)--;
+        }
+    }
+    for (int32_t m = 0; m < size; m++) {
+        int32_t i = clique[m];
+        int32_t *list = o->list + o->start[i];
+        int64_t kept = 0, degree = size - 1, elements = o->elements[i], length = o->length[i];
+        unlisted(o, i);
+        for (int64_t q = 0; q < elements; q++) {
+            int32_t one = list[q];
+            if (!o->clique[one]) continue;
+            int64_t outside = o->mark[o->n + one] - base;
+            if (outside > 0) degree += outside, list[kept++] = one; /* else it is a part of the new one */
+        }
+        int64_t joints = kept;
+        for (int64_t q = elements; q < length; q++)
+            if (o->mark[list[q]] != here && !o->gone[list[q]]) list[joints++] = list[q], degree++;
+        /* A place is free: the eliminated joint, or an element of its own, has left the list. */
+        memmove(list + kept + 1, list + kept, (joints - kept) * sizeof *list);
+        list[kept] = p;
+        o->elements[i] = kept + 1, o->length[i] = joints + 1;
+        if (degree > o->degree[i] + size - 1) degree = o->degree[i] + size - 1;
+        if (degree > left - 2) degree = left - 2;
+        listed(o, i, (int32_t)(degree < 0 ? 0 : degree));
+    }
+    o->tag = base + o->n + 1;
+    return 1;
+}
+
+static int ordered(const Equations *e, const int64_t *start, const int32_t *beside, int32_t *order)
+{
+    int64_t n = e->joints, total = start[n];
+    Ordering o = {.n = n, .least = 0};
+    o.start = copied(start, (n + 1) * sizeof *start), o.list = copied(beside, total * sizeof *beside);
+    o.elements = calloc(n + 1, sizeof *o.elements), o.length = calloc(n + 1, sizeof *o.length);
+    o.clique = calloc(n + 1, sizeof *o.clique), o.size = calloc(n + 1, sizeof *o.size);
+    o.degree = calloc(n + 1, sizeof *o.degree), o.head = malloc((n + 1) * sizeof *o.head);
+    o.next = malloc((n + 1) * sizeof *o.next), o.before = malloc((n + 1) * sizeof *o.before);
+    o.mark = calloc(2 * n + 1, sizeof *o.mark), o.gone = calloc(n + 1, 1);
+    int good = o.start && o.list && o.elements && o.length && o.clique && o.size && o.degree && o.head && o.next &&
+               o.before && o.mark && o.gone;
+    for (int64_t i = 0; good && i <= n; i++) o.head[i] = -1;
+    for (int64_t i = n - 1; good && i >= 0; i--) {
+        o.length[i] = start[i + 1] - start[i];
+        listed(&o, (int32_t)i, (int32_t)o.length[i]);
+    }
+    for (int64_t k = 0; good && k < n; k++) {
+        while (o.head[o.least] < 0) o.least++;
+        int32_t p = o.head[o.least];
+        unlisted(&o, p);
+        order[k] = p;
+        good = eliminated(&o, p, n - k);
+    }
+    for (int64_t i = 0; o.clique && i < n; i++) free(o.clique[i]);
+    free(o.start), free(o.list), free(o.elements), free(o.length), free(o.clique), free(o.size), free(o.degree);
+    free(o.head), free(o.next), free(o.before), free(o.mark), free(o.gone);
+    return good;
+}
+
+/* The joints beside each joint: those of its loops. */
+static int neighbours(const Equations *e, int64_t **starts, int32_t **lists)
+{
+    int64_t n = e->joints, members = e->begin[e->loops], most = 0;
+    int64_t *first = calloc(n + 2, sizeof *first), *start = calloc(n + 1, sizeof *start);
+    int32_t *loops = malloc((members ? members : 1) * sizeof *loops), *seen = malloc((n + 1) * sizeof *seen);
+    for (int64_t l = 0; l < e->loops; l++) {
+        int64_t k = e->begin[l + 1] - e->begin[l];
+        most += k * (k - 1);
+    }
+    int32_t *list = malloc((most ? most : 1) * sizeof *list);
+    int good = first && start && loops && seen && list;
+    if (good) {
+        for (int64_t m = 0; m < members; m++) first[e->joint[m] + 2]++;
+        for (int64_t i = 0; i < n; i++) first[i + 2] += first[i + 1];
+        for (int64_t l = 0; l < e->loops; l++)
+            for (int64_t m = e->begin[l]; m < e->begin[l + 1]; m++) loops[first[e->joint[m] + 1]++] = (int32_t)l;
+        for (int64_t i = 0; i <= n; i++) seen[i] = -1;
+        int64_t many = 0;
+        for (int64_t i = 0; i < n; i++) {
+            seen[i] = (int32_t)i;
+            for (int64_t q = first[i]; q < first[i + 1]; q++)
+                for (int64_t m = e->begin[loops[q]]; m < e->begin[loops[q] + 1]; m++)
+                    if (seen[e->joint[m]] != i) seen[e->joint[m]] = (int32_t)i, list[many++] = e->joint[m];
+            start[i + 1] = many;
+        }
+    }
+    free(first), free(loops), free(seen);
+    if (!good) free(start), free(list);
+    else *starts = start, *lists = list;
+    return good;
+}
+
+/* The pattern of the factor from the elimination tree: the parent of a joint is the first later one that its
+   elimination touches (T. A. Davis, Direct Methods for Sparse Linear Systems, 2006, chapter 4). */
+static int patterned(Equations *e)
+{
+    int64_t n = e->joints;
+    int32_t *parent = malloc((n + 1) * sizeof *parent), *seen = malloc((n + 1) * sizeof *seen);
+    int64_t *filled = calloc(n + 1, sizeof *filled);
+    e->first = calloc(n + 1, sizeof *e->first), e->start = calloc(n + 1, sizeof *e->start);
+    int good = parent && seen && filled && e->first && e->start;
+    for (int pass = 0; good && pass < 2; pass++) {
+        for (int64_t k = 0; k < n; k++) {
+            if (!pass) parent[k] = -1;
+            seen[k] = (int32_t)k;
+            for (int64_t q = e->upper[k]; q < e->upper[k + 1] - 1; q++)
+                for (int32_t i = e->above[q]; i >= 0 && seen[i] != k; i = parent[i]) {
+                    if (parent[i] < 0) parent[i] = (int32_t)k;
+                    seen[i] = (int32_t)k;
+                    if (pass) e->row[e->first[i] + filled[i]++] = (int32_t)k;
+                    else filled[i]++, e->start[k + 1]++;
+                }
+        }
+        if (pass) break;
+        for (int64_t k = 0; k < n; k++) {
+            e->first[k + 1] = e->first[k] + filled[k], e->start[k + 1] += e->start[k];
+            filled[k] = 0, seen[k] = -1;
+        }
+        int64_t many = e->first[n] ? e->first[n] : 1;
+        e->row = malloc(many * sizeof *e->row), e->left = malloc(many * sizeof *e->left);
+        good = e->row && e->left;
+    }
+    if (good) {
+        memset(filled, 0, n * sizeof *filled);
+        for (int64_t j = 0; j < n; j++)
+            for (int64_t p = e->first[j]; p < e->first[j + 1]; p++) {
+                int32_t k = e->row[p];
+                e->left[e->start[k] + filled[k]++] = (int32_t)j;
+            }
+    }
+    free(parent), free(seen), free(filled);
+    return good;
+}
+
+/* Where the products of two columns of each loop are added in the normal matrix. */
+static int placed(Equations *e)
+{
+    int64_t pairs = 0, at = 0;
+    for (int64_t l = 0; l < e->loops; l++) {
+        int64_t k = e->begin[l + 1] - e->begin[l];
+        pairs += k * (k + 1) / 2;
+    }
+    e->place = malloc((pairs ? pairs : 1) * sizeof *e->place);
+    if (!e->place) return 0;
+    for (int64_t l = 0; l < e->loops; l++)
+        for (int64_t m = e->begin[l]; m < e->begin[l + 1]; m++)
+            for (int64_t o = e->begin[l]; o <= m; o++) {
+                int32_t a = e->rank[e->joint[m]], b = e->rank[e->joint[o]];
+                int32_t row = a < b ? a : b, column = a < b ? b : a;
+                int64_t low = e->upper[column], high = e->upper[column + 1] - 1;
+                while (low < high) { /* the rows of a column are sorted, the diagonal is last */
+                    int64_t middle = (low + high) / 2;
+                    if (e->above[middle] < row) low = middle + 1;
+                    else high = middle;
+                }
+                e->place[at++] = low;
+            }
+    return 1;
+}
+
+/* The upper triangle of the pattern of the normal matrix, in the order of elimination. */
+static void above(Equations *e, const int64_t *start, const int32_t *list)
+{
+    int64_t n = e->joints;
+    memset(e->upper, 0, (n + 2) * sizeof *e->upper);
+    for (int64_t k = 0; k < n; k++) e->rank[e->order[k]] = (int32_t)k;
+    for (int64_t i = 0; i < n; i++) {
+        e->upper[e->rank[i] + 2]++;
+        for (int64_t q = start[i]; q < start[i + 1]; q++)
+            if (e->rank[list[q]] < e->rank[i]) e->upper[e->rank[i] + 2]++;
+    }
+    for (int64_t k = 0; k < n; k++) e->upper[k + 2] += e->upper[k + 1];
+    for (int64_t k = 0; k < n; k++) {
+        int32_t i = e->order[k];
+        for (int64_t q = start[i]; q < start[i + 1]; q++) {
+            int32_t later = e->rank[list[q]];
+            if (later > k) e->above[e->upper[later + 1]++] = (int32_t)k;
+        }
+        e->above[e->upper[k + 1]++] = (int32_t)k; /* all earlier ones are there: the diagonal is the last */
+    }
+}
+
+/* Find the order of elimination and the pattern of the factor, once: 1, or 0 if there is no memory. Not for several
+   threads at once. */
+EXPORTED int equations_analysed(Equations *e)
+{
+    if (e->analysed) return 1;
+    int64_t n = e->joints, *start = NULL;
+    int32_t *list = NULL;
+    if (!neighbours(e, &start, &list)) return 0;
+    e->order = malloc((n + 1) * sizeof *e->order), e->rank = malloc((n + 1) * sizeof *e->rank);
+    e->upper = calloc(n + 2, sizeof *e->upper);
+    e->above = malloc((start[n] / 2 + n + 1) * sizeof *e->above);
+    int good = e->order && e->rank && e->upper && e->above && ordered(e, start, list, e->order);
+    if (good) {
+        above(e, start, list);
+        good = patterned(e) && placed(e);
+    }
+    free(start), free(list);
+    e->analysed = good;
+    return good;
+}
+
+/* The factor L D L' of the normal equations J' J + added. */
+typedef struct {
+    double added;
+    double *lower, *diagonal, *upper;
+} Factor;
+
+EXPORTED void factor_free(Factor *f)
+{
+    if (f) free(f->lower), free(f->diagonal), free(f->upper), free(f);
+}
+
+EXPORTED Factor *factor_new(const Equations *e)
+{
+    Factor *f = calloc(1, sizeof *f);
+    if (!f) return NULL;
+    f->lower = malloc((e->first[e->joints] + 1) * sizeof *f->lower);
+    f->diagonal = malloc((e->joints + 1) * sizeof *f->diagonal);
+    f->upper = malloc((e->upper[e->joints] + 1) * sizeof *f->upper);
+    if (f->lower && f->diagonal && f->upper) return f;
+    factor_free(f);
+    return NULL;
+}
+
+/* Add up the normal matrix, row by row of each loop. */
+static void normal(const Equations *e, const double *derivatives, double *upper)
+{
+    memset(upper, 0, e->upper[e->joints] * sizeof *upper);
+    const int64_t *place = e->place;
+    for (int64_t l = 0; l < e->loops; l++) {
+        int64_t from = e->begin[l], k = e->begin[l + 1] - from, rows = e->equation[l + 1] - e->equation[l];
+        const double *block = derivatives + e->value[l];
+        for (int64_t m = 0; m < k; m++)
+            for (int64_t o = 0; o <= m; o++) {
+                const double *a = block + e->column[from + m], *b = block + e->column[from + o];
+                double sum = 0.0;
+                for (int64_t r = 0; r < rows; r++) sum += a[r * k] * b[r * k];
+                upper[*place++] += sum;
+            }
+    }
+}
+
+/* Factorise J' J with `regular` times its largest diagonal entry, at least that of 1, added: 1, or 0 without memory.
+   Row by row: each entry takes off what the columns to the left have of it. */
+EXPORTED int factorised(const Equations *e, Factor *f, const double *derivatives, double regular)
+{
+    int64_t n = e->joints;
+    double largest = 1.0, *work = calloc(n + 1, sizeof *work);
+    int64_t *filled = malloc((n + 1) * sizeof *filled);
+    if (!work || !filled) {
+        free(work), free(filled);
+        return 0;
+    }
+    normal(e, derivatives, f->upper);
+    for (int64_t k = 0; k < n; k++) {
+        double diagonal = f->upper[e->upper[k + 1] - 1];
+        if (diagonal > largest) largest = diagonal;
+        filled[k] = e->first[k];
+    }
+    f->added = regular * largest;
+    for (int64_t k = 0; k < n; k++) {
+        for (int64_t q = e->upper[k]; q < e->upper[k + 1] - 1; q++) work[e->above[q]] = f->upper[q];
+        double diagonal = f->upper[e->upper[k + 1] - 1] + f->added;
+        for (int64_t q = e->start[k]; q < e->start[k + 1]; q++) {
+            int32_t j = e->left[q];
+            double value = work[j], share = value / f->diagonal[j];
+            int64_t end = filled[j];
+            work[j] = 0.0;
+            for (int64_t p = e->first[j]; p < end; p++) work[e->row[p]] -= f->lower[p] * value;
+            diagonal -= share * value;
+            f->lower[end] = share;
+            filled[j] = end + 1;
+        }
+        f->diagonal[k] = diagonal;
+    }
+    free(work), free(filled);
+    return 1;
+}
+
+/* Solve (J' J + added) x = b; work has room for as many numbers. */
+static void solved(const Equations *e, const Factor *f, const double *b, double *x, double *work)
+{
+    int64_t n = e->joints;
+    for (int64_t k = 0; k < n; k++) work[k] = b[e->order[k]];
+    for (int64_t j = 0; j < n; j++) {
+        double value = work[j];
+        if (value == 0.0) continue;
+        for (int64_t p = e->first[j]; p < e->first[j + 1]; p++) work[e->row[p]] -= f->lower[p] * value;
+    }
+    for (int64_t j = n - 1; j >= 0; j--) {
+        double value = work[j] / f->diagonal[j];
+        for (int64_t p = e->first[j]; p < e->first[j + 1]; p++) value -= f->lower[p] * work[e->row[p]];
+        work[j] = value;
+    }
+    for (int64_t k = 0; k < n; k++) x[e->order[k]] = work[k];
+}
+
+EXPORTED int factor_solved(const Equations *e, const Factor *f, const double *b, double *x)
+{
+    double *work = malloc((e->joints + 1) * sizeof *work);
+    if (!work) return 0;
+    solved(e, f, b, x, work);
+    free(work);
+    return 1;
+}
+
+/* The least rates at which loops part by off[rows], as a sum of rows of J: x = J' (off - J r) / added with the
+   solution r, since r itself has rounding along the freedoms that was divided by `added`. `work` has room for
+   2 joints and rows. */
+static void least(const Equations *e, const Factor *f, const double *derivatives, const double *off, double *x,
+                  double *work)
+{
+    double *rates = work + e->joints, *parted = rates + e->joints;
+    sum_of_rows(e, derivatives, off, x);
+    solved(e, f, x, rates, work);
+    image_of(e, derivatives, rates, parted);
+    for (int64_t r = 0; r < e->rows; r++) parted[r] = (off[r] - parted[r]) / f->added;
+    sum_of_rows(e, derivatives, parted, x);
+}
+
+EXPORTED int factor_least(const Equations *e, const Factor *f, const double *derivatives, const double *off, double *x)
+{
+    double *work = malloc((2 * e->joints + e->rows + 1) * sizeof *work);
+    if (!work) return 0;
+    least(e, f, derivatives, off, x, work);
+    free(work);
+    return 1;
+}
+
+/* The same to all digits: what the two solutions differ by has the lost ones across the freedoms. */
+EXPORTED int factor_least_exactly(const Equations *e, const Factor *f, const double *derivatives, const double *off,
+                                  double *x)
+{
+    int64_t n = e->joints;
+    double *work = malloc((3 * n + 2 * e->rows + 1) * sizeof *work);
+    if (!work) return 0;
+    double *more = work + 2 * n + e->rows, *parted = more + n, *rates = work + n;
+    least(e, f, derivatives, off, x, work);
+    for (int64_t i = 0; i < n; i++) rates[i] -= x[i];
+    image_of(e, derivatives, rates, parted);
+    least(e, f, derivatives, parted, more, work);
+    for (int64_t i = 0; i < n; i++) x[i] += more[i];
+    free(work);
+    return 1;
+}
+
+/* The rates nearest to some at which loops stay closed to first order; the second round takes off what
+   regularisation left. */
+EXPORTED int factor_projected(const Equations *e, const Factor *f, const double *derivatives, const double *rates,
+                              double *x)
+{
+    int64_t n = e->joints;
+    double *work = malloc((3 * n + 2 * e->rows + 1) * sizeof *work);
+    if (!work) return 0;
+    double *across = work + 2 * n + e->rows, *parted = across + n;
+    memcpy(x, rates, n * sizeof *x);
+    for (int round = 0; round < 2; round++) {
+        image_of(e, derivatives, x, parted);
+        least(e, f, derivatives, parted, across, work);
+        for (int64_t i = 0; i < n; i++) x[i] -= across[i];
+    }
+    free(work);
+    return 1;
+}

@@ -1,0 +1,147 @@
+"""The library kernel.c: closure equations of a linkage, and their normal equations, factorised in one pattern.
+
+Order of elimination and pattern of the factor are found once per linkage; each configuration has a factor of its
+own. Whatever is here `synth.motion.closure` and `synth.motion.tangent` do with numpy and scipy too, where there is
+no library.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Sequence
+from ctypes import c_double, c_int, c_int64, c_void_p
+from pathlib import Path
+from threading import Lock
+from typing import Any
+from weakref import finalize
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.compiled import library
+from graphs.loops.loop import Centre
+from graphs.types import Floats, Ints
+
+SOURCE = Path(__file__).with_name("kernel.c")
+_KINDS = {Centre.FINITE: 0, Centre.INFINITE: 1, Centre.NONE: 2}
+_P = c_void_p
+_FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
+    "equations_new": (_P, (c_int64, c_int64, *[_P] * 8)),
+    "equations_free": (None, (_P,)),
+    "equations_rows": (c_int64, (_P,)),
+    "equations_entries": (c_int64, (_P,)),
+    "equations_at": (None, (_P,) * 5),
+    "equations_analysed": (c_int, (_P,)),
+    "image_of": (None, (_P,) * 4),
+    "sum_of_rows": (None, (_P,) * 4),
+    "factor_new": (_P, (_P,)),
+    "factor_free": (None, (_P,)),
+    "factorised": (c_int, (_P, _P, _P, c_double)),
+    "factor_solved": (c_int, (_P,) * 4),
+    "factor_least": (c_int, (_P,) * 5),
+    "factor_least_exactly": (c_int, (_P,) * 5),
+    "factor_projected": (c_int, (_P,) * 5),
+}
+
+
+def kernel() -> ctypes.CDLL | None:
+    """Return the library with the types of its functions; None where there is none."""
+    found = library(SOURCE)
+    if found is not None and found.equations_new.argtypes is None:
+        for name, (result, arguments) in _FUNCTIONS.items():
+            function = getattr(found, name)
+            function.restype, function.argtypes = result, arguments
+    return found
+
+
+def _check(good: int | None) -> None:
+    if not good:
+        raise MemoryError("no memory for the closure equations of so many joints")
+
+
+class KernelEquations:
+    """Closure equations of loops in the library: those of `joints`, of some kinds, with the parts of each.
+
+    Loops stand one after the other, the joints of loop l at begin[l] to begin[l + 1]. Parts are the joints, signs,
+    turning, axes and points of each joint of each loop, and a frame of each loop, as `synth.motion.closure` has them.
+    """
+
+    def __init__(
+        self, library: ctypes.CDLL, joints: int, kinds: Sequence[Centre], begin: Ints, parts: dict[str, Floats]
+    ) -> None:
+        self.library, self.joints = library, joints
+        real = ("signs", "turning", "axes", "points", "frames")
+        arrays: list[npt.NDArray[Any]] = [
+            np.ascontiguousarray(begin, dtype=np.int64),
+            np.array([_KINDS[kind] for kind in kinds], dtype=np.int32),
+            np.ascontiguousarray(parts["joints"], dtype=np.int32),
+            *(np.ascontiguousarray(parts[name], dtype=float) for name in real),
+        ]
+        self.handle = library.equations_new(joints, len(kinds), *(array.ctypes.data for array in arrays))
+        _check(self.handle)
+        finalize(self, library.equations_free, self.handle)
+        self.rows = int(library.equations_rows(self.handle))
+        self._entries = int(library.equations_entries(self.handle))
+        self._one_thread = Lock()
+
+    def analysed(self) -> None:
+        """Find the order of elimination and the pattern of the factor, once."""
+        with self._one_thread:
+            _check(self.library.equations_analysed(self.handle))
+
+    def at(self, turned: Floats, freed: Floats | None) -> tuple[Floats, Floats]:
+        """Return residuals float[rows] and derivatives float[derivatives] where joints have turned, float[J]."""
+        residual, derivatives = np.empty(self.rows), np.empty(self._entries)
+        turned = np.ascontiguousarray(turned, dtype=float)
+        free = None if freed is None else freed.ctypes.data
+        self.library.equations_at(self.handle, turned.ctypes.data, free, residual.ctypes.data, derivatives.ctypes.data)
+        return residual, derivatives
+
+
+class KernelFactor:
+    """The normal equations of some derivatives, factorised: what `synth.motion.tangent.Factor` does."""
+
+    def __init__(self, equations: KernelEquations, derivatives: Floats, regular: float) -> None:
+        equations.analysed()
+        self._equations, self._derivatives, self._library = equations, derivatives, equations.library
+        self._handle = self._library.factor_new(equations.handle)
+        _check(self._handle)
+        finalize(self, self._library.factor_free, self._handle)
+        _check(self._library.factorised(equations.handle, self._handle, derivatives.ctypes.data, regular))
+        self.shape = (equations.rows, equations.joints)
+
+    def _call(self, function: Any, given: Floats, wanted: int, *, derivatives: bool = True) -> Floats:
+        given, result = np.ascontiguousarray(given, dtype=float), np.empty(wanted)
+        inner = (self._derivatives.ctypes.data,) if derivatives else ()
+        _check(function(self._equations.handle, self._handle, *inner, given.ctypes.data, result.ctypes.data))
+        return result
+
+    def image(self, rates: Floats) -> Floats:
+        """Return by what loops part at rates float[J]: float[rows]."""
+        rates, result = np.ascontiguousarray(rates, dtype=float), np.empty(self._equations.rows)
+        places = (self._derivatives.ctypes.data, rates.ctypes.data, result.ctypes.data)
+        self._library.image_of(self._equations.handle, *places)
+        return result
+
+    def sum_of_rows(self, forces: Floats) -> Floats:
+        """Return the sum of rows, each as often as forces float[rows] say: float[J]."""
+        forces, result = np.ascontiguousarray(forces, dtype=float), np.empty(self._equations.joints)
+        places = (self._derivatives.ctypes.data, forces.ctypes.data, result.ctypes.data)
+        self._library.sum_of_rows(self._equations.handle, *places)
+        return result
+
+    def solved(self, right_side: Floats) -> Floats:
+        """Return the solution of the normal equations: float[J]."""
+        return self._call(self._library.factor_solved, right_side, self._equations.joints, derivatives=False)
+
+    def least(self, off: Floats) -> Floats:
+        """Return the least rates at which loops part by float[rows], as a sum of rows: float[J]."""
+        return self._call(self._library.factor_least, off, self._equations.joints)
+
+    def least_exactly(self, off: Floats) -> Floats:
+        """Return the same with all digits: float[J]."""
+        return self._call(self._library.factor_least_exactly, off, self._equations.joints)
+
+    def projected(self, rates: Floats) -> Floats:
+        """Return the rates nearest to float[J] at which all loops stay closed to first order: float[J]."""
+        return self._call(self._library.factor_projected, rates, self._equations.joints)

@@ -1,0 +1,152 @@
+"""The library of C against numpy and scipy: equations, derivatives, factors, and whole motions; threads."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+import scipy.sparse
+
+from graphs.compiled import build, library, place_of
+from graphs.loops.loop import Loop
+from graphs.mechanism.sc import SCGraph
+from synth.folding.configuration import configuration_of_sheet
+from synth.motion import closure as closing
+from synth.motion.closure import ClosureEquations, corrected
+from synth.motion.kernel import SOURCE, KernelFactor, kernel
+from synth.motion.linkage import linkage_of_axes
+from synth.motion.path import driven_path
+from synth.motion.tangent import SparseFactor
+from synth.patterns import generate
+
+needs_library = pytest.mark.skipif(kernel() is None, reason="there is no library: no compiler was at hand")
+
+
+def two_ways(linkage, monkeypatch):
+    """The equations with the library, and without."""
+    fast = ClosureEquations(linkage)
+    monkeypatch.setattr(closing, "kernel", lambda: None)
+    slow = ClosureEquations(linkage)
+    monkeypatch.undo()
+    assert fast._kernel is not None
+    assert slow._kernel is None
+    return fast, slow
+
+
+def linkage_of_rings(rng, sliding=True):
+    """Rings, each on a joint of those before: axes about a point of it, parallel to it, or anyhow; some joints slide."""
+    joints, loops, slides = [(0, 1)], [], []
+    axes = {0: (rng.normal(size=3), rng.normal(size=3))}
+    links = 2
+    for centre in rng.permutation(["finite", "infinite", "none", "finite", "none"]):
+        k, shared = int(rng.integers(3, 7)), int(rng.integers(len(joints)))
+        point, along = axes[shared]
+        round_it = [joints[shared][1], *range(links, links + k - 1), joints[shared][0]]
+        links += k - 1
+        numbers = range(len(joints), len(joints) + k)
+        joints += list(zip(round_it, round_it[1:], strict=False))
+        for number in numbers:
+            directions, points = rng.normal(size=3), rng.normal(size=3)
+            if centre == "finite":
+                points = point + directions * rng.normal()
+            axes[number] = (points, along * rng.choice([-2.0, 1.0]) if centre == "infinite" else directions)
+        loops.append(Loop([shared, *numbers], centre))
+        slides += numbers[:1] if sliding and centre == "none" else []
+    return linkage_of_axes(SCGraph(links, joints, loops), axes, slides=slides)
+
+
+@needs_library
+@pytest.mark.parametrize("seed", range(6))
+def test_equations_and_derivatives_are_those_of_numpy(seed, monkeypatch):
+    rng = np.random.default_rng(seed)
+    fast, slow = two_ways(linkage_of_rings(rng), monkeypatch)
+    for _ in range(4):
+        angles = rng.normal(size=fast.joints)
+        for one, other in zip(fast.evaluated(angles), slow.evaluated(angles), strict=True):
+            np.testing.assert_allclose(one, other, rtol=0, atol=1e-13 * max(1.0, np.abs(other).max()))
+    fast, slow = fast.locked([1, 4]), slow.locked([1, 4])
+    np.testing.assert_allclose(fast.evaluated(angles)[1], slow.evaluated(angles)[1], atol=1e-12)
+    assert not fast.at(angles)[1].toarray()[:, [1, 4]].any()
+
+
+@needs_library
+@pytest.mark.parametrize("name", ["miura", "waterbomb", "kaleidocycle", "bird-base"])
+def test_factors_are_those_of_scipy(name, monkeypatch):
+    from synth.moving.made import configuration_of
+
+    linkage = configuration_of(generate(name).mechanism).linkage
+    fast, slow = two_ways(linkage, monkeypatch)
+    rng = np.random.default_rng(3)
+    entries = fast.evaluated(linkage.angles + 0.2 * rng.normal(size=fast.joints))[1]
+    matrix = slow.matrix(entries)
+    one, other = KernelFactor(fast._kernel, entries, 1e-9), SparseFactor(matrix, 1e-9)
+    assert one.shape == other.shape == matrix.shape
+    rates, off = rng.normal(size=fast.joints), rng.normal(size=fast.rows)
+    for method, given in (("image", rates), ("sum_of_rows", off), ("least_exactly", off), ("projected", rates)):
+        np.testing.assert_allclose(getattr(one, method)(given), getattr(other, method)(given), rtol=1e-7, atol=1e-8)
+    normal = matrix.T @ matrix
+    whole = normal + 1e-9 * max(normal.diagonal().max(), 1.0) * scipy.sparse.identity(fast.joints)
+    np.testing.assert_allclose(whole @ one.solved(rates), rates, atol=1e-5)
+
+
+@needs_library
+@pytest.mark.parametrize("seed", range(12))
+def test_any_pattern_is_factorised(seed, monkeypatch):
+    """Cliques in any arrangement: the factor solves the normal equations to all digits where they are regular."""
+    rng = np.random.default_rng(seed)
+    fast, slow = two_ways(linkage_of_rings(rng, sliding=False), monkeypatch)
+    entries = rng.normal(size=len(fast.evaluated(np.zeros(fast.joints))[1]))
+    matrix, added = slow.matrix(entries), 0.5
+    normal = (matrix.T @ matrix).toarray()
+    normal += added * max(normal.diagonal().max(), 1.0) * np.eye(fast.joints)
+    right = rng.normal(size=fast.joints)
+    factor = KernelFactor(fast._kernel, entries, added)
+    np.testing.assert_allclose(factor.solved(right), np.linalg.solve(normal, right), rtol=1e-10, atol=1e-12)
+
+
+@needs_library
+@pytest.mark.parametrize("rows", [3, 7])
+def test_motions_are_those_of_numpy(rows, monkeypatch):
+    linkage = configuration_of_sheet(generate("miura", rows=rows, columns=rows, fold=0.7).mechanism).linkage
+    paths = [
+        driven_path(equations, linkage.angles, [0], np.linspace(0.0, 0.4, 5)[1:, None] + linkage.angles[0])
+        for equations in two_ways(linkage, monkeypatch)
+    ]
+    assert [path.stopped for path in paths] == ["", ""]
+    np.testing.assert_allclose(paths[0].angles, paths[1].angles, atol=1e-11)
+
+
+@needs_library
+def test_threads_share_one_linkage():
+    linkage = configuration_of_sheet(generate("miura", rows=6, columns=6, fold=0.7).mechanism).linkage
+    equations = ClosureEquations(linkage)
+    starts = [linkage.angles + 1e-3 * np.random.default_rng(k).normal(size=equations.joints) for k in range(24)]
+    alone = [corrected(ClosureEquations(linkage), start).angles for start in starts]
+    with ThreadPoolExecutor(8) as threads:
+        together = list(threads.map(lambda start: corrected(equations, start).angles, starts))
+    for one, other in zip(alone, together, strict=True):
+        assert one.tolist() == other.tolist()
+
+
+def test_a_linkage_without_loops_has_no_equations():
+    hinge = linkage_of_axes(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))})
+    equations = ClosureEquations(hinge)
+    place = corrected(equations, np.array([0.5]))
+    assert (equations.rows, place.error, place.space.projected(np.ones(1)).tolist()) == (0, 0.0, [1.0])
+
+
+def test_a_library_is_of_its_source(tmp_path):
+    """Another source has another library, which is built once; what is no C is refused in a line."""
+    source = tmp_path / "one.c"
+    source.write_text("int one(void) { return 1; }\n")
+    if build(source):
+        pytest.skip(build(source))
+    assert library(source) is not None
+    first = place_of(source)
+    source.write_text("int one(void) { return 2; }\n")
+    assert place_of(source) != first
+    assert not place_of(source).exists()
+    assert build(source) == ""
+    assert not first.exists()
+    source.write_text("this is no C\n")
+    assert "failed: " in build(source)
+    assert library(SOURCE) is kernel()
