@@ -16,7 +16,7 @@ import math
 import shutil
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
 from functools import partial
 from itertools import count
@@ -190,9 +190,8 @@ def reading(path: Path) -> Iterator[sqlite3.Connection]:
         raise StoreError(f"{path}: no such file")
     connection = None
     try:
-        connection = sqlite3.connect(
-            f"{path.resolve().as_uri()}?mode=ro", uri=True, isolation_level=None, timeout=PATIENCE
-        )
+        _take_back(path)
+        connection = _opened(path, "ro")
         connection.execute("PRAGMA writable_schema=ON")  # else a file that was cut off is not opened at all
         connection.execute("BEGIN")
         yield connection
@@ -201,6 +200,18 @@ def reading(path: Path) -> Iterator[sqlite3.Connection]:
     finally:
         if connection is not None:
             connection.close()
+
+
+def _opened(path: Path, mode: str) -> sqlite3.Connection:
+    return sqlite3.connect(f"{path.resolve().as_uri()}?mode={mode}", uri=True, isolation_level=None, timeout=PATIENCE)
+
+
+def _take_back(path: Path) -> None:
+    """Undo what a killed run had half written without its log, which only a connection that may write can do."""
+    if not path.with_name(f"{path.name}-journal").exists():
+        return
+    with suppress(sqlite3.Error), closing(_opened(path, "rw")) as connection:  # else reading says what is wrong
+        connection.execute("SELECT count(*) FROM sqlite_master").fetchone()
 
 
 def _said(error: Exception) -> str:

@@ -233,3 +233,20 @@ def test_how_much_has_been_looked_through_is_told(tmp_path, stores):
     with pytest.warns(UserWarning, match="repaired a damaged store; kept 59 of 100 units"):
         SqliteSink(store, resume=True, looking=parts.append).start(JOB)
     assert parts == [k / 60 for k in range(1, 60)]
+
+
+def test_a_run_that_was_killed_while_it_wrote_without_a_log_goes_on(tmp_path, stores):
+    """Such a run leaves a journal, which a connection that only reads may not play back."""
+    alive, store = tmp_path / "alive.sqlite", tmp_path / "squares.sqlite"
+    alive.write_bytes(stores[1])
+    connection = sqlite3.connect(alive, isolation_level=None)
+    connection.execute("PRAGMA journal_mode=DELETE")
+    connection.execute("PRAGMA cache_size=1")  # pages go to the file before the end
+    connection.execute("BEGIN")
+    connection.execute("UPDATE type SET square = square + 1")
+    for end in ("", "-journal"):
+        store.with_name(store.name + end).write_bytes(alive.with_name(alive.name + end).read_bytes())
+    connection.close()
+    assert store.read_bytes() != stores[1]
+    assert not read_meta(store)["complete"]
+    assert mended(store) == ([], 40)
