@@ -8,7 +8,7 @@ from enumerate.strings.panel_strings import (
     strings as strings,
 )
 from graphs.answer.conversion import convert as convert
-from graphs.answer.identity import identify as identify
+from graphs.answer.identity import TypeClasses as TypeClasses, identify as identify, types_of as types_of
 from graphs.answer.reconstruction import reconstruct as reconstruct
 from graphs.convert.table import Mechanism as Mechanism
 from graphs.errors import (

@@ -22,6 +22,7 @@ from graphs.files.outputs import unknown_extension
 from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.mechanism.sc import SCGraph
+from graphs.printing import plain
 
 B = TypeVar("B", Beside, FolderBeside)
 
@@ -215,6 +216,55 @@ class CsvSink(_FileSink):
         self._write([text.getvalue()])
 
 
+class LatexSink(_FileSink):
+    """A table for a document of LaTeX: a longtable with the rules of booktabs, values as printed."""
+
+    def start(self, job: Job) -> Collection[int]:
+        """Open the file, and write the head of the table."""
+        there = super().start(job)
+        self._kinds = tuple(job.columns.values())
+        sides = "".join("r" if kind in (int, float) else "l" for kind in self._kinds)
+        head = " & ".join(rf"\textbf{{{_in_latex(name)}}}" for name in self._columns)
+        self._write([
+            "% requires \\usepackage{booktabs,longtable}\n",
+            f"\\begin{{longtable}}{{{sides}}}\n\\toprule\n{head} \\\\\n\\midrule\n\\endhead\n",
+            "\\bottomrule\n\\endfoot\n",
+        ])  # fmt: skip
+        return there
+
+    def take(self, number: int, rows: list[Row], seconds: float) -> None:
+        """Write a row of the table for each."""
+        self._write(" & ".join(map(self._cell, self._kinds, row)) + " \\\\\n" for row in rows)
+
+    def _cell(self, kind: Column, value: Any) -> str:
+        if value is None:
+            return ""
+        if isinstance(kind, ListColumn):
+            return _in_latex(kind.text(value))
+        return rf"\texttt{{{_in_latex(value)}}}" if kind is str else f"{value:.6g}" if kind is float else str(value)
+
+    def finish(self) -> None:
+        """End the table, and move the file to its place."""
+        self._write(["\\end{longtable}\n"])
+        super().finish()
+
+
+_LATEX = {character: rf"\{character}" for character in "#$%&_{}"} | {
+    "\\": r"\textbackslash{}",
+    "^": r"\textasciicircum{}",
+    "~": r"\textasciitilde{}",
+    "`": r"{\char96}",
+    "<": r"\textless{}",
+    ">": r"\textgreater{}",
+    "|": r"\textbar{}",
+    '"': r"{\char34}",
+}
+
+
+def _in_latex(text: str) -> str:
+    return "".join(_LATEX.get(character, character) for character in plain(text, 10_000))
+
+
 class ParquetSink(_FileSink):
     """Parquet, one row group a unit; needs pyarrow. A list of values of several types is JSON text."""
 
@@ -322,11 +372,12 @@ class FolderSink(_BesideSink[FolderBeside]):
             raise FileError(self._path, "", f"cannot be written: {error.strerror}") from None
 
 
-SINKS: dict[str, type[CsvSink | Graph6Sink | JsonLinesSink | ParquetSink]] = {
+SINKS: dict[str, type[CsvSink | Graph6Sink | JsonLinesSink | LatexSink | ParquetSink]] = {
     ".csv": CsvSink,
     ".g6": Graph6Sink,
     ".jsonl": JsonLinesSink,
     ".parquet": ParquetSink,
+    ".tex": LatexSink,
 }
 """Extension to the sink of a file."""
 

@@ -98,6 +98,28 @@ def read_graphml(path: Path) -> nx.MultiGraph:
     return _named_anew(nx.MultiGraph(graph))
 
 
+_EDGE = re.compile(r"(?m)^\s*edge\b")
+
+
+def read_gml(path: Path) -> nx.MultiGraph:
+    """Read the link-joint graph of a GML file, links by their labels where all have one, else by their numbers."""
+    text = read_text(path)
+    Checker(path).how_many(len(_EDGE.findall(text)), "number of edges")
+    try:
+        graph = nx.parse_gml(text, label="id")
+    except (nx.NetworkXError, LookupError, TypeError, ValueError, AttributeError, RecursionError) as error:
+        raise FileError(path, "", f"not GML: {shown(str(error))}", "GML as networkx writes it") from None
+    labels = {node: str(label) for node, label in graph.nodes(data="label") if label is not None}
+    if len(set(labels.values())) != len(graph):
+        labels = {node: str(node) for node in graph}
+    named = nx.MultiGraph()
+    named.add_nodes_from(labels.values())
+    for number, (a, b, attributes) in enumerate(graph.edges(data=True)):
+        kind = {"type": attributes["type"]} if "type" in attributes else {}
+        named.add_edge(labels[a], labels[b], str(attributes.get("key", number)), **kind)
+    return _named_anew(named)
+
+
 def _named_anew(graph: nx.MultiGraph) -> nx.MultiGraph:
     """Give links and joints the names that their words stand for; joints without an id have a number already."""
     links = names_from_text(graph.nodes)

@@ -10,6 +10,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, TypeAlias
 
+import networkx as nx
+
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.table import Mechanism, to_sc, to_sheet
 from graphs.errors import FileError, InvariantError, OpenError, UnsolvableError, check_argument, numbered
@@ -22,6 +24,7 @@ from graphs.files.bare import (
     graph6_text,
     graphml_text,
     read_edge_list,
+    read_gml,
     read_graph6,
     read_graphml,
 )
@@ -140,14 +143,15 @@ def read_all(path: str | Path, *, colours: Looks | None = None, layers: Looks | 
         raise FileError(path, f"line {line}", "no mechanism", f"one of {numbered(len(mechanisms), 'line')}")
 
 
-def read(path: str | Path, *, colours: Looks | None = None, layers: Looks | None = None) -> Mechanism:
-    """Return the one mechanism of a file, or of an id.
+def read(path: str | Path | nx.Graph, *, colours: Looks | None = None, layers: Looks | None = None) -> Mechanism:
+    """Return the one mechanism of a file, of an id, or of a graph of networkx.
 
     Parameters
     ----------
-    path : str or Path
+    path : str, Path or networkx.Graph
         A file whose extension names its format, or an id, ``k1:...`` or ``m1:...`` (a file so named is written
-        ``./k1:...``), or a line of a graph6 file, ``chains.g6:7``.
+        ``./k1:...``), or a line of a graph6 file, ``chains.g6:7``. A graph has links as nodes and joints as edges;
+        of a multigraph the keys name the joints. It gets finite centres, as from a file without any.
     colours : mapping of str to str or sequence of str, optional
         For a drawing (SVG, DXF): assignment (M, V, B, C, F, U, J, or ``-`` for lines to leave out) to the look of
         its lines: a colour of CSS or the number of one in DXF, a kind of dash (``dashed``, ``dash-dot``,
@@ -170,6 +174,10 @@ def read(path: str | Path, *, colours: Looks | None = None, layers: Looks | None
     ...
     graphs.errors.OpenError: no such file.json: no such file; expected a file
     """
+    if isinstance(path, SCGraph):
+        return path
+    if isinstance(path, nx.Graph):
+        return sc_from_link_joint_graph(path.to_undirected() if path.is_directed() else path)
     entries = list(read_all(path, colours=colours, layers=layers))
     if len(entries) != 1:
         expected = f"one; try its line, {entries[0].label}" if entries else "one"
@@ -330,7 +338,8 @@ READERS: dict[str, Reader] = {
     ".g6": _read_graph6,
     ".s6": _read_graph6,
     ".graphml": _one_of(lambda path: as_linkage(read_graphml(path), path)),
-    **dict.fromkeys((".edges", ".csv", ".txt"), _one_of(lambda path: as_sc(read_edge_list(path), path))),
+    ".gml": _one_of(lambda path: as_linkage(read_gml(path), path)),
+    **dict.fromkeys((".edges", ".edgelist", ".csv", ".txt"), _one_of(lambda path: as_sc(read_edge_list(path), path))),
 }
 """Extension to the reader: path to (place in the file, mechanism)."""
 

@@ -40,8 +40,8 @@ def sheet_of_type(values: Mapping[str, Any]) -> Sheet | None:
 def write_rows(rows: AtlasRows, path: str | Path, *, force: bool = False) -> list[Path]:
     """Write rows in the format of the extension; without one, a folder with a file for each mechanism.
 
-    Return the paths. The path ends in .csv, .json, .jsonl, .parquet, .svg, .png or .pdf; drawings and folders need
-    columns ``kind`` and ``id``. `force` overwrites a file. Raise FileError for another extension, or if the file
+    Return the paths. The path ends in .csv, .json, .jsonl, .parquet, .tex, .svg, .png or .pdf; drawings and folders
+    need columns ``kind`` and ``id``. `force` overwrites a file. Raise FileError for another extension, or if the file
     cannot be written.
     """
     place = Path(path)
@@ -138,5 +138,6 @@ TABLES = formats_by_suffix(
     Format(".json", "JSON", lambda rows: f"{json.dumps(rows.to_json(), indent=1, allow_nan=False)}\n".encode()),
     _table(".jsonl", "JSON lines"),
     _table(".parquet", "Parquet", needs="pyarrow"),
+    _table(".tex", "LaTeX"),
 )
 """Suffix to the format in which rows are written as a table; pictures of rows are a catalogue."""

@@ -63,7 +63,7 @@ def cores() -> int:
 
 
 _OUTPUT = options.output(
-    "Write .jsonl, .csv, .sqlite, .parquet, .g6 (chains only), or a folder of mechanisms; counts go to .sqlite.",
+    "Write .jsonl, .csv, .sqlite, .parquet, .tex, .g6 (chains only), or a folder of mechanisms; counts go to .sqlite.",
     "FILE",
 )
 _OPTIONS = (

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import networkx as nx
 from oripa import opx_text
 
 from graphs.convert.table import to_sc, to_vertex_edge
@@ -62,6 +63,12 @@ def seeds(data: Path, folder: Path) -> dict[str, list[bytes]]:
     made[".dxf"].append(_DXF)
     made[".opx"].append(opx_text(_OPX).encode())
     made[".edges"].append(b"0 1 {'weight': 3}\n1 2 {}\n2 3 {}\n3 0 {}\n")
+    made[".edgelist"] = list(made[".edges"])
+    made[".gml"].append("\n".join(nx.generate_gml(nx.relabel_nodes(nx.wheel_graph(6), str))).encode())
+    made[".gml"].append(
+        b'graph [ multigraph 1 node [ id 0 label "a" ] node [ id 1 label "b" ]'
+        b' edge [ source 0 target 1 key "u" type "R" ] edge [ source 1 target 0 key "v" ] ]'
+    )
     made[".csv"].append(b',source,target,weight\n0,0,1,1.0\n1,1,2,1.0\n2,"2",3,1.0\n3,3,0,1.0\n')
     return made
 

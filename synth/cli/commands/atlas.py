@@ -79,7 +79,7 @@ def build(orders_of: tuple[str, ...], running: RunOptions, **types: Any) -> None
 @options.value(
     "--seconds", "SECONDS", "Time limit in seconds.", default=30.0, type=click.FloatRange(min=0, min_open=True)
 )
-@options.output("Write .csv, .json, .jsonl, .parquet, a picture (.svg, .png, .pdf), or a folder of mechanisms.")
+@options.output("Write .csv, .json, .jsonl, .parquet, .tex, a picture (.svg, .png, .pdf), or a folder of mechanisms.")
 @options.FORCE
 @options.JSON
 def query(

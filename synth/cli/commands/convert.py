@@ -70,6 +70,7 @@ def convert(
       .graphml             bare link-joint graphs, or with the type of each joint (R P U S C E)
       .edges .txt          bare link-joint graphs, one joint per line
     Formats read:
+      .gml .edgelist       bare link-joint graphs
       .opx                 crease patterns (ORIPA)
       .csv                 bare link-joint graphs, as a table of edges
 
@@ -185,21 +186,34 @@ def reconstruct(file: str, output: str | None, force: bool, lossy: bool, as_json
 
 
 @click.command("id")
-@MECHANISM
+@options.FILES
+@DRAWN
+@options.flag("--group", "List one row per type: its id, and the mechanisms that have it.")
+@options.choice(
+    "--by", ("chain", "drawing"),
+    "With --group: group by link-joint graphs, or by drawings with centres.  [default: drawing where all have one]",
+)  # fmt: skip
 @options.JSON
-def id_command(file: str, as_json: bool) -> None:
-    """Print the canonical ids of a mechanism: equal for mechanisms of one type, different for all others.
+def id_command(files: tuple[str, ...], group: bool, by: Any, as_json: bool) -> None:
+    """Print the canonical ids of mechanisms: equal for mechanisms of one type, different for all others.
 
     k1:... is the id of the link-joint graph, a chain without centres. m1:... is the id of the mechanism drawn on
     the sphere, with its centres, and with the sides of its links where they are known. Every command that takes a
-    FILE takes an id too; write ./k1:... for a file of that name.
+    FILE takes an id too; write ./k1:... for a file of that name. Several files, or a file of several mechanisms,
+    are grouped by type.
 
     \b
     Examples:
       synth id data/wiener/six-bar.json
       synth id k1:Cr
+      synth id --group chains.g6
     """
-    mechanism = read(file)
-    with about(file):
+    if by is not None and not group and len(files) == 1:
+        raise click.UsageError("--by requires --group")
+    if group or len(files) > 1:
+        print_result(synth.types_of(files, by=by), {}, as_json=as_json)
+        return
+    mechanism = read(files[0])
+    with about(files[0]):
         identity = synth.identify(mechanism)
     print_result(identity, {}, as_json=as_json)

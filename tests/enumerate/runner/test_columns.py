@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sqlite3
+import subprocess
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import pytest
 
+from enumerate.chains.jobs import ChainJob
+from enumerate.chains.query import ChainQuery
 from enumerate.runner.job import Column, ListColumn, RangeColumn, Row, Unit, row_as_dict, stored, unstored
 from enumerate.runner.running import run
-from enumerate.runner.sinks import JsonLinesSink, ParquetSink, SortedSink
+from enumerate.runner.sinks import JsonLinesSink, LatexSink, ParquetSink, SortedSink
 from enumerate.runner.store import SqliteSink, read_meta, read_rows
 
 ROWS: list[Row] = [
@@ -68,6 +72,27 @@ def test_files_and_dictionaries_hold_lists(tmp_path):
     run(Listed(), ParquetSink(tmp_path / "lists.parquet"))
     table = parquet.read_table(tmp_path / "lists.parquet").to_pylist()
     assert [{**row, "angles": json.loads(row["angles"])} for row in table] == AS_JSON
+
+
+def test_a_table_for_a_document(tmp_path):
+    """Every row has as many cells as the head; LaTeX sets it, where there is one."""
+    run(Listed(), LatexSink(tmp_path / "lists.tex"))
+    lines = (tmp_path / "lists.tex").read_text(encoding="utf-8").splitlines()
+    cells = [line.count(" & ") for line in lines if line.endswith(r" \\")]
+    assert cells == [len(Listed.columns) - 1] * (1 + len(ROWS))
+    chains = tmp_path / "chains.tex"
+    run(ChainJob(ChainQuery(8, 1)), LatexSink(chains))
+    text = chains.read_text(encoding="utf-8")
+    assert text.count(r"\texttt{k1:") == 16
+    assert all(part in text for part in (r"longest\_string", r"{\char96}"))
+    latex = shutil.which("pdflatex")
+    if latex is not None:
+        document = [r"\documentclass{article}\usepackage{booktabs,longtable}\begin{document}\tiny"]
+        document += [rf"\input{{{place.name}}}" for place in (chains, tmp_path / "lists.tex")]
+        (tmp_path / "all.tex").write_text("\n".join([*document, r"\end{document}"]), encoding="utf-8")
+        words = [latex, "-interaction=nonstopmode", "-halt-on-error", "all.tex"]
+        child = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert child.returncode == 0, child.stdout[-2000:]
 
 
 def test_lists_are_sorted_as_lists(tmp_path):

@@ -86,7 +86,7 @@ TEXTS = {
     "latin-1": ("a.json", "{é}".encode("latin-1"), "byte 1: not text; expected UTF-8 text"),
     "deep": ("a.json", b"[" * 20_000, "the JSON is nested too deeply"),
     "deep objects": ("a.fold", b'{"a":' * 20_000, "the JSON is nested too deeply"),
-    "extension": ("a.pdf", b"%PDF", "files ending in '.pdf' are not known; expected one of .cp .csv .dxf .edges .fold"),
+    "extension": ("a.pdf", b"%PDF", "files ending in '.pdf' are not known; expected one of .cp .csv .dxf .edgelist .edges .fold"),
     "no extension": ("mechanism", b"x", "the name has no extension"),
     "fold: no object": ("a.fold", b"[]", "a list; expected a FOLD document"),
     "fold: no faces": ("a.fold", b"{}", "faces_vertices: missing; expected faces, or edges with coordinates"),

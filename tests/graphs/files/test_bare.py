@@ -5,7 +5,7 @@ from strategies import sc_graphs
 
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.count.report import mobility_report
-from graphs.errors import FileError, UnsolvableError
+from graphs.errors import FileError, InvariantError, UnsolvableError
 from graphs.files.bare import edge_list_text, graph6_text, graphml_text
 from graphs.files.formats import read, read_all, write
 from graphs.mechanism.sc import SCGraph
@@ -33,6 +33,36 @@ def test_parallel_joints_survive(suffix, tmp_path):
     assert sorted(d for _, d in back.degree()) == [1, 2, 3]
     if suffix != ".s6":
         assert dict(back.joints) == dict(PARALLEL.joints)
+
+
+@pytest.mark.parametrize(("suffix", "writes"), [(".gml", nx.write_gml), (".edgelist", nx.write_edgelist)])
+def test_what_networkx_writes_is_read(suffix, writes, tmp_path):
+    graph = nx.relabel_nodes(nx.petersen_graph(), str)
+    writes(graph, tmp_path / f"a{suffix}")
+    back = read(tmp_path / f"a{suffix}")
+    assert nx.is_isomorphic(nx.Graph(back), graph)
+    assert set(back) == set(range(10))
+    assert nx.utils.graphs_equal(nx.Graph(back), nx.Graph(read(nx.convert_node_labels_to_integers(graph))))
+
+
+def test_graphs_of_networkx_are_read():
+    two = nx.MultiGraph([("A", "B"), ("A", "B"), ("B", "C")])
+    assert len(read(two).joints) == 3
+    assert read(nx.DiGraph([(0, 1), (1, 0), (1, 2)])).number_of_edges() == 2
+    assert read(PARALLEL) is PARALLEL
+    with pytest.raises(InvariantError, match="itself"):
+        read(nx.Graph([(0, 0)]))
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [("graph [", "not GML"), ("", "empty"), ("graph [ node [ id 0 ] edge [ source 0 target 1 ] ]", "not GML"),
+     ('graph [ node [ id 0 label "a" ] edge [ source 0 target 0 ] ]', "to itself")],
+)  # fmt: skip
+def test_gml_that_is_none(text, words, tmp_path):
+    (tmp_path / "a.gml").write_text(text)
+    with pytest.raises(FileError, match=words):
+        read(tmp_path / "a.gml")
 
 
 def test_graph6_cannot_hold_parallel_joints():

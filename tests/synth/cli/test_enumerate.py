@@ -120,7 +120,7 @@ def test_enumerate_inversions_and_inputs(tmp_path):
         ("--links 8 --dof 1 --resume", "--resume requires -o FILE.sqlite"),
         ("--links 8 --dof 1 --json -o x.g6", "-o and --json exclude each other"),
         ("--links 8 --dof 1 --count -o x.g6", "--count keeps its counts in a store only"),
-        ("--links 8 --dof 1 -o chains.xyz", "expected one of .csv .g6 .jsonl .parquet .sqlite, or a folder"),
+        ("--links 8 --dof 1 -o chains.xyz", "expected one of .csv .g6 .jsonl .parquet .sqlite .tex, or a folder"),
         (
             "--links 8 --dof 1 -o no/such/chains.g6",
             "no/such/chains.g6: there is no folder 'no/such'; expected a folder that exists",
