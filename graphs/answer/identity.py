@@ -95,7 +95,7 @@ class TypeClasses(Printed):
     --------
     >>> classes = types_of(["k1:Cr", nx.cycle_graph(4), nx.cycle_graph(5)])
     >>> classes.to_json()["classes"]
-    [{'id': 'k1:Cr', 'members': ['k1:Cr', '2']}, {'id': 'k1:Dhc', 'members': ['3']}]
+    [{'id': 'k1:Cr', 'members': ['k1:Cr', '2']}, {'id': 'k1:DqK', 'members': ['3']}]
     """
 
     by: By
