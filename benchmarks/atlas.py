@@ -36,13 +36,7 @@ INDEXED = (
     "name = 'Watt chain'",
     "ride_alongs = 1 and links = 11 and dof = 2 and joints = 99",
 )
-ANY = (
-    "vertices = 99",
-    "loop_sizes contains 99",
-    "name like '%watt%'",
-    "dof = 1 and layers = 99",
-    "edge_ratio > 2",
-)
+ANY = ("vertices = 99", "loop_sizes contains 99", "name like '%watt%'", "dof = 1 and layers = 99", "edge_ratio > 2")
 
 
 def filled(place: Path) -> None:
@@ -79,12 +73,7 @@ def main() -> None:
                     found = atlas.query(condition, columns=["id"])
                     times.append(process_time() - begin)
                 asked.append(
-                    {
-                        "columns": kind,
-                        "condition": condition,
-                        "rows": len(found),
-                        "seconds": round(median(times), 5),
-                    }
+                    {"columns": kind, "condition": condition, "rows": len(found), "seconds": round(median(times), 5)}
                 )
         result = {"machine": platform.machine(), "types": ROWS, "asked": asked}
     PLACE.write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")

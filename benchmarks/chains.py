@@ -77,18 +77,7 @@ def geng(links: int) -> list[str] | None:
 def pylinkage(links: int) -> float | None:
     """Return the time pylinkage takes, if it installs."""
     with tempfile.TemporaryDirectory() as folder:
-        install = [
-            sys.executable,
-            "-m",
-            "pip",
-            "install",
-            "-q",
-            "--target",
-            folder,
-            "--no-deps",
-            "pylinkage",
-            "tqdm",
-        ]
+        install = [sys.executable, "-m", "pip", "install", "-q", "--target", folder, "--no-deps", "pylinkage", "tqdm"]
         if subprocess.run(install, check=False, capture_output=True).returncode:
             return None
         code = (

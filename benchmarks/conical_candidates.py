@@ -39,18 +39,7 @@ def run(chain: str, *words: str) -> dict[str, float]:
     with tempfile.TemporaryDirectory() as folder:
         store = f"{folder}/store.sqlite"
         start = perf_counter()
-        command = [
-            sys.executable,
-            "-m",
-            "synth.cli",
-            "enumerate",
-            "conical",
-            "--chain",
-            chain,
-            *words,
-            "-o",
-            store,
-        ]
+        command = [sys.executable, "-m", "synth.cli", "enumerate", "conical", "--chain", chain, *words, "-o", store]
         subprocess.run(command, check=True)
         seconds = perf_counter() - start
         rows = sum(1 for _ in read_rows(store))

@@ -49,11 +49,7 @@ def main() -> None:
         "equal": equal,
         "processor seconds": round(process_time() - start),
         "by_size": {
-            links: {
-                "graphs": graphs[links],
-                "weight": str(weights[links]),
-                "closed form": str(closed[links]),
-            }
+            links: {"graphs": graphs[links], "weight": str(weights[links]), "closed form": str(closed[links])}
             for links in closed
         },
     }

@@ -135,10 +135,7 @@ def total(cubic: int, values: dict[int, Floats], numbers: dict[int, Floats]) -> 
     within = sum(
         (cubic * numbers[n].mean()) ** 2 * values[n].var(ddof=1) / len(values[n]) for n in numbers if len(values[n]) > 1
     )
-    return {
-        "estimate": float(f"{cubic * of_cubic.mean():.4g}"),
-        "error": float(f"{(between + within) ** 0.5:.2g}"),
-    }
+    return {"estimate": float(f"{cubic * of_cubic.mean():.4g}"), "error": float(f"{(between + within) ** 0.5:.2g}")}
 
 
 def figures_of(cubic: int, sample: Sample, found: Counted) -> dict[str, Any]:

@@ -29,14 +29,7 @@ def sarrus() -> HingedSolids:
     """Return the linkage of Sarrus by its axes: three along x, then three along y."""
     x, y = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
     return ring(
-        [
-            ((0, 1, 0), x),
-            ((0, 1.6, 0.8), x),
-            ((0, 1, 1.6), x),
-            ((1.2, 0, 1.6), y),
-            ((2.1, 0, 0.8), y),
-            ((1.2, 0, 0), y),
-        ]
+        [((0, 1, 0), x), ((0, 1.6, 0.8), x), ((0, 1, 1.6), x), ((1.2, 0, 1.6), y), ((2.1, 0, 0.8), y), ((1.2, 0, 0), y)]
     )
 
 

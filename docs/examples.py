@@ -20,11 +20,7 @@ from tests.support.examples import agree, commands_of, fences_of, printed_by  # 
 def main() -> None:
     """Look through the documents named, or through all."""
     places = [Path(name).resolve() for name in sys.argv[1:]]
-    places = places or [
-        ROOT / "README.md",
-        *(ROOT / "docs").glob("*.md"),
-        *(ROOT / "docs" / "guides").glob("*.md"),
-    ]
+    places = places or [ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *(ROOT / "docs" / "guides").glob("*.md")]
     for place in places:
         with TemporaryDirectory() as folder:
             (Path(folder) / "data").symlink_to(ROOT / "data")

@@ -19,11 +19,7 @@ from graphs.errors import (
 )
 from graphs.files.accepted import MechanismLike as MechanismLike
 from graphs.files.formats import read as read, write as write
-from graphs.joints.linkage import (
-    JointedLinkage as JointedLinkage,
-    JointKind as JointKind,
-    JointPlace as JointPlace,
-)
+from graphs.joints.linkage import JointedLinkage as JointedLinkage, JointKind as JointKind, JointPlace as JointPlace
 from graphs.loops.loop import Centre as Centre, Loop as Loop
 from graphs.mechanism.polyhedron import PolyhedronModel as PolyhedronModel
 from graphs.mechanism.sc import SCGraph as SCGraph

@@ -108,11 +108,7 @@ def offered(kind):
             module = import_module(f"{package}.{info.name}")
             for name in getattr(module, "__all__", ()):
                 thing = getattr(module, name)
-                if isinstance(thing, kind) and thing.__module__.partition(".")[0] in (
-                    "graphs",
-                    "enumerate",
-                    "synth",
-                ):
+                if isinstance(thing, kind) and thing.__module__.partition(".")[0] in ("graphs", "enumerate", "synth"):
                     found.setdefault(id(thing), (f"{module.__name__}.{name}", thing))
     return dict(found.values())
 
@@ -163,10 +159,7 @@ def test_classes_that_rooms_offer_say_what_they_hold():
     assert not {name: names for name, names in untold.items() if names}
     # these have methods only, each with a docstring of its own, or what their base class says
     without = {name for name, cls in classes.items() if not told(cls)}
-    assert without == {
-        "enumerate.runner.Sink",
-        "synth.atlas.ExpressionError",
-    }
+    assert without == {"enumerate.runner.Sink", "synth.atlas.ExpressionError"}
 
 
 def test_few_classes_that_rooms_offer_are_without_an_example():

@@ -29,11 +29,7 @@ def beside_the_data(tmp_path, monkeypatch):
 
 
 @pytest.mark.usefixtures("beside_the_data")
-@pytest.mark.parametrize(
-    "path",
-    WITH_EXAMPLES,
-    ids=lambda path: str(path.relative_to(ROOT)),
-)
+@pytest.mark.parametrize("path", WITH_EXAMPLES, ids=lambda path: str(path.relative_to(ROOT)))
 def test_examples(path):
     runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE)
     names: dict[str, object] = {}

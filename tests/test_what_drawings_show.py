@@ -32,10 +32,7 @@ def texts(scene):
 
 def test_six_bars_come_of_two_placements():
     told = texts(enumeration.chains())
-    assert [text for text in told if "binary links" in text] == [
-        "2 + 2 + 0 binary links",
-        "2 + 1 + 1 binary links",
-    ]
+    assert [text for text in told if "binary links" in text] == ["2 + 2 + 0 binary links", "2 + 1 + 1 binary links"]
     assert [text for text in told if "chain" in text] == ["Watt's chain", "Stephenson's chain"]
 
 

@@ -24,19 +24,7 @@ from synth.drawing import Scene
 from synth.drawing.conformed import surface_layer
 from synth.drawing.mechanisms.chains import ChainLook, chain_scene
 from synth.drawing.scene.frame import PictureOptions, Plot, round_steps, signed
-from synth.drawing.scene.shapes import (
-    FINE,
-    NORMAL,
-    STRONG,
-    Disc,
-    Label,
-    Layer,
-    Line,
-    Point,
-    Polygon,
-    Shape,
-    arc_points,
-)
+from synth.drawing.scene.shapes import FINE, NORMAL, STRONG, Disc, Label, Layer, Line, Point, Polygon, Shape, arc_points
 from synth.drawing.sums import draw_loop_sums
 from synth.surfaces.circuit import link_angles, loop_steps, wrapped
 from synth.surfaces.loop_maps import cone_reach, map_to_cones
@@ -213,10 +201,7 @@ def multiloop() -> Scene:
     drawn = cropped(of_shapes(1.0, 1.0, [*shapes, *circle.joints(places, names)]))
     [on_cone] = linkage_on_surfaces(linkage)
     return beside(
-        said(cropped(legible(chain, joints=True)), "the chain"),
-        said(drawn, *told),
-        _cone_of(on_cone, 160.0),
-        gap=16.0,
+        said(cropped(legible(chain, joints=True)), "the chain"), said(drawn, *told), _cone_of(on_cone, 160.0), gap=16.0
     )
 
 

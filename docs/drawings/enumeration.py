@@ -16,14 +16,7 @@ from drawings.together import above, beside, said
 from enumerate.chains.names import chain_named, name_of
 from enumerate.chains.rows import chain_ids
 from enumerate.conical.query import ConicalQuery, conical_orders, count_conical_orders
-from enumerate.contracted.binary_links import (
-    EVERY,
-    PlacementRange,
-    frame_of,
-    joints_of_all,
-    list_placements,
-    no_prefix,
-)
+from enumerate.contracted.binary_links import EVERY, PlacementRange, frame_of, joints_of_all, list_placements, no_prefix
 from enumerate.contracted.graphs import contracted_graphs
 from enumerate.scd.jobs import scd_graphs_of
 from graphs.errors import numbered

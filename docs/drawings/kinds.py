@@ -21,18 +21,7 @@ from graphs.types import JointId
 from synth.drawing import Scene
 from synth.drawing.mechanisms.labelling import centre_sign
 from synth.drawing.mechanisms.sc_graphs import class_numbers
-from synth.drawing.scene.shapes import (
-    FINE,
-    NORMAL,
-    SMALL,
-    STRONG,
-    Disc,
-    Label,
-    Line,
-    Point,
-    Shape,
-    colour_of_class,
-)
+from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, STRONG, Disc, Label, Line, Point, Shape, colour_of_class
 
 __all__ = ["DRAWINGS"]
 
@@ -138,9 +127,7 @@ def vertex_edge_graphs() -> Scene:
     return beside(
         said(pattern.scene(colour="letters"), "crease pattern"),
         said(
-            _vertex_edge(pattern),
-            "vertex-edge graph: a vertex for each centre,",
-            "an edge for each crease between two",
+            _vertex_edge(pattern), "vertex-edge graph: a vertex for each centre,", "an edge for each crease between two"
         ),
     )
 

@@ -47,10 +47,7 @@ def _judged(sheet: Sheet, name: str) -> Scene:
     creases = "whole lines, orange: creases that move" if freedoms else "dotted, grey: creases that cannot move"
     pattern = Patterned(sheet, 200.0).scene(colour="verdict")
     return said(
-        pattern,
-        name,
-        f"by count M = {signed(found.mobility)}; verdict: {moves}, {found.verdict.certainty}",
-        creases,
+        pattern, name, f"by count M = {signed(found.mobility)}; verdict: {moves}, {found.verdict.certainty}", creases
     )
 
 

@@ -22,18 +22,7 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.types import Floats
 from synth.drawing import Scene
 from synth.drawing.scene.frame import Plot, signed
-from synth.drawing.scene.shapes import (
-    FINE,
-    NORMAL,
-    SMALL,
-    STRONG,
-    Disc,
-    Label,
-    Layer,
-    Line,
-    Shape,
-    colour_of_class,
-)
+from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Shape, colour_of_class
 from synth.drawing.space.panels import bodies_of, places_of_hinges
 from synth.drawing.space.poses import pose_scenes
 from synth.folding.configuration import configuration_of_sheet

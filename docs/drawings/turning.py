@@ -165,12 +165,7 @@ def _turned(joints: Floats, turn: float) -> Floats:
     theta, psi = float(np.angle((a - o) / along)), float(np.angle((b - c) / along))
     branch = min((1, -1), key=lambda one: abs(wrapped(output_planar(lengths, theta, one) - psi)))
     after = float(output_planar(lengths, theta + turn, branch))
-    moved = [
-        o,
-        o + lengths[1] * along * np.exp(1j * (theta + turn)),
-        c + lengths[3] * along * np.exp(1j * after),
-        c,
-    ]
+    moved = [o, o + lengths[1] * along * np.exp(1j * (theta + turn)), c + lengths[3] * along * np.exp(1j * after), c]
     return np.stack([np.real(moved), np.imag(moved)], axis=1)
 
 

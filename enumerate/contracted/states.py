@@ -299,15 +299,7 @@ def _grown(states: StateTable) -> StateTable:
 
 @compiled
 def step(
-    counters: Words,
-    rest: Ints,
-    laid: Counters,
-    words: Words,
-    i: int,
-    units: int,
-    counted: int,
-    most: int,
-    new: Words,
+    counters: Words, rest: Ints, laid: Counters, words: Words, i: int, units: int, counted: int, most: int, new: Words
 ) -> bool:
     """Fill one more class with so many units, of which so many are counted; return whether the rest can be placed.
 

@@ -160,15 +160,7 @@ def _judged(verdict: int, code: Bytes, best: Bytes, place: int) -> int:
 
 @compiled
 def _read_labels(
-    turn: Ints,
-    face: Ints,
-    labels: Ints,
-    side: int,
-    best: Bytes,
-    code: Bytes,
-    work: Ints,
-    verdict: int,
-    size: int,
+    turn: Ints, face: Ints, labels: Ints, side: int, best: Bytes, code: Bytes, work: Ints, verdict: int, size: int
 ) -> tuple[int, int]:
     """Write the labels of the faces after a code, in the order in which it met them."""
     if len(labels):

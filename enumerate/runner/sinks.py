@@ -298,8 +298,7 @@ class ParquetSink(_FileSink):
             for i, column in enumerate(zip(*rows, strict=True))
         ]
         table = arrow.Table.from_arrays(
-            [arrow.array(v, field.type) for v, field in zip(values, self._schema, strict=True)],
-            schema=self._schema,
+            [arrow.array(v, field.type) for v, field in zip(values, self._schema, strict=True)], schema=self._schema
         )
         try:
             self._writer.write_table(table)

@@ -78,10 +78,7 @@ class SCQuery(Query):
     def chains(self) -> ChainQuery:
         """The chains to be drawn: with a loop of three equations in the place of each spatial one."""
         return ChainQuery(
-            self.links,
-            self.dof + 3 * self.spatial,
-            assortment=self.assortment,
-            longest_string=self.longest_string,
+            self.links, self.dof + 3 * self.spatial, assortment=self.assortment, longest_string=self.longest_string
         )
 
     @property

@@ -301,11 +301,7 @@ def _number_of_compositions(total: int, parts: int, largest: int) -> int:
 
 def _limits(creases: int, max_panels: int | None, max_cluster: int | None) -> tuple[int, int]:
     """Return the most clusters and the most creases in one."""
-    for name, value, least in (
-        ("creases", creases, 1),
-        ("max_panels", max_panels, 0),
-        ("max_cluster", max_cluster, 1),
-    ):
+    for name, value, least in (("creases", creases, 1), ("max_panels", max_panels, 0), ("max_cluster", max_cluster, 1)):
         if value is not None and value < least:
             raise InvariantError("R/- strings", f"{name} is {value}", f"{least} or more")
     longest = creases if max_panels is None else min(creases, max_panels + 1)

@@ -198,11 +198,7 @@ def read_linkage(path: str | Path) -> SurfaceLinkage:
 
 
 def write(
-    mechanism: Mechanism | str | Path,
-    path: str | Path,
-    *,
-    lossy: bool = False,
-    force: bool = False,
+    mechanism: Mechanism | str | Path, path: str | Path, *, lossy: bool = False, force: bool = False
 ) -> tuple[str, ...]:
     """Write a mechanism in the format that the extension names.
 

@@ -123,9 +123,7 @@ def cyclic_order(loop: Loop, joints: Joints) -> tuple[JointId, ...]:
     for link, here in at_link.items():
         if len(here) != 2:
             raise InvariantError(
-                "loop is a cycle",
-                f"{loop.label} meets link {shown(link)} in {numbered(len(here), 'joint')}",
-                "two",
+                "loop is a cycle", f"{loop.label} meets link {shown(link)} in {numbered(len(here), 'joint')}", "two"
             )
     order = _walk(loop.joints, at_link, joints)
     if len(order) != len(seen):

@@ -11,10 +11,7 @@ from graphs.mechanism.polyhedron import (
     RemoteCentre as RemoteCentre,
 )
 from graphs.mechanism.sc import SCGraph as SCGraph, SpecialGeometry as SpecialGeometry
-from graphs.mechanism.scd import (
-    FeatureCounts as FeatureCounts,
-    SCDGraph as SCDGraph,
-)
+from graphs.mechanism.scd import FeatureCounts as FeatureCounts, SCDGraph as SCDGraph
 from graphs.mechanism.sheet import Sheet as Sheet, sheet_from_model as sheet_from_model
 from graphs.mechanism.solids import HingedSolids as HingedSolids
 from graphs.mechanism.surfaces import SurfaceLinkage as SurfaceLinkage

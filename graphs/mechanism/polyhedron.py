@@ -150,8 +150,7 @@ class PolyhedronModel(nx.Graph):
         for vertex in vertices:
             if vertex is None or str(vertex) in texts or vertex == GROUND:
                 raise InvariantError(
-                    "distinct vertices",
-                    f"vertex {shown(vertex)} occurs twice, has no name or is called {GROUND!r}",
+                    "distinct vertices", f"vertex {shown(vertex)} occurs twice, has no name or is called {GROUND!r}"
                 )
             texts.add(str(vertex))
             self.add_node(vertex)

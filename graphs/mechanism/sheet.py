@@ -208,10 +208,7 @@ class Sheet:
         for i, face in enumerate(self.faces):
             if len(set(face)) < max(3, len(face)):
                 raise InvariantError(
-                    "face",
-                    f"face {i} has the vertices {shown(list(face))}",
-                    "three or more, each once",
-                    ("faces", i),
+                    "face", f"face {i} has the vertices {shown(list(face))}", "three or more, each once", ("faces", i)
                 )
         if self.coordinates is not None:
             check_extent(self.coordinates)

@@ -12,6 +12,4 @@ from graphs.rank.pose import (
     pose_mobility_of_model as pose_mobility_of_model,
 )
 from graphs.rank.rods import exact_mobility_of_model as exact_mobility_of_model
-from graphs.rank.singular_values import (
-    Spectrum as Spectrum,
-)
+from graphs.rank.singular_values import Spectrum as Spectrum

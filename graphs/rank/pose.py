@@ -126,9 +126,7 @@ def pose_mobility(sheet: Sheet, mechanism: SheetMechanism | None = None, *, hing
 
 
 def pose_mobility_of_axes(
-    sc: SCGraph,
-    axes: Mapping[JointId, tuple[Sequence[float], Sequence[float]]],
-    precision: Precision | None = None,
+    sc: SCGraph, axes: Mapping[JointId, tuple[Sequence[float], Sequence[float]]], precision: Precision | None = None
 ) -> PoseMobility:
     """Return the infinitesimal degrees of freedom of a linkage by its joint axes.
 

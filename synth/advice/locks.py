@@ -187,11 +187,7 @@ def cheapest_sets(
 
 
 def _greedy(
-    rates: Floats,
-    kept: tuple[int, ...],
-    order: Sequence[int],
-    size: int,
-    allowance: Allowance | None = None,
+    rates: Floats, kept: tuple[int, ...], order: Sequence[int], size: int, allowance: Allowance | None = None
 ) -> tuple[int, ...]:
     """Return joints that take a freedom each: those kept, then each in order that adds to them, up to a size.
 

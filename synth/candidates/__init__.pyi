@@ -1,8 +1,4 @@
-from synth.candidates.job import (
-    CandidateCountJob as CandidateCountJob,
-    CandidateJob as CandidateJob,
-    Filter as Filter,
-)
+from synth.candidates.job import CandidateCountJob as CandidateCountJob, CandidateJob as CandidateJob, Filter as Filter
 from synth.candidates.listing import (
     conical_candidates as conical_candidates,
     count_conical_candidates as count_conical_candidates,

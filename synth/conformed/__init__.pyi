@@ -31,11 +31,5 @@ from synth.conformed.outward import (
     joint_rates as joint_rates,
     outward_rates as outward_rates,
 )
-from synth.conformed.pose import (
-    dihedral_angles as dihedral_angles,
-)
-from synth.conformed.rates import (
-    ConformedChain as ConformedChain,
-    FirstOrder as FirstOrder,
-    first_order as first_order,
-)
+from synth.conformed.pose import dihedral_angles as dihedral_angles
+from synth.conformed.rates import ConformedChain as ConformedChain, FirstOrder as FirstOrder, first_order as first_order

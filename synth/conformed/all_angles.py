@@ -144,9 +144,7 @@ def over_angles(chain: ConformedChain | RateFormulas, places: npt.ArrayLike, sam
     formulas = chain if isinstance(chain, RateFormulas) else RateFormulas(chain)
     answer = _over_angles(formulas, slots.reshape(-1, slots.shape[-1]), samples)
     return OverAngles(
-        answer.links.reshape(*shape, -1),
-        answer.linkage.reshape(shape),
-        answer.signs.reshape(*shape, slots.shape[-1]),
+        answer.links.reshape(*shape, -1), answer.linkage.reshape(shape), answer.signs.reshape(*shape, slots.shape[-1])
     )
 
 

@@ -320,12 +320,7 @@ class LinkageBehaviour(Printed):
             "tangent": [joint for joint, is_so in zip(chain.joints, self.behaviour.tangent, strict=True) if is_so],
             "table4": None
             if row is None
-            else {
-                "case": row.case,
-                "configuration": row.configuration,
-                "column": row.column,
-                "diameter": row.special,
-            },
+            else {"case": row.case, "configuration": row.configuration, "column": row.column, "diameter": row.special},
         }
 
     def _joints(self, arc: tuple[int, int]) -> list[JointId]:

@@ -36,11 +36,7 @@ class PanelShapes:
     """
 
     def __init__(
-        self,
-        faces: Sequence[Sequence[int]],
-        panel_of: Sequence[int],
-        flat: Floats,
-        tolerances: Tolerances = DOUBLE,
+        self, faces: Sequence[Sequence[int]], panel_of: Sequence[int], flat: Floats, tolerances: Tolerances = DOUBLE
     ) -> None:
         pieces = [_convex(face, flat) for face in faces]
         corners = [piece for pieces_of_face in pieces for piece in pieces_of_face]

@@ -19,13 +19,7 @@ from graphs.errors import UnsolvableError
 from graphs.geometry import best_plane, facing, frame_about, principal_axes, unit
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
-from synth.guidance.order import (
-    Direction,
-    crank_angles,
-    nearest_moving_axis,
-    order_by_crank_angles,
-    order_verdicts,
-)
+from synth.guidance.order import Direction, crank_angles, nearest_moving_axis, order_by_crank_angles, order_verdicts
 from synth.guidance.orientations import Orientations, unit_vector
 
 

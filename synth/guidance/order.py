@@ -248,11 +248,7 @@ class OrderAnalysis(Printed):
             "breaks_at": None if breaks is None else {"due": list(breaks[0]), "crossed": list(breaks[1])},
             "margin_deg": degrees(turned.margin),
             "kept": self.kept,
-            "checks": {
-                "hoop": self.kept,
-                "inequalities": self.by_inequalities,
-                "crank_angles": self.by_crank_angles,
-            },
+            "checks": {"hoop": self.kept, "inequalities": self.by_inequalities, "crank_angles": self.by_crank_angles},
             "agree": self.agree,
             "dyad": {
                 "W": self.moving_axis.tolist(),

@@ -85,10 +85,7 @@ class Orientations:
         pairs = sorted(sorted((i % n, j % n)) for i, j in both_signs.query_pairs(DOUBLE.parallel))
         for i, j in pairs:
             raise InvariantError(
-                "different orientations",
-                f"orientations {i + 1} and {j + 1} are equal",
-                "different ones",
-                ("item", j),
+                "different orientations", f"orientations {i + 1} and {j + 1} are equal", "different ones", ("item", j)
             )
 
     def __len__(self) -> int:

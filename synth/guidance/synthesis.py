@@ -325,11 +325,7 @@ def _fitted(orientations: Orientations, start: Floats) -> tuple[float, Dyad]:
         return np.concatenate([angles - angles.mean(), lengths - 1.0])
 
     best = least_squares(
-        errors,
-        np.concatenate([start, nearest_moving_axis(orientations, start)]),
-        xtol=1e-15,
-        ftol=1e-15,
-        gtol=1e-15,
+        errors, np.concatenate([start, nearest_moving_axis(orientations, start)]), xtol=1e-15, ftol=1e-15, gtol=1e-15
     )
     return float(best.cost), dyad_of(orientations, best.x[:3], best.x[3:])
 

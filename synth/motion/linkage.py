@@ -74,10 +74,7 @@ class PosedLinkage:
 
 
 def linkage_of_axes(
-    graph: SCGraph,
-    axes: Mapping[JointId, tuple[Sequence[float], Sequence[float]]],
-    *,
-    slides: Collection[JointId] = (),
+    graph: SCGraph, axes: Mapping[JointId, tuple[Sequence[float], Sequence[float]]], *, slides: Collection[JointId] = ()
 ) -> PosedLinkage:
     """Return a linkage with joint axes in space.
 

@@ -7,14 +7,8 @@ from graphs.joints.linkage import JointedLinkage
 from synth.patterns import creases, goods, hinged_rings, platforms, scissors
 from synth.patterns.generator import Generator, Parameter, Values, angle, count, length
 
-_MESH = (
-    count("rows", 3, 2, 12, "number of rows of panels"),
-    count("columns", 3, 2, 12, "number of columns of panels"),
-)
-_TILES = (
-    count("rows", 2, 1, 8, "number of rows of units"),
-    count("columns", 2, 1, 8, "number of columns of units"),
-)
+_MESH = (count("rows", 3, 2, 12, "number of rows of panels"), count("columns", 3, 2, 12, "number of columns of panels"))
+_TILES = (count("rows", 2, 1, 8, "number of rows of units"), count("columns", 2, 1, 8, "number of columns of units"))
 _SECTOR = angle("sector", 60, 20, 85, "acute angle of the panels")
 _SIDES = (
     length("straight", 1.0, 0.1, 10, "side of a panel along the straight lines"),

@@ -67,13 +67,7 @@ def miura(rows: int, columns: int, sector: float, straight: float = 1.0, zigzag:
 
 
 def folded_miura(
-    rows: int,
-    columns: int,
-    tilt: float,
-    sector: float,
-    straight: float = 1.0,
-    zigzag: float = 1.0,
-    title: str = "",
+    rows: int, columns: int, tilt: float, sector: float, straight: float = 1.0, zigzag: float = 1.0, title: str = ""
 ) -> Sheet:
     """Return a Miura sheet folded until its panels are at an angle, the tilt (radians), to the base plane."""
     # Lengths of the unit cell: M. Schenk and S. D. Guest, "Geometry of Miura-folded metamaterials" (2013).

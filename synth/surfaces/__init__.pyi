@@ -23,9 +23,5 @@ from synth.surfaces.loop_maps import (
     map_to_cones as map_to_cones,
     map_to_cylinders as map_to_cylinders,
 )
-from synth.surfaces.loop_sums import (
-    circumradii as circumradii,
-    cone_angles as cone_angles,
-    loop_sum as loop_sum,
-)
+from synth.surfaces.loop_sums import circumradii as circumradii, cone_angles as cone_angles, loop_sum as loop_sum
 from synth.surfaces.mapping import FamilyOfCircles as FamilyOfCircles, MappedLoop as MappedLoop

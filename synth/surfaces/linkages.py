@@ -29,15 +29,7 @@ from synth.fourbar.closing import ILL_CONDITIONED, checked_link_angles, spherica
 from synth.surfaces import loop_maps
 from synth.surfaces.circuit import HALF_TURN, circuits, link_angles, link_pairs, loop_steps, wrapped
 from synth.surfaces.loop_sums import LoopRoots, loop_roots, put_together, sign_patterns, sum_rounding
-from synth.surfaces.mapping import (
-    SizedLinks,
-    in_a_family,
-    in_degrees,
-    interval_json,
-    joints_text,
-    signs_text,
-    size_of,
-)
+from synth.surfaces.mapping import SizedLinks, in_a_family, in_degrees, interval_json, joints_text, signs_text, size_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -497,12 +489,7 @@ def _agreeing(
 
 
 def _common_surface(
-    chain: SCGraph,
-    pairs: Mapping[Pair, int],
-    cycles: Sequence[_Cycle],
-    steps: Floats,
-    surface: Surface,
-    caution: str,
+    chain: SCGraph, pairs: Mapping[Pair, int], cycles: Sequence[_Cycle], steps: Floats, surface: Surface, caution: str
 ) -> CommonSurface:
     loops = len(chain.loops)
     of_loops = [steps[cycle.pairs] * cycle.turned for cycle in cycles]

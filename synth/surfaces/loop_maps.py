@@ -77,11 +77,7 @@ class ConeMap(Printed):
             blocks.append(f"no cone: {self.why}")
         if self.supplementary is not None:
             angles = ", ".join(f"{degrees(angle):.6g}" for angle in self.supplementary.angles)
-            blocks += [
-                "",
-                f"supplementary linkage, on the same joint lines: {angles}",
-                *self.supplementary.blocks(),
-            ]
+            blocks += ["", f"supplementary linkage, on the same joint lines: {angles}", *self.supplementary.blocks()]
         return blocks
 
     def __repr__(self) -> str:

@@ -73,10 +73,7 @@ class MappedLoop:
 
     def to_json(self, *, angular: bool) -> dict[str, Any]:
         """Return the loop as plain data: on a cone (angular) or a cylinder."""
-        size: dict[str, Any] = {
-            "radius": self.size,
-            "radius_bounds": [None if x == inf else x for x in self.bounds],
-        }
+        size: dict[str, Any] = {"radius": self.size, "radius_bounds": [None if x == inf else x for x in self.bounds]}
         if angular:
             bounds = [degrees(x) for x in self.bounds]
             size = {"lambda_deg": degrees(self.size), "lambda_bounds_deg": bounds, "R": cos(self.size)}

@@ -281,14 +281,7 @@ def _piece_of_link(linkage: LayeredLinkage, number: int) -> Piece:
         for side, azimuth in ((-1, start), (1, end))
         if side in joinings
     }
-    outline = [
-        (start, inner),
-        *tabs.get(-1, []),
-        (start, outer),
-        (end, outer),
-        *tabs.get(1, [])[::-1],
-        (end, inner),
-    ]
+    outline = [(start, inner), *tabs.get(-1, []), (start, outer), (end, outer), *tabs.get(1, [])[::-1], (end, inner)]
     strokes = unrolled.lines("CUT", [*outline, outline[0]])
     texts = [Text(unrolled.at(*_free_place(linkage, link)), f"{link.name}, layer {link.layer}", _NAME)]
     for side, tab in tabs.items():

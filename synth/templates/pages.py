@@ -137,13 +137,7 @@ def layers_of(strokes: Sequence[TemplateLine], texts: Sequence[Text], height: fl
         layers.append(Layer(kind, tuple(lines)))
     labels = [
         Label(
-            down(text.at),
-            text.words,
-            text.size,
-            ink,
-            "middle" if text.middle else "start",
-            halo=False,
-            widest=_WIDEST,
+            down(text.at), text.words, text.size, ink, "middle" if text.middle else "start", halo=False, widest=_WIDEST
         )
         for text in texts
     ]
@@ -194,10 +188,7 @@ def frame(window: tuple[float, float]) -> list[TemplateLine]:
 def cross(at: Point, name: str) -> tuple[list[TemplateLine], Text]:
     """Return a cross with a name: crosses of one name on two pages lie over each other."""
     x, y = at
-    strokes = [
-        TemplateLine("MARKS", (x - _ARM, y), (x + _ARM, y)),
-        TemplateLine("MARKS", (x, y - _ARM), (x, y + _ARM)),
-    ]
+    strokes = [TemplateLine("MARKS", (x - _ARM, y), (x + _ARM, y)), TemplateLine("MARKS", (x, y - _ARM), (x, y + _ARM))]
     return strokes, Text((x + _ARM / 2, y + _ARM / 2), name, _GAUGE_TEXT)
 
 

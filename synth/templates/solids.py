@@ -233,13 +233,7 @@ def write_solids(
 
 
 def write_linkage_on_surface(
-    linkage: OnSurface,
-    surface: Surface,
-    path: str | Path,
-    *,
-    dimensions: Dimensions,
-    gap: float,
-    force: bool = False,
+    linkage: OnSurface, surface: Surface, path: str | Path, *, dimensions: Dimensions, gap: float, force: bool = False
 ) -> tuple[str, ...]:
     """Write a linkage on a cone or a cylinder as solids in layers; return what the file does not hold.
 

@@ -51,9 +51,7 @@ def _side_by_side(template: Template) -> Scene:
 
 
 TEMPLATES = formats_by_suffix(
-    PICTURES[".pdf"],
-    PICTURES[".svg"],
-    Format(".dxf", "DXF R12, without pages and assembly instructions", dxf_bytes),
+    PICTURES[".pdf"], PICTURES[".svg"], Format(".dxf", "DXF R12, without pages and assembly instructions", dxf_bytes)
 )
 """Suffix to the format in which templates are written."""
 _LONGEST_TITLE = 200

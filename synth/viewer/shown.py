@@ -229,11 +229,7 @@ class Shown:
 
 
 def shown_of(
-    mechanism: Mechanism,
-    name: str = "",
-    *,
-    motion: bool | None = None,
-    report: Report = lambda _what, _step, _of: None,
+    mechanism: Mechanism, name: str = "", *, motion: bool | None = None, report: Report = lambda _what, _step, _of: None
 ) -> Shown:
     """Return what a page shows of a mechanism.
 

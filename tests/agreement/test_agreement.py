@@ -92,11 +92,7 @@ def test_the_table_counts_each_end():
     table = Table()
     unknown = Outcome("indeterminate")
     outcomes = of(
-        mobility=told(),
-        fold=told(freedoms=2),
-        limits=Outcome("refused"),
-        explain=unknown,
-        view=Outcome("left out"),
+        mobility=told(), fold=told(freedoms=2), limits=Outcome("refused"), explain=unknown, view=Outcome("left out")
     )
     table.add("frame 3", outcomes, disagreements(outcomes))
     rows = [line.split() for line in str(table).splitlines()]
@@ -111,12 +107,7 @@ def test_guises_have_the_shape_they_should():
     assert list(guises) == [name for name in VARIANTS if name != "frame"]
     before = np.array(sheet.coordinates)
     lengths = np.linalg.norm(np.diff(before, axis=0), axis=1)
-    for name, factor in (
-        ("turned and moved", 1),
-        ("scaled by 1e6", 1e6),
-        ("scaled by 1e-6", 1e-6),
-        ("mirrored", 1),
-    ):
+    for name, factor in (("turned and moved", 1), ("scaled by 1e6", 1e6), ("scaled by 1e-6", 1e-6), ("mirrored", 1)):
         after = in_space(guises[name].coordinates)
         np.testing.assert_allclose(np.linalg.norm(np.diff(after, axis=0), axis=1), factor * lengths, rtol=1e-12)
     np.testing.assert_array_equal(guises["3 decimals"].coordinates, before.round(3))

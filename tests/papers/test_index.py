@@ -28,11 +28,7 @@ def test_the_printed_numbers_are_those_of_the_golden_file(golden):
     for row in (row for row in INDEX if row["golden"] is not None):
         paper, name = row["golden"].split("/")
         printed = golden[paper][name].get("printed")
-        if not isinstance(printed, dict) or row["golden"] in (
-            "003/ex_4_2_5_3",
-            "003/ex_4_2_5_4",
-            "003/ex_4_2_5_5",
-        ):
+        if not isinstance(printed, dict) or row["golden"] in ("003/ex_4_2_5_3", "003/ex_4_2_5_4", "003/ex_4_2_5_5"):
             continue
         for key in row.keys() & printed.keys() & {*KEYS, "M"}:
             if isinstance(printed[key], int):

@@ -9,13 +9,7 @@ from counted import counted_numbers
 from oracle import numeric_mobility
 from read_strings import string_of_chain
 
-from enumerate.strings.panel_strings import (
-    ChainString,
-    chain_scd,
-    count_strings,
-    joint_chain,
-    strings,
-)
+from enumerate.strings.panel_strings import ChainString, chain_scd, count_strings, joint_chain, strings
 from graphs.convert.table import to_polyhedron
 from graphs.count.equations import (
     modified_cgk,
@@ -90,10 +84,7 @@ def test_table_1(golden):
 def test_loops_of_n_bars(golden):
     entry = golden["003"]["nbar_loops"]
     for n, spherical, spatial in zip(
-        entry["inputs"]["n"],
-        entry["computed"]["formula_spherical"],
-        entry["computed"]["formula_spatial"],
-        strict=True,
+        entry["inputs"]["n"], entry["computed"]["formula_spherical"], entry["computed"]["formula_spatial"], strict=True
     ):
         assert traditional_cgk(n, [1] * n, 3) == modified_cgk(n, n, 3) == spherical_system(n, n) == spherical
         assert traditional_cgk(n, [1] * n, 6) == modified_cgk(n, n, 6) == spatial

@@ -39,12 +39,7 @@ WORLD = (
     "tests/test_notebooks.py",
     "tests/test_typed_script.py",
 )
-LAW = (
-    "tests/agreement",
-    "tests/invariance",
-    "tests/papers",
-    "tests/test_sequences.py",
-)
+LAW = ("tests/agreement", "tests/invariance", "tests/papers", "tests/test_sequences.py")
 _PROCESSOR = "processor"
 
 

@@ -41,10 +41,7 @@ def in_a_hemisphere(axes: npt.ArrayLike) -> npt.NDArray[np.bool_]:
     they do not, in a linkage that lies flat, the answer is no.
     """
     vectors = np.asarray(axes, dtype=float)
-    minors = np.stack(
-        [(-1) ** i * np.linalg.det(np.delete(vectors, i, axis=-2)) for i in range(4)],
-        axis=-1,
-    )
+    minors = np.stack([(-1) ** i * np.linalg.det(np.delete(vectors, i, axis=-2)) for i in range(4)], axis=-1)
     size = np.abs(minors).max(axis=-1, keepdims=True)
     noise = 1e-12 * np.maximum(size, np.linalg.norm(vectors, axis=-1).prod(axis=-1)[..., np.newaxis])
     some = (minors > noise).any(axis=-1), (minors < -noise).any(axis=-1)

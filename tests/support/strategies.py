@@ -15,16 +15,7 @@ from graphs.mechanism.polyhedron import PointConstraint, PolyhedronModel, Remote
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 
-ODD_NAMES = [
-    "<script>alert(1)</script>",
-    "'; --",
-    "🦆",
-    "[bold]red[/bold]",
-    "x" * 10_000,
-    "a b\tc",
-    "\u202eabc",
-    "",
-]
+ODD_NAMES = ["<script>alert(1)</script>", "'; --", "🦆", "[bold]red[/bold]", "x" * 10_000, "a b\tc", "\u202eabc", ""]
 
 randoms = st.randoms(use_true_random=False)
 

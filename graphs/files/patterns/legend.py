@@ -74,14 +74,7 @@ def _rgb_of_name(text: str) -> Rgb | None:
 
 Dash: TypeAlias = Literal["solid", "dashed", "dotted", "dash-dot"]
 
-COLOURS = {
-    "M": (255, 0, 0),
-    "V": (0, 0, 255),
-    "B": (0, 0, 0),
-    "C": (0, 255, 0),
-    "F": (255, 255, 0),
-    "U": (255, 0, 255),
-}
+COLOURS = {"M": (255, 0, 0), "V": (0, 0, 255), "B": (0, 0, 0), "C": (0, 255, 0), "F": (255, 255, 0), "U": (255, 0, 255)}
 """The colour of each assignment; joins are drawn as flat edges."""
 _SWATCHES = {
     "C": ("008000", "009245", "39b54a", "00a651", "00a859", "009846"),
@@ -111,10 +104,7 @@ _NAMES = {
     "U": "unassigned",
 }
 _LETTERS = {name: letter for letter, names in _NAMES.items() for name in names.split()}
-_DASH_DOT, _DOTTED = (
-    ("DASHDOT", "CENTER", "PHANTOM", "DIVIDE", "ISO04", "ISO05", "ISO08", "ISO1"),
-    ("DOT", "ISO07"),
-)
+_DASH_DOT, _DOTTED = (("DASHDOT", "CENTER", "PHANTOM", "DIVIDE", "ISO04", "ISO05", "ISO08", "ISO1"), ("DOT", "ISO07"))
 
 
 @dataclass(frozen=True, slots=True)

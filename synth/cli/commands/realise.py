@@ -35,10 +35,7 @@ class _Generators(NamedGroup):
         return None if generator is None else _command(generator)
 
 
-@click.group(
-    cls=_Generators,
-    invoke_without_command=True,
-)
+@click.group(cls=_Generators, invoke_without_command=True)
 @options.flag("--list listed", "List all generators with their parameters and sources.")
 @options.flag("--json as_json", "Print the list as JSON.")
 @click.pass_context
@@ -99,12 +96,7 @@ def _command(generator: synth.patterns.Generator) -> click.Command:
     """Return the command of one generator, an option for each of its parameters."""
 
     def run(
-        fold: float | None = None,
-        *,
-        output: str | None,
-        force: bool,
-        as_json: bool,
-        **parameters: float | None,
+        fold: float | None = None, *, output: str | None, force: bool, as_json: bool, **parameters: float | None
     ) -> None:
         out.check_output(output, force=force)
         values = {

@@ -334,11 +334,7 @@ def move_command(kind: Kind) -> click.Command:
       synth {kind} move --steps 50,110,80 {size} --at 0,10,20 --point 2,30 --axes 1,3
     """
 
-    @click.command(
-        "move",
-        help=text,
-        short_help=f"Find how far a linkage moves from its {kind}, inward and outward.",
-    )
+    @click.command("move", help=text, short_help=f"Find how far a linkage moves from its {kind}, inward and outward.")
     @linkage_options(kind)
     @_GROUND
     @options.value("--driver", "JOINT", "Driving joint. By default the first joint of the fixed link.")

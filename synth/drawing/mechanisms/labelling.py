@@ -94,10 +94,7 @@ def centre_sign(at: Point, centre: Centre, colour: str, size: float = SIGN) -> l
         # Bernoulli's lemniscate, stretched upwards a little
         turns = [2 * pi * i / 48 for i in range(49)]
         row = [
-            (
-                at[0] + 1.5 * size * cos(a) / (1 + sin(a) ** 2),
-                at[1] + 1.9 * size * sin(a) * cos(a) / (1 + sin(a) ** 2),
-            )
+            (at[0] + 1.5 * size * cos(a) / (1 + sin(a) ** 2), at[1] + 1.9 * size * sin(a) * cos(a) / (1 + sin(a) ** 2))
             for a in turns
         ]
         return [Line(row, "paper", 3 * NORMAL), Line(row, colour, 1.2 * NORMAL)]

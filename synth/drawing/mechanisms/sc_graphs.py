@@ -128,10 +128,7 @@ def _bent(row: Sequence[Point]) -> list[Point]:
     (ax, ay), (mx, my), (bx, by) = row
     cx, cy = 2 * mx - (ax + bx) / 2, 2 * my - (ay + by) / 2
     return [
-        (
-            (1 - t) ** 2 * ax + 2 * t * (1 - t) * cx + t * t * bx,
-            (1 - t) ** 2 * ay + 2 * t * (1 - t) * cy + t * t * by,
-        )
+        ((1 - t) ** 2 * ax + 2 * t * (1 - t) * cx + t * t * bx, (1 - t) ** 2 * ay + 2 * t * (1 - t) * cy + t * t * by)
         for t in (i / 16 for i in range(17))
     ]
 

@@ -25,14 +25,7 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT
 from synth.motion.linkage import PosedLinkage, linkage_of_sheet
 from synth.motion.singular.sampling import followed, rates_towards
-from synth.motion.singular.second_order import (
-    RateSpace,
-    largest_only,
-    quadrics_of,
-    rates_at,
-    rates_near,
-    spaces_within,
-)
+from synth.motion.singular.second_order import RateSpace, largest_only, quadrics_of, rates_at, rates_near, spaces_within
 from synth.motion.walk.step import Allowance
 
 FARTHEST = 4.0

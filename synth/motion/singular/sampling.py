@@ -189,10 +189,7 @@ def rates_towards(space: second_order.RateSpace, wanted: Floats) -> Floats:
 
 
 def general_rates(
-    space: second_order.RateSpace,
-    most: int,
-    towards: Floats | None = None,
-    late: Callable[[], bool] = lambda: False,
+    space: second_order.RateSpace, most: int, towards: Floats | None = None, late: Callable[[], bool] = lambda: False
 ) -> tuple[list[Floats], bool]:
     """Return general rates of a space, one for each part that its equations leave; and whether these are all.
 

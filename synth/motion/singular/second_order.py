@@ -241,11 +241,7 @@ def largest_only(spaces: Sequence[RateSpace], zero: float = DOUBLE.zero) -> list
 
 
 def rates_near(
-    closure: ClosureEquations,
-    angles: Floats,
-    quadrics: Sequence[Quadric],
-    wanted: Floats,
-    zero: float = DOUBLE.closed,
+    closure: ClosureEquations, angles: Floats, quadrics: Sequence[Quadric], wanted: Floats, zero: float = DOUBLE.closed
 ) -> Floats | None:
     """Return rates that agree to second order, near wanted ones, by Newton's method; for linkages of any size.
 

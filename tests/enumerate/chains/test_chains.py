@@ -198,9 +198,7 @@ def test_inversions_are_the_links_that_differ():
 
 
 @pytest.mark.parametrize(
-    "sizes",
-    [[(5, 2), (6, 1), (6, 3)], pytest.param([(7, 2), (8, 3)], marks=pytest.mark.slow)],
-    ids=["small", "large"],
+    "sizes", [[(5, 2), (6, 1), (6, 3)], pytest.param([(7, 2), (8, 3)], marks=pytest.mark.slow)], ids=["small", "large"]
 )
 def test_inputs_of_small_chains_by_brute_force(sizes):
     for links, dof in sizes:

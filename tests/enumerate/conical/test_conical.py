@@ -12,13 +12,7 @@ from sizes import slow
 
 from enumerate.chains.jobs import chains
 from enumerate.chains.names import chain_named
-from enumerate.conical.query import (
-    ConicalQuery,
-    conical_orders,
-    count_conical_orders,
-    joint_symmetries,
-    links_apart,
-)
+from enumerate.conical.query import ConicalQuery, conical_orders, count_conical_orders, joint_symmetries, links_apart
 from enumerate.conical.rounds import (
     Rounds,
     count_rounds_by_burnside,

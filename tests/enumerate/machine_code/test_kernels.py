@@ -69,12 +69,7 @@ print(json.dumps([
 
 def answer(code, way, cache, **more):
     """Run Python with kernels interpreted or as machine code; return what it printed as JSON."""
-    environment = {
-        **os.environ,
-        "PYTHONPATH": str(ROOT),
-        "SYNTHEDRA_MACHINE_CODE": way,
-        "SYNTHEDRA_CACHE": str(cache),
-    }
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "SYNTHEDRA_MACHINE_CODE": way, "SYNTHEDRA_CACHE": str(cache)}
     done = subprocess.run(
         [sys.executable, "-c", code], env={**environment, **more}, capture_output=True, text=True, check=False
     )

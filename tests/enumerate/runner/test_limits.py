@@ -59,9 +59,4 @@ def test_numbers_and_arrays_agree():
 
 
 def test_a_ring_has_a_longest_string():
-    assert [count_sc_graphs(4, 1, longest_string=limits) for limits in ((0, 0), (0, 3), 4, (5, None))] == [
-        0,
-        0,
-        1,
-        0,
-    ]
+    assert [count_sc_graphs(4, 1, longest_string=limits) for limits in ((0, 0), (0, 3), 4, (5, None))] == [0, 0, 1, 0]

@@ -190,11 +190,7 @@ def small_disk(path, size):
 
 
 @pytest.mark.parametrize(
-    "name",
-    [
-        "chains.g6",
-        *(slow(f"chains{end}") for end in (".sqlite", ".jsonl", ".parquet", "")),
-    ],
+    "name", ["chains.g6", *(slow(f"chains{end}") for end in (".sqlite", ".jsonl", ".parquet", ""))]
 )
 def test_a_full_disk_gives_one_line_and_loses_nothing(tmp_path, name):
     disk = tmp_path / "disk"

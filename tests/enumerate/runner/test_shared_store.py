@@ -74,10 +74,7 @@ def test_a_reader_in_another_process(tmp_path):
         if progress.done == 5:
             started.append(
                 subprocess.Popen(
-                    [sys.executable, "-c", program, store],
-                    stdin=subprocess.PIPE,
-                    stdout=subprocess.PIPE,
-                    text=True,
+                    [sys.executable, "-c", program, store], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
                 )
             )
             assert started[0].stdout.readline() == "50\n"

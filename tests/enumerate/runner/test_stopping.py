@@ -113,11 +113,7 @@ def test_a_second_signal_does_not_disturb_cleaning_up(tmp_path):
             super().abort()
 
     with pytest.raises(Interrupted):
-        run(
-            Squares(),
-            Disturbed(tmp_path / "rows.jsonl"),
-            report=lambda progress: os.kill(os.getpid(), signal.SIGTERM),
-        )
+        run(Squares(), Disturbed(tmp_path / "rows.jsonl"), report=lambda progress: os.kill(os.getpid(), signal.SIGTERM))
     assert list(tmp_path.iterdir()) == []
 
 

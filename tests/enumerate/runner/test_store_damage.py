@@ -45,10 +45,7 @@ def contents(store):
     return units, rows
 
 
-WHOLE = (
-    [(unit, "done", 10) for unit in range(100)],
-    [(n + 1, n // 10, n, n * n) for n in range(1000)],
-)
+WHOLE = ([(unit, "done", 10) for unit in range(100)], [(n + 1, n // 10, n, n * n) for n in range(1000)])
 
 
 def altered(store, *statements):

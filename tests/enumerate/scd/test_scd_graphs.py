@@ -78,8 +78,7 @@ def test_against_all_placements(links, dof, most):
 
 
 @pytest.mark.parametrize(
-    ("links", "most", "joints"),
-    [(2, 4, [(0, 1)]), (3, 4, [(0, 1), (1, 2)]), (4, 3, None), (4, 4, None), (5, 3, None)],
+    ("links", "most", "joints"), [(2, 4, [(0, 1)]), (3, 4, [(0, 1), (1, 2)]), (4, 3, None), (4, 4, None), (5, 3, None)]
 )
 def test_trees_against_all_placements(links, most, joints):
     trees = [joints] if joints else _trees(links)

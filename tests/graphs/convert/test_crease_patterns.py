@@ -14,13 +14,7 @@ from graphs.errors import FileError, InvariantError
 from graphs.files.formats import read, write
 from graphs.loops.loop import Centre
 
-COLUMNS = {
-    "N": "N_panels(F merged)",
-    "J": "J_hinges",
-    "V": "Vint",
-    "L": "extra_loops",
-    "M": "Mgeneric_J-3Vint-6L",
-}
+COLUMNS = {"N": "N_panels(F merged)", "J": "J_hinges", "V": "Vint", "L": "extra_loops", "M": "Mgeneric_J-3Vint-6L"}
 
 REFUSED = {
     "oefold_invalid.fold": "not JSON",
@@ -49,7 +43,7 @@ SPLIT_LINES = {
 COLLINEAR = {
     # Two panels hinged in ten places along one line have one joint; the reference counts ten. Nine pieces lie on
     # x = 1783.75, the tenth ends at 1784.25, by 0.02 per cent of the size: a tenth of a degree.
-    "ossvg_popupSimple.svg": 9,
+    "ossvg_popupSimple.svg": 9
 }
 
 

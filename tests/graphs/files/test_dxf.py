@@ -123,10 +123,7 @@ def test_arcs_and_circles_are_turned_counter_clockwise(tmp_path):
         (drawing(line((0, 0), (1, 0), (30, 2))), "a point at height 2"),
         (drawing(line((0, 0), (1, 0), (62, "red"))), "group 62 is 'red'; expected a whole number"),
         (drawing(line((0, 0), (1, 0), (62, 1))), "no border among 1 line"),
-        (
-            drawing(record("TEXT")),
-            "no line of any length; 1 shape with strokes not understood left out: 1 TEXT",
-        ),
+        (drawing(record("TEXT")), "no line of any length; 1 shape with strokes not understood left out: 1 TEXT"),
     ],
 )
 def test_broken_files_are_told_of_in_a_line(text, found, tmp_path):

@@ -24,14 +24,7 @@ def test_networkx_write_edgelist(attributes, delimiter, tmp_path):
     same(read(tmp_path / "a.edges"), graph)
 
 
-HEADS = [
-    "source,target",
-    ",source,target",
-    "source,target,weight",
-    '"source";"target"',
-    "From,To",
-    "source target",
-]
+HEADS = ["source,target", ",source,target", "source,target,weight", '"source";"target"', "From,To", "source target"]
 
 
 @pytest.mark.parametrize("suffix", [".csv", ".txt", ".edges"])

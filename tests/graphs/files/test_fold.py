@@ -33,11 +33,7 @@ def test_an_empty_key_frame_gives_way_to_the_first_frame_with_a_pattern(tmp_path
 
 
 def test_frames_inherit(tmp_path):
-    moved = {
-        "frame_inherit": True,
-        "frame_parent": 2,
-        "vertices_coords": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 1]],
-    }
+    moved = {"frame_inherit": True, "frame_parent": 2, "vertices_coords": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 1]]}
     frames = [moved, {"frame_inherit": True, "frame_parent": 3}, {**SQUARE, "frame_title": "parent"}]
     found = sheet({"file_frames": frames}, tmp_path)
     assert found.coordinates[3] == (0, 1, 1)
@@ -58,10 +54,7 @@ def test_old_names_and_nulls_are_read(tmp_path):
     found = sheet(old | {"file_frames": None, "edges_assignment": ["B", None, "B", "B", "M"]}, tmp_path)
     assert found.fold_angles == (None, 0, 0, 0, radians(45))
     assert found.assignments == "BUBBM"
-    assert found.repairs == (
-        "old key edges_foldAngles read as edges_foldAngle",
-        "1 null assignment read as unassigned",
-    )
+    assert found.repairs == ("old key edges_foldAngles read as edges_foldAngle", "1 null assignment read as unassigned")
     assert len(sheet(SQUARE | {"faces_vertices": None}, tmp_path).faces) == 2
     with pytest.raises(FileError, match=r"edges_foldAngle\[4\]: 'flat'; expected a number"):
         sheet(SQUARE | {"edges_foldAngle": [0, 0, 0, 0, "flat"]}, tmp_path)
@@ -93,11 +86,7 @@ def test_svg_is_written_in_origami_colours(tmp_path):
 @pytest.mark.parametrize("suffix", [".svg", ".cp"])
 def test_flat_formats_refuse_what_is_not_flat(suffix, tmp_path):
     bent = Sheet(
-        4,
-        ((0, 2),),
-        "V",
-        ((0, 1, 2), (0, 2, 3)),
-        ((0.0, 0.0, 0.0), (1.0, 0.0, 1.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)),
+        4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), ((0.0, 0.0, 0.0), (1.0, 0.0, 1.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0))
     )
     with pytest.raises(UnsolvableError, match="is planar, and the sheet is not"):
         write(bent, tmp_path / f"a{suffix}")

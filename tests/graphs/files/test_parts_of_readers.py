@@ -100,18 +100,7 @@ def test_numbered_colours_and_records_of_dxf():
 
 def test_lines_are_written_as_dxf_and_obj():
     text = dxf.dxf_of([dxf.DxfLayer("CUT", 7)], [dxf.DxfLine("CUT", (0.0, 0.0), (30.5, 0.0))])
-    assert text.split("ENTITIES")[1].split()[:10] == [
-        "0",
-        "LINE",
-        "8",
-        "CUT",
-        "10",
-        "0.0",
-        "20",
-        "0.0",
-        "30",
-        "0.0",
-    ]
+    assert text.split("ENTITIES")[1].split()[:10] == ["0", "LINE", "8", "CUT", "10", "0.0", "20", "0.0", "30", "0.0"]
     text = dxf.dxf_text(Sheet(2, ((0, 1),), "M", (), ((0.0, 0.0), (1.0, 0.5))))
     assert text.split("ENTITIES")[1].split()[:4] == ["0", "LINE", "8", "MOUNTAIN"]
     assert obj_text(TRIANGLE).splitlines()[-1] == "f 1 2 3"

@@ -226,12 +226,7 @@ def test_keys_of_fold_that_a_sheet_does_not_hold_are_told_by_name(suffix, tmp_pa
 
 def test_what_another_frame_or_title_holds_is_told_too(tmp_path):
     frame = pattern(frame_title="one", frame_classes=["foldedForm"])
-    document = {
-        "file_title": "all",
-        "file_author": "A",
-        "file_frames": [frame],
-        **{f"x:{i}": 1 for i in range(20)},
-    }
+    document = {"file_title": "all", "file_author": "A", "file_frames": [frame], **{f"x:{i}": 1 for i in range(20)}}
     (tmp_path / "a.fold").write_text(json.dumps(document), encoding="utf-8")
     sheet = read(tmp_path / "a.fold")
     assert (sheet.title, write(sheet, tmp_path / "b.fold")) == (

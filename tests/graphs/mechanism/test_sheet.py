@@ -57,21 +57,7 @@ def test_a_panel_that_comes_back_to_a_vertex_parts_its_walk():
     """Two opposite sectors of a vertex are one panel by a detour: the fan falls into two loops of two joints."""
     points = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0), (2.0, 2.0), (-2.0, 3.0))
     faces = ((0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1), (2, 1, 5), (2, 5, 6), (3, 2, 6), (4, 3, 6, 5, 1))
-    edges = (
-        (0, 1),
-        (0, 2),
-        (0, 3),
-        (0, 4),
-        (1, 2),
-        (2, 5),
-        (5, 6),
-        (3, 6),
-        (3, 4),
-        (1, 4),
-        (2, 3),
-        (2, 6),
-        (1, 5),
-    )
+    edges = ((0, 1), (0, 2), (0, 3), (0, 4), (1, 2), (2, 5), (5, 6), (3, 6), (3, 4), (1, 4), (2, 3), (2, 6), (1, 5))
     letters = "VVVVFFFFFVVVV"
     mechanism = mechanism_of_sheet(Sheet(7, edges, letters, faces, points))
     assert all(len(loop.joints) >= 2 for loop in (*mechanism.sc.loops, *mechanism.sc.closing))

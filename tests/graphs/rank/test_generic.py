@@ -103,8 +103,7 @@ def test_meshes(size):
 
 
 @pytest.mark.parametrize(
-    ("links", "dof"),
-    [(4, 1), (6, 1), (8, 1), (5, 2), (7, 2), (9, 2), (6, 3), (8, 3), slow(10, 1, id="10")],
+    ("links", "dof"), [(4, 1), (6, 1), (8, 1), (5, 2), (7, 2), (9, 2), (6, 3), (8, 3), slow(10, 1, id="10")]
 )
 def test_count_is_rank_on_chains_without_rigid_parts(links, dof):
     """Conjecture 2 of Wampler: one embedding of each planar chain, every joint moves."""

@@ -132,11 +132,7 @@ def test_the_precision_of_coordinates():
         found = precision_of(exact.round(decimals).tolist())
         assert found.source == f"{decimals} decimals"
         np.testing.assert_allclose(found.size, 0.5 * 10.0**-decimals / np.abs(exact - exact.mean(0)).max(), rtol=0.01)
-    for chosen in (
-        rng.integers(0, 400, (40, 2)),
-        rng.integers(0, 64, (40, 2)) / 16,
-        rng.integers(0, 9, (40, 2)) / 10,
-    ):
+    for chosen in (rng.integers(0, 400, (40, 2)), rng.integers(0, 64, (40, 2)) / 16, rng.integers(0, 9, (40, 2)) / 10):
         assert precision_of(chosen.tolist()).source == "double precision"
     far = precision_of((exact + 1e9).tolist())
     assert far.size > 1e-10

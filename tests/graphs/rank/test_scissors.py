@@ -45,8 +45,7 @@ def test_an_element_given_twice_is_one():
 
 
 @pytest.mark.parametrize(
-    ("elements", "points"),
-    [([(0, 1, 2, 3), (0, 2, 1, 3)], "0 1 2 3"), ([(0, 1, 2, 3), (0, 2, 4, 5)], "0 2")],
+    ("elements", "points"), [([(0, 1, 2, 3), (0, 2, 1, 3)], "0 1 2 3"), ([(0, 1, 2, 3), (0, 2, 4, 5)], "0 2")]
 )
 def test_vertices_that_would_be_one_point_are_named(elements, points):
     model = PolyhedronModel({v for four in elements for v in four}, centres=SPHERICAL, scissors=elements)

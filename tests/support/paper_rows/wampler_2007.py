@@ -9,12 +9,7 @@ _VEM = "[answer[0]['counts']['vertices'], answer[0]['counts']['edges'], answer[0
 
 
 def _model(
-    place: str,
-    what: str,
-    name: str,
-    printed: list[int] | None = None,
-    right: list[int] | None = None,
-    golden: str = "",
+    place: str, what: str, name: str, printed: list[int] | None = None, right: list[int] | None = None, golden: str = ""
 ) -> Row:
     return Row(
         place, f"V, E, M of {what}", f"synth mobility data/wampler/{name}.json --json", _VEM,

@@ -155,11 +155,7 @@ ROWS = [
         remark="its title says eight-bar (003-4)",
     ),
     _counted(
-        "Section 4.1.4.5",
-        "nine-bar-mesh",
-        "N 9 J 12 V 16 C 0 E_ext 24 E_int 18 M 0",
-        "ex_4_1_4_5",
-        "the nine-bar mesh",
+        "Section 4.1.4.5", "nine-bar-mesh", "N 9 J 12 V 16 C 0 E_ext 24 E_int 18 M 0", "ex_4_1_4_5", "the nine-bar mesh"
     ),
     _counted(
         "Section 4.1.4.6",

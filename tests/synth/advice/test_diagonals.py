@@ -76,13 +76,7 @@ def test_diagonals_are_inside_panels_and_keep_clear_of_corners():
     corners = ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2), (3, 0), (3, 1))
     angle = Sheet(8, ((1, 2),), "V", ((0, 1, 2, 3, 4, 5), (1, 6, 7, 2)), corners)
     ends = {one.ends for one in diagonals_of(general_pose(configuration_of(angle))) if one.panel == 0}
-    assert ends == {
-        (0, 2),
-        (0, 3),
-        (0, 4),
-        (1, 3),
-        (3, 5),
-    }  # 1-4, 1-5 and 2-5 pass or touch corner 3; 2-4 is outside
+    assert ends == {(0, 2), (0, 3), (0, 4), (1, 3), (3, 5)}  # 1-4, 1-5 and 2-5 pass or touch corner 3; 2-4 is outside
 
 
 def test_where_nothing_is_idle_each_diagonal_is_a_freedom():

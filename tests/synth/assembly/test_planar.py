@@ -247,8 +247,7 @@ def test_six_bars_in_other_planes():
     turn *= np.linalg.det(turn)
     shift = random.normal(size=3)
     moved = HingedSolids(
-        WATT,
-        {j: (tuple(turn @ point + shift), tuple(turn @ axis)) for j, (point, axis) in flat.axes.items()},
+        WATT, {j: (tuple(turn @ point + shift), tuple(turn @ axis)) for j, (point, axis) in flat.axes.items()}
     )
     one, other = (positions(thing, drive={0: 0.2}, circuits=False) for thing in (flat, moved))
     assert len(one.positions) == len(other.positions) > 0

@@ -130,10 +130,7 @@ def test_an_edited_pattern_is_a_pattern(data, tmp_path):
         (["--lock", "99"], "'99' is no edge; expected one of 0, 1, 2, 3, 5, 6, "),
         (["--add-crease", "0"], "'0' is not A:B, two vertices or points X,Y of the pattern"),
         (["--add-crease", "0:sky"], "'sky' is neither a vertex nor a point X,Y"),
-        (
-            ["--add-crease", "0.3,0.1:2"],
-            "the nearest are vertex 9 (0.585786, 0) and edge 0 (V) from vertex 0 (0, 0)",
-        ),
+        (["--add-crease", "0.3,0.1:2"], "the nearest are vertex 9 (0.585786, 0) and edge 0 (V) from vertex 0 (0, 0)"),
         (["--remove-crease", "0", "--add-ride-along", "0,1"], "--remove-crease requires a crease pattern"),
     ],
 )

@@ -12,18 +12,7 @@ import pytest
 from synth.cli.main import main
 
 SYNTH = Path(sys.executable).parent / "synth"
-FILES = {
-    "FILE",
-    "FILE...",
-    "[FILE]",
-    "FILE.jsonl",
-    "FILE.fold",
-    "IN",
-    "OUT",
-    "OUT.json",
-    "PICTURE",
-    "ATLAS.sqlite",
-}
+FILES = {"FILE", "FILE...", "[FILE]", "FILE.jsonl", "FILE.fold", "IN", "OUT", "OUT.json", "PICTURE", "ATLAS.sqlite"}
 
 
 def parameters(command, context):
@@ -51,10 +40,6 @@ def test_bash_completes_options():
     ]
     path = f"{SYNTH.parent}{os.pathsep}{os.environ['PATH']}"
     done = subprocess.run(
-        ["bash", "-c", "\n".join(lines)],
-        capture_output=True,
-        text=True,
-        env={**os.environ, "PATH": path},
-        check=True,
+        ["bash", "-c", "\n".join(lines)], capture_output=True, text=True, env={**os.environ, "PATH": path}, check=True
     )
     assert done.stdout.split() == ["--dof"]

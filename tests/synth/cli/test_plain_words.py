@@ -9,23 +9,7 @@ import pytest
 
 from synth.cli.main import main
 
-HEADLESS = {
-    "Of",
-    "At",
-    "Or",
-    "And",
-    "By",
-    "As",
-    "In",
-    "On",
-    "From",
-    "To",
-    "Than",
-    "Which",
-    "What",
-    "That",
-    "Where",
-}
+HEADLESS = {"Of", "At", "Or", "And", "By", "As", "In", "On", "From", "To", "Than", "Which", "What", "That", "Where"}
 """Words with which no help begins: what it is about would have to be guessed."""
 TELLS = re.compile(r"\b(told|tells?)\b(?!( \w+){0,3} (apart|from))", re.IGNORECASE)
 PLURAL = re.compile(r"\((s|es)\)")
@@ -74,10 +58,7 @@ def _named(words):
 
 
 def _spellings(command):
-    return {name for option in command.params for name in (*option.opts, *option.secondary_opts)} | {
-        "-h",
-        "--help",
-    }
+    return {name for option in command.params for name in (*option.opts, *option.secondary_opts)} | {"-h", "--help"}
 
 
 @pytest.mark.parametrize("path", COMMANDS, ids=NAMES)

@@ -43,10 +43,7 @@ def test_many_types_need_a_folder_or_a_store(words, told, tmp_path):
     assert told in run("realise", tmp_path, *words, code=2).output
 
 
-@pytest.mark.parametrize(
-    ("words", "told"),
-    [(("m1:a.a",), "no drawing"), (("m1:ab",), "joint")],
-)
+@pytest.mark.parametrize(("words", "told"), [(("m1:a.a",), "no drawing"), (("m1:ab",), "joint")])
 def test_bad_input_is_one_line(words, told):
     output = run("realise", *words, code=2).output
     assert told in output
@@ -107,12 +104,7 @@ def test_flat_foldable_and_symmetric_sheets_are_told(data):
 
 @pytest.mark.parametrize(
     "words",
-    [
-        ("m1:a-b.ac-.bde.cef.d-g.fg-", "--symmetric"),
-        (FOUR_BAR, "--as", "space"),
-        ("k1:Cr", "--as", "cone"),
-        ("RR-R",),
-    ],
+    [("m1:a-b.ac-.bde.cef.d-g.fg-", "--symmetric"), (FOUR_BAR, "--as", "space"), ("k1:Cr", "--as", "cone"), ("RR-R",)],
 )
 def test_a_seed_gives_equal_files(words, tmp_path):
     ending = "json" if "cone" in words else "fold"

@@ -80,19 +80,7 @@ def test_signals_have_their_exit_status(tmp_path, monkeypatch, number, name, wor
 @pytest.mark.slow
 @pytest.mark.parametrize("number", SIGNALS)
 def test_a_stopped_command_says_so_and_leaves_no_folder(tmp_path, number):
-    command = [
-        *SYNTH,
-        "enumerate",
-        "chains",
-        "--links",
-        "14",
-        "--dof",
-        "1",
-        "--workers",
-        "2",
-        "-o",
-        tmp_path / "f",
-    ]
+    command = [*SYNTH, "enumerate", "chains", "--links", "14", "--dof", "1", "--workers", "2", "-o", tmp_path / "f"]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
     while not any(any(folder.iterdir()) for folder in tmp_path.iterdir()):
         assert process.poll() is None

@@ -215,10 +215,7 @@ def test_a_tree_has_no_closure():
     [
         (lambda: ConformedChain.of(FOUR_BAR, 9), "ground 9 is no link"),
         (lambda: ConformedChain.of(SCGraph(3, [(0, 1)])), "the chain is in several parts"),
-        (
-            lambda: first_order(ConformedChain.of(FOUR_BAR), [0.0, 1.0]),
-            "2 azimuths; expected 4, one per joint",
-        ),
+        (lambda: first_order(ConformedChain.of(FOUR_BAR), [0.0, 1.0]), "2 azimuths; expected 4, one per joint"),
         (lambda: table_row([0.0, 1.0]), "2 azimuths; expected four"),
         (lambda: table_row([0.0, 0.0, 1.0, 2.0]), "two joints lie on one ruling line"),
         (lambda: table4(3, "open", "A"), "no entry 3"),

@@ -44,10 +44,10 @@ def test_example_of_swaps_of():
 
 def test_example_of_mirrored():
     square = nx.cycle_graph(4)
-    assert (
-        mirrored(square, {0: 0, 1: 3, 2: 2, 3: 1}) is None,
-        mirrored(square, {0: 2, 1: 3, 2: 0, 3: 1}) is None,
-    ) == (False, True)
+    assert (mirrored(square, {0: 0, 1: 3, 2: 2, 3: 1}) is None, mirrored(square, {0: 2, 1: 3, 2: 0, 3: 1}) is None) == (
+        False,
+        True,
+    )
 
 
 def test_example_of_framed():

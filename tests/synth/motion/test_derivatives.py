@@ -16,12 +16,7 @@ from synth.folding.derivatives import SheetDerivatives, dependence_on_vertices
 from synth.folding.motion import fold
 from synth.motion import tangent
 from synth.motion.closure import ClosureEquations
-from synth.motion.derivatives import (
-    Sensitivity,
-    dependence_on_axes,
-    derivatives_by_parameters,
-    spatial,
-)
+from synth.motion.derivatives import Sensitivity, dependence_on_axes, derivatives_by_parameters, spatial
 from synth.motion.linkage import linkage_of_axes, linkage_of_sheet
 from synth.motion.path import driven_path
 from synth.patterns.creases import fan, folded_miura, miura

@@ -144,12 +144,7 @@ def solved(forms, start):
 
 @pytest.mark.parametrize(
     "sheet",
-    [
-        miura(4, 4, np.radians(55)),
-        map_sheet(3, 3),
-        "bird-base.fold",
-        pytest.param(frog_base(), marks=pytest.mark.slow),
-    ],
+    [miura(4, 4, np.radians(55)), map_sheet(3, 3), "bird-base.fold", pytest.param(frog_base(), marks=pytest.mark.slow)],
 )
 def test_random_rates_that_agree_to_second_order_are_on_the_spaces(sheet, data, rng):
     """Newton's method from random rates, without a choice of modes, comes to no rates that the choices miss."""

@@ -101,10 +101,7 @@ def test_ways_all_along_are_those_of_points(rocker):
     for each in rocker.positions:
         assert each.ways == ways_by_points(rocker, each.angles)
     frames = rocker.path.angles
-    for sense, numbers in (
-        (rocker.forward, range(1, 4)),
-        (rocker.backward, range(len(frames) - 10, len(frames) - 2)),
-    ):
+    for sense, numbers in ((rocker.forward, range(1, 4)), (rocker.backward, range(len(frames) - 10, len(frames) - 2))):
         checked = 0
         for angles in frames[numbers] - (frames[-1] - frames[0]) * (sense.limit < 0):
             at = angles[1]

@@ -149,10 +149,7 @@ def test_a_platform_that_does_not_turn_owes_it_to_the_directions_of_its_axes(see
     found = explain(JointedLinkage(made.chain, made.kinds, places))
     assert (found.freedoms, found.idle, found.active) == (3, 6, 0)
     by_reason = Counter(one.reasons[0].split(":")[0] for one in found.sets for _ in range(one.idle))
-    assert by_reason == {
-        "two triples of parallel axes (Sarrus)": 3,
-        "axes parallel in each leg": 3,
-    }
+    assert by_reason == {"two triples of parallel axes (Sarrus)": 3, "axes parallel in each leg": 3}
 
 
 def test_axes_of_a_leg_that_are_not_parallel_are_not_said_to_be():

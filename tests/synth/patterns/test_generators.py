@@ -75,12 +75,7 @@ def test_generators_make_something_from_end_to_end(name):
 def test_what_is_out_of_range_is_refused_in_one_line(name):
     generator = GENERATORS[name]
     for one in generator.parameters:
-        for value in (
-            one.least - 1,
-            one.most + 1,
-            float("nan"),
-            *([one.least + 0.5] if one.unit == "count" else []),
-        ):
+        for value in (one.least - 1, one.most + 1, float("nan"), *([one.least + 0.5] if one.unit == "count" else [])):
             with pytest.raises(InvariantError, match=f"{one.name} = .* expected .* from"):
                 generate(name, **{one.name: value})
     with pytest.raises(InvariantError, match="has no parameter 'wings'"):

@@ -46,10 +46,7 @@ def test_the_beaked_box_is_a_six_bar_of_a_planar_and_a_spherical_loop():
     made = synth.generate("beaked-box")
     graph = to_sc(made.mechanism)
     assert (len(graph), len(graph.joints), made.count) == (6, 7, 1)
-    assert sorted((loop.centre.value, len(loop.joints)) for loop in graph.loops) == [
-        ("finite", 4),
-        ("infinite", 4),
-    ]
+    assert sorted((loop.centre.value, len(loop.joints)) for loop in graph.loops) == [("finite", 4), ("infinite", 4)]
     first, second = (set(loop.joints) for loop in graph.loops)
     assert len(first & second) == 1
 

@@ -99,8 +99,7 @@ def _is_explicit(scd) -> bool:
 
 
 @pytest.mark.parametrize(
-    ("links", "most"),
-    [(4, 4), pytest.param(6, 4, marks=pytest.mark.slow), pytest.param(4, 6, marks=pytest.mark.slow)],
+    ("links", "most"), [(4, 4), pytest.param(6, 4, marks=pytest.mark.slow), pytest.param(4, 6, marks=pytest.mark.slow)]
 )
 def test_the_largest_group_is_that_of_a_search(links, most):
     """With a centre across a hole too, as long as it is finite."""

@@ -4,11 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from by_coordinates import (
-    cone_angles_by_coordinates,
-    polygons_by_coordinates,
-    quadrilaterals_by_coordinates,
-)
+from by_coordinates import cone_angles_by_coordinates, polygons_by_coordinates, quadrilaterals_by_coordinates
 from conical import random_lengths, random_link_angles, random_linkages
 from four_bar_poses import check_pose
 from paper_formulas import central_angles, projected_angles
@@ -18,14 +14,7 @@ from sizes import first_quick, slow, slow_but
 from graphs.errors import InvariantError, UnsolvableError
 from synth.fourbar.closing import can_close, planar_differences, spherical_differences
 from synth.surfaces.circuit import circuits, link_angles
-from synth.surfaces.loop_maps import (
-    chords,
-    cone_reach,
-    cylinder_reach,
-    map_to_cones,
-    map_to_cylinders,
-    solution_class,
-)
+from synth.surfaces.loop_maps import chords, cone_reach, cylinder_reach, map_to_cones, map_to_cylinders, solution_class
 from synth.surfaces.loop_sums import (
     MOST_LINKS,
     circumradii,

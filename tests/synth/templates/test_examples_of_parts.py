@@ -45,20 +45,12 @@ def test_example_of_tab_shapes():
 
 
 def test_example_of_slot_of():
-    assert slot_of(np.array([[0.0, 0.0], [0.0, 40.0], [8.0, 36.0], [8.0, 4.0]])).tolist() == [
-        [4.0, 38.5],
-        [4.0, 1.5],
-    ]
+    assert slot_of(np.array([[0.0, 0.0], [0.0, 40.0], [8.0, 36.0], [8.0, 4.0]])).tolist() == [[4.0, 38.5], [4.0, 1.5]]
 
 
 def test_example_of_layered():
     made = LayeredLinkage(loop_of_steps(np.radians([40, 50, 50])), Cone(0.5), Dimensions())
-    assert [(link.layer, round(np.degrees(link.width))) for link in made.links] == [
-        (0, 40),
-        (0, 50),
-        (0, 50),
-        (1, 140),
-    ]
+    assert [(link.layer, round(np.degrees(link.width))) for link in made.links] == [(0, 40), (0, 50), (0, 50), (1, 140)]
 
 
 def test_example_of_gauge():

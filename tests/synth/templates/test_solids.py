@@ -18,21 +18,10 @@ from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.patterns.generated import generate
 from synth.templates.solids import Plates, plates_in_space, poses_of, write_solids
 
-FOLDED = {
-    "miura": 1.0,
-    "box-pop-up": 1.0,
-    "miura-tube": None,
-    "kresling": None,
-    "square-twist": 0.5,
-    "slit-array": 0.4,
-}
+FOLDED = {"miura": 1.0, "box-pop-up": 1.0, "miura-tube": None, "kresling": None, "square-twist": 0.5, "slit-array": 0.4}
 QUICK = ("miura", "box-pop-up")
 HINGED = Sheet(
-    6,
-    (),
-    "",
-    ((0, 1, 2, 3), (1, 4, 5, 2)),
-    ((0, 0, 0), (40, 0, 0), (40, 30, 0), (0, 30, 0), (40, 0, 20), (40, 30, 20)),
+    6, (), "", ((0, 1, 2, 3), (1, 4, 5, 2)), ((0, 0, 0), (40, 0, 0), (40, 30, 0), (0, 30, 0), (40, 0, 20), (40, 30, 20))
 )
 
 
@@ -44,16 +33,7 @@ def folded(name):
 
 @pytest.fixture
 def motion(tmp_path, data):
-    run(
-        "fold",
-        data / "patterns" / "four-bar-vertex.fold",
-        "--drive",
-        "2=90",
-        "--frames",
-        4,
-        "-o",
-        tmp_path / "a.fold",
-    )
+    run("fold", data / "patterns" / "four-bar-vertex.fold", "--drive", "2=90", "--frames", 4, "-o", tmp_path / "a.fold")
     return tmp_path / "a.fold"
 
 

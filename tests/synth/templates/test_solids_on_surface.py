@@ -53,10 +53,7 @@ def test_layers_are_apart_and_so_are_neighbours_in_a_layer(linkages):
     for linkage in linkages:
         surface, *meshes = solids_on_surface(linkage, 2.0)
         spans = {}
-        for layer, mesh in [
-            (-1, surface),
-            *((link.layer, m) for link, m in zip(linkage.links, meshes, strict=True)),
-        ]:
+        for layer, mesh in [(-1, surface), *((link.layer, m) for link, m in zip(linkage.links, meshes, strict=True))]:
             across = np.hypot(mesh.corners[:, 0], mesh.corners[:, 2])
             off = across * np.sin(LAMBDA) + mesh.corners[:, 1] * np.cos(LAMBDA)  # along the normal of the cone
             spans.setdefault(layer, []).append((off.min(), off.max()))

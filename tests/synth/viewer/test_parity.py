@@ -86,12 +86,7 @@ def test_joints_that_are_held():
     goals = np.stack([np.linspace(0.1, 0.3, 3), np.zeros(3)], axis=1)
     path = driven_path(closure, moving.linkage.angles, [first, second], goals)
     assert not path.stopped
-    question = {
-        **asked_of(moving, chance).question,
-        "driver": first,
-        "held": [second],
-        "goals": goals[:, 0].tolist(),
-    }
+    question = {**asked_of(moving, chance).question, "driver": first, "held": [second], "goals": goals[:, 0].tolist()}
     (answer,) = answers([question])
     np.testing.assert_allclose([one["angles"] for one in answer["frames"]], path.angles[1:], rtol=0, atol=SAME_POSE)
     assert [one["angles"][second] for one in answer["frames"]] == [0.0, 0.0, 0.0]
@@ -102,16 +97,7 @@ def test_panels_that_cross():
     """Two flaps on a strip, longer than it is wide: one stands inwards already, the other is folded through it."""
     turned = np.radians(120.0)
     low, high = -1.5 * np.cos(turned), 1.5 * np.sin(turned)
-    corners = (
-        (0, 0, 0),
-        (1, 0, 0),
-        (1, 1, 0),
-        (0, 1, 0),
-        (low, 0, high),
-        (low, 1, high),
-        (2.5, 0, 0),
-        (2.5, 1, 0),
-    )
+    corners = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (low, 0, high), (low, 1, high), (2.5, 0, 0), (2.5, 1, 0))
     faces = ((0, 1, 2, 3), (4, 0, 3, 5), (1, 6, 7, 2))
     moving = moving_of(Sheet(8, ((0, 3), (1, 2)), "VV", faces, corners))
     one = asked_of(moving, np.random.default_rng(1))

@@ -44,12 +44,7 @@ def test_of_a_flat_sheet_one_side_is_seen_and_of_a_turned_one_the_other():
 
 
 def test_faces_of_several_pieces_are_each_turned_as_their_first():
-    assert same_side_up([(0, 1, 2), (7, 8, 9), (0, 1, 3), (7, 8, 5)]) == [
-        (0, 1, 2),
-        (7, 8, 9),
-        (3, 1, 0),
-        (5, 8, 7),
-    ]
+    assert same_side_up([(0, 1, 2), (7, 8, 9), (0, 1, 3), (7, 8, 5)]) == [(0, 1, 2), (7, 8, 9), (3, 1, 0), (5, 8, 7)]
 
 
 def test_a_panel_edge_on_to_the_light_is_darker():

@@ -63,10 +63,7 @@ def test_bennett():
 def test_sarrus():
     _, axes = axes_of(found(ring(6), "two triples of parallel axes").mechanism)
     parallel = np.linalg.norm(np.cross(axes[:, None], axes[None]), axis=2) < 1e-9
-    assert sorted(map(tuple, np.unique(parallel, axis=0))) == [
-        (False,) * 3 + (True,) * 3,
-        (True,) * 3 + (False,) * 3,
-    ]
+    assert sorted(map(tuple, np.unique(parallel, axis=0))) == [(False,) * 3 + (True,) * 3, (True,) * 3 + (False,) * 3]
 
 
 @pytest.mark.slow

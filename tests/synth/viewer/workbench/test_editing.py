@@ -16,15 +16,7 @@ def square_twist(data):
 
 @pytest.mark.parametrize(
     "edit",
-    [
-        "lock:3",
-        "remove:0",
-        "ride-alongs",
-        "crease:0~12",
-        "crease:0.5,1~3",
-        "crease:-1e-3,2.~4,5,6",
-        "crease:1,2~3,4",
-    ],
+    ["lock:3", "remove:0", "ride-alongs", "crease:0~12", "crease:0.5,1~3", "crease:-1e-3,2.~4,5,6", "crease:1,2~3,4"],
 )
 def test_words_that_are_known(edit):
     assert are_edits([edit])
