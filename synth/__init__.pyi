@@ -41,6 +41,7 @@ from synth.compliance.compliance_states import DrivenJoint as DrivenJoint, state
 from synth.compliance.springs import Mass as Mass, Masses as Masses, Springs as Springs
 from synth.drawing.mechanisms.pictures import draw as draw
 from synth.editing import edit as edit
+from synth.first_look import FirstLook as FirstLook, look as look
 from synth.folding.motion import fold as fold
 from synth.guidance.fourbars import four_bars as four_bars
 from synth.guidance.order import analyse_order as analyse_order

@@ -34,6 +34,7 @@ COMMANDS = [
     "cone behaviour data/surfaces/fig11-stephenson.json",
     "cylinder map --lengths 4,3,5,1",
     "reconstruct data/wiener/three-link-chain.json",
+    "look k1:Cr",
     "id data/wiener/watt.json",
     "generate miura -o made.fold",
     "generate",

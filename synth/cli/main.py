@@ -22,6 +22,7 @@ from synth.cli import options
 
 _SECTIONS: dict[str, dict[str, str]] = {
     "Analyse motion": {
+        "look": "Say in three sentences what a file is, how it moves, and what is wrong with it.",
         "mobility": "Report mobility, degrees of freedom and motion branches, with the evidence.",
         "fold": "Fold a crease pattern with rigid panels; list its folding branches.",
         "positions": "Find all assembly modes of a spherical or planar linkage at given inputs.",

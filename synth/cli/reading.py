@@ -97,11 +97,17 @@ def read(file: str, *, warn: bool = True) -> Mechanism:
     return mechanism
 
 
+def precision() -> float | None:
+    """Return the length of --precision, if it is there."""
+    length: float | None = click.get_current_context().meta.get(_PRECISION)
+    return length
+
+
 def precise(mechanism: Mechanism) -> Any:
     """Return a mechanism with the precision of --precision: a crease pattern, or the configuration of another."""
     from synth.moving.made import with_precision
 
-    return with_precision(mechanism, click.get_current_context().meta.get(_PRECISION))
+    return with_precision(mechanism, precision())
 
 
 def precise_sheet(mechanism: Any) -> Any:
@@ -109,7 +115,7 @@ def precise_sheet(mechanism: Any) -> Any:
     from graphs.mechanism.precision import stated as with_stated_precision
     from graphs.mechanism.sheet import Sheet
 
-    length: float | None = click.get_current_context().meta.get(_PRECISION)
+    length = precision()
     if length is None:
         return mechanism
     if not isinstance(mechanism, Sheet):

@@ -107,6 +107,7 @@ def test_shell_completion_knows_the_commands():
     code = "from synth.cli.main import main; main(prog_name='synth')"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=env)
     assert set(re.findall(r"plain,(\w+)", done.stdout)) == {
+        "look",
         "mobility",
         "fold",
         "positions",
