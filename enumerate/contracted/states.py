@@ -15,7 +15,8 @@ import numpy as np
 
 from enumerate.contracted.binary_links import Frame
 from enumerate.kernel.compiled import compiled, doubled
-from enumerate.kernel.words import GOLDEN, mixed, times
+from enumerate.kernel.words import GOLDEN, hashed, mixed, times
+from enumerate.machine_code.kernels import compiled_beside
 from graphs.types import Bytes, Ints, Words
 
 
@@ -238,7 +239,19 @@ def beginning(classes: Classes, units: int, group: int) -> StateTable:
     return StateTable(slots, words, number, following, begin)
 
 
-@compiled
+def _slot_of(slots: Ints, words: Words, row: Words) -> np.int64:
+    """Do what `_slot` does, with numbers of Python."""
+    word, parts = 0, row.tolist()
+    for part in parts:
+        word = hashed(word, part, 0, 32)
+    mask = len(slots) - 1
+    slot = (hashed(0, word, 0, 64) >> 34) & mask
+    while slots[slot] >= 0 and words[slots[slot]].tolist() != parts:
+        slot = (slot + 1) & mask
+    return np.int64(slot)
+
+
+@compiled_beside(_slot_of)
 def _slot(slots: Ints, words: Words, row: Words) -> np.int64:
     """Return where a row is in a hash table of rows, or the free slot where it belongs."""
     word = np.uint64(0)
@@ -297,7 +310,43 @@ def _grown(states: StateTable) -> StateTable:
     return StateTable(slots, words, number, following, states.begin)
 
 
-@compiled
+def _step(
+    counters: Words,
+    rest: Ints,
+    laid: Counters,
+    words: Words,
+    i: int,
+    units: int,
+    counted: int,
+    most: int,
+    new: Words,
+) -> bool:
+    """Do what `step` does, with numbers of Python; the bits above a counter's are cut off where it matters."""
+    first, *needs = words[i].tolist()
+    level = first >> 48
+    left = (first & 0xFFFFFFFF) - int(units)
+    if left < 0 or left > most * rest[level + 1]:
+        return False
+    ones, guard, full, last = map(int, laid)
+    state = [first + (1 << 48) - int(units)]
+    due = min(left, full) * ones | guard
+    taken = min(int(counted), full)
+    here, (_, inside, outside) = counters[level, 0].tolist(), counters[level + 1].tolist()
+    for before, own, within, beyond in zip(needs, here, inside, outside, strict=True):
+        need = (before | guard) - taken * own
+        need &= ((need & guard) >> last) * full
+        if ((within | guard) - need) & (due - need) & guard != guard:
+            return False
+        if most <= 2:
+            sure = due - beyond
+            sure &= ((sure & guard) >> last) * full
+            need &= ~(((((sure | guard) - need) & guard) >> last) * full)
+        state.append(need)
+    new[:] = state
+    return True
+
+
+@compiled_beside(_step)
 def step(
     counters: Words, rest: Ints, laid: Counters, words: Words, i: int, units: int, counted: int, most: int, new: Words
 ) -> bool:

@@ -8,7 +8,8 @@ import numpy as np
 
 from enumerate.machine_code.kernels import compiled_beside
 
-_ALL = 0xFFFF_FFFF_FFFF_FFFF
+ALL = 0xFFFF_FFFF_FFFF_FFFF
+"""The word with all bits, as a number of Python."""
 
 _FACTOR = 0x9E37_79B9_7F4A_7C15
 
@@ -17,20 +18,25 @@ GOLDEN = np.uint64(_FACTOR)
 
 
 def _plus(a: np.uint64, b: np.uint64) -> np.uint64:
-    return np.uint64((int(a) + int(b)) & _ALL)
+    return np.uint64((int(a) + int(b)) & ALL)
 
 
 def _minus(a: np.uint64, b: np.uint64) -> np.uint64:
-    return np.uint64((int(a) - int(b)) & _ALL)
+    return np.uint64((int(a) - int(b)) & ALL)
 
 
 def _times(a: np.uint64, b: np.uint64) -> np.uint64:
-    return np.uint64((int(a) * int(b)) & _ALL)
+    return np.uint64((int(a) * int(b)) & ALL)
+
+
+def hashed(word: int, value: int, added: int, shift: int) -> int:
+    """Return what `mixed` returns, of numbers of Python."""
+    product = ((word ^ value) * _FACTOR + added) & ALL
+    return product ^ (product >> shift)
 
 
 def _mixed(word: np.uint64, value: np.uint64, added: np.uint64, shift: np.uint64) -> np.uint64:
-    product = ((int(word) ^ int(value)) * _FACTOR + int(added)) & _ALL
-    return np.uint64(product ^ (product >> int(shift)))
+    return np.uint64(hashed(int(word), int(value), int(added), int(shift)))
 
 
 def _has_several(word: np.uint64) -> bool:

@@ -6,6 +6,8 @@ exact. The deviations of relations that were meant are alike, those of relations
 size; so the former are a cluster far below the others. Theory: docs/theory/precision.md.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
-import scipy.sparse
+import scipy
 
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE, EPSILON

@@ -12,9 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-import scipy.linalg
-import scipy.sparse
-import scipy.sparse.linalg
+import scipy
 
 from graphs.rank.singular_values import ZERO_SPECTRUM, Spectrum, judged, rounding, verdict
 from graphs.types import Flags, Floats, Ints
@@ -50,10 +48,10 @@ def number_below(matrix: scipy.sparse.csr_matrix, bound: float) -> int:
 
     The bound is well above the root of the rounding error, 1e-8 of the largest singular value.
     """
+    from scipy.sparse.linalg import splu  # slow to load
+
     normal = (matrix.T @ matrix - bound**2 * scipy.sparse.identity(matrix.shape[1])).tocsc()
-    factors = scipy.sparse.linalg.splu(
-        normal, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
-    )
+    factors = splu(normal, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
     return int((factors.U.diagonal() < 0).sum())
 
 

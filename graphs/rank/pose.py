@@ -6,12 +6,14 @@ infinitesimal freedoms than it can use. Lengths are in units of the extent, so t
 coordinates says what each singular value may owe to errors. Theory: docs/theory/pose.md.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import scipy.sparse
+import scipy
 
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError

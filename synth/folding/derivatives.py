@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import scipy.sparse
+import scipy
 
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import UnsolvableError

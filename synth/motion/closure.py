@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import scipy.sparse
+import scipy
 
 from graphs.errors import UnsolvableError
 from graphs.geometry import common_direction, frame_about, rotations

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-import scipy.sparse
+import scipy
 
 from graphs import geometry
 from graphs.errors import UnsolvableError

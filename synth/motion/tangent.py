@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from typing import Protocol
 
 import numpy as np
-import scipy.sparse
+import scipy
 
 from graphs.errors import NumericalError
 from graphs.tolerances import DOUBLE

@@ -15,7 +15,7 @@ from math import pi, radians
 from typing import NamedTuple
 
 import numpy as np
-import scipy.sparse
+import scipy
 
 from graphs.convert.duality import SheetMechanism
 from graphs.geometry import crossing, principal_axes, unit

@@ -19,8 +19,7 @@ from math import inf
 from typing import Literal
 
 import numpy as np
-import scipy.linalg
-import scipy.sparse
+import scipy
 
 from graphs.loops.loop import Centre
 from graphs.rank.singular_values import inertia, null_space, row_space, spectrum, split

@@ -14,7 +14,7 @@ from math import degrees
 from typing import Any, Literal
 
 import numpy as np
-import scipy.linalg
+import scipy
 
 from graphs.errors import numbered, shown
 from graphs.tolerances import DOUBLE

@@ -9,10 +9,13 @@ import numpy as np
 import pytest
 from toy_kernels import ROOT, make_toy, run
 
-from enumerate.kernel import words
+from enumerate.chains import ChainQuery, count_job
+from enumerate.contracted import orbits, states
+from enumerate.kernel import labelling, words
 from enumerate.machine_code import weights
+from enumerate.machine_code.kernels import _kernels
 from enumerate.runner.job import Unit
-from enumerate.runner.running import rows_of
+from enumerate.runner.running import rows_of, total_of
 
 ALL = (1 << 64) - 1
 SWITCH = """
@@ -178,3 +181,39 @@ def test_what_jobs_weigh_grows_with_loops_and_freedoms():
     assert weights.drawing(100, plain=False) > weights.drawing(100, plain=True)
     assert weights.growing(9) < weights._EXPECTED < weights.growing(13)
     assert weights.layering(6) < weights._EXPECTED < weights.layering(21)
+
+
+LISTS = [
+    (labelling, labelling._refine, (4, 5)),
+    (states, states._step, (8,)),
+    (states, states._slot_of, ()),
+]
+"""Functions on lists, which interpret a kernel written for arrays, and which of their arguments they write to."""
+
+
+@pytest.mark.parametrize(("links", "dof", "inversions"), [(8, 1, False), (9, 2, False), (10, 1, False), (8, 1, True)])
+def test_functions_on_lists_do_what_is_compiled(monkeypatch, links, dof, inversions):
+    """Each call in a count of chains, made both ways."""
+    calls = dict.fromkeys((on_lists for _, on_lists, _ in LISTS), 0)
+
+    def both(on_lists, on_arrays, outputs):
+        def call(*arguments):
+            copies = [a.copy() if isinstance(a, np.ndarray) else a for a in arguments]
+            with np.errstate(over="ignore"):  # as machine code does
+                expected = on_arrays(*copies)
+            found = on_lists(*arguments)
+            assert found == expected
+            if found or on_lists is not states._step:  # after a step that cannot be nothing goes on
+                assert all(np.array_equal(arguments[i], copies[i]) for i in outputs)
+            calls[on_lists] += 1
+            return found
+
+        return call
+
+    arrays = dict(_kernels.interpreted)
+    for module, on_lists, outputs in LISTS:
+        name = arrays[on_lists].__name__
+        for place in (module, orbits) if name == "step" else (module,):
+            monkeypatch.setattr(place, name, both(on_lists, arrays[on_lists], outputs))
+    total_of(count_job(ChainQuery(links, dof, inversions=inversions), "orbits"))
+    assert min(calls.values()) > 10
