@@ -25,9 +25,9 @@ from synth.assembly.family import (
     apart,
     as_real,
     family_of,
-    general_positions,
     same,
 )
+from synth.assembly.kept import kept_positions
 from synth.assembly.kernel import CLOSED, Complexes
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
@@ -256,7 +256,7 @@ def positions(
         if not isfinite(angle):
             raise InvariantError("angle", f"the angle of joint {shown(joint)} is {angle}", "a finite number")
     family, axes = family_of(linkage, list(drive))
-    general = general_positions(family, seed)
+    general = kept_positions(family, seed)
     names = list(linkage.graph.joints)
     places = [names.index(joint) for joint in drive]
     units = _units(linkage)
