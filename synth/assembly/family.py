@@ -21,16 +21,7 @@ from graphs.loops.loop import Centre
 from graphs.rank.singular_values import rank_of
 from graphs.tolerances import DOUBLE
 from graphs.types import Flags, Floats, Ints, JointId
-from synth.assembly.kernel import (
-    ARRIVED,
-    CLOSED,
-    DIRECTION,
-    FAR,
-    POINT,
-    SLIDE,
-    Complexes,
-    Type,
-)
+from synth.assembly.kernel import ARRIVED, CLOSED, DIRECTION, FAR, POINT, SLIDE, Complexes, Type
 from synth.assembly.tracking import corrected_all, evaluated, followed_all
 from synth.motion.linkage import PosedLinkage, PosedLoop
 

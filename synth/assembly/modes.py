@@ -17,16 +17,7 @@ from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.rank.singular_values import rank_of
 from graphs.tolerances import DOUBLE, EPSILON, canonical_order
 from graphs.types import Flags, Floats, JointId
-from synth.assembly.family import (
-    SMALL,
-    Family,
-    GeneralPositions,
-    TrackedPaths,
-    apart,
-    as_real,
-    family_of,
-    same,
-)
+from synth.assembly.family import SMALL, Family, GeneralPositions, TrackedPaths, apart, as_real, family_of, same
 from synth.assembly.kept import kept_positions
 from synth.assembly.kernel import CLOSED, Complexes
 from synth.motion.configuration import Configuration
