@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import degrees
+from math import degrees, sqrt
 from typing import Any, Literal
 
 import numpy as np
@@ -113,6 +113,11 @@ def named(joints: Sequence[int], names: Sequence[JointId], noun: str = "joint") 
     return (noun if len(joints) == 1 else f"{noun}s") + " " + ", ".join(shown(names[joint]) for joint in joints)
 
 
+def length_of(vector: Floats) -> float:
+    """Return the length of a vector: as numpy's norm, which looks longer at what it is given."""
+    return sqrt(vector @ vector)
+
+
 STRAY = 0.25
 """A corrected configuration is at most this part of its step from where it was expected."""
 _NEAR = 1e-9
@@ -145,8 +150,8 @@ class Step:
         that Newton's method does not stray to another branch that passes there.
         """
         chord = self.chord
-        size = float(np.linalg.norm(chord))
-        out, back = (rates * (size / np.linalg.norm(rates)) for rates in (self.leaving, self.arriving))
+        size = length_of(chord)
+        out, back = (rates * (size / length_of(rates)) for rates in (self.leaving, self.arriving))
         rest = 1.0 - part
         bulge = part * rest * (rest * (out - chord) - part * (back - chord))
         return np.asarray(self.before.angles + part * chord + bulge)
@@ -256,6 +261,7 @@ class RankWatch:
         self._across, self._image = start / np.linalg.norm(start), np.zeros(closure.rows)
         self._values: list[float] = []
         self._steps: list[Step] = []
+        self._lengths: list[float] = []
         self._looks = 0
         self.singular = False
 
@@ -280,6 +286,7 @@ class RankWatch:
         value = self._followed(step, across)
         self.singular = abs(value) <= SINGULAR
         self._values, self._steps = [*self._values, value][-3:], [*self._steps, step][-2:]
+        self._lengths = [*self._lengths, length_of(step.chord)][-2:]
         if self._looks >= _MOST_LOOKS:
             return None
         drop = None
@@ -301,7 +308,7 @@ class RankWatch:
         before = self._values[-1] if self._values else 1.0
         sign = np.sign(before) if image @ self._image >= 0.0 else -np.sign(before)
         self._across, self._image = across, image
-        return float(sign * np.linalg.norm(image))
+        return float(sign * length_of(image))
 
     def _sharpened(self, space: TangentSpace) -> tuple[Floats, Floats]:
         if not self._steps:
@@ -314,7 +321,7 @@ class RankWatch:
         """Tell whether a parabola through the last squares has a bottom near zero in the last two steps."""
         if len(self._values) < 3:
             return False
-        first, second = (float(np.linalg.norm(step.chord)) for step in self._steps)
+        first, second = self._lengths
         if not (first and second):  # a step of no length: nothing was passed
             return False
         before, here, after = (value * value for value in self._values)

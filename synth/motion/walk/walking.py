@@ -19,7 +19,17 @@ from graphs.tolerances import DOUBLE, leading
 from graphs.types import Flags, Floats, JointId
 from synth.motion.closure import ClosureEquations, Corrected, corrected, exactly_held
 from synth.motion.tangent import FREE, TangentSpace
-from synth.motion.walk.step import SINGULAR, STRAY, Allowance, EventKind, PathEvent, RankWatch, Step, in_degrees
+from synth.motion.walk.step import (
+    SINGULAR,
+    STRAY,
+    Allowance,
+    EventKind,
+    PathEvent,
+    RankWatch,
+    Step,
+    in_degrees,
+    length_of,
+)
 
 _FIRST, _LARGEST, _LEAST = 0.02, 0.2, 1e-6
 """Steps, radians of the joint that moves most."""
@@ -383,7 +393,7 @@ def _reach(speed: float, bend: float, left: float) -> float:
 
 
 def _alike(one: Floats, other: Floats) -> bool:
-    return bool(one @ other > _ALIKE * np.linalg.norm(one) * np.linalg.norm(other))
+    return bool(one @ other > _ALIKE * length_of(one) * length_of(other))
 
 
 _KEPT, _FLOOR = 0.5, 1e-3
