@@ -23,7 +23,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
-from time import process_time
+from time import perf_counter, process_time
 from typing import Any
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -161,6 +161,44 @@ def cones() -> Figures:
     return {"runs": milliseconds(lambda: map_to_cones(next(angles)), 20)}
 
 
+def cones_at_once(count: int) -> Callable[[], Figures]:
+    """Return what measures the cones of many four-bars that close."""
+
+    def measure() -> Figures:
+        from synth.fourbar.closing import can_close
+        from synth.surfaces import cones_of_loops
+
+        angles = np.random.default_rng(1).uniform(0.02, np.pi - 0.02, (2 * count, 4))
+        angles = angles[can_close(angles)][:count]
+        return {"runs": [one / 1000.0 for one in milliseconds(lambda: cones_of_loops(angles))]}
+
+    return measure
+
+
+def swept(members: int, batch: int) -> Callable[[], Figures]:
+    """Return what measures spherical four-bars whose crank turns all round, at 64 inputs, batch by batch.
+
+    What is waited for on two cores is half of the processor time.
+    """
+
+    def measure() -> Figures:
+        from synth.members import sweep
+        from synth.patterns.hinged_rings import spherical_ring
+
+        arcs, random = np.radians([30.0, 80.0, 70.0, 75.0]), np.random.default_rng(1)
+        ring, turn = spherical_ring(arcs), np.linspace(0.0, 2.0 * np.pi, 64)
+        taken, waited, closed, worst = 0.0, 0.0, 0, 0.0
+        for _ in range(members // batch):
+            given = arcs + np.radians(random.uniform(-5.0, 5.0, (batch, 4)))
+            start, begun = process_time(), perf_counter()
+            answer = sweep(ring, {"arcs": given}, drive={0: turn})
+            taken, waited = taken + process_time() - start, waited + perf_counter() - begun
+            closed, worst = closed + int(answer.closed.sum()), max(worst, float(np.nanmax(answer.residuals)))
+        return {"runs": [taken / 2.0], "waited": waited, "closed": closed, "closure": worst}
+
+    return measure
+
+
 def realised(kind: str, links: int, most: int) -> Callable[[], Figures]:
     """Return what measures the realisation of the first types of a kind."""
 
@@ -229,6 +267,8 @@ ROWS = {
     "positions": Row("positions of a spherical four-bar", "ms", 2, lambda: positions(circuits=False)),
     "circuits": Row("the same, with circuits", "ms", 10, lambda: positions(circuits=True)),
     "cones": Row("cones of a four-bar", "ms", 2, cones),
+    "cones-100000": Row("cones of 100 000 four-bars", "s", 1, cones_at_once(100_000)),
+    "sweep": Row("1 000 000 four-bars at 64 inputs, on two cores", "s", 30, swept(1_000_000, 50_000), long=True),
     "scd-8": Row("an SCD type of 8 links realised", "ms", 20, realised("scd", 8, 20)),
     "sc-8": Row("an SC type of 8 links realised", "ms", 200, realised("sc", 8, 8), long=True),
     "verdict-1024": Row("verdict on 1 024 panels", "s", 1, verdict(32)),

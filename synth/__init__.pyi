@@ -47,6 +47,7 @@ from synth.guidance.fourbars import four_bars as four_bars
 from synth.guidance.order import analyse_order as analyse_order
 from synth.guidance.orientations import Orientations as Orientations
 from synth.guidance.synthesis import guiding_dyads as guiding_dyads
+from synth.members.sweeping import sweep as sweep
 from synth.moving.motion import move as move
 from synth.notebook import load_ipython_extension as load_ipython_extension
 from synth.overconstraint.explanation import explain as explain
@@ -55,6 +56,7 @@ from synth.realisation.on_cone import realise_on_cone as realise_on_cone
 from synth.realisation.realised import realise as realise
 from synth.surfaces.linkages import map_linkage as map_linkage
 from synth.surfaces.loop_maps import map_to_cones as map_to_cones, map_to_cylinders as map_to_cylinders
+from synth.surfaces.many_loops import cones_of_loops as cones_of_loops
 from synth.templates.hinges import Hinges as Hinges
 from synth.templates.of_mechanism import template as template
 from synth.templates.writing import write_template as write_template

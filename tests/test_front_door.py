@@ -293,6 +293,7 @@ def test_results_have_short_descriptions(data):
         *(next(synth.addenda(FOUR_BAR)), next(synth.strings(4)), synth.template(pattern, size=100)),
         *(synth.realise("m1:a-b.ac-.b-d.cd-"), synth.realise_on_cone(FOUR_BAR), dyads),
         *(synth.map_to_cones([2.1, 1.7, 0.8, 1.5]), synth.map_to_cylinders([4, 3, 5, 1])),
+        *(synth.cones_of_loops(np.ones((3, 4))), synth.sweep(ring, {"arcs": np.ones((2, 4))}, drive={0: [0.1]})),
         *(synth.four_bars(orientations, dyads.dyads[:4])[0], synth.analyse_order(orientations, (0, 0, 1))),
     ]
     for result in results:

@@ -62,6 +62,7 @@ EXEMPT = {
     ("synth/guidance/dyads.py", "_UNIT"): "which roots are tried",
     ("synth/guidance/order.py", "_FITS"): "misfit that a note tells of, by digits as printed",
     ("synth/guidance/orientations.py", "_NORM_TOLERANCE"): "digits as printed: more is refused",
+    ("synth/members/member_type.py", "LEAST"): "least step of a driven joint",
     ("synth/motion/derivatives.py", "_ALIKE"): "how well two methods agree",
     ("synth/motion/derivatives.py", "_COMPLEX"): "step of differences",
     ("synth/motion/derivatives.py", "_NUDGE"): "step of differences",

@@ -27,6 +27,7 @@ from synth.drawing.space.panels import bodies_of, places_of_hinges
 from synth.drawing.space.poses import pose_scenes
 from synth.folding.configuration import configuration_of_sheet
 from synth.folding.derivatives import SheetDerivatives
+from synth.members import arcs_of
 from synth.motion.branches import branches_of
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
@@ -101,6 +102,33 @@ def positions() -> Scene:
         said(_circuits(crank, 30.0), "it turns all round:", "a circuit for each position"),
         said(_circuits(rocker, 30.0), "it turns back:", "one circuit, a branch for each position"),
     )
+
+
+def members() -> Scene:
+    """Four-bars whose arcs are a few degrees off: a joint against the driven one, of cranks and of rockers."""
+    crank = generated_solids("four-bar", arc1=0.5, arc2=1.3, arc3=1.2, arc4=1.4)
+    rocker = generated_solids("four-bar", arc1=1.4, arc2=0.8, arc3=1.0, arc4=1.0)
+    return beside(
+        said(_members(crank, 61), "12 members turn all round"),
+        said(_members(rocker, 61), "12 members turn back, each at its angles"),
+    )
+
+
+def _members(four_bar: HingedSolids, rows: int) -> Scene:
+    """Return the angle of joint 2 against that of joint 0, degrees, of members with arcs off by up to 3 degrees."""
+    arcs = list(arcs_of(four_bar).values()) + np.radians(np.random.default_rng(4).uniform(-3.0, 3.0, (12, 4)))
+    up, down = np.linspace(0.0, np.pi, rows), np.linspace(0.0, -np.pi, rows)
+    swept = synth.sweep(four_bar, {"arcs": arcs}, drive={0: np.concatenate([up, down])}, joints=[2])
+    plot = Plot(34.0, 20.0, 170.0, 150.0, (-180.0, 180.0), (-180.0, 180.0))
+    shapes: list[Shape] = [*plot.below((-180, -90, 0, 90, 180), "driven angle, degrees")]
+    shapes += plot.beside((-180, -90, 0, 90, 180), "angle of another joint")
+    for member in range(len(swept)):
+        driven = np.concatenate([down[::-1], up])
+        angles = np.concatenate([swept.angles[member, rows:][::-1, 0], swept.angles[member, :rows, 0]])
+        there = np.isfinite(angles)
+        curve = np.degrees(np.stack([driven, angles], axis=1)[there])
+        shapes += [Line(plot.row(*piece.T), colour_of_class(0), FINE) for piece in _unbroken(curve)]
+    return Scene(plot.left + plot.width + 10.0, plot.top + plot.height + 26.0, (Layer("members", tuple(shapes)),))
 
 
 def _circuits(four_bar: HingedSolids, driven: float) -> Scene:
@@ -213,6 +241,7 @@ DRAWINGS: dict[str, Callable[[], Scene]] = {
     "folding": folding,
     "moving": moving,
     "positions": positions,
+    "members": members,
     "joints": joints,
     "mending": mending,
     "derivatives": derivatives,

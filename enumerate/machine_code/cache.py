@@ -8,7 +8,6 @@ its module changes, or of any own module that this imports: functions called the
 
 from __future__ import annotations
 
-import os
 import pickle
 import re
 import sys
@@ -19,19 +18,16 @@ from hashlib import sha256
 from importlib.util import resolve_name
 from pathlib import Path
 from typing import Any
-from uuid import uuid4
 
 import llvmlite  # type: ignore[import-untyped,unused-ignore]
 import numba
 import numpy as np
 from numba.core import caching, serialize
 
-from enumerate.machine_code.folders import compiling, is_ours, make_folder, prune, safe, touch, usable_bases
+from enumerate.machine_code.folders import compiling, keep, kept, usable_bases
 
 _numba: Any = caching
 _dumps: Callable[[object], bytes] = serialize.dumps
-_DIGEST = 32
-"""Bytes of the digest that a file begins with."""
 
 
 class _Place(_numba._CacheLocator):
@@ -102,24 +98,13 @@ class CodeFiles:
 
     def load(self, key: object) -> object:
         """Return what is kept for a key, from the first folder that has it, or None."""
-        for base in usable_bases():
-            folder = safe(base, self._folder)
-            if folder is not None:
-                held = read_whole(folder / self._name(key))
-                found, value = pickle.loads(held) if held is not None else (None, None)
-                if found == key:
-                    touch(folder)
-                    return value
-        return None
+        held = kept(self._folder, self._name(key))
+        found, value = pickle.loads(held) if held is not None else (None, None)
+        return value if found == key else None
 
     def save(self, key: object, data: object) -> None:
         """Keep something in the first folder that takes it; if there is none, it is compiled again next time."""
-        text = _dumps((key, data))
-        for base in usable_bases():
-            folder = make_folder(base, self._folder)
-            if folder is not None and write_whole(folder / self._name(key), text):
-                _prune_once(base)
-                return
+        keep(self._folder, self._name(key), _dumps((key, data)))
 
     def flush(self) -> None:
         """Forget all signatures of the function."""
@@ -127,38 +112,6 @@ class CodeFiles:
             for file in (base / self._folder).glob(f"{self._stem}-*.nbc"):
                 with suppress(OSError):
                     file.unlink()
-
-
-@cache
-def _prune_once(base: Path) -> None:
-    prune(base)
-
-
-def read_whole(path: Path) -> bytes | None:
-    """Return what `write_whole` wrote; None if there is no such file, it is damaged, or it is not ours."""
-    try:
-        with path.open("rb") as file:
-            if not is_ours(os.fstat(file.fileno())):
-                return None
-            text = file.read()
-    except OSError:
-        return None
-    return text[_DIGEST:] if sha256(text[_DIGEST:]).digest() == text[:_DIGEST] else None
-
-
-def write_whole(path: Path, text: bytes) -> bool:
-    """Write a file beside its place and move it there, readable to this user only; say whether it could be."""
-    beside = path.with_name(f"{path.name}.{uuid4().hex}")
-    try:
-        descriptor = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o600)
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(sha256(text).digest() + text)
-        beside.replace(path)
-    except OSError:
-        with suppress(OSError):
-            beside.unlink()
-        return False
-    return True
 
 
 _OWN = frozenset({"graphs", "enumerate", "synth"})

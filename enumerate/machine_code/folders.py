@@ -1,8 +1,9 @@
 """Folders that machine code is kept in: which may be used, which are old; a notice when code is compiled.
 
-What is kept are pickles, which do what they like when they are loaded. So a folder counts only if it belongs to
-this user and nobody else may write there. There may be several: what one cannot take goes to the next. The user is
-notified once in a run, by the process that is the first to compile. Loads without numba.
+Others keep there what takes long to find and is the same each time. Machine code is kept as pickles, which do what
+they like when they are loaded. So a folder counts only if it belongs to this user and nobody else may write there.
+There may be several: what one cannot take goes to the next. The user is notified once in a run, by the process that
+is the first to compile. Loads without numba.
 """
 
 import os
@@ -13,13 +14,18 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from functools import cache
+from hashlib import sha256
 from pathlib import Path
 from typing import Any, TypeAlias
+from uuid import uuid4
 
 _DAY = 86_400
 _OLD = 30 * _DAY
 _MOST = 8
 """Folders kept of one module: each edit of what it is made of begins another."""
+_DIGEST = 32
+"""Bytes of the digest that a file begins with."""
 _FOLDER = re.compile(r"([\w.]+)-[0-9a-f]{32}")
 """Name of a folder of one module. Nothing else is ever removed: a base may be anybody's folder."""
 
@@ -126,6 +132,58 @@ def prune(base: Path) -> None:
         for number, (last, folder) in enumerate(sorted(folders, reverse=True)):
             if number >= _MOST or time.time() - last > _OLD:
                 shutil.rmtree(folder, ignore_errors=True)
+
+
+def read_whole(path: Path) -> bytes | None:
+    """Return what `write_whole` wrote; None if there is no such file, it is damaged, or it is not ours."""
+    try:
+        with path.open("rb") as file:
+            if not is_ours(os.fstat(file.fileno())):
+                return None
+            text = file.read()
+    except OSError:
+        return None
+    return text[_DIGEST:] if sha256(text[_DIGEST:]).digest() == text[:_DIGEST] else None
+
+
+def write_whole(path: Path, text: bytes) -> bool:
+    """Write a file beside its place and move it there, readable to this user only; say whether it could be."""
+    beside = path.with_name(f"{path.name}.{uuid4().hex}")
+    try:
+        descriptor = os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o600)
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(sha256(text).digest() + text)
+        beside.replace(path)
+    except OSError:
+        with suppress(OSError):
+            beside.unlink()
+        return False
+    return True
+
+
+def kept(name: str, file: str) -> bytes | None:
+    """Return what is kept in a file of a folder that is so named, from the first base that has it, or None."""
+    for base in usable_bases():
+        folder = safe(base, name)
+        held = None if folder is None else read_whole(folder / file)
+        if folder is not None and held is not None:
+            touch(folder)
+            return held
+    return None
+
+
+def keep(name: str, file: str, text: bytes) -> None:
+    """Keep a text in the first base that takes it; if there is none, it is made again next time."""
+    for base in usable_bases():
+        folder = make_folder(base, name)
+        if folder is not None and write_whole(folder / file, text):
+            _prune_once(base)
+            return
+
+
+@cache
+def _prune_once(base: Path) -> None:
+    prune(base)
 
 
 Notify: TypeAlias = Callable[[Path | None], None]

@@ -21,19 +21,8 @@ from graphs.loops.loop import Centre
 from graphs.rank.singular_values import rank_of
 from graphs.tolerances import DOUBLE
 from graphs.types import Flags, Floats, Ints, JointId
-from synth.assembly.kernel import (
-    ARRIVED,
-    CLOSED,
-    DIRECTION,
-    FAR,
-    POINT,
-    SLIDE,
-    Complexes,
-    Type,
-    corrected_all,
-    evaluated,
-    followed_all,
-)
+from synth.assembly.kernel import ARRIVED, CLOSED, DIRECTION, FAR, POINT, SLIDE, Complexes, Type
+from synth.assembly.tracking import corrected_all, evaluated, followed_all
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 Curves = tuple[Complexes, Complexes, Complexes]
@@ -74,13 +63,13 @@ class Family:
         Curves are start, end and bend of the parameters, complex[P, parameters]: at s, start + s (end - start) + s
         (1 - s) bend. The smaller the allowed corrections (`small`, radians), the surer each path stays its own.
         """
-        solutions = values.astype(complex)
+        solutions = np.array(values, dtype=complex, order="C")
         ends = followed_all(self._type, curves, solutions, small)
         return TrackedPaths(solutions, ends == ARRIVED, ends == FAR)
 
     def corrected(self, parameters: Complexes, values: Complexes, steps: int) -> tuple[Complexes, Floats]:
         """Return solutions by Newton's method, complex[P, U], and by how much loops do not close, float[P]."""
-        solutions = values.astype(complex)
+        solutions = np.array(values, dtype=complex, order="C")
         return solutions, corrected_all(self._type, parameters, solutions, steps)
 
     def at(self, parameters: Complexes, values: Complexes) -> tuple[Complexes, Complexes]:

@@ -17,17 +17,8 @@ from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.rank.singular_values import rank_of
 from graphs.tolerances import DOUBLE, EPSILON, canonical_order
 from graphs.types import Flags, Floats, JointId
-from synth.assembly.family import (
-    SMALL,
-    Family,
-    GeneralPositions,
-    TrackedPaths,
-    apart,
-    as_real,
-    family_of,
-    general_positions,
-    same,
-)
+from synth.assembly.family import SMALL, Family, GeneralPositions, TrackedPaths, apart, as_real, family_of, same
+from synth.assembly.kept import kept_positions
 from synth.assembly.kernel import CLOSED, Complexes
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
@@ -256,7 +247,7 @@ def positions(
         if not isfinite(angle):
             raise InvariantError("angle", f"the angle of joint {shown(joint)} is {angle}", "a finite number")
     family, axes = family_of(linkage, list(drive))
-    general = general_positions(family, seed)
+    general = kept_positions(family, seed)
     names = list(linkage.graph.joints)
     places = [names.index(joint) for joint in drive]
     units = _units(linkage)

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations_with_replacement, islice
 from math import degrees
+from typing import Any
 
 import numpy as np
 import scipy.sparse
@@ -195,6 +196,16 @@ class AlikeClosure(ClosureEquations):
     def space(self, entries: Floats) -> TangentSpace:
         """Return the rates where derivatives have these entries."""
         return TangentSpace(self.matrix(entries))
+
+    def dense(self, angles: Floats) -> Floats:
+        """Return the derivatives of loops and classes in full."""
+        return np.asarray(self.matrix(self.evaluated(angles)[1]).toarray())
+
+    def corrected(self, angles: Floats) -> None:
+        """Leave Newton's method to Python: the library knows nothing of classes."""
+
+    def walked(self, manner: Floats, place: dict[str, Any], most: int) -> None:
+        """Leave walks to Python."""
 
 
 _WEIGHTS = (1.01, 0.8, 2.0, 0.5, 4.0, 0.25)

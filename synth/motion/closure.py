@@ -15,6 +15,7 @@ from copy import copy
 from ctypes import CDLL
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import scipy
@@ -189,6 +190,12 @@ class ClosureEquations:
         starts = np.searchsorted(row_of[order], np.arange(start + 1))
         return order, column_of[order], starts
 
+    @cached_property
+    def _places(self) -> Ints:
+        """Where in a full matrix, row after row, each entry goes."""
+        _, columns, starts = self._pattern
+        return np.asarray(np.repeat(np.arange(self.rows) * self.joints, np.diff(starts)) + columns)
+
     def evaluated(self, angles: Floats) -> tuple[Floats, Floats]:
         """Return the residuals float[rows] at joint angles float[J], and the entries of their derivatives in order."""
         if self._kernel is not None:
@@ -217,6 +224,24 @@ class ClosureEquations:
         """
         residual, entries = self.evaluated(angles)
         return residual, self.matrix(entries)
+
+    def corrected(self, angles: Floats) -> Corrected | None:
+        """Return joint angles near some at which all loops close, by the library if there is one: `corrected`."""
+        if self._kernel is None or not self.rows:
+            return None
+        end, entries, error, steps = self._kernel.corrected(_NEWTON, angles, self._zero, self._free)
+        return Corrected(end, error, steps, self, entries)
+
+    def walked(self, manner: Floats, place: dict[str, Any], most: int) -> tuple[dict[str, Floats], int] | None:
+        """Take steps of a walk in the library (`KernelEquations.walked`), if there is one."""
+        manner = np.concatenate([_NEWTON, manner])
+        return None if self._kernel is None else self._kernel.walked(manner, place, most, self._zero, self._free)
+
+    def dense(self, angles: Floats) -> Floats:
+        """Return the derivatives of the residuals at joint angles float[J], float[rows, J]: for few joints."""
+        matrix = np.zeros(self.rows * self.joints)
+        matrix[self._places] = self.evaluated(angles)[1]
+        return matrix.reshape(self.rows, self.joints)
 
     def error(self, angles: Floats) -> float:
         """Return the loop-closure residual at joint angles, float[J]: the largest equation."""
@@ -289,6 +314,8 @@ _HOLDS = 2
 """Corrections after held joints were put back."""
 _SLOW = 0.1
 """A step that leaves more of the error than this is the last with its derivatives."""
+_NEWTON = np.array([DOUBLE.closed, _SLOW, _STEPS, REGULAR])
+"""These numbers as kernel.c takes them."""
 
 
 @dataclass(frozen=True)
@@ -323,6 +350,9 @@ def corrected(closure: ClosureEquations, angles: Floats, held: Sequence[int] = (
     Matrices are factorised anew only where a step with the last one left too much. It ends when loops are closed
     and a further step would not make them better, or steps do not make the error less.
     """
+    by_library = None if held else closure.corrected(angles)
+    if by_library is not None:
+        return by_library
     residual, entries = closure.evaluated(angles)
     best, off = Corrected(angles, largest_of(residual), 0, closure, entries), residual
     space, fresh = None, True

@@ -647,3 +647,255 @@ EXPORTED int factor_projected(const Equations *e, const Factor *f, const double 
     free(work);
     return 1;
 }
+
+/* How Newton's method and a walk go on; what these numbers mean is said where Python has them (closure.py, walk). */
+typedef struct {
+    double closed, slow, corrections, regular, free, clear;
+    double first, largest, least, stray, stray_first, alike, easy, singular;
+} Manner;
+
+/* Room for one step: arrays of joints, of equations and of derivatives. */
+typedef struct {
+    const Equations *e;
+    const Manner *how;
+    const double *zero, *freed;
+    Factor *factor;
+    double *rates, *expected, *end, *tried, *change, *arriving, *turned, *chord, *off, *left, *residual, *entries,
+        *others, *factored, *all;
+} Stride;
+
+static void stride_free(Stride *s) { factor_free(s->factor), free(s->all); }
+
+static int stride_new(Stride *s, const Equations *e, const Manner *how, const double *zero, const double *freed)
+{
+    int64_t n = e->joints + 1, m = e->rows + 1, d = e->derivatives + 1;
+    s->e = e, s->how = how, s->zero = zero, s->freed = freed, s->factor = factor_new(e);
+    s->all = malloc((8 * n + 3 * m + 3 * d) * sizeof *s->all);
+    if (!s->factor || !s->all) {
+        stride_free(s);
+        return 0;
+    }
+    s->rates = s->all, s->expected = s->rates + n, s->end = s->expected + n, s->tried = s->end + n;
+    s->change = s->tried + n, s->arriving = s->change + n, s->turned = s->arriving + n, s->chord = s->turned + n;
+    s->off = s->chord + n, s->left = s->off + m, s->residual = s->left + m, s->entries = s->residual + m;
+    s->others = s->entries + d, s->factored = s->others + d;
+    return 1;
+}
+
+static double largest_of(int64_t n, const double *values)
+{
+    double largest = 0.0;
+    for (int64_t i = 0; i < n; i++)
+        if (!(fabs(values[i]) <= largest)) largest = fabs(values[i]);
+    return largest;
+}
+
+static double product_of(int64_t n, const double *a, const double *b)
+{
+    double sum = 0.0;
+    for (int64_t i = 0; i < n; i++) sum += a[i] * b[i];
+    return sum;
+}
+
+static double norm_of(int64_t n, const double *a) { return sqrt(product_of(n, a, a)); }
+
+static void exchanged(double **one, double **other)
+{
+    double *kept = *one;
+    *one = *other, *other = kept;
+}
+
+static double off_at(Stride *s, const double *angles, double *residual, double *entries)
+{
+    for (int64_t i = 0; i < s->e->joints; i++) s->turned[i] = angles[i] - s->zero[i];
+    equations_at(s->e, s->turned, s->freed, residual, entries);
+    return largest_of(s->e->rows, residual);
+}
+
+static int factored_at(Stride *s, const double *entries)
+{
+    memcpy(s->factored, entries, s->e->derivatives * sizeof *entries);
+    return factorised(s->e, s->factor, s->factored, s->how->regular);
+}
+
+/* Newton's method from `end`, in place, with the derivatives there in `entries`: as `corrected` in closure.py. */
+static int corrected(Stride *s, double *error, int *steps)
+{
+    int64_t n = s->e->joints;
+    int fresh = 1, known = 0;
+    *error = off_at(s, s->end, s->off, s->entries), *steps = 0;
+    for (int step = 1; step <= s->how->corrections && !(*error <= s->how->closed / 100.0); step++) {
+        if (!known && !factored_at(s, s->entries)) return 0;
+        known = 1;
+        for (int64_t r = 0; r < s->e->rows; r++) s->left[r] = -s->off[r];
+        if (!factor_least_exactly(s->e, s->factor, s->factored, s->left, s->change)) return 0;
+        for (int64_t i = 0; i < n; i++) s->tried[i] = s->end[i] + s->change[i];
+        double off = off_at(s, s->tried, s->residual, s->others);
+        int slow = off > s->how->slow * *error;
+        if (off < *error) {
+            exchanged(&s->end, &s->tried), exchanged(&s->off, &s->residual), exchanged(&s->entries, &s->others);
+            *error = off, *steps = step, fresh = 0;
+        } else if (fresh) {
+            break;
+        }
+        if (slow) {
+            if (*error <= s->how->closed) break;
+            known = 0, fresh = 1;
+        }
+    }
+    return 1;
+}
+
+/* A unit vector nearer to the least singular vector across the freedoms: as `sharpened` in tangent.py. */
+static int sharpened(Stride *s, double *across)
+{
+    const Equations *e = s->e;
+    int64_t n = e->joints;
+    double *free_part = s->change, *kept = s->tried, whole = norm_of(n, across);
+    if (!factor_projected(e, s->factor, s->factored, across, free_part)) return 0;
+    for (int64_t i = 0; i < n; i++) kept[i] = across[i] - free_part[i];
+    double size = norm_of(n, kept);
+    if (size <= s->how->free * whole) {
+        size = norm_of(n, free_part);
+        for (int64_t i = 0; i < n; i++) across[i] = free_part[i] / size;
+        return 1;
+    }
+    for (int64_t i = 0; i < n; i++) kept[i] /= size;
+    if (!factor_solved(e, s->factor, kept, across)) return 0;
+    if (!factor_projected(e, s->factor, s->factored, across, free_part)) return 0;
+    for (int64_t i = 0; i < n; i++) across[i] -= free_part[i];
+    size = norm_of(n, across);
+    for (int64_t i = 0; i < n; i++) across[i] /= size;
+    return 1;
+}
+
+/* Where a walk is, and what it goes on with: joint angles, derivatives there, rates, how they bend, the vector across
+   the freedoms; the length of the next step; whether a step was taken; whether `across` is followed: 0 no, 1 from the
+   next step on, 2 yes. After each step the same is written for it, with the rates of the step and its error. */
+typedef struct {
+    double *angles, *entries, *tangent, *bend, *across, *image, *leaving, *arriving, *error, *length;
+    int64_t *steps, *singular;
+} Place;
+
+static Place next_place(Place p, const Equations *e)
+{
+    int64_t n = e->joints;
+    Place q = {p.angles + n, p.entries + e->derivatives, p.tangent + n, p.bend + n, p.across + n, p.image + e->rows,
+               p.leaving + n, p.arriving + n, p.error + 1, p.length + 1, p.steps + 1, p.singular + 1};
+    return q;
+}
+
+/* Find the next closed configuration, in `end`: 1, 0 if there is none, or -1 without memory. */
+static int stepped(Stride *s, double *length, double stray, double *bend, const double *here, double *error, int *steps)
+{
+    int64_t n = s->e->joints;
+    while (*length >= s->how->least) {
+        double step = *length, astray = 0.0;
+        for (int64_t i = 0; i < n; i++)
+            s->end[i] = s->expected[i] = here[i] + step * s->rates[i] + step * step / 2.0 * bend[i];
+        if (!corrected(s, error, steps)) return -1;
+        for (int64_t i = 0; i < n; i++) {
+            double off = fabs(s->end[i] - s->expected[i]);
+            if (!(off <= astray)) astray = off;
+        }
+        if (*error <= s->how->closed && astray <= stray * step) {
+            if (!factored_at(s, s->entries)) return -1;
+            if (!factor_projected(s->e, s->factor, s->factored, s->rates, s->arriving)) return -1;
+            double sizes = norm_of(n, s->arriving) * norm_of(n, s->rates);
+            if (product_of(n, s->arriving, s->rates) > s->how->alike * sizes) {
+                if (*steps <= s->how->easy) *length = 1.5 * step < s->how->largest ? 1.5 * step : s->how->largest;
+                return 1;
+            }
+        }
+        *length = step / 2.0;
+    }
+    return 0;
+}
+
+/* Note rates and bend at the end of a step that is in `end`: as `_arrive` in walking.py. */
+static void arrived(Stride *s, const Place *from, Place *to)
+{
+    int64_t n = s->e->joints;
+    for (int64_t i = 0; i < n; i++) s->chord[i] = s->end[i] - from->angles[i];
+    double length = largest_of(n, s->chord), size = largest_of(n, s->arriving), most = 0.0;
+    memcpy(to->tangent, from->tangent, n * sizeof *to->tangent), memcpy(to->bend, from->bend, n * sizeof *to->bend);
+    if (length == 0.0) return;
+    if (size < s->how->least) size = s->how->least;
+    for (int64_t i = 0; i < n; i++) {
+        to->tangent[i] = *to->singular ? 2.0 * s->chord[i] / length - s->rates[i] : s->arriving[i];
+        to->bend[i] = (s->arriving[i] / size - s->rates[i]) / length;
+        if (fabs(to->bend[i]) > most) most = fabs(to->bend[i]);
+    }
+    if (*to->singular || most * *to->length > s->how->stray) memset(to->bend, 0, n * sizeof *to->bend);
+}
+
+/* Take up to `most` steps along a curve where no joint is driven; places[0] is where the walk is, the others are
+   written. Returns how many were taken, or -1 without memory. */
+EXPORTED int64_t curve_walked(const Equations *e, const double *manner, const double *zero, const double *freed,
+                              int64_t begun, int64_t watched, int64_t most, double *angles, double *entries,
+                              double *tangent, double *bend, double *across, double *image, double *leaving,
+                              double *arriving, double *error, double *length, int64_t *steps, int64_t *singular)
+{
+    Place from = {angles,  entries,  tangent, bend,   across, image,
+                  leaving, arriving, error,   length, steps,  singular};
+    Stride s;
+    int64_t n = e->joints, taken = 0;
+    if (!stride_new(&s, e, (const Manner *)manner, zero, freed)) return -1;
+    int good = factored_at(&s, from.entries);
+    for (; good && taken < most; taken++) {
+        Place to = next_place(from, e);
+        int corrections = 0, found;
+        memcpy(s.rates, from.tangent, n * sizeof *s.rates);
+        if (begun) good = factor_projected(e, s.factor, s.factored, from.tangent, s.rates);
+        double size = largest_of(n, s.rates);
+        for (int64_t i = 0; size && i < n; i++) s.rates[i] /= size;
+        *to.length = *from.length;
+        found = good ? stepped(&s, to.length, begun ? s.how->stray : s.how->stray_first, from.bend, from.angles,
+                               to.error, &corrections)
+                     : -1;
+        good = found >= 0;
+        if (found != 1) break;
+        begun = 1, *to.steps = corrections, *to.singular = 0;
+        memcpy(to.angles, s.end, n * sizeof *s.end);
+        memcpy(to.entries, s.entries, e->derivatives * sizeof *s.entries);
+        memcpy(to.leaving, s.rates, n * sizeof *s.rates), memcpy(to.arriving, s.arriving, n * sizeof *s.rates);
+        memcpy(to.across, from.across, n * sizeof *to.across);
+        if (watched) {
+            double *part = s.change;
+            if (watched == 1) { /* the part of a vector across the freedoms, to begin with */
+                good = factor_projected(e, s.factor, s.factored, to.across, part);
+                for (int64_t i = 0; i < n; i++) part[i] = to.across[i] - part[i];
+                size = norm_of(n, part);
+                for (int64_t i = 0; size > s.how->clear && i < n; i++) to.across[i] = part[i] / size;
+            }
+            watched = 2;
+            good = good && sharpened(&s, to.across);
+            image_of(e, s.factored, to.across, to.image);
+            if (product_of(n, to.across, from.across) < 0.0) {
+                for (int64_t i = 0; i < n; i++) to.across[i] = -to.across[i];
+                for (int64_t i = 0; i < e->rows; i++) to.image[i] = -to.image[i];
+            }
+            *to.singular = norm_of(e->rows, to.image) <= s.how->singular;
+        }
+        arrived(&s, &from, &to);
+        from = to;
+    }
+    stride_free(&s);
+    return good ? taken : -1;
+}
+
+/* Newton's method from joint angles end[joints], in place; the derivatives where it ends, the error and the number of
+   steps: 1, or 0 without memory. Of `manner` only the numbers of Newton's method are read. */
+EXPORTED int equations_corrected(const Equations *e, const double *manner, const double *zero, const double *freed,
+                                 double *end, double *entries, double *error, int64_t *steps)
+{
+    Stride s;
+    int taken = 0;
+    if (!stride_new(&s, e, (const Manner *)manner, zero, freed)) return 0;
+    memcpy(s.end, end, e->joints * sizeof *end);
+    int good = corrected(&s, error, &taken);
+    memcpy(end, s.end, e->joints * sizeof *end), memcpy(entries, s.entries, e->derivatives * sizeof *entries);
+    *steps = taken;
+    stride_free(&s);
+    return good;
+}

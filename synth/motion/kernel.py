@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ctypes
 from collections.abc import Sequence
-from ctypes import c_double, c_int, c_int64, c_void_p
+from ctypes import byref, c_double, c_int, c_int64, c_void_p
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -41,7 +41,10 @@ _FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "factor_least": (c_int, (_P,) * 5),
     "factor_least_exactly": (c_int, (_P,) * 5),
     "factor_projected": (c_int, (_P,) * 5),
+    "equations_corrected": (c_int, (_P,) * 8),
+    "curve_walked": (c_int64, (*[_P] * 4, *[c_int64] * 3, *[_P] * 12)),
 }
+_OF_JOINTS = ("angles", "tangent", "bend", "across", "leaving", "arriving")
 
 
 def kernel() -> ctypes.CDLL | None:
@@ -96,6 +99,40 @@ class KernelEquations:
         free = None if freed is None else freed.ctypes.data
         self.library.equations_at(self.handle, turned.ctypes.data, free, residual.ctypes.data, derivatives.ctypes.data)
         return residual, derivatives
+
+    def corrected(
+        self, manner: Floats, start: Floats, zero: Floats, freed: Floats | None
+    ) -> tuple[Floats, Floats, float, int]:
+        """Return angles float[J] found by Newton's method, derivatives there, what does not close, and the steps."""
+        self.analysed()
+        end, entries, error, steps = np.array(start, dtype=float), np.empty(self._entries), c_double(), c_int64()
+        free = None if freed is None else freed.ctypes.data
+        given = (manner.ctypes.data, zero.ctypes.data, free, end.ctypes.data, entries.ctypes.data)
+        _check(self.library.equations_corrected(self.handle, *given, byref(error), byref(steps)))
+        return end, entries, error.value, steps.value
+
+    def walked(
+        self, manner: Floats, place: dict[str, Any], most: int, zero: Floats, freed: Floats | None
+    ) -> tuple[dict[str, Floats], int]:
+        """Take up to so many steps of a walk; return what is known after each, the first being `place`, and how many.
+
+        Of the place all but leaving, arriving and error, and whether it was `begun` and is `watched`, as kernel.c
+        says.
+        """
+        self.analysed()
+        sizes = {"entries": self._entries, "image": self.rows, **dict.fromkeys(_OF_JOINTS, self.joints)}
+        arrays: dict[str, Any] = {name: np.zeros((most + 1, size)) for name, size in sizes.items()}
+        arrays["error"], arrays["length"] = np.zeros(most + 1), np.zeros(most + 1)
+        arrays["steps"], arrays["singular"] = (np.zeros(most + 1, dtype=np.int64) for _ in range(2))
+        for name in ("angles", "entries", "tangent", "bend", "across", "image", "length"):
+            arrays[name][0] = place[name]
+        order = ("angles", "entries", "tangent", "bend", "across", "image", "leaving", "arriving", "error", "length")
+        places = [arrays[name].ctypes.data for name in (*order, "steps", "singular")]
+        free = None if freed is None else freed.ctypes.data
+        how = (manner.ctypes.data, zero.ctypes.data, free, place["begun"], place["watched"], most)
+        taken = int(self.library.curve_walked(self.handle, *how, *places))
+        _check(taken >= 0)
+        return arrays, taken
 
 
 class KernelFactor:

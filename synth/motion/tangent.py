@@ -22,7 +22,7 @@ REGULAR = 1e-9
 along freedoms is multiplied by its inverse."""
 _DENSE = 40
 """Matrices of up to this many joints are full; larger full ones would wait for threads of BLAS."""
-_FREE = 0.5
+FREE = 0.5
 """Part of a vector across the freedoms that is left, at most, where it has become one of them after a step."""
 _SWEEPS = 24
 _SETTLED, _UNSETTLED = 1e-14, 1e-9
@@ -126,7 +126,7 @@ class TangentSpace:
         free = self.projected(across)
         kept = across - free
         size = float(np.linalg.norm(kept))
-        if size <= _FREE * float(np.linalg.norm(across)):
+        if size <= FREE * float(np.linalg.norm(across)):
             return np.asarray(free / np.linalg.norm(free))
         sharper = self._factor.solved(kept / size)
         sharper = sharper - self.projected(sharper)

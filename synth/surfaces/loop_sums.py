@@ -22,6 +22,7 @@ from graphs.errors import UnsolvableError
 from graphs.tolerances import EPSILON
 from graphs.types import Flags, Floats
 from synth.fourbar.closing import rounding_of
+from synth.surfaces.loop_kernel import roots_in_library
 
 Base = Literal[0, 1]
 
@@ -151,6 +152,9 @@ def _roots_of_chunk(
     reaches: Floats, patterns: npt.NDArray[np.int8], first_loop: int, base: Base
 ) -> tuple[npt.NDArray[np.generic], ...]:
     """Return columns loop, pattern, turns, size, residual, double; loop, pattern, exact of families."""
+    by_library = roots_in_library(reaches, patterns, first_loop, base)
+    if by_library is not None:
+        return by_library
     loops, n = reaches.shape
     order = np.argsort(reaches, axis=1)
     sorted_reach = np.take_along_axis(reaches, order, axis=1)

@@ -177,7 +177,7 @@ def other_ways(closure: ClosureEquations, angles: Floats) -> int | None:
     plane, quadratic forms in two variables. If they are multiples of one, its two lines are two branches. Angles,
     float[J], are radians. None where the kernel is not a plane, or second order does not decide.
     """
-    parts = split(closure.at(angles)[1].toarray(), DOUBLE.singular)
+    parts = split(closure.dense(angles), DOUBLE.singular)
     kernel, stresses = parts.kernel.T, parts.cokernel.T
     if len(kernel) != 2:
         return None
@@ -193,7 +193,7 @@ def other_ways(closure: ClosureEquations, angles: Floats) -> int | None:
 
 def _curved(closure: ClosureEquations, angles: Floats, rates: Floats) -> Floats:
     """Return the second derivative of what does not close along rates: float[rows]."""
-    ahead, here, back = (closure.at(angles + step * rates)[0] for step in (_NUDGE, 0.0, -_NUDGE))
+    ahead, here, back = (closure.evaluated(angles + step * rates)[0] for step in (_NUDGE, 0.0, -_NUDGE))
     return np.asarray((ahead - 2.0 * here + back) / _NUDGE**2)
 
 

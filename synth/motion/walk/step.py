@@ -10,11 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import degrees
+from math import degrees, sqrt
 from typing import Any, Literal
 
 import numpy as np
-import scipy
 
 from graphs.errors import numbered, shown
 from graphs.tolerances import DOUBLE
@@ -114,6 +113,11 @@ def named(joints: Sequence[int], names: Sequence[JointId], noun: str = "joint") 
     return (noun if len(joints) == 1 else f"{noun}s") + " " + ", ".join(shown(names[joint]) for joint in joints)
 
 
+def length_of(vector: Floats) -> float:
+    """Return the length of a vector: as numpy's norm, which looks longer at what it is given."""
+    return sqrt(vector @ vector)
+
+
 STRAY = 0.25
 """A corrected configuration is at most this part of its step from where it was expected."""
 _NEAR = 1e-9
@@ -146,8 +150,8 @@ class Step:
         that Newton's method does not stray to another branch that passes there.
         """
         chord = self.chord
-        size = float(np.linalg.norm(chord))
-        out, back = (rates * (size / np.linalg.norm(rates)) for rates in (self.leaving, self.arriving))
+        size = length_of(chord)
+        out, back = (rates * (size / length_of(rates)) for rates in (self.leaving, self.arriving))
         rest = 1.0 - part
         bulge = part * rest * (rest * (out - chord) - part * (back - chord))
         return np.asarray(self.before.angles + part * chord + bulge)
@@ -235,6 +239,8 @@ class Step:
 
 WATCHED = 400
 """Linkages of more joints are not watched: to look into a step all their singular values are needed."""
+SINGULAR = 10.0 * DOUBLE.singular
+"""A least singular value that is all but zero."""
 _DIP = 0.1
 """Part of a squared singular value that is left at the bottom of a dip worth looking into."""
 _AROUND = 0.05
@@ -255,17 +261,32 @@ class RankWatch:
         self._across, self._image = start / np.linalg.norm(start), np.zeros(closure.rows)
         self._values: list[float] = []
         self._steps: list[Step] = []
+        self._lengths: list[float] = []
         self._looks = 0
         self.singular = False
 
-    def dropped(self, step: Step, *, flat: bool = False) -> tuple[Floats, int] | None:
+    @property
+    def begun(self) -> bool:
+        """Whether a step was watched."""
+        return bool(self._steps)
+
+    @property
+    def across(self) -> tuple[Floats, Floats]:
+        """The vector across the freedoms that is followed, and its image."""
+        return self._across, self._image
+
+    def dropped(
+        self, step: Step, *, flat: bool = False, across: tuple[Floats, Floats] | None = None
+    ) -> tuple[Floats, int] | None:
         """Go on by one step; return joint angles on it or the last one where the rank drops, and by how much.
 
-        Where panels lie flat on each other, at its end, the rank is always looked at.
+        Where panels lie flat on each other, at its end, the rank is always looked at. The vector across the freedoms
+        at its end, and its image, may be known.
         """
-        value = self._followed(step)
-        self.singular = abs(value) <= 10.0 * DOUBLE.singular
+        value = self._followed(step, across)
+        self.singular = abs(value) <= SINGULAR
         self._values, self._steps = [*self._values, value][-3:], [*self._steps, step][-2:]
+        self._lengths = [*self._lengths, length_of(step.chord)][-2:]
         if self._looks >= _MOST_LOOKS:
             return None
         drop = None
@@ -281,34 +302,36 @@ class RankWatch:
         self._values = [] if self.singular else [value]
         return drop
 
-    def _followed(self, step: Step) -> float:
+    def _followed(self, step: Step, known: tuple[Floats, Floats] | None) -> float:
         """Return the least singular value at the end of a step, with the sign that continuity gives it."""
-        space = step.after.space
+        across, image = known or self._sharpened(step.after.space)
+        before = self._values[-1] if self._values else 1.0
+        sign = np.sign(before) if image @ self._image >= 0.0 else -np.sign(before)
+        self._across, self._image = across, image
+        return float(sign * length_of(image))
+
+    def _sharpened(self, space: TangentSpace) -> tuple[Floats, Floats]:
         if not self._steps:
             self._across = _across_freedoms(space, self._across)
         across = space.sharpened(self._across)
         across = across if across @ self._across >= 0.0 else -across
-        image = space.image(across)
-        before = self._values[-1] if self._values else 1.0
-        sign = np.sign(before) if image @ self._image >= 0.0 else -np.sign(before)
-        self._across, self._image = across, image
-        return float(sign * np.linalg.norm(image))
+        return across, space.image(across)
 
     def _dips(self) -> bool:
         """Tell whether a parabola through the last squares has a bottom near zero in the last two steps."""
         if len(self._values) < 3:
             return False
-        first, second = (float(np.linalg.norm(step.chord)) for step in self._steps)
+        first, second = self._lengths
         if not (first and second):  # a step of no length: nothing was passed
             return False
-        squares = np.square(self._values)
-        slopes = np.diff(squares) / (first, second)
-        bend = (slopes[1] - slopes[0]) / (first + second)
+        before, here, after = (value * value for value in self._values)
+        slope, onwards = (here - before) / first, (after - here) / second
+        bend = (onwards - slope) / (first + second)
         if not bend > 0.0:
             return False
-        slope = slopes[0] + bend * first
+        slope += bend * first
         bottom = -slope / (2.0 * bend)
-        return bool(-first < bottom < second and squares[1] - bend * bottom**2 <= _DIP * squares[1])
+        return bool(-first < bottom < second and here - bend * bottom**2 <= _DIP * here)
 
     def _examined(self, step: Step) -> tuple[Floats, int] | None:
         """Look for a configuration on a step at which singular values are zero."""
@@ -340,8 +363,8 @@ class RankWatch:
 
     def _squares(self, angles: Floats) -> Floats:
         """Return the squares of the singular values, of all joints, the least first: float[J]."""
-        jacobian = self._closure.at(angles)[1]
-        return np.asarray(scipy.linalg.eigvalsh((jacobian.T @ jacobian).toarray()))
+        jacobian = self._closure.dense(angles)
+        return np.asarray(np.linalg.eigvalsh(jacobian.T @ jacobian))
 
 
 def _across_freedoms(space: TangentSpace, start: Floats) -> Floats:

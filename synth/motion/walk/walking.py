@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import inf, sqrt
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -17,8 +18,18 @@ from graphs.errors import shown
 from graphs.tolerances import DOUBLE, leading
 from graphs.types import Flags, Floats, JointId
 from synth.motion.closure import ClosureEquations, Corrected, corrected, exactly_held
-from synth.motion.tangent import TangentSpace
-from synth.motion.walk.step import STRAY, Allowance, EventKind, PathEvent, RankWatch, Step, in_degrees
+from synth.motion.tangent import FREE, TangentSpace
+from synth.motion.walk.step import (
+    SINGULAR,
+    STRAY,
+    Allowance,
+    EventKind,
+    PathEvent,
+    RankWatch,
+    Step,
+    in_degrees,
+    length_of,
+)
 
 _FIRST, _LARGEST, _LEAST = 0.02, 0.2, 1e-6
 """Steps, radians of the joint that moves most."""
@@ -31,6 +42,8 @@ _HARDLY = 0.05
 _EASY = 5
 """Steps of Newton's method after which a step of the walk may be longer."""
 _MOST = 20_000
+_FEW, _AT_ONCE = 64, 24
+"""Of linkages of so few joints the library takes so many steps at once: those beyond an event are lost."""
 
 
 class Event:
@@ -115,6 +128,57 @@ class Goal(Event):
         return f"{self.driver} turns back at {self.angle(place)}, before {goal}"
 
 
+class StepAhead(NamedTuple):
+    """A step that the library took, and what the walk goes on with after it."""
+
+    step: Step
+    tangent: Floats
+    bend: Floats
+    across: tuple[Floats, Floats]
+    length: float
+    singular: bool
+
+
+class Ahead:
+    """Steps that the library takes for a walk where no joint is driven, several at once.
+
+    They are those that `Walk` would take one by one. When an event ends a step earlier, the others are forgotten.
+    """
+
+    def __init__(self, closure: ClosureEquations) -> None:
+        self._closure = closure
+        self._steps: list[StepAhead] = []
+
+    def forget(self) -> None:
+        """Forget the steps that were not taken yet."""
+        self._steps = []
+
+    def next(self, walk: Walk) -> StepAhead | None:
+        """Return the next step; None where the walk has to take it: of many joints, or if none is found."""
+        if not self._steps and walk.tangent is not None and 0 < self._closure.joints <= _FEW and self._closure.rows:
+            self._steps = self._taken(walk)
+        return self._steps.pop() if self._steps else None
+
+    def _taken(self, walk: Walk) -> list[StepAhead]:
+        """Return steps from where the walk is, the first one last."""
+        manner = [FREE, DOUBLE.clear, _FIRST, _LARGEST, _LEAST, STRAY, _STRAY_FIRST, _ALIKE, _EASY, SINGULAR]
+        walked = self._closure.walked(np.array(manner), walk.state, _AT_ONCE)
+        if walked is None:
+            return []
+        found, taken = walked
+        here, steps = walk.here, []
+        for k in range(1, taken + 1):
+            error, corrections = float(found["error"][k]), int(found["steps"][k])
+            after = Corrected(found["angles"][k], error, corrections, self._closure, found["entries"][k])
+            step = Step(self._closure, here, after, found["leaving"][k], found["arriving"][k])
+            across = found["across"][k], found["image"][k]
+            singular = walk.watch is not None and bool(found["singular"][k])
+            length = float(found["length"][k])
+            steps.append(StepAhead(step, found["tangent"][k], found["bend"][k], across, length, singular))
+            here = after
+        return steps[::-1]
+
+
 class Walk(Iterator[Step]):
     """A walk along a curve of closed configurations, one step for each `next`, until an event ends it.
 
@@ -162,6 +226,7 @@ class Walk(Iterator[Step]):
         self.straight, self._allowance = straight, allowance
         self._bend = np.zeros(closure.joints)
         self._begun, self._steps = False, 0
+        self._ahead = Ahead(closure)
 
     def towards(self, goal: Goal, events: Sequence[Event]) -> None:
         """Go on to a goal: back along the curve, if the driven joint does not go the way it is to go."""
@@ -195,10 +260,15 @@ class Walk(Iterator[Step]):
         """Take a step."""
         if self.ended:
             raise StopIteration
-        rates = self._onwards()
+        ahead = self._ahead.next(self) if self.goal is None and self.kept is None else None
+        rates = self._onwards() if ahead is None else ahead.step.leaving
         reasons = filter(None, (event.before(self, rates) for event in self.events))
         self.ended = self._exhausted() or next(reasons, "")
-        step = None if self.ended else self._stepped(rates)
+        step = None
+        if ahead is not None and not self.ended:
+            step, self.length = ahead.step, ahead.length
+        elif not self.ended:
+            step = self._stepped(rates)
         if step is None:
             nowhere = "no single branch leads on" if self.goal is None else self.goal.lost(self.here)
             self.ended = self.ended or nowhere
@@ -207,7 +277,7 @@ class Walk(Iterator[Step]):
             cut = event.within(self, step)
             if cut is not None:
                 step, self.ended = cut
-        self._arrive(step)
+        self._arrive(step, ahead if ahead is not None and step is ahead.step else None)
         for event in self.events:
             event.after(self, step)
         return step
@@ -273,11 +343,27 @@ class Walk(Iterator[Step]):
         self.length = _FIRST
         return None
 
-    def _arrive(self, step: Step) -> None:
+    @property
+    def state(self) -> dict[str, Any]:
+        """With which rates, bend and vector across the freedoms it goes on, as `ClosureEquations.walked` takes them."""
+        watch = self.watch
+        across, image = (0.0, 0.0) if watch is None else watch.across
+        return {
+            "angles": self.here.angles, "entries": self.here.entries, "tangent": self.tangent, "bend": self._bend,
+            "across": across, "image": image, "length": self.length, "begun": self._begun,
+            "watched": 0 if watch is None else 2 if watch.begun else 1,
+        }  # fmt: skip
+
+    def _arrive(self, step: Step, ahead: StepAhead | None = None) -> None:
         """Go to the end of a step; where it is singular, rates are more than the curve's."""
         self.here, self._begun = step.after, True
         if self.watch is not None:
-            self.drop = self.watch.dropped(step, flat=any(each.singular(step) for each in self.events))
+            flat, across = any(each.singular(step) for each in self.events), None if ahead is None else ahead.across
+            self.drop = self.watch.dropped(step, flat=flat, across=across)
+        if ahead is not None and self.singular == ahead.singular:
+            self.tangent, self._bend = ahead.tangent, ahead.bend
+            return
+        self._ahead.forget()
         length = float(np.abs(step.chord).max(initial=0.0))
         if not length:
             return
@@ -307,7 +393,7 @@ def _reach(speed: float, bend: float, left: float) -> float:
 
 
 def _alike(one: Floats, other: Floats) -> bool:
-    return bool(one @ other > _ALIKE * np.linalg.norm(one) * np.linalg.norm(other))
+    return bool(one @ other > _ALIKE * length_of(one) * length_of(other))
 
 
 _KEPT, _FLOOR = 0.5, 1e-3

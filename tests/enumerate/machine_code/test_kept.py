@@ -5,7 +5,7 @@ import os
 import pytest
 from toy_kernels import edit, make_toy, run
 
-from enumerate.machine_code.cache import read_whole, write_whole
+from enumerate.machine_code.folders import read_whole, write_whole
 
 forks = pytest.mark.skipif(not hasattr(os, "fork"), reason="the processes are forks")
 

@@ -14,8 +14,10 @@ from synth.motion import closure as closing
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.kernel import SOURCE, KernelFactor, kernel
 from synth.motion.linkage import linkage_of_axes
-from synth.motion.path import driven_path
+from synth.motion.path import circuit_through, driven_path
 from synth.motion.tangent import SparseFactor
+from synth.motion.walk.events import TurningPoint
+from synth.motion.walk.walking import Ahead
 from synth.patterns import generate
 
 needs_library = pytest.mark.skipif(kernel() is None, reason="there is no library: no compiler was at hand")
@@ -150,3 +152,35 @@ def test_a_library_is_of_its_source(tmp_path):
     source.write_text("this is no C\n")
     assert "failed: " in build(source)
     assert library(SOURCE) is kernel()
+
+
+@needs_library
+@pytest.mark.parametrize("name", ["bennett", "four-bar", "kaleidocycle", "bricard-trihedral"])
+def test_walks_take_the_steps_that_python_takes(name, monkeypatch):
+    """Steps taken ahead, with the watch over the rank, are those taken one by one; events end them as they do those."""
+    from synth.moving.made import configuration_of
+
+    at = configuration_of(generate(name).mechanism)
+    start = driven_path(at.closure, at.linkage.angles, [0], at.linkage.angles[0] + [[0.3]]).angles[-1]
+    several = circuit_through(at.closure, start, events=[TurningPoint(0)])
+    monkeypatch.setattr(Ahead, "next", lambda ahead, walk: None)
+    one_by_one = circuit_through(at.closure, start, events=[TurningPoint(0)])
+    np.testing.assert_allclose(several.angles, one_by_one.angles, rtol=0, atol=1e-12)
+    assert several.stopped == one_by_one.stopped
+    assert [(event.kind, event.frame) for event in several.events] == [
+        (event.kind, event.frame) for event in one_by_one.events
+    ]
+
+
+@needs_library
+def test_newtons_method_is_that_of_python(monkeypatch):
+    linkage = configuration_of_sheet(generate("miura", rows=5, columns=5, fold=0.7).mechanism).linkage
+    for chance in range(4):
+        start = linkage.angles + 10.0 ** -(chance + 1) * np.random.default_rng(chance).normal(size=len(linkage.angles))
+        fast = corrected(ClosureEquations(linkage), start)
+        monkeypatch.setattr(ClosureEquations, "corrected", lambda *_: None)
+        slow = corrected(ClosureEquations(linkage), start)
+        monkeypatch.undo()
+        assert (fast.steps, fast.closed) == (slow.steps, slow.closed)
+        np.testing.assert_allclose(fast.angles, slow.angles, rtol=0, atol=1e-12)
+        np.testing.assert_allclose(fast.entries, slow.entries, rtol=0, atol=1e-11)

@@ -1,0 +1,2 @@
+from synth.members.dimensions import arcs_of as arcs_of
+from synth.members.sweeping import STATES as STATES, Sweep as Sweep, sweep as sweep

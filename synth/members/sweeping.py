@@ -1,0 +1,228 @@
+"""Sweep: members of one type taken through given inputs, and what becomes of each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.errors import InvariantError, check_argument, numbered, shown
+from graphs.printing import Block, Printed, TableBlock, plain
+from graphs.types import Flags, Floats, JointId
+from synth.assembly.family import family_of
+from synth.members.dimensions import Dimensions, batch_of, type_of
+from synth.members.kernel import swept
+from synth.motion.configuration import Configuration
+from synth.moving.made import Movable, configuration_of
+
+STATES = ("closed", "turns back", "not reached", "cannot close")
+"""What becomes of a member at given inputs; its state is the place in this list.
+
+It is closed there. Its driven joint turns back before, or within 1e-4 radians (with several, the inputs are not
+reached). It is not reached from the mechanism's configuration, its loops do not stay closed on the way or it is
+singular. Its loops cannot close at all.
+"""
+_CLOSED, _CANNOT = 0, 3
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Sweep(Printed):
+    """Many members of one type at inputs. All arrays have a row for each member and each of the inputs.
+
+    Attributes
+    ----------
+    configuration : Configuration
+        The mechanism that was given.
+    joints, driven : tuple of joint id
+        Those whose angles are listed; those that are driven.
+    inputs : float[F, D] or float[N, F, D]
+        Of the driven joints, radians, of prismatic joints lengths.
+    angles : float[N, F, J]
+        Radians, not wrapped; lengths of prismatic joints; nan where a member is not closed.
+    residuals : float[N, F]
+        Loop-closure residuals, radians and parts of the extent; nan where a member is not closed.
+    state : int8[N, F]
+        Places in `STATES`.
+    why : mapping of int to str
+        Of members that cannot close, what is wrong with them, where more is known.
+
+    Examples
+    --------
+    >>> from synth.patterns import generate
+    >>> ring = generate("four-bar").mechanism
+    >>> sweep(ring, {"arcs": {(0, 1): np.radians([65, 70, 75])}}, drive={0: np.radians([0, 10, 20])})
+    <Sweep: 3 members at 3 inputs, 9 of 9 closed>
+    """
+
+    configuration: Configuration
+    joints: tuple[JointId, ...]
+    driven: tuple[JointId, ...]
+    inputs: Floats
+    angles: Floats
+    residuals: Floats
+    state: npt.NDArray[np.int8]
+    why: Mapping[int, str]
+
+    def __len__(self) -> int:
+        return len(self.state)
+
+    @property
+    def closed(self) -> Flags:
+        """Where members are closed: bool[N, F]."""
+        return np.asarray(self.state == _CLOSED)
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many configurations have each state."""
+        return dict(zip(STATES, np.bincount(self.state.ravel(), minlength=len(STATES)).tolist(), strict=True))
+
+    def __repr__(self) -> str:
+        members, rows = numbered(len(self), "member"), numbered(self.state.shape[1], "input")
+        return f"<Sweep: {members} at {rows}, {int(self.closed.sum())} of {self.state.size} closed>"
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        driven = ", ".join(map(plain, self.driven))
+        lines: list[Block] = [
+            f"{numbered(len(self), 'member')}, each at {numbered(self.state.shape[1], 'input')} of joint {driven}"
+        ]
+        rows = [(state, str(count)) for state, count in self.counts.items() if count]
+        if rows:
+            lines.append(TableBlock(("state", "configurations"), rows, ["configurations"]))
+        if self.closed.any():
+            lines.append(f"largest loop-closure residual: {np.nanmax(self.residuals):.1e}")
+        lines += [f"member {member}: {plain(why, 200)}" for member, why in list(self.why.items())[:10]]
+        return lines
+
+    def to_json(self) -> dict[str, Any]:
+        """Return all as plain data; angles in radians, null where a member is not closed."""
+        return {
+            "joints": list(self.joints),
+            "driven": list(self.driven),
+            "inputs": self.inputs.tolist(),
+            "states": list(STATES),
+            "state": self.state.tolist(),
+            "angles": _listed(self.angles, self.closed),
+            "residuals": _listed(self.residuals, self.closed),
+            "why": {str(member): why for member, why in self.why.items()},
+        }
+
+
+def sweep(
+    mechanism: Movable,
+    parameters: Dimensions,
+    *,
+    drive: Mapping[JointId, npt.ArrayLike],
+    joints: Sequence[JointId] | None = None,
+    report: Callable[[int], None] | None = None,
+) -> Sweep:
+    """Take many members of a type through given inputs, arrays in and out: each stays on its assembly mode.
+
+    Parameters
+    ----------
+    mechanism : Movable
+        With coordinates, and spherical or planar loops; it gives the type, and the assembly mode.
+    parameters : mapping
+        The dimensions of N members, of one kind. ``"arcs"``: radians between axes that follow each other in a loop,
+        float[N, A] in the order of `arcs_of`, or a mapping of pairs of joints to float[N], the others being those of
+        the mechanism; the angle between two arcs of a link stays. ``"axes"``: directions of all joints where
+        spherical loops are closed, float[N, J, 3]. ``"points"``: of all joints where planar loops are closed, float[N,
+        J, 3], in the unit of the coordinates. ``"coordinates"``: vertices of a crease pattern, partly folded,
+        float[N, V, 3].
+    drive : mapping of joint id to float[F] or float[N, F]
+        Radians; of creases fold angles, of other joints from the configuration of the mechanism, or from the axes
+        that are given; of prismatic joints lengths. They are gone through one after the other. As many joints as
+        there are degrees of freedom.
+    joints : sequence of joint id, optional
+        Those whose angles are returned; by default all.
+    report : callable, optional
+        Called with the number of members that are done.
+
+    Returns
+    -------
+    Sweep
+        Members that do not close at some inputs say so in `state`; none is left out.
+
+    Raises
+    ------
+    UnsolvableError
+        If the mechanism has no coordinates or a spatial loop, or so many driven joints do not determine the others.
+    InvariantError
+        If arrays do not fit each other or the mechanism, or have numbers out of range.
+
+    Examples
+    --------
+    A four-bar whose arcs are known to five degrees:
+
+    >>> from synth.patterns import generate
+    >>> ring, random = generate("four-bar").mechanism, np.random.default_rng(1)
+    >>> arcs = np.radians([75, 80, 70, 85] + random.uniform(-5, 5, (100, 4)))
+    >>> swept = sweep(ring, {"arcs": arcs}, drive={3: np.linspace(0, 1, 11)})
+    >>> swept, swept.angles.shape, bool(np.nanmax(swept.residuals) < 1e-12)
+    (<Sweep: 100 members at 11 inputs, 1100 of 1100 closed>, (100, 11, 4), True)
+    """
+    check_argument("sweep", mechanism, Movable)
+    at = configuration_of(mechanism, slides=True)
+    linkage = at.linkage
+    family, of_mechanism = family_of(linkage, list(drive))
+    names = list(linkage.graph.joints)
+    driven = np.array([names.index(joint) for joint in drive], dtype=np.int64)
+    batch = batch_of(at, family, of_mechanism, parameters, driven)
+    count = len(batch.barred)
+    units = np.ones(len(names))
+    units[list(linkage.slides)] = linkage.extent
+    inputs = _inputs(drive, count)
+    listed = names if joints is None else list(joints)
+    for joint in listed:
+        if joint not in names:
+            raise InvariantError("joint", f"{shown(joint)} is no joint of the mechanism", "one of its joints")
+    places = np.array([names.index(joint) for joint in listed], dtype=np.int64)
+    in_loops = [joint for joint in listed if joint in family.joints]
+    columns = family.column[[family.joints.index(joint) for joint in in_loops]]
+    zero = np.broadcast_to(batch.zero, (count, len(names)))
+    shared = batch.zero.ndim == 1
+    turned = inputs / units[driven] - (batch.zero[driven] if shared else zero[:, None, driven])
+    answer = swept(type_of(family), batch.members, np.ascontiguousarray(turned), count, columns, report)
+    state, residuals = answer.status, answer.residuals
+    state[batch.barred], residuals[batch.barred] = _CANNOT, np.nan
+    angles = answer.angles
+    if len(in_loops) < len(listed):  # the others stay as they are
+        angles = np.zeros((*state.shape, len(listed)))
+        angles[..., [joint in family.joints for joint in listed]] = answer.angles
+    offset = zero[0, places] if shared and count else zero[:, None, places]
+    if offset.any():
+        angles += offset
+    if linkage.slides:
+        angles *= units[places]
+    angles[batch.barred] = np.nan
+    if len(in_loops) < len(listed):
+        angles[state != _CLOSED] = np.nan
+    return Sweep(at, tuple(listed), tuple(drive), inputs, angles, residuals, state, batch.why)
+
+
+def _listed(values: Floats, there: Flags) -> list[Any]:
+    """Return values as lists, with None where there is none."""
+    listed = values.astype(object)
+    listed[~there] = None
+    return list(listed.tolist())
+
+
+def _inputs(drive: Mapping[JointId, npt.ArrayLike], count: int) -> Floats:
+    """Return the inputs of all members, float[F, D], or of each, float[N, F, D]."""
+    columns = [np.asarray(values, dtype=float) for values in drive.values()]
+    for joint, values in zip(drive, columns, strict=True):
+        if values.ndim not in (1, 2) or (values.ndim == 2 and len(values) not in (1, count)):
+            raise InvariantError(
+                "inputs", f"inputs of shape {values.shape} for joint {shown(joint)}", f"float[F] or float[{count}, F]"
+            )
+        if not np.isfinite(values).all():
+            raise InvariantError("inputs", f"the inputs of joint {shown(joint)} are not all numbers", "finite numbers")
+    if not columns:
+        return np.zeros((1, 0))
+    if len({values.shape[-1] for values in columns}) > 1:
+        lengths = ", ".join(str(values.shape[-1]) for values in columns)
+        raise InvariantError("inputs", f"{lengths} inputs of the driven joints", "as many of each")
+    return np.stack(np.broadcast_arrays(*columns), axis=-1)
