@@ -12,7 +12,7 @@ from typing import NamedTuple
 import networkx as nx
 import numpy as np
 
-from enumerate.scd.jobs import mechanism_of, scd_graphs_of
+from enumerate.scd.jobs import simplest_scd_graph
 from graphs.convert.panels import rings_of
 from graphs.convert.table import Mechanism, to_scd
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
@@ -323,10 +323,8 @@ def simplest_drawn(mechanism: Mechanism) -> tuple[SCDGraph, tuple[str, ...]]:
         raise UnsolvableError("the chain is not planar: its panels cannot be drawn without crossings")
     widest = max(dict(mechanism.degree).values())
     for most in range(max(3, widest), widest + _MORE_SIDES + 1):
-        mechanism_of(mechanism, most)  # raises where there can be no placement
-        placements = list(scd_graphs_of(mechanism, most))
-        if placements:
-            scd = min(placements, key=lambda placement: placement.counts.open_edges)
+        scd = simplest_scd_graph(mechanism, most)
+        if scd is not None:
             number = numbered(scd.counts.open_edges, "open edge")
             return scd, (f"an SCD graph of the fewest open edges was taken: {number}",)
     raise UnsolvableError(f"no placement of open edges with links of up to {widest + _MORE_SIDES} sides is valid")

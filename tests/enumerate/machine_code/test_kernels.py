@@ -42,8 +42,8 @@ from enumerate.chains import ChainJob, ChainQuery, count_job
 from enumerate.conical import ConicalQuery, count_conical_orders
 from enumerate.conical.rounds import fewest_layers
 from enumerate.runner.running import tuples_of
-from enumerate.sc import SCJob, SCQuery, sc_count_job
-from enumerate.scd import SCDJob, all_mechanisms, scd_count_job
+from enumerate.sc import SCJob, SCQuery, sc_count_job, sc_graphs
+from enumerate.scd import SCDJob, all_mechanisms, scd_count_job, simplest_scd_graph
 
 def word(rows):
     return hashlib.sha256(json.dumps(rows).encode()).hexdigest()
@@ -62,6 +62,7 @@ print(json.dumps([
     *(word(list(tuples_of(job))) for job in jobs),
     count_conical_orders(ConicalQuery(four_bar, (0,), slots=9), "orbits"),
     fewest_layers(dice.integers(1, 63, (20, 6, 2))).tolist(),
+    [simplest_scd_graph(graph, 6).graph["code"] for graph in sc_graphs(6, 1)],
     "numba" in sys.modules,
 ]))
 """
