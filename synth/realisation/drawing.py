@@ -15,7 +15,6 @@ from typing import NamedTuple
 import numpy as np
 
 from graphs.geometry import common_direction, unit
-from graphs.mechanism.sheet import sides_of_face
 from graphs.rank.singular_values import split
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
@@ -299,10 +298,7 @@ def _cost(pattern: Pattern, unknowns: Floats, goal: _Aims) -> _Cost | None:
 
 def _seen(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
     """Return the cost of sides of bent panels that are hardly seen from their hub; negative if one is not seen."""
-    first = len(unknowns) - len(pattern.hubs)
-    panels = [pattern.panels[place] for place in pattern.hubs]
-    sides = [(b, hub, a) for hub, panel in enumerate(panels, first) for a, b in sides_of_face(panel)]
-    angles, by = measures.corner_angles(unknowns, np.array(sides, np.int64))
+    angles, by = measures.corner_angles(unknowns, pattern.seen_from_hubs)
     costs, by_costs = _near(angles, by, _SEEN, 1.0)
     return np.where(angles > 0.0, costs, -1.0), by_costs
 

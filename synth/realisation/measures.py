@@ -26,14 +26,14 @@ def corner_angles(places: Floats, corners: Ints) -> tuple[Floats, Floats]:
     Corners, int64[K, 3], are vertices before, at and after, counter-clockwise. The angle is negative where the
     corner is turned over.
     """
-    before, at, after = places[corners.T]
-    back, on = before - at, after - at
-    angles = np.arctan2(on[:, 0] * back[:, 1] - on[:, 1] * back[:, 0], (on * back).sum(axis=1))
-    by_ends = np.stack([back, on])[:, :, ::-1] * _TURNS / (np.stack([back, on]) ** 2).sum(axis=2)[:, :, None]
+    ends = places[corners.T]
+    arms = ends[::2] - ends[1]
+    (back_x, back_y), (on_x, on_y) = arms[0].T, arms[1].T
+    angles = np.arctan2(on_x * back_y - on_y * back_x, on_x * back_x + on_y * back_y)
+    by_ends = arms[:, :, ::-1] * _TURNS / (arms**2).sum(axis=2)[:, :, None]
     derivatives = np.zeros((len(corners), len(places), 2))
     rows = np.arange(len(corners))
-    derivatives[rows, corners[:, 0]] = by_ends[0]
-    derivatives[rows, corners[:, 2]] = by_ends[1]
+    derivatives[rows, corners[:, 0]], derivatives[rows, corners[:, 2]] = by_ends
     derivatives[rows, corners[:, 1]] = -by_ends[0] - by_ends[1]
     return angles, derivatives.reshape(len(corners), -1)
 
@@ -149,19 +149,18 @@ def figures_of(pattern: Pattern, sheet: Sheet, bent: Floats) -> ShapeFigures:
 
 def crossings(pattern: Pattern, places: Floats) -> int:
     """Return how many pairs of edges cross in a drawing, and how many vertices lie on edges not ending there."""
+    # Three products say on which sides of each of two edges the other's ends lie.
+    x, y = places.T
+    start, end = pattern.edges.T
+    to_x, to_y = x[end] - x[start], y[end] - y[start]
     first, second = pattern.pairs_of_edges
-    start, end = places[pattern.edges.T]
-    along = end - start
-    a, c, b, d = start[first], start[second], end[first], end[second]
+    off_x, off_y = (x[start])[second] - (x[start])[first], (y[start])[second] - (y[start])[first]
+    a_x, a_y, b_x, b_y = to_x[first], to_y[first], to_x[second], to_y[second]
+    turned, of_first, of_second = a_x * b_y - a_y * b_x, a_x * off_y - a_y * off_x, b_x * off_y - b_y * off_x
     same = DOUBLE.same_point
-    crossing = (_side(a, b, c) * _side(a, b, d) < -same) & (_side(c, d, a) * _side(c, d, b) < -same)
+    crossing = (of_first * (of_first + turned) < -same) & (of_second * (of_second + turned) < -same)
     vertex, edge = pattern.vertices_off_edges
-    along, to = along[edge], places[vertex] - start[edge]
-    part = np.clip((to * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
-    distance = np.linalg.norm(to - part[:, None] * along, axis=1)
+    along_x, along_y, from_x, from_y = to_x[edge], to_y[edge], x[vertex] - x[start[edge]], y[vertex] - y[start[edge]]
+    part = np.clip((from_x * along_x + from_y * along_y) / (along_x**2 + along_y**2), 0.0, 1.0)
+    distance = np.hypot(from_x - part * along_x, from_y - part * along_y)
     return int(crossing.sum()) + int((distance < same * extent_of(places)).sum())
-
-
-def _side(a: Floats, b: Floats, c: Floats) -> Floats:
-    """Return how far a point is to the left of a line, times the length of the line."""
-    return np.asarray((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]))

@@ -120,6 +120,17 @@ class Pattern:
         return tuple(np.flatnonzero(self.bent).tolist())
 
     @cached_property
+    def seen_from_hubs(self) -> Ints:
+        """int64[S, 3]: each side of a panel that cannot be convex, its hub between the ends.
+
+        Hubs have the numbers after those of the centres that are no vertices.
+        """
+        first = self.vertices + len(self.free_centres)
+        panels = [self.panels[place] for place in self.hubs]
+        rows = [(b, hub, a) for hub, panel in enumerate(panels, first) for a, b in sides_of_face(panel)]
+        return np.array(rows, np.int64).reshape(-1, 3)
+
+    @cached_property
     def aims(self) -> Ints:
         """int64[A, 4]: the ends of each crease that points to a centre, the centre, and whether it is infinite.
 
