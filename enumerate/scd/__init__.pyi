@@ -7,5 +7,6 @@ from enumerate.scd.jobs import (
     scd_graphs as scd_graphs,
     scd_graphs_of as scd_graphs_of,
     scd_rows as scd_rows,
+    simplest_scd_graph as simplest_scd_graph,
 )
 from enumerate.scd.query import PlacementQuery as PlacementQuery, SCDQuery as SCDQuery

@@ -15,9 +15,10 @@ from enumerate.chains.rows import SIZE_COLUMNS, chain_ids
 from enumerate.kernel.centres import FINITE, MOST_JOINTS, OUTER, SPATIAL
 from enumerate.kernel.maps import OPEN
 from enumerate.machine_code.weights import PLACEMENT
-from enumerate.runner.job import ANY_NUMBER, Column, ListColumn, QueryCount, QueryJob, Row, Unit, packed
+from enumerate.runner.job import ANY_NUMBER, Column, ListColumn, QueryCount, QueryJob, Row, Unit, packed, row_as_dict
 from enumerate.runner.running import graphs_of, rows_of, total_of
 from enumerate.sc.jobs import CENTRE_COLUMNS, LABEL_LETTERS, UNIT_ROWS, map_ids
+from enumerate.scd.fewest import fewest_open_edges
 from enumerate.scd.listing import count_placements, list_placements_of, sides_of_all
 from enumerate.scd.patterns import number_of_placements, outline
 from enumerate.scd.query import (
@@ -71,7 +72,14 @@ def placements_on(
 
 def _rows_on(query: PlacementQuery, dof: int, code: Bytes, labels: Ints, first: int, last: int) -> list[Row]:
     """Return the rows of the placements on a mechanism; columns are `SCD_COLUMNS`. Arguments: `placements_on`."""
-    codes, lengths, facts = placements_on(query, dof, code, labels, first, last)
+    return _rows_of(query, dof, code, labels, placements_on(query, dof, code, labels, first, last))
+
+
+def _rows_of(
+    query: PlacementQuery, dof: int, code: Bytes, labels: Ints, placements: tuple[Bytes, Ints, Ints]
+) -> list[Row]:
+    """Return the rows of placements on a mechanism, as `placements_on` returns them."""
+    codes, lengths, facts = placements
     if not len(codes):
         return []
     faces = len(labels)
@@ -306,6 +314,32 @@ def scd_graphs_of(
     7
     """
     yield from _graphs(mechanism_of(mechanism, max_degree, **options), workers)
+
+
+def simplest_scd_graph(mechanism: SCGraph, max_degree: int) -> SCDGraph | None:
+    """Return the first of `scd_graphs_of` with the fewest open edges, or None; the others are not made.
+
+    Parameters
+    ----------
+    mechanism, max_degree
+        As for `mechanism_of`, with its errors; UnsolvableError, too, if more than 22 corners may have open edges or
+        none.
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Loop
+    >>> four_bar = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> simplest_scd_graph(four_bar, 4).graph["open_edges"]
+    4
+    """
+    source = mechanism_of(mechanism, max_degree)
+    code, labels = next(source.source.each())
+    placements = fewest_open_edges(code, labels, max_degree, source.dof)
+    rows = _rows_of(source.placements, source.dof, code, labels, placements)
+    named = (row_as_dict(SCD_COLUMNS, row) for row in rows)
+    scd = next(graphs_of(named, mechanism_from_map_id), None)
+    assert scd is None or isinstance(scd, SCDGraph)
+    return scd
 
 
 def _graphs(mechanisms: Mechanisms, workers: int) -> Iterator[SCDGraph]:

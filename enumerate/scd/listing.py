@@ -40,8 +40,11 @@ SCD_FACTS = ("open_edges", "vertices", "explicit", "implicit", "symmetry", "exac
 """Columns of the facts of `list_placements_of`."""
 
 
-class _Choice(NamedTuple):
-    """A drawn mechanism with a pattern and explicit faces chosen: what its corners may hold."""
+class Choice(NamedTuple):
+    """A drawn mechanism with a pattern and explicit faces chosen: what its corners may hold.
+
+    With `fewest` every link takes as few open edges as it can.
+    """
 
     turn: Ints
     vertex: Ints
@@ -50,6 +53,7 @@ class _Choice(NamedTuple):
     states: Bytes
     symmetries: Ints
     most: int
+    fewest: bool
 
 
 @compiled
@@ -85,20 +89,20 @@ def list_placements_of(
             if mobility == -2:
                 mobility = forced_mobility(turn, face, kinds, number, allowed[p])
             if mobility == dof:
-                choice = _Choice(turn, vertex, face, kinds, states, symmetries, most)
-                codes, facts, used = _list_choice(choice, begin, end, symmetric, codes, facts, used)
+                choice = Choice(turn, vertex, face, kinds, states, symmetries, most, False)
+                codes, facts, used = list_choice(choice, begin, end, symmetric, codes, facts, used)
     for r in range(used):
         facts[r, 5] = dof
     return codes[:used], facts[:used, 6].copy(), facts[:used, :6].copy()
 
 
 @compiled
-def _list_choice(
-    choice: _Choice, begin: int, end: int, symmetric: bool, codes: Bytes, facts: Ints, used: int
+def list_choice(
+    choice: Choice, begin: int, end: int, symmetric: bool, codes: Bytes, facts: Ints, used: int
 ) -> tuple[Bytes, Ints, int]:
-    """Write the placements of one choice with numbers from begin to end."""
-    turn, vertex, face, kinds, states, symmetries, most = choice
-    rows, offset = _tables(vertex, states, most)
+    """Write the placements of one choice with numbers from begin to end, the facts and length of each in one row."""
+    turn, vertex, face, kinds, states, symmetries, most, fewest = choice
+    rows, offset = _tables(vertex, states, most, fewest)
     digit = _digits(offset, begin)
     place = _places(vertex, states, len(digit))
     explicit, implicit, unopened = _face_facts(face, kinds, states)
@@ -125,9 +129,11 @@ def _list_choice(
 
 
 @compiled
-def _tables(vertex: Ints, states: Bytes, most: int) -> tuple[Bytes, Ints]:
+def _tables(vertex: Ints, states: Bytes, most: int, fewest: bool) -> tuple[Bytes, Ints]:
     """Return the ways of all links to take open edges, one a row, and where those of each link begin."""
     slots, low, high = room_of(vertex, states, most)
+    if fewest:
+        high = low
     offset = np.zeros(len(slots) + 1, np.int64)
     for v in range(len(slots)):
         offset[v + 1] = offset[v] + ways_to_lay(slots[v], low[v], high[v])

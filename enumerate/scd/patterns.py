@@ -64,16 +64,12 @@ def patterns(turn: Ints, vertex: Ints, face: Ints, labels: Ints, number: Ints, m
     """
     darts = len(vertex)
     found = np.zeros((4, darts), np.uint8)
-    if len(labels) == 1:  # a tree: no pattern breaks a rule
-        for d in range(darts):
-            found[0, d] = ANY
-        return found[:1]
-    free, pattern = _undecided(turn, vertex, face, labels, number, most)
+    free, pattern = undecided_corners(turn, vertex, face, labels, number, most)
     used = 0
     for choice in range(1 << len(free)):
         for i in range(len(free)):
             pattern[free[i]] = (choice >> i) & 1
-        if _opens(face, labels, pattern) and _keeps_apart(turn, vertex, face, number, pattern):
+        if keeps_rules(turn, vertex, face, labels, number, pattern):
             found = doubled(found) if used == len(found) else found
             for d in range(darts):
                 found[used, d] = pattern[d]
@@ -82,13 +78,17 @@ def patterns(turn: Ints, vertex: Ints, face: Ints, labels: Ints, number: Ints, m
 
 
 @compiled
-def _undecided(turn: Ints, vertex: Ints, face: Ints, labels: Ints, number: Ints, most: int) -> tuple[Ints, Bytes]:
+def undecided_corners(
+    turn: Ints, vertex: Ints, face: Ints, labels: Ints, number: Ints, most: int
+) -> tuple[Ints, Bytes]:
     """Return the corners that can have open edges or none, and a pattern with the others decided.
 
     Without an open edge the two joints of a corner have a vertex in common, so they must not have a centre in
-    common.
+    common. In a tree nothing has to be decided.
     """
     darts = len(vertex)
+    if len(labels) == 1:
+        return np.zeros(0, np.int64), np.full(darts, ANY, np.uint8)
     degree = np.bincount(vertex)
     pattern = np.zeros(darts, np.uint8)
     free = np.zeros(darts, np.int64)
@@ -103,6 +103,14 @@ def _undecided(turn: Ints, vertex: Ints, face: Ints, labels: Ints, number: Ints,
             free[unsure] = d
             unsure += 1
     return free[:unsure], pattern
+
+
+@compiled
+def keeps_rules(turn: Ints, vertex: Ints, face: Ints, labels: Ints, number: Ints, pattern: Bytes) -> bool:
+    """Tell whether a pattern is valid; in a tree no pattern breaks a rule."""
+    if len(labels) == 1:
+        return True
+    return _opens(face, labels, pattern) and _keeps_apart(turn, vertex, face, number, pattern)
 
 
 @compiled

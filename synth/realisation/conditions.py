@@ -31,6 +31,8 @@ Condition = Callable[[Floats], tuple[Floats, Floats]]
 
 def together(*conditions: Condition) -> Condition:
     """Return several conditions as one."""
+    if len(conditions) == 1:
+        return conditions[0]
 
     def condition(unknowns: Floats) -> tuple[Floats, Floats]:
         off, by = zip(*(part(unknowns) for part in conditions), strict=True)

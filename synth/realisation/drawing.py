@@ -15,7 +15,6 @@ from typing import NamedTuple
 import numpy as np
 
 from graphs.geometry import common_direction, unit
-from graphs.mechanism.sheet import sides_of_face
 from graphs.rank.singular_values import split
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
@@ -253,17 +252,17 @@ def _held(pattern: Pattern, unknowns: Floats, cost: _Cost, step: Floats) -> Floa
     motions = np.zeros((3, *unknowns.shape))
     motions[0, :, 0] = motions[1, :, 1] = points
     motions[2] = (unknowns - middle)[:, ::-1] * (-1.0, 1.0)
-    rows = unit(motions.reshape(3, -1))
+    rows = unit(motions.reshape(3, -1))  # at right angles to each other, since they are about the middle
     idle = rows[np.abs(cost.off_by @ rows.T).max(axis=0, initial=0.0) < _IDLE]
-    along = np.linalg.qr(idle.T)[0]
-    return step - (along @ (along.T @ step.ravel())).reshape(step.shape)
+    within: Floats = (idle @ step.ravel()) @ idle
+    return step - within.reshape(step.shape)
 
 
 def _cost(pattern: Pattern, unknowns: Floats, goal: _Aims) -> _Cost | None:
     """Return the cost of a drawing; None where vertices coincide, a panel is turned over or the border is bent."""
     places = unknowns[: pattern.vertices]
-    points = np.concatenate([places, unknowns[len(unknowns) - int(pattern.bent.sum()) :]])
-    if len(np.unique(points, axis=0)) < len(points):
+    points = np.concatenate([places, unknowns[len(unknowns) - len(pattern.hubs) :]])
+    if len(set(map(tuple, points.tolist()))) < len(points):
         return None
     angles, by = measures.opened_angles(pattern, places)
     if not measures.is_drawn(pattern, angles):
@@ -276,33 +275,30 @@ def _cost(pattern: Pattern, unknowns: Floats, goal: _Aims) -> _Cost | None:
         _LENGTH * (lengths + lengths**3),
         _LENGTH * (1 + 3 * lengths[:, None] ** 2) * by_lengths,
     ]
-    room = [(pattern.outer, np.pi if goal.convex else 2 * np.pi), *((ring, 2 * np.pi) for ring in pattern.holes)]
-    for ring, whole in room:
-        sums = measures.sums_at(pattern, np.array(ring, np.int64))
-        left = whole - sums @ angles
+    for place, sums in enumerate(pattern.sums_at_rings):  # the border first
+        left = (np.pi if goal.convex and not place else 2 * np.pi) - sums @ angles
         if left.min() <= 0.0:
             return None
-        rows += _near(left, sums @ by, _BORDER * 2 * np.pi / len(ring), -1.0)
-    residuals, derivatives = np.concatenate(rows[::2]), np.concatenate(rows[1::2])
-    padded = np.zeros((len(residuals), unknowns.size))
-    padded[:, : derivatives.shape[1]] = derivatives
+        rows += _near(left, sums @ by, _BORDER * 2 * np.pi / len(left), -1.0)
     off, off_by = goal.exactly(unknowns)
     if not (np.isfinite(off).all() and np.isfinite(off_by).all()):
         return None
-    if not pattern.bent.any():
-        return _Cost(residuals, padded, off, off_by)
-    seen, by_seen = _seen(pattern, unknowns)
-    if seen.min() <= 0.0 or measures.crossings(pattern, places):
-        return None
-    return _Cost(np.concatenate([residuals, seen]), np.concatenate([padded, by_seen]), off, off_by)
+    if pattern.hubs:
+        seen, by_seen = _seen(pattern, unknowns)
+        if seen.min() <= 0.0 or measures.crossings(pattern, places):
+            return None
+        rows += [seen, by_seen]
+    residuals = np.concatenate(rows[::2])
+    derivatives, start = np.zeros((len(residuals), unknowns.size)), 0
+    for part in rows[1::2]:
+        derivatives[start : start + len(part), : part.shape[1]] = part
+        start += len(part)
+    return _Cost(residuals, derivatives, off, off_by)
 
 
 def _seen(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
     """Return the cost of sides of bent panels that are hardly seen from their hub; negative if one is not seen."""
-    hubs = range(len(unknowns) - int(pattern.bent.sum()), len(unknowns))
-    panels = [pattern.panels[place] for place in np.flatnonzero(pattern.bent)]
-    sides = [(b, hub, a) for hub, panel in zip(hubs, panels, strict=True) for a, b in sides_of_face(panel)]
-    angles, by = measures.corner_angles(unknowns, np.array(sides, np.int64))
+    angles, by = measures.corner_angles(unknowns, pattern.seen_from_hubs)
     costs, by_costs = _near(angles, by, _SEEN, 1.0)
     return np.where(angles > 0.0, costs, -1.0), by_costs
 

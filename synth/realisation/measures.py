@@ -16,6 +16,9 @@ from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints
 from synth.realisation.pattern import Pattern
 
+_TURNS = np.array([[[-1.0, 1.0]], [[1.0, -1.0]]])
+"""Signs of (y, x), by which the arms of a corner are turned outward."""
+
 
 def corner_angles(places: Floats, corners: Ints) -> tuple[Floats, Floats]:
     """Return the angle of each corner, in (-pi, pi], and its derivatives, float[K, 2 V].
@@ -23,14 +26,15 @@ def corner_angles(places: Floats, corners: Ints) -> tuple[Floats, Floats]:
     Corners, int64[K, 3], are vertices before, at and after, counter-clockwise. The angle is negative where the
     corner is turned over.
     """
-    back, on = places[corners[:, 0]] - places[corners[:, 1]], places[corners[:, 2]] - places[corners[:, 1]]
-    angles = np.arctan2(on[:, 0] * back[:, 1] - on[:, 1] * back[:, 0], (on * back).sum(axis=1))
+    ends = places[corners.T]
+    arms = ends[::2] - ends[1]
+    (back_x, back_y), (on_x, on_y) = arms[0].T, arms[1].T
+    angles = np.arctan2(on_x * back_y - on_y * back_x, on_x * back_x + on_y * back_y)
+    by_ends = arms[:, :, ::-1] * _TURNS / (arms**2).sum(axis=2)[:, :, None]
     derivatives = np.zeros((len(corners), len(places), 2))
     rows = np.arange(len(corners))
-    for vertex, arm, sign in ((0, back, 1.0), (2, on, -1.0)):
-        by = sign * np.column_stack([-arm[:, 1], arm[:, 0]]) / (arm**2).sum(axis=1)[:, None]
-        derivatives[rows, corners[:, vertex]] += by
-        derivatives[rows, corners[:, 1]] -= by
+    derivatives[rows, corners[:, 0]], derivatives[rows, corners[:, 2]] = by_ends
+    derivatives[rows, corners[:, 1]] = -by_ends[0] - by_ends[1]
     return angles, derivatives.reshape(len(corners), -1)
 
 
@@ -45,11 +49,6 @@ def edge_lengths(places: Floats, edges: Ints) -> tuple[Floats, Floats]:
     return np.log(squares) / 2, derivatives.reshape(len(edges), -1)
 
 
-def sums_at(pattern: Pattern, vertices: Ints) -> Floats:
-    """Return float[n, K], which sums the corners at each of some vertices."""
-    return np.asarray(pattern.corners[None, :, 1] == vertices[:, None], dtype=np.float64)
-
-
 def is_drawn(pattern: Pattern, angles: Floats) -> bool:
     """Check that panels are strictly convex where they can be, lie one way up, and go once round inner vertices.
 
@@ -57,10 +56,9 @@ def is_drawn(pattern: Pattern, angles: Floats) -> bool:
     """
     if not (np.isfinite(angles).all() and angles.min() > 0.0 and (angles < pattern.widest).all()):
         return False
-    sides = np.array([len(panel) for panel in pattern.panels])
-    turns = np.bincount(pattern.panel_of_corner, angles, len(sides)) - np.pi * (sides - 2)
-    inner = sums_at(pattern, pattern.inner) @ angles - 2 * np.pi
-    return bool(np.abs([*turns, *inner]).max() < DOUBLE.same_configuration)
+    turns = np.bincount(pattern.panel_of_corner, angles) - pattern.turns_of_panels
+    inner = pattern.sums_at_inner @ angles - 2 * np.pi
+    return bool(max(np.abs(turns).max(), np.abs(inner).max(initial=0.0)) < DOUBLE.same_configuration)
 
 
 def opened_angles(pattern: Pattern, places: Floats) -> tuple[Floats, Floats]:
@@ -75,11 +73,15 @@ def opened_angles(pattern: Pattern, places: Floats) -> tuple[Floats, Floats]:
 def damped_least_squares(by: Floats, residuals: Floats, weight: float) -> Floats:
     """Return the solution x of least squares of by x - residuals and weight x.
 
-    It is found by a QR decomposition: where corners are sharp derivatives are large, and squares of them would
-    square the rounding errors too.
+    It is found by a QR decomposition, of the residuals beside the matrix: where corners are sharp derivatives are
+    large, and squares of them would square the rounding errors too.
     """
-    q, r = np.linalg.qr(np.vstack([by, weight * np.eye(by.shape[1])]))
-    return np.asarray(np.linalg.solve(r, q[: len(by)].T @ residuals), dtype=np.float64)
+    rows, columns = by.shape
+    beside = np.zeros((rows + columns, columns + 1))
+    beside[:rows, :columns], beside[:rows, columns] = by, residuals
+    beside[rows + np.arange(columns), np.arange(columns)] = weight
+    r: Floats = np.asarray(np.linalg.qr(beside, mode="r"))
+    return np.asarray(np.linalg.solve(r[:columns, :columns], r[:columns, columns]), dtype=np.float64)
 
 
 _SHARP, _RATIO = float(np.radians(15.0)), 0.15
@@ -147,20 +149,18 @@ def figures_of(pattern: Pattern, sheet: Sheet, bent: Floats) -> ShapeFigures:
 
 def crossings(pattern: Pattern, places: Floats) -> int:
     """Return how many pairs of edges cross in a drawing, and how many vertices lie on edges not ending there."""
-    first, second = np.triu_indices(len(pattern.edges), 1)
-    a, b = (places[ends] for ends in pattern.edges[first].T)
-    c, d = (places[ends] for ends in pattern.edges[second].T)
+    # Three products say on which sides of each of two edges the other's ends lie.
+    x, y = places.T
+    start, end = pattern.edges.T
+    to_x, to_y = x[end] - x[start], y[end] - y[start]
+    first, second = pattern.pairs_of_edges
+    off_x, off_y = (x[start])[second] - (x[start])[first], (y[start])[second] - (y[start])[first]
+    a_x, a_y, b_x, b_y = to_x[first], to_y[first], to_x[second], to_y[second]
+    turned, of_first, of_second = a_x * b_y - a_y * b_x, a_x * off_y - a_y * off_x, b_x * off_y - b_y * off_x
     same = DOUBLE.same_point
-    crossing = (_side(a, b, c) * _side(a, b, d) < -same) & (_side(c, d, a) * _side(c, d, b) < -same)
-    start = places[pattern.edges[:, 0]]
-    along = places[pattern.edges[:, 1]] - start
-    to = places[:, None] - start[None]
-    part = np.clip((to * along).sum(axis=2) / (along**2).sum(axis=1), 0.0, 1.0)
-    distance = np.linalg.norm(to - part[:, :, None] * along, axis=2)
-    own = (pattern.edges[None] == np.arange(len(places))[:, None, None]).any(axis=2)
-    return int(crossing.sum()) + int((distance[~own] < same * extent_of(places)).sum())
-
-
-def _side(a: Floats, b: Floats, c: Floats) -> Floats:
-    """Return how far a point is to the left of a line, times the length of the line."""
-    return np.asarray((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]))
+    crossing = (of_first * (of_first + turned) < -same) & (of_second * (of_second + turned) < -same)
+    vertex, edge = pattern.vertices_off_edges
+    along_x, along_y, from_x, from_y = to_x[edge], to_y[edge], x[vertex] - x[start[edge]], y[vertex] - y[start[edge]]
+    part = np.clip((from_x * along_x + from_y * along_y) / (along_x**2 + along_y**2), 0.0, 1.0)
+    distance = np.hypot(from_x - part * along_x, from_y - part * along_y)
+    return int(crossing.sum()) + int((distance < same * extent_of(places)).sum())

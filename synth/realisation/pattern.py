@@ -4,7 +4,7 @@ A bounded face without open edges is an inner vertex; one with open edges is a h
 Theory: docs/theory/realisation.md.
 """
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -12,7 +12,7 @@ from typing import NamedTuple
 import networkx as nx
 import numpy as np
 
-from enumerate.scd.jobs import mechanism_of, scd_graphs_of
+from enumerate.scd.jobs import simplest_scd_graph
 from graphs.convert.panels import rings_of
 from graphs.convert.table import Mechanism, to_scd
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
@@ -115,6 +115,22 @@ class Pattern:
         return np.array([*self.creases, *borders], np.int64)
 
     @cached_property
+    def hubs(self) -> tuple[int, ...]:
+        """The places of the panels that cannot be convex, each of which has a hub."""
+        return tuple(np.flatnonzero(self.bent).tolist())
+
+    @cached_property
+    def seen_from_hubs(self) -> Ints:
+        """int64[S, 3]: each side of a panel that cannot be convex, its hub between the ends.
+
+        Hubs have the numbers after those of the centres that are no vertices.
+        """
+        first = self.vertices + len(self.free_centres)
+        panels = [self.panels[place] for place in self.hubs]
+        rows = [(b, hub, a) for hub, panel in enumerate(panels, first) for a, b in sides_of_face(panel)]
+        return np.array(rows, np.int64).reshape(-1, 3)
+
+    @cached_property
     def aims(self) -> Ints:
         """int64[A, 4]: the ends of each crease that points to a centre, the centre, and whether it is infinite.
 
@@ -137,6 +153,39 @@ class Pattern:
         """int64[I]: the vertices with panels all round."""
         border = {vertex for ring in (self.outer, *self.holes) for vertex in ring}
         return np.array([v for v in range(self.vertices) if v not in border], np.int64)
+
+    @cached_property
+    def turns_of_panels(self) -> Floats:
+        """float[P]: the sums of the corners of each panel, radians."""
+        return np.pi * (np.array([len(panel) for panel in self.panels]) - 2)
+
+    def sums_at(self, vertices: Sequence[int] | Ints) -> Floats:
+        """Return float[n, K], which sums the corners at each of some vertices."""
+        return np.asarray(self.corners[None, :, 1] == np.array(vertices, np.int64)[:, None], dtype=np.float64)
+
+    @cached_property
+    def sums_at_inner(self) -> Floats:
+        """float[I, K]: what sums the corners at each inner vertex."""
+        return self.sums_at(self.inner)
+
+    @cached_property
+    def sums_at_rings(self) -> tuple[Floats, ...]:
+        """float[n, K]: what sums the corners at each vertex of the border, then of each hole."""
+        return tuple(self.sums_at(ring) for ring in (self.outer, *self.holes))
+
+    @cached_property
+    def pairs_of_edges(self) -> tuple[Ints, Ints]:
+        """int64[Q], int64[Q]: all pairs of edges without a vertex in common."""
+        first, second = np.triu_indices(len(self.edges), 1)
+        apart = (self.edges[first][:, :, None] != self.edges[second][:, None, :]).all(axis=(1, 2))
+        return first[apart], second[apart]
+
+    @cached_property
+    def vertices_off_edges(self) -> tuple[Ints, Ints]:
+        """int64[Q], int64[Q]: vertices, and edges that do not end there."""
+        off = (self.edges[None] != np.arange(self.vertices)[:, None, None]).all(axis=2)
+        vertex, edge = np.nonzero(off)
+        return vertex, edge
 
     @cached_property
     def sides(self) -> Sides:
@@ -323,10 +372,8 @@ def simplest_drawn(mechanism: Mechanism) -> tuple[SCDGraph, tuple[str, ...]]:
         raise UnsolvableError("the chain is not planar: its panels cannot be drawn without crossings")
     widest = max(dict(mechanism.degree).values())
     for most in range(max(3, widest), widest + _MORE_SIDES + 1):
-        mechanism_of(mechanism, most)  # raises where there can be no placement
-        placements = list(scd_graphs_of(mechanism, most))
-        if placements:
-            scd = min(placements, key=lambda placement: placement.counts.open_edges)
+        scd = simplest_scd_graph(mechanism, most)
+        if scd is not None:
             number = numbered(scd.counts.open_edges, "open edge")
             return scd, (f"an SCD graph of the fewest open edges was taken: {number}",)
     raise UnsolvableError(f"no placement of open edges with links of up to {widest + _MORE_SIDES} sides is valid")

@@ -3,15 +3,16 @@
 Theory: docs/theory/realisation.md.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import cached_property, partial
 from typing import Any, Literal, get_args, overload
 
 import numpy as np
 
 from enumerate.strings.panel_strings import ChainString
-from graphs.convert.table import Mechanism, to_scd
+from graphs.convert.panels import scd_of_placed_panels
+from graphs.convert.table import Mechanism
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.identity.drawings import map_id
@@ -45,7 +46,7 @@ from synth.realisation.strips import drawn_string, folded_strip, is_strip, strip
 Kind = Literal["sheet", "space"]
 
 _TRIES = 12
-_HEIGHTS = (0.6, 0.3)
+_HEIGHTS = (1.0, 0.6, 0.3)
 """Fractions to which heights in space are reduced where the shape is not good. The map is affine, so panels stay
 planar, and axes that meet go on meeting."""
 _WORK, _STEPS = 10_000_000_000, 3
@@ -124,10 +125,14 @@ class Realisation(Printed):
         return moves, self.folds is not False, self.figures.quality
 
     @property
+    def moves_and_folds(self) -> bool:
+        """Whether it moves as the type, and a flat sheet folds: only its shape could be better."""
+        return all(self.rank[:2])
+
+    @property
     def good(self) -> bool:
         """Whether the search can end with it."""
-        moves, folds, quality = self.rank
-        return moves and folds and quality >= 1.0
+        return self.moves_and_folds and self.figures.quality >= 1.0
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on."""
@@ -311,7 +316,7 @@ def realise(
     return _best(task, [(choice, drawings(pattern, seed, tries, choice, allowance)) for choice in choices])
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _Task:
     """A type to be realised, with the options."""
 
@@ -325,6 +330,11 @@ class _Task:
     notes: tuple[str, ...]
     lift: Lift
     allowance: Allowance
+
+    @cached_property
+    def mobility(self) -> int:
+        """The exact mobility of the type."""
+        return exact_mobility(self.scd).mobility
 
 
 def _best(task: _Task, sources: Sequence[tuple[DrawingConditions, Iterable[PanelDrawing]]]) -> Realisation:
@@ -347,20 +357,53 @@ def _best(task: _Task, sources: Sequence[tuple[DrawingConditions, Iterable[Panel
     raise NotFoundError(f"no realisation was found in {tries}: {why}")
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Placed:
+    """A drawing that has become a sheet, of which only the shape is known yet.
+
+    The folds, float[J], are those of a lift; None for a flat sheet.
+    """
+
+    drawn: PanelDrawing
+    sheet: Sheet
+    folds: Floats | None
+    figures: ShapeFigures
+
+
 def _best_of(
     task: _Task, wishes: DrawingConditions, tried: Iterable[PanelDrawing], reasons: dict[str, None]
 ) -> Realisation | None:
+    """Return the first good realisation of some drawings, or else the best.
+
+    Shape is cheap to know, type and motion are not. So sheets of good shape are read back and folded at once, the
+    others at the end, the best first: the first that moves and folds is it.
+    """
     best: Realisation | None = None
+    failed: list[tuple[int, str]] = []
+    others: list[_Placed] = []
     for drawn in tried:
         try:
-            realised = replace(_shaped(task, drawn), condition_errors=wishes.errors(task.pattern, drawn.places))
+            for placed in _placed(task, drawn):
+                others.append(placed)
+                if placed.figures.quality < 1.0:
+                    continue
+                realised = _realised(task, wishes, others.pop())
+                if realised.good:
+                    return realised
+                best = realised if best is None or _is_better(realised, best) else best
         except UnsolvableError as error:
-            reasons[str(error)] = None
+            failed.append((drawn.number, str(error)))
+    while others and (best is None or not best.moves_and_folds):
+        most = max(placed.figures.quality for placed in others)
+        placed = next(placed for placed in others if placed.figures.quality >= most - MARGIN)
+        others.remove(placed)
+        try:
+            realised = _realised(task, wishes, placed)
+        except UnsolvableError as error:
+            failed.append((placed.drawn.number, str(error)))
             continue
-        if best is None or _is_better(realised, best):
-            best = realised
-        if best.good:
-            break
+        best = realised if best is None or _is_better(realised, best) else best
+    reasons.update({reason: None for _, reason in sorted(failed)})
     return best
 
 
@@ -371,48 +414,48 @@ def _is_better(realised: Realisation, other: Realisation) -> bool:
     return verdict > other_verdict or (verdict == other_verdict and quality > other_quality + MARGIN)
 
 
-def _shaped(task: _Task, drawn: PanelDrawing) -> Realisation:
-    """Return the realisation of a drawing; in space the first of good shape, steep ones first, or the best."""
-    best = _realised(task, drawn, 1.0)
-    for height in _HEIGHTS:
-        if best.good or task.kind == "sheet" or task.lift is folded_strip:
-            break
-        lower = _realised(task, drawn, height)
-        best = lower if _is_better(lower, best) else best
-    return best
+def _placed(task: _Task, drawn: PanelDrawing) -> Iterator[_Placed]:
+    """Yield the sheets of a drawing: in space the steepest first.
 
-
-def _realised(task: _Task, drawn: PanelDrawing, height: float) -> Realisation:
-    """Return the realisation of a drawing, its heights in space times a number.
-
-    Raises `UnsolvableError` if it is of another type when it is read back.
+    Raises `UnsolvableError` if it has no lift.
     """
     pattern = task.pattern
     places = drawn.places - drawn.places.min(axis=0)
     places = places * (1.0 / places.max())
-    turns = None
+    folds: Floats | None = None
+    heights: tuple[float, ...] = (1.0,)
     if task.kind == "space":
-        places, turns = task.lift(pattern, places, np.random.default_rng((task.seed, drawn.number)))
-        places[:, 2] *= height
-    sheet = sheet_of_places(pattern, task.size * places)
-    sheet = sheet if turns is None else _lettered(sheet, turns)
-    if map_id(to_scd(sheet)) != task.code:
+        places, folds = task.lift(pattern, places, np.random.default_rng((task.seed, drawn.number)))
+        heights = heights if task.lift is folded_strip else _HEIGHTS
+    for height in heights:
+        there = places * np.array([1.0, 1.0, height])[: places.shape[1]]
+        sheet = sheet_of_places(pattern, task.size * there)
+        yield _Placed(drawn, sheet, folds, figures_of(pattern, sheet, drawn.angles))
+
+
+def _realised(task: _Task, wishes: DrawingConditions, placed: _Placed) -> Realisation:
+    """Return the realisation of a placed drawing; UnsolvableError if it is of another type when it is read back."""
+    drawn, pattern = placed.drawn, task.pattern
+    sheet = placed.sheet if placed.folds is None else _lettered(placed.sheet, placed.folds)
+    if map_id(scd_of_placed_panels(sheet)) != task.code:
         raise UnsolvableError(OTHER_TYPE)
     at = configuration_of_sheet(sheet)
+    freedoms = pose_mobility(sheet, at.dual).dof
     at, folds = _folded(at) if task.kind == "sheet" else (at, None)
     return Realisation(
         kind=task.kind,
         scd=task.scd,
         configuration=at,
-        figures=figures_of(pattern, sheet, drawn.angles),
-        mobility=exact_mobility(task.scd).mobility,
-        freedoms=pose_mobility(sheet).dof,
+        figures=placed.figures,
+        mobility=task.mobility,
+        freedoms=freedoms,
         folds=folds,
         convex=drawn.convex,
         bent=tuple(link for link, bent in zip(pattern.links, pattern.bent, strict=True) if bent),
         number=drawn.number,
         tries=task.tries,
         notes=task.notes,
+        condition_errors=wishes.errors(pattern, drawn.places),
     )
 
 

@@ -15,7 +15,7 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Edge, sides_of_face
 from graphs.types import Floats
 from synth.realisation.drawing import PanelDrawing
-from synth.realisation.measures import opened_angles, sums_at
+from synth.realisation.measures import opened_angles
 from synth.realisation.pattern import Pattern
 
 _FAN = np.radians(45.0)
@@ -68,7 +68,7 @@ def strips(pattern: Pattern, seed: int, tries: int) -> Iterator[PanelDrawing]:
         parts = np.exp(-spread * random.random(len(pattern.panels)))
         places = _placed(pattern, fan * parts, parts)
         angles, _ = opened_angles(pattern, places)
-        round_border = sums_at(pattern, np.array(pattern.outer)) @ angles
+        round_border = pattern.sums_at(pattern.outer) @ angles
         yield PanelDrawing(places, angles, bool((round_border <= np.pi).all()), number)
 
 

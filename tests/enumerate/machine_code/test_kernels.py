@@ -45,8 +45,8 @@ from enumerate.chains import ChainJob, ChainQuery, count_job
 from enumerate.conical import ConicalQuery, count_conical_orders
 from enumerate.conical.rounds import fewest_layers
 from enumerate.runner.running import tuples_of
-from enumerate.sc import SCJob, SCQuery, sc_count_job
-from enumerate.scd import SCDJob, all_mechanisms, scd_count_job
+from enumerate.sc import SCJob, SCQuery, sc_count_job, sc_graphs
+from enumerate.scd import SCDJob, all_mechanisms, scd_count_job, simplest_scd_graph
 
 def word(rows):
     return hashlib.sha256(json.dumps(rows).encode()).hexdigest()
@@ -65,6 +65,7 @@ print(json.dumps([
     *(word(list(tuples_of(job))) for job in jobs),
     count_conical_orders(ConicalQuery(four_bar, (0,), slots=9), "orbits"),
     fewest_layers(dice.integers(1, 63, (20, 6, 2))).tolist(),
+    [simplest_scd_graph(graph, 6).graph["code"] for graph in sc_graphs(6, 1)],
     "numba" in sys.modules,
 ]))
 """
@@ -183,11 +184,7 @@ def test_what_jobs_weigh_grows_with_loops_and_freedoms():
     assert weights.layering(6) < weights._EXPECTED < weights.layering(21)
 
 
-LISTS = [
-    (labelling, labelling._refine, (4, 5)),
-    (states, states._step, (8,)),
-    (states, states._slot_of, ()),
-]
+LISTS = [(labelling, labelling._refine, (4, 5)), (states, states._step, (8,)), (states, states._slot_of, ())]
 """Functions on lists, which interpret a kernel written for arrays, and which of their arguments they write to."""
 
 
