@@ -9,6 +9,7 @@ docs/theory/sc-graphs.md, docs/theory/realisation.md.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -391,7 +392,7 @@ def arrangement_of(sc: SCGraph) -> Arrangement:
         return "linear" if max(degree for _, degree in graph.degree) == 2 else "tree"
     if cycles == 1:
         return "loop"
-    directions = _directions(graph)
+    directions = _directions([set(graph[vertex]) for vertex in range(len(graph))])
     return "doubly periodic" if directions > 1 else "periodic" if directions else "network"
 
 
@@ -403,71 +404,76 @@ def centre_graph(sc: SCGraph) -> nx.Graph:
         graph.add_node(number)
         for joint in one.joints:
             passing.setdefault(joint, []).append(number)
-    for centres in passing.values():
-        graph.add_edges_from(pairwise(centres))
+    graph.add_edges_from(pair for centres in passing.values() for pair in pairwise(centres))
     return graph
 
 
-def _directions(graph: nx.Graph) -> int:
+def _directions(near: Sequence[set[int]]) -> int:
     """Return in how many directions a graph is a part repeated: a Cartesian product with a path, or with two.
 
     Factors of a product are classes of edges: opposite ones in a square are in one class, and so are two at a
     vertex that are in no square together (Feder 1992). A class is a direction of repetition if without its edges
-    the graph falls into three parts or more that are a row, each joined to the next vertex by vertex.
+    the graph falls into three parts or more that are a row, each joined to the next vertex by vertex. The graph is
+    given by the neighbours of each vertex.
     """
-    number: dict[tuple[int, int], int] = {}
-    for place, (a, b) in enumerate(graph.edges):
-        number[a, b] = number[b, a] = place
-    near = {vertex: set(graph[vertex]) for vertex in graph}
+    edges = [(a, b) for a, neighbours in enumerate(near) for b in neighbours if a < b]
+    number = {pair: place for place, (a, b) in enumerate(edges) for pair in ((a, b), (b, a))}
     together: list[tuple[int, int]] = []
-    for vertex, neighbours in near.items():
-        for one, other in combinations(graph[vertex], 2):
+    for vertex, neighbours in enumerate(near):
+        for one, other in combinations(neighbours, 2):
             first, second = number[vertex, one], number[vertex, other]
-            squares = near[one] & near[other] - {vertex}
-            if other in near[one] or not squares:
+            squares = near[one] & near[other]
+            if other in near[one] or len(squares) == 1:
                 together.append((first, second))
             else:
                 for across in squares - neighbours:
-                    together += [(first, number[other, across]), (second, number[one, across])]
-    classes = nx.utils.UnionFind(range(graph.number_of_edges()))
-    for first, second in set(together):
-        classes.union(first, second)
-    edges_of: dict[int, list[tuple[int, int]]] = {}
-    for a, b in graph.edges:
-        edges_of.setdefault(classes[number[a, b]], []).append((a, b))
-    return sum(_is_direction(graph, edges) for edges in edges_of.values())
+                    if across != vertex:
+                        together += [(first, number[other, across]), (second, number[one, across])]
+    class_of = _merged(len(edges), together)
+    enough = (_REPEATED - 1) * len(near) / _REPEATED  # edges between as many parts
+    large = [one for one, size in Counter(class_of).items() if size >= enough]
+    return sum(_is_direction(len(near), edges, class_of, one) for one in large)
 
 
-def _is_direction(graph: nx.Graph, edges: list[tuple[int, int]]) -> bool:
-    """Return whether a graph is a row of parts, each joined to the next by some edges, vertex by vertex.
+def _merged(count: int, pairs: Iterable[tuple[int, int]]) -> list[int]:
+    """Return for each number below a count the least of those that pairs join it to."""
+    least = list(range(count))
+    for first, second in pairs:
+        one, other = first, second
+        while least[one] != one:
+            least[one] = one = least[least[one]]
+        while least[other] != other:
+            least[other] = other = least[least[other]]
+        least[max(one, other)] = min(one, other)
+    for one in range(count):
+        least[one] = least[least[one]]
+    return least
+
+
+def _is_direction(vertices: int, edges: Sequence[tuple[int, int]], class_of: Sequence[int], one: int) -> bool:
+    """Return whether a graph is a row of parts, each joined to the next by the edges of one class, vertex by vertex.
 
     A part repeated all round is no row: it has no ends.
     """
-    left = graph.copy()
-    left.remove_edges_from(edges)
-    parts = [frozenset(part) for part in nx.connected_components(left)]
-    size = len(parts[0])
-    if any(len(part) != size for part in parts):
+    inside = [edge for edge, which in zip(edges, class_of, strict=True) if which != one]
+    part_of = _merged(vertices, inside)
+    sizes = Counter(part_of)
+    if len(sizes) < _REPEATED or len(set(sizes.values())) > 1:
         return False
-    part_of = {vertex: part for part in parts for vertex in part}
-    row = nx.Graph()
-    row.add_nodes_from(parts)
-    joined: dict[frozenset[frozenset[int]], dict[int, int]] = {}
-    for a, b in edges:
-        if part_of[a] == part_of[b]:
-            return False
-        row.add_edge(part_of[a], part_of[b])
-        joined.setdefault(frozenset((part_of[a], part_of[b])), {}).update({a: b, b: a})
-    ends = sum(degree == 1 for _, degree in row.degree)
-    is_row = len(parts) >= _REPEATED and ends == 2 and row.number_of_edges() == len(parts) - 1
-    if not is_row or not nx.is_connected(row):
+    joined: dict[tuple[int, int], dict[int, int]] = {}
+    for (a, b), which in zip(edges, class_of, strict=True):
+        if which == one:
+            first, last = sorted((a, b), key=part_of.__getitem__)
+            if part_of[first] == part_of[last]:
+                return False
+            joined.setdefault((part_of[first], part_of[last]), {})[first] = last
+    row = nx.Graph(list(joined))
+    if len(joined) != len(sizes) - 1 or not nx.is_connected(row) or max(degree for _, degree in row.degree) > 2:
         return False
-    return all(_matches(left, one, other, joined[frozenset((one, other))]) for one, other in row.edges)
-
-
-def _matches(left: nx.Graph, one: frozenset[int], other: frozenset[int], to: dict[int, int]) -> bool:
-    """Return whether edges between two parts take all of one to the other, edges to edges."""
-    if set(to) != one | other:
-        return False
-    here = {frozenset((to[a], to[b])) for a, b in left.subgraph(one).edges}
-    return here == {frozenset(edge) for edge in left.subgraph(other).edges}
+    within: dict[int, set[tuple[int, int]]] = {part: set() for part in sizes}
+    for a, b in inside:
+        within[part_of[a]] |= {(a, b), (b, a)}
+    return all(
+        len(to) == len(set(to.values())) == sizes[first] and {(to[a], to[b]) for a, b in within[first]} == within[last]
+        for (first, last), to in joined.items()
+    )

@@ -21,7 +21,7 @@ _LEAF = 96
 """Rows of a part that is not halved."""
 _PIVOT = 0.03
 """A combination of columns is taken out if its singular value is at least this part of the largest."""
-_CHECKED = (1e-5, 1e-2)
+_CHECKED = (1e-6, 1e-2)
 """The number of singular values is counted a second time below some part of the largest between these."""
 
 
@@ -38,20 +38,23 @@ def sparse_spectrum(matrix: scipy.sparse.csr_matrix, places: Floats, error: Floa
     values, floors, near = (np.concatenate(found) for found in zip(*state.found, strict=True))
     found = judged(values, floors, near, state.pivots)
     part = _widest_gap(values)
-    unused = int((state.rows_of == 0).sum())
-    agree = number_below(matrix, part * state.largest) == int((values < part).sum()) + unused
+    unused = np.flatnonzero(state.rows_of == 0)
+    order = np.concatenate([*state.order, unused])
+    agree = number_below(matrix[:, order], part * state.largest, ordered=True) == (values < part).sum() + len(unused)
     return found if agree else replace(found, rank=None)
 
 
-def number_below(matrix: scipy.sparse.csr_matrix, bound: float) -> int:
+def number_below(matrix: scipy.sparse.csr_matrix, bound: float, *, ordered: bool = False) -> int:
     """Return how many singular values are below a bound, of as many as there are columns, by Sylvester's inertia.
 
-    The bound is well above the root of the rounding error, 1e-8 of the largest singular value.
+    The bound is well above the root of the rounding error, 1e-8 of the largest singular value. Where the columns
+    are `ordered`, they are eliminated as they stand.
     """
     from scipy.sparse.linalg import splu  # slow to load
 
     normal = (matrix.T @ matrix - bound**2 * scipy.sparse.identity(matrix.shape[1])).tocsc()
-    factors = splu(normal, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    order = "NATURAL" if ordered else "MMD_AT_PLUS_A"
+    factors = splu(normal, permc_spec=order, diag_pivot_thresh=0.0, options={"SymmetricMode": True})
     return int((factors.U.diagonal() < 0).sum())
 
 
@@ -63,31 +66,26 @@ def _widest_gap(values: Floats) -> float:
     return float(np.exp((inside[widest] + inside[widest + 1]) / 2))
 
 
-@dataclass
-class _Step:
-    """How the columns that were taken out follow from those that were left, in one part and the parts in it."""
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """What is left of some rows: a dense block, its columns, how many of the rows each of these is in.
 
+    Values at the columns determine those at the columns that were taken out; the sums of their squares, with the
+    weights of the elimination, are forms of these values, float[3, columns, columns].
+    """
+
+    block: Floats
     columns: Ints
-    pivots: Floats
-    from_rest: Floats
-    rest: Ints
-    handed: Floats
-    names: Ints
-    inner: tuple[_Step, ...]
-
-    def continue_to(self, vectors: Floats) -> None:
-        """Fill in the rows of the columns that were taken out, from those that were left: float[columns, k]."""
-        out = self.pivots @ (self.from_rest @ vectors[self.rest]) + self.handed @ vectors[self.names]
-        vectors[self.columns] = out
-        for step in self.inner:
-            step.continue_to(vectors)
+    seen: Ints
+    squares: Floats
 
 
 @dataclass
 class _Elimination:
     """The state of one elimination. Columns are those of the matrix, then those that were handed up.
 
-    `pivots` counts the large singular values, `found` holds the values, floors and nearly of the others.
+    `pivots` counts the large singular values, `found` holds the values, floors and nearly of the others, `order`
+    the columns of the matrix as they were taken out.
     """
 
     matrix: scipy.sparse.csr_matrix
@@ -96,89 +94,89 @@ class _Elimination:
     nearly: Floats
     pivots: int = 0
     found: list[tuple[Floats, Floats, Floats]] = field(default_factory=list)
+    order: list[Ints] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self.largest = _norm(self.matrix)
-        self.rows_of = np.bincount(self.matrix.indices, minlength=self.matrix.shape[1])
-        self.named = self.matrix.shape[1]
+        self.columns = self.matrix.shape[1]
+        self.rows_of = np.bincount(self.matrix.indices, minlength=self.columns)
+        self.named = self.columns
+        self._weights = np.array([np.ones(self.columns), self.error**2, self.nearly**2])
 
-    def eliminate(self, rows: Ints, *, top: bool = False) -> tuple[Floats, Ints, _Step]:
-        """Take out the columns that only these rows have; return what is left, its columns, and how to go back."""
-        block, columns, inner = self._assembled(rows)
-        own = self._own(rows, columns)
-        taken, rest = columns[own], columns[~own]
+    def eliminate(self, rows: Ints, *, top: bool = False) -> _Part:
+        """Take out the columns that only these rows have; return what is left."""
+        part = self._assembled(rows)
+        own = part.columns >= self.columns  # columns that were handed up are in no other part
+        own[~own] = part.seen[~own] == self.rows_of[part.columns[~own]]
+        taken, rest = part.columns[own], part.columns[~own]
+        of_matrix = taken < self.columns
+        self.order.append(taken[of_matrix])
         # QR first, where that makes the block lower: singular values and right singular vectors stay the same.
-        triangle = block[block.any(axis=1)]
-        if len(triangle) > len(columns):
+        triangle = part.block[part.block.any(axis=1)]
+        if len(triangle) > len(part.columns):
             (whole,) = scipy.linalg.qr(triangle, mode="r", check_finite=False, overwrite_a=True)
-            triangle = whole[: len(columns)]
+            triangle = whole[: len(part.columns)]
         left, values, right = np.linalg.svd(triangle[:, own], full_matrices=True)
         # Combinations of own columns with large values are pivots: their rows determine them by the other columns.
         large = int((values >= _PIVOT * self.largest).sum())
         self.pivots += large
-        step = _Step(
-            taken,
-            right[:large].T,
-            -(left[:, :large].T @ triangle[:, ~own]) / values[:large, None],
-            rest,
-            np.zeros((len(taken), 0)),
-            np.zeros(0, dtype=np.int64),
-            inner,
-        )
         smaller = np.zeros(len(taken) - large)
         smaller[: len(values) - large] = values[large:]
+        squares, combinations = part.squares, right[large:].T
+        within = squares[:, own][:, :, own]
+        diagonal = np.einsum("kii->ki", within)
+        diagonal[:, of_matrix] += self._weights[:, taken[of_matrix]]
         # The others are noise, and recorded, or too large for noise, and handed up under new column numbers.
-        handed = self._judge(smaller, right[large:].T, step, top=top)
-        step.handed = right[large:].T[:, handed]
-        step.names = np.arange(self.named, self.named + int(handed.sum()))
-        self.named += len(step.names)
+        handed = self._judge(smaller, ((within @ combinations) * combinations).sum(axis=1), top=top)
+        names = np.arange(self.named, self.named + int(handed.sum()))
+        self.named += len(names)
+        determined = -right[:large].T @ ((left[:, :large].T @ triangle[:, ~own]) / values[:large, None])
+        back = np.hstack([combinations[:, handed], determined])
+        crossing, beside = back.T @ squares[:, own][:, :, ~own], squares[:, ~own][:, :, ~own]
+        squares = back.T @ within @ back
+        squares[:, :, len(names) :] += crossing
+        squares[:, len(names) :, :] += crossing.transpose(0, 2, 1)
+        squares[:, len(names) :, len(names) :] += beside
         below = left[:, large:].T
-        kept = np.zeros((len(below), len(step.names)))
-        for column, position in enumerate(np.flatnonzero(handed)):
-            kept[position, column] = smaller[position]
-        return np.hstack([kept, below @ triangle[:, ~own]]), np.concatenate([step.names, rest]), step
+        kept = np.zeros((len(below), len(names)))
+        kept[np.flatnonzero(handed), np.arange(len(names))] = smaller[handed]
+        block = np.hstack([kept, below @ triangle[:, ~own]])
+        seen = np.concatenate([np.zeros(len(names), dtype=np.int64), part.seen[~own]])
+        return _Part(block, np.concatenate([names, rest]), seen, squares)
 
-    def _assembled(self, rows: Ints) -> tuple[Floats, Ints, tuple[_Step, ...]]:
+    def _assembled(self, rows: Ints) -> _Part:
         """Return a part as a dense block: a leaf of the matrix, or what is left of two halves."""
         if len(rows) <= _LEAF:
-            part = self.matrix[rows]
-            columns = np.unique(part.indices)
-            return np.asarray(part[:, columns].todense()), columns, ()
+            leaf = self.matrix[rows]
+            columns, places, seen = np.unique(leaf.indices, return_inverse=True, return_counts=True)
+            block = np.zeros((len(rows), len(columns)))
+            block[np.repeat(np.arange(len(rows)), np.diff(leaf.indptr)), places] = leaf.data
+            return _Part(block, columns, seen, np.zeros((3, len(columns), len(columns))))
         spread = np.ptp(self.places[rows], axis=0)
         order = rows[np.argsort(self.places[rows, int(np.argmax(spread))], kind="stable")]
         halves = [self.eliminate(half) for half in np.array_split(order, 2)]
-        columns = np.unique(np.concatenate([names for _, names, _ in halves]))
-        block = np.zeros((sum(len(part) for part, _, _ in halves), len(columns)))
+        columns = np.unique(np.concatenate([half.columns for half in halves]))
+        block = np.zeros((sum(len(half.block) for half in halves), len(columns)))
+        seen, squares = np.zeros(len(columns), dtype=np.int64), np.zeros((3, len(columns), len(columns)))
         start = 0
-        for part, names, _ in halves:
-            block[start : start + len(part), np.searchsorted(columns, names)] = part
-            start += len(part)
-        return block, columns, tuple(step for _, _, step in halves)
+        for half in halves:
+            at = np.searchsorted(columns, half.columns)
+            block[start : start + len(half.block), at] = half.block
+            seen[at] += half.seen
+            squares[:, at[:, None], at] += half.squares
+            start += len(half.block)
+        return _Part(block, columns, seen, squares)
 
-    def _own(self, rows: Ints, columns: Ints) -> Flags:
-        """Return which columns no other row has."""
-        count = self.matrix.shape[1]
-        here = np.bincount(self.matrix[rows].indices, minlength=count)
-        matrix_columns = columns < count
-        own = ~matrix_columns
-        own[matrix_columns] = here[columns[matrix_columns]] == self.rows_of[columns[matrix_columns]]
-        return np.asarray(own)
+    def _judge(self, values: Floats, squares: Floats, *, top: bool) -> Flags:
+        """Record the combinations that are noise, at the top all; return which are handed up.
 
-    def _judge(self, values: Floats, combinations: Floats, step: _Step, *, top: bool) -> Flags:
-        """Record the combinations that are noise, at the top all; return which are handed up."""
-        vectors = np.zeros((self.named, combinations.shape[1]))
-        vectors[step.columns] = combinations
-        for inner in step.inner:
-            inner.continue_to(vectors)
-        vectors = vectors[: self.matrix.shape[1]]
-        sizes = np.linalg.norm(vectors, axis=0)
-        parts = values / sizes / self.largest
-        floors = rounding(self.matrix.shape) + np.linalg.norm(vectors * self.error[:, None], axis=0) / (
-            sizes * self.largest
-        )
-        near = np.linalg.norm(vectors * self.nearly[:, None], axis=0) / (sizes * self.largest)
+        Each is continued to a vector of all columns, whose sums of squares are float[3, combinations].
+        """
+        sizes, errors, near = np.sqrt(np.maximum(squares, 0.0))
+        scale = sizes * self.largest
+        parts, floors = values / scale, rounding(self.matrix.shape) + errors / scale
         done = np.ones(len(values), dtype=bool) if top else verdict(parts, floors).noise
-        self.found.append((parts[done], floors[done], near[done]))
+        self.found.append((parts[done], floors[done], near[done] / scale[done]))
         return np.asarray(~done)
 
 
