@@ -222,7 +222,7 @@ def _of_sheet(answer: JudgedMobility, freedoms: int | None) -> list[Question]:
         questions.append((f"synth edit FILE --assign-branch {number} -o assigned.fold", "the pattern assigned anew"))
     if freedoms:
         questions.append(("synth fold FILE -o folded.fold", "its motion, as frames"))
-        questions.append(("synth template FILE --size 150 -o template.pdf", "a template to print, cut and fold"))
+        questions.append(("synth template FILE -o template.pdf", "a template to print, cut and fold"))
     elif freedoms == 0:
         questions.append(("synth advise FILE --freedoms 1", "which panels to crease so that it moves"))
     return questions
@@ -232,7 +232,7 @@ def _of_surface(linkage: SurfaceLinkage) -> list[Question]:
     command = "cylinder" if linkage.lengths is not None or _on_cylinder(linkage) else "cone"
     return [
         (f"synth {command} move FILE", "whether its links move inward or outward"),
-        ("synth template FILE --size 150 -o template.pdf", "a template to cut and roll up"),
+        ("synth template FILE -o template.pdf", "a template to cut and roll up"),
         ("synth view FILE -o page.html", "a page on which it moves, for any browser"),
         ("synth mobility FILE", "the evidence: ranks, counts and equations"),
     ]

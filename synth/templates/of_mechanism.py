@@ -24,8 +24,8 @@ from synth.templates.template import (
     unit_of,
 )
 
-_REALISED = 150.0
-"""Millimetres of the longer side of a type that is realised: its coordinates have no size of their own."""
+_FITTED = 150.0
+"""Millimetres of the longer side of what has no size: a type that is realised, a file that names no unit."""
 
 
 def template(
@@ -57,7 +57,8 @@ def template(
     mode : str, optional
         For an R/- string: its mode.
     scale : float, optional
-        For panels: millimetres per unit of the coordinates. By default that of the file's unit, or 1.
+        For panels: millimetres per unit of the coordinates. By default that of the file's unit; without a unit
+        the longer side is 150 mm.
     size : float, optional
         Longer side of the template in millimetres; on a cone or cylinder, length of the ruling lines.
     tabs : float, optional
@@ -154,13 +155,18 @@ def template_of_panels(
     """Return the template of panels, those of a type realised first, and notes for the command to print."""
     sheet, realised = panels_of_mechanism(mechanism, kind=kind, mode=mode)
     notes = [f"{realised}, as by `synth realise`"] if realised else []
-    if scale is None and size is None and realised:
-        size = _REALISED
-        notes.append(f"a type has no size: its longer side is {_REALISED:g} mm; --size changes it")
-    elif scale is None and size is None and unit_of(sheet) is None:
-        notes.append("the file names no unit: a unit of the coordinates is 1 mm")
+    fitted = scale is None and size is None and (bool(realised) or unit_of(sheet) is None)
+    if fitted:
+        size = _FITTED
     title = sheet.title or name
     result = template_of(sheet, scale=scale, size=size, tabs=tabs, slots=slots, hinges=hinges, title=title)
+    if fitted and realised:
+        notes.append(f"a type has no size: its longer side is {_FITTED:g} mm; --size changes it")
+    elif fitted and result.scale is not None:
+        of_unit = f"{result.scale:.4g} mm per unit"
+        notes.append(
+            f"the file names no unit: the longer side is {_FITTED:g} mm, {of_unit}; --scale or --size changes it"
+        )
     notes += [f"not shown: {', '.join(result.not_shown)}"] if result.not_shown else []
     if picture:
         result, reason = pictured(result, sheet)

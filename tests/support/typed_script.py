@@ -27,6 +27,8 @@ reveal_type((loop.centre, sheet.fold_angles, sheet.coordinates, chain.joints, ch
 reveal_type(synth.write(mechanism, "out.json"))
 
 # Answers
+seen: synth.FirstLook = synth.look(source)
+reveal_type((seen.kind, seen.commands, seen.mobility))
 answer = synth.mobility(source)
 reveal_type((answer, answer.mobility, answer.verdict, answer.configuration, str(answer)))
 reveal_type(synth.identify(mechanism).chain)

@@ -252,10 +252,10 @@ def template(
     """Write a template of panels at true scale, to cut out and fold.
 
     FILE is a file, an id m1:... or k1:..., an R/- string, or a store, a list or a folder of types, of which --row
-    names one. A type without coordinates is realised first, with a longer side of 150 mm. Coordinates are in the
-    unit that a .fold file names, or in millimetres, unless --scale or --size says otherwise. A template larger
-    than a page is divided into tiles, never made smaller: tiles overlap by 10 mm, and crosses with the same name
-    are laid on each other. Each page has a gauge of 100 mm; measure it after printing. For .svg each page is a
+    names one. A type without coordinates is realised first. Coordinates are in the unit that the file names; where
+    it names none, and for a type, the longer side is 150 mm, unless --scale or --size says otherwise. A template
+    larger than a page is divided into tiles, never made smaller: tiles overlap by 10 mm, and crosses with the same
+    name are laid on each other. Each page has a gauge of 100 mm; measure it after printing. For .svg each page is a
     file; a .dxf is one drawing at full size.
 
     A folded surface is unfolded into nets without overlaps, with tabs: edges with the same number are glued, or

@@ -13,7 +13,7 @@ from enumerate.chains import ChainQuery, count_job
 from enumerate.contracted import orbits, states
 from enumerate.kernel import labelling, words
 from enumerate.machine_code import weights
-from enumerate.machine_code.kernels import _kernels
+from enumerate.machine_code.kernels import _kernels, uses_machine_code
 from enumerate.runner.job import Unit
 from enumerate.runner.running import rows_of, total_of
 
@@ -189,8 +189,14 @@ LISTS = [(labelling, labelling._refine, (4, 5)), (states, states._step, (8,)), (
 
 
 @pytest.mark.parametrize(("links", "dof", "inversions"), [(8, 1, False), (9, 2, False), (10, 1, False), (8, 1, True)])
-def test_functions_on_lists_do_what_is_compiled(monkeypatch, links, dof, inversions):
-    """Each call in a count of chains, made both ways."""
+def test_functions_on_lists_do_what_is_compiled(monkeypatch, request, links, dof, inversions):
+    """Each call in a count of chains, made both ways; in a process whose kernels are interpreted."""
+    if uses_machine_code():  # another test began it, and there is no way back
+        words = [sys.executable, "-m", "pytest", "-q", "-n", "0", "-p", "no:cacheprovider", request.node.nodeid]
+        never = os.environ | {"SYNTHEDRA_MACHINE_CODE": "never"}
+        done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False, env=never)
+        assert done.returncode == 0, done.stdout
+        return
     calls = dict.fromkeys((on_lists for _, on_lists, _ in LISTS), 0)
 
     def both(on_lists, on_arrays, outputs):

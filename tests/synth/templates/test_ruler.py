@@ -150,7 +150,7 @@ def test_paper_of_a_stated_size_has_place_for_the_gauge(wide):
 
 
 def test_what_cannot_be_printed_is_refused_in_a_line(bird, tmp_path, data):
-    assert "2 x 2 mm" in run("template", bird, "-o", tmp_path / "a.pdf", code=2).stderr
+    assert "2 x 2 mm" in run("template", bird, "--scale", 1, "-o", tmp_path / "a.pdf", code=2).stderr
     assert "at most 500" in run("template", bird, "--size", 9000, "-o", tmp_path / "a.pdf", code=2).stderr
     assert "Letter" in run("template", bird, "--page", "B7", "-o", tmp_path / "a.pdf", code=2).stderr
     assert (

@@ -46,12 +46,11 @@ def test_what_is_asked_for_goes_before_the_unit_of_the_file(square, tmp_path):
 
 
 @pytest.mark.parametrize("unit", [None, "unit"])
-def test_that_no_unit_is_given_is_told(unit, square, tmp_path):
-    assert "6 x 6 mm" in run("template", square(unit), "-o", tmp_path / "a.svg", code=2).stderr
-    large = {**SQUARE, "vertices_coords": (10 * np.array(SQUARE["vertices_coords"])).tolist()}
-    (tmp_path / "b.fold").write_text(json.dumps(large))
-    told = run("template", tmp_path / "b.fold", "--no-note", "-o", tmp_path / "b.svg").stderr
-    assert told == "the file names no unit: a unit of the coordinates is 1 mm\n"
+def test_without_a_unit_the_longer_side_is_150_mm_and_the_scale_is_printed(unit, square, tmp_path):
+    told = run("template", square(unit), "--no-note", "-o", tmp_path / "a.svg").stderr
+    of_unit = "the longer side is 150 mm, 25 mm per unit"
+    assert told == f"the file names no unit: {of_unit}; --scale or --size changes it\n"
+    assert lengths(lines_of_svg(tmp_path / "a.svg")[0]["CUT"]) == pytest.approx([150] * 4, abs=0.01)
 
 
 def test_a_unit_that_nobody_knows_asks_for_a_size(square, tmp_path):
