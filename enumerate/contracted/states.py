@@ -311,15 +311,7 @@ def _grown(states: StateTable) -> StateTable:
 
 
 def _step(
-    counters: Words,
-    rest: Ints,
-    laid: Counters,
-    words: Words,
-    i: int,
-    units: int,
-    counted: int,
-    most: int,
-    new: Words,
+    counters: Words, rest: Ints, laid: Counters, words: Words, i: int, units: int, counted: int, most: int, new: Words
 ) -> bool:
     """Do what `step` does, with numbers of Python; the bits above a counter's are cut off where it matters."""
     first, *needs = words[i].tolist()
