@@ -14,7 +14,7 @@ unexport PYTHONDONTWRITEBYTECODE
 
 help:
 	@echo "make demo       install into $(VENV) what users need, and run the first examples"
-	@echo "make compiled   compile what large enumerations need, before their first use: minutes"
+	@echo "make compiled   install numba and compile what large enumerations need, before their first use: minutes"
 	@echo "make test       all tests except the slow ones"
 	@echo "make test-unit  the quickest of these tests, on single functions and classes: half a minute"
 	@echo "make test-slow  the slow tests too, at full size: at most 90 minutes on two idle cores"
@@ -32,14 +32,14 @@ help:
 	@echo "make examples   write the output of the commands in README.md and docs/ anew, and list the documents that change"
 	@echo "make clean      remove $(VENV) and the caches of tools; machine code stays in ~/.cache/synthedra"
 
-# An environment with what users need; everything else comes with the first target that needs it.
+# An environment with what users need; everything else comes with the first target that needs it. Byte code is made of
+# what is imported, when it is: of all of matplotlib, scipy and fonttools it takes as long as the rest.
 $(USER): pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 	  { echo "synthedra needs Python 3.11 or newer; name one with: make PYTHON=python3.11 ..." >&2; exit 2; }
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || $(MAKE) --no-print-directory install-venv
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --upgrade pip
-	$(BIN)/python -m pip install --quiet -e '.[draw,view]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile -e '.[draw,view]'
 	@touch $@
 
 # Libraries of C, built by the installation too; again where a source has changed since.
@@ -66,7 +66,8 @@ demo: $(LIBRARIES) page
 	@BIN=$(BIN) sh data/demo.sh
 	@echo "Next: . $(BIN)/activate, then synth --help"
 
-compiled: $(USER) $(LIBRARIES)
+compiled: $(LIBRARIES)
+	$(BIN)/python -m pip install --quiet -e '.[enumerate]'
 	$(BIN)/python -m synth.cli.ahead
 
 # Compiled once before the tests, so that two of them do not compile the same function side by side.
@@ -158,7 +159,7 @@ release: $(STAMP)
 	$(BIN)/check-wheel-contents --toplevel enumerate,graphs,synth dist/*.whl
 	@for python in python3.11 python3.12 python3.13; do \
 	  $$python -c pass 2>/dev/null || { echo "$$python is not here"; continue; }; \
-	  for extras in "" "[draw,parquet,view]"; do \
+	  for extras in "" "[draw,enumerate,parquet,view]"; do \
 	    rm -rf dist/tried && $$python -m venv dist/tried && dist/tried/bin/pip install --quiet "$$(ls dist/*.whl)$$extras" && \
 	    dist/tried/bin/synth --version && dist/tried/bin/synth mobility data/patterns/bird-base.fold >/dev/null || exit 1; \
 	  done; \

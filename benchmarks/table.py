@@ -18,6 +18,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -83,6 +84,32 @@ def first_count(*words: str) -> Callable[[], Figures]:
             return {"runs": synth("enumerate", *words, runs=1, **environment)}
 
     return measure
+
+
+def demo() -> Figures:
+    """Measure `make demo` in a fresh clone of the last commit; pip keeps what it has fetched once."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run(["git", "clone", "--quiet", str(ROOT), folder], check=True)
+        return {"runs": processor_seconds("make", "--quiet", "-C", folder, f"PYTHON={sys.executable}", "demo", runs=1)}
+
+
+def installed(extras: str) -> Figures:
+    """Measure what an installation with some extras takes on disk, in MB, without byte code and what installs it."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([sys.executable, "-m", "venv", folder], check=True)
+        pip = [str(Path(folder, "bin", "python")), "-m", "pip", "install", "--quiet", "--no-compile"]
+        subprocess.run([*pip, f"{ROOT}{extras}"], check=True)
+        [packages] = Path(folder).glob("lib/python*/site-packages")
+        bytes_of: Counter[str] = Counter()
+        for path in packages.rglob("*"):
+            name = path.relative_to(packages).parts[0]
+            if path.is_file() and path.suffix != ".pyc" and not name.startswith(_INSTALLERS):
+                bytes_of[name] += path.stat().st_size
+        return {"runs": [bytes_of.total() / 1e6], "largest": dict(bytes_of.most_common(5))}
+
+
+_INSTALLERS = ("pip", "setuptools", "pkg_resources", "_distutils_hack", "distutils-precedence")
+"""What a new environment has before anything is installed there."""
 
 
 def milliseconds(call: Callable[[], object], runs: int = RUNS) -> list[float]:
@@ -246,6 +273,9 @@ class Row:
 
 
 ROWS = {
+    "demo": Row("fresh clone: make demo", "s", 75, demo, long=True),
+    "installed": Row("pip install .", "MB", 250, lambda: installed(""), long=True),
+    "installed-enumerate": Row("the same, with [enumerate]", "MB", 420, lambda: installed("[enumerate]"), long=True),
     "chains-8": Row(
         "empty cache: chains of 8 links counted", "s", 3,
         first_count("chains", "--links", "8", "--dof", "1", "--count"),

@@ -1,4 +1,4 @@
-"""Folders that machine code is kept in: which may be used, which are old; a notice when code is compiled.
+"""Folders that machine code is kept in: which may be used, which are old; a notice when code is compiled, or cannot be.
 
 Others keep there what takes long to find and is the same each time. Machine code is kept as pickles, which do what
 they like when they are loaded. So a folder counts only if it belongs to this user and nobody else may write there.
@@ -12,6 +12,7 @@ import shutil
 import stat
 import tempfile
 import time
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import cache
@@ -186,8 +187,14 @@ def _prune_once(base: Path) -> None:
     prune(base)
 
 
-Notify: TypeAlias = Callable[[Path | None], None]
-"""Notifies the user; takes the folder where the code will be kept, if there is one."""
+Notify: TypeAlias = Callable[[Path | None, bool], None]
+"""Notifies the user; takes the folder where the code will be kept, if there is one, and whether it can be compiled."""
+
+MISSING = "numba is not installed; try: pip install 'synthedra[enumerate]'"
+"""Why nothing is compiled."""
+
+INTERPRETED = f"this is interpreted, which takes many times as long as compiled code: {MISSING}"
+"""What users are told where machine code would pay and cannot be made."""
 
 
 class _Notice:
@@ -205,17 +212,32 @@ _notice = _Notice()
 
 
 def on_compiling(notify: Notify | None) -> None:
-    """Let a function be called before the first function is compiled; without one, nothing is said."""
+    """Let a function be called before the first function is compiled, or where one should be and cannot."""
     _notice.notify, _notice.notified, _notice.left = notify, False, None
 
 
 def compiling() -> None:
     """Note that something is about to be compiled."""
-    if _notice.notify is None or _notice.notified:
+    if _notice.notify is not None and _first():
+        _notice.notify(writable_base(), True)
+
+
+def interpreting_all() -> None:
+    """Note that something should be compiled, and numba is missing; warn of it if nobody is to be notified."""
+    if not _first():
         return
+    if _notice.notify is not None:
+        _notice.notify(None, False)
+    else:
+        warnings.warn(INTERPRETED, stacklevel=2)
+
+
+def _first() -> bool:
+    """Return whether nobody has been notified yet; from now on somebody has."""
+    if _notice.notified:
+        return False
     _notice.notified = True
-    if _notice.left is None or _notice.left.acquire(block=False):
-        _notice.notify(writable_base())
+    return _notice.left is None or bool(_notice.left.acquire(block=False))
 
 
 def to_workers() -> tuple[Notify, Any] | None:

@@ -3,7 +3,9 @@
 A kernel is a Python function that numba can compile. While little is asked of them, kernels are interpreted, and
 numba is not even imported. `use_machine_code` puts machine code in their place, wherever they are named, for the
 rest of the process; what they return is the same. `enumerate.machine_code.weights` says when that pays, unless
-``SYNTHEDRA_MACHINE_CODE`` is ``always`` or ``never``. So that both return the same, kernels
+``SYNTHEDRA_MACHINE_CODE`` is ``always`` or ``never``. Where numba is not installed (the extra ``enumerate``), all
+kernels are interpreted, and the user is notified of it where machine code would pay. So that both return the same,
+kernels
 
 - read bytes as ``int(...)`` before they reckon with them: numpy's bytes run over, numba's do not;
 - leave sums and products that run over 64 bits to `enumerate.kernel.words`;
@@ -15,9 +17,14 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import wraps
+from importlib.util import find_spec
 from threading import Lock
 from types import FunctionType
 from typing import Any, TypeVar, cast
+
+import numpy as np
+
+from enumerate.machine_code.folders import interpreting_all
 
 F = TypeVar("F", bound=Callable[..., object])
 
@@ -26,8 +33,13 @@ def _choice() -> str:
     return os.environ.get("SYNTHEDRA_MACHINE_CODE", "auto")
 
 
+def can_compile() -> bool:
+    """Return whether numba is installed: it belongs to the extra ``enumerate``."""
+    return find_spec("numba") is not None
+
+
 _NEVER_INTERPRETED = frozenset({"synth.assembly.kernel"})
-"""Modules whose kernels begin with machine code: of complex sines that run over, numpy would warn."""
+"""Modules whose kernels begin with machine code if they can: interpreted they are too slow for any answer."""
 
 
 @dataclass
@@ -43,7 +55,7 @@ class _Kernels:
     lock: Lock = field(default_factory=Lock)
 
 
-_kernels = _Kernels(used=_choice() == "always")
+_kernels = _Kernels(used=_choice() == "always" and can_compile())
 
 
 def compiled(function: F) -> F:
@@ -79,7 +91,10 @@ def _beginning_machine_code(function: F) -> F:
     def first_call(*arguments: Any) -> Any:
         use_machine_code()
         kernel = getattr(sys.modules[function.__module__], function.__name__)
-        return (function if kernel is first_call else kernel)(*arguments)
+        if kernel is not first_call:
+            return kernel(*arguments)
+        with np.errstate(all="ignore"):  # as machine code does: complex sines may run over
+            return function(*arguments)
 
     return cast(F, first_call)
 
@@ -99,6 +114,9 @@ def _dispatcher(function: Callable[..., object]) -> Any:
 def use_machine_code() -> None:
     """Put machine code in the place of all kernels, in all modules: it is made, or loaded, as it is called."""
     if _choice() == "never":
+        return
+    if not can_compile():
+        interpreting_all()
         return
     with _kernels.lock:
         if _kernels.used:

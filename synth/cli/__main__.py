@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def run() -> None:
-    """Run the command; print one line if code has to be compiled, which takes longer than most answers."""
+    """Run the command; print one line if code has to be compiled, or cannot be: both take longer than most answers."""
     try:
         with interruptible(ending=True):
             _run_command()
@@ -34,14 +34,16 @@ def _run_command() -> None:
     main(prog_name="synth")
 
 
-def _say_compiling(folder: Path | None) -> None:
+def _say_compiling(folder: Path | None, possible: bool) -> None:
     import click
 
+    from enumerate.machine_code.folders import INTERPRETED
     from synth.cli.output import plain
 
     storage = f"kept in {plain(folder, 200)}" if folder else "not kept; try a folder of yours in SYNTHEDRA_CACHE"
     over = "\r" if sys.stderr.isatty() else ""  # the line of progress is overwritten: it is shorter
-    click.echo(f"{over}synth: compiling code for the first use, up to a minute ({storage})", err=True)
+    compiling = f"compiling code for the first use, up to a minute ({storage})"
+    click.echo(f"{over}synth: {compiling if possible else INTERPRETED}", err=True)
 
 
 if __name__ == "__main__":

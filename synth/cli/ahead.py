@@ -13,8 +13,8 @@ from pathlib import Path
 from time import monotonic
 
 import synth
-from enumerate.machine_code.folders import writable_base
-from enumerate.machine_code.kernels import compiled_here, use_machine_code
+from enumerate.machine_code.folders import MISSING, writable_base
+from enumerate.machine_code.kernels import can_compile, compiled_here, use_machine_code
 from graphs.errors import numbered
 from synth.cli.main import main
 from synth.cli.runner import cores
@@ -82,6 +82,8 @@ def _positions() -> int:
 
 
 def _main() -> None:
+    if not can_compile():
+        sys.exit(f"nothing is compiled ahead: {MISSING}")
     folder = writable_base()
     if folder is None:
         sys.exit("nothing is compiled ahead: no folder to keep it in; try a folder of yours in SYNTHEDRA_CACHE")

@@ -167,13 +167,18 @@ def _print_version(ctx: click.Context, _parameter: click.Parameter, requested: b
     """Print the version, and those of the packages that results depend on, and end."""
     if not requested or ctx.resilient_parsing:
         return
-    from importlib.metadata import version
+    from importlib.metadata import PackageNotFoundError, version
     from platform import python_version
 
     from graphs.compiled import library, sources
 
     click.echo(f"synth, version {version('synthedra')}")
-    parts = [f"Python {python_version()}", *(f"{name} {version(name)}" for name in _VERSIONED)]
+    parts = [f"Python {python_version()}"]
+    for name in _VERSIONED:
+        try:
+            parts.append(f"{name} {version(name)}")
+        except PackageNotFoundError:  # numba belongs to an extra
+            parts.append(f"{name} not installed")
     click.echo(", ".join(parts))
     missing = [source.stem for source in sources() if library(source) is None]
     if missing:

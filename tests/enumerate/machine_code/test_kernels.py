@@ -1,5 +1,6 @@
 """Kernels: the same interpreted and as machine code; small commands need no numba."""
 
+import importlib.metadata
 import json
 import os
 import subprocess
@@ -7,15 +8,15 @@ import sys
 
 import numpy as np
 import pytest
+from commands import run as run_command
 from toy_kernels import ROOT, make_toy, run
 
-from enumerate.chains import ChainQuery, count_job
-from enumerate.contracted import orbits, states
-from enumerate.kernel import labelling, words
+import synth
+from enumerate.kernel import words
 from enumerate.machine_code import weights
-from enumerate.machine_code.kernels import _kernels, uses_machine_code
+from enumerate.machine_code.folders import INTERPRETED
 from enumerate.runner.job import Unit
-from enumerate.runner.running import rows_of, total_of
+from enumerate.runner.running import rows_of
 
 ALL = (1 << 64) - 1
 SWITCH = """
@@ -109,6 +110,47 @@ def test_a_small_command_needs_no_numba(tmp_path, command):
     assert not (tmp_path / "cache").exists()
 
 
+WITHOUT_NUMBA = """
+import sys
+
+class Without:
+    def __init__(self, finder):
+        self.finder = finder
+
+    def find_spec(self, name, *more):
+        return None if name.partition(".")[0] in ("numba", "llvmlite") else self.finder.find_spec(name, *more)
+
+sys.meta_path[:] = map(Without, sys.meta_path)
+"""
+
+
+def test_all_works_where_numba_is_not_installed(tmp_path):
+    """Where machine code would pay, one line says why there is none; the answers are the same."""
+    (tmp_path / "hidden").mkdir()
+    (tmp_path / "hidden" / "sitecustomize.py").write_text(WITHOUT_NUMBA)
+    environment = {**os.environ, "SYNTHEDRA_MACHINE_CODE": "always", "SYNTHEDRA_COMPILED": "never"}
+    environment |= {"PYTHONPATH": os.pathsep.join([str(tmp_path / "hidden"), str(ROOT)])}
+    ring = tmp_path / "ring.json"
+    synth.write(synth.generate("four-bar").mechanism, ring)
+    positions = ["positions", str(ring), "--drive", "0=60", "--no-circuits", "--json"]
+    count = ["enumerate", "chains", "--links", "8", "--dof", "1", "--count"]
+    for command, said in ((count, ""), (positions, f"synth: {INTERPRETED}\n")):
+        line = [sys.executable, "-m", "synth.cli", *command]
+        done = subprocess.run(line, env=environment, capture_output=True, text=True, check=True)
+        assert done.stderr == said
+        assert json.loads(done.stdout) == json.loads(run_command(*command).stdout)
+
+
+def test_the_version_says_that_numba_is_not_installed(monkeypatch):
+    def version(name):
+        if name == "numba":
+            raise importlib.metadata.PackageNotFoundError(name)
+        return "1.0"
+
+    monkeypatch.setattr(importlib.metadata, "version", version)
+    assert "numba not installed, shapely 1.0" in run_command("--version").stdout
+
+
 @pytest.mark.parametrize("seed", range(20))
 def test_words_are_cut_to_64_bits(seed):
     dice = np.random.default_rng(seed)
@@ -184,39 +226,9 @@ def test_what_jobs_weigh_grows_with_loops_and_freedoms():
     assert weights.layering(6) < weights._EXPECTED < weights.layering(21)
 
 
-LISTS = [(labelling, labelling._refine, (4, 5)), (states, states._step, (8,)), (states, states._slot_of, ())]
-"""Functions on lists, which interpret a kernel written for arrays, and which of their arguments they write to."""
-
-
-@pytest.mark.parametrize(("links", "dof", "inversions"), [(8, 1, False), (9, 2, False), (10, 1, False), (8, 1, True)])
-def test_functions_on_lists_do_what_is_compiled(monkeypatch, request, links, dof, inversions):
-    """Each call in a count of chains, made both ways; in a process whose kernels are interpreted."""
-    if uses_machine_code():  # another test began it, and there is no way back
-        words = [sys.executable, "-m", "pytest", "-q", "-n", "0", "-p", "no:cacheprovider", request.node.nodeid]
-        never = os.environ | {"SYNTHEDRA_MACHINE_CODE": "never"}
-        done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, check=False, env=never)
-        assert done.returncode == 0, done.stdout
-        return
-    calls = dict.fromkeys((on_lists for _, on_lists, _ in LISTS), 0)
-
-    def both(on_lists, on_arrays, outputs):
-        def call(*arguments):
-            copies = [a.copy() if isinstance(a, np.ndarray) else a for a in arguments]
-            with np.errstate(over="ignore"):  # as machine code does
-                expected = on_arrays(*copies)
-            found = on_lists(*arguments)
-            assert found == expected
-            if found or on_lists is not states._step:  # after a step that cannot be nothing goes on
-                assert all(np.array_equal(arguments[i], copies[i]) for i in outputs)
-            calls[on_lists] += 1
-            return found
-
-        return call
-
-    arrays = dict(_kernels.interpreted)
-    for module, on_lists, outputs in LISTS:
-        name = arrays[on_lists].__name__
-        for place in (module, orbits) if name == "step" else (module,):
-            monkeypatch.setattr(place, name, both(on_lists, arrays[on_lists], outputs))
-    total_of(count_job(ChainQuery(links, dof, inversions=inversions), "orbits"))
-    assert min(calls.values()) > 10
+def test_functions_on_lists_do_what_is_compiled():
+    calls = answer(
+        "from both_ways import main; main()", "never", "", PYTHONPATH=f"{ROOT}{os.pathsep}{ROOT}/tests/support"
+    )
+    assert set(calls) == {"refine", "step", "_slot"}
+    assert min(calls.values()) > 100

@@ -1,9 +1,12 @@
 """The word to the user: once in a run."""
 
+import re
+
 import pytest
 from toy_kernels import make_toy, run
 
-from enumerate.machine_code.folders import compiling, heard_by, on_compiling, to_workers
+from enumerate.machine_code import kernels
+from enumerate.machine_code.folders import INTERPRETED, compiling, heard_by, on_compiling, to_workers
 
 WORKERS = """
 import json, sys
@@ -11,8 +14,8 @@ from concurrent.futures import ProcessPoolExecutor
 from enumerate.machine_code.folders import heard_by, on_compiling, to_workers
 from toy.outer import outer
 
-def tell(folder):
-    print("compiling", folder is not None, file=sys.stderr, flush=True)
+def tell(folder, possible):
+    print("compiling", folder is not None, possible, file=sys.stderr, flush=True)
 
 on_compiling(tell)
 with ProcessPoolExecutor(2, initializer=heard_by, initargs=(to_workers(),)) as pool:
@@ -23,7 +26,7 @@ print(json.dumps([*values, outer(4)]))
 
 def test_the_user_is_told_once():
     told = []
-    on_compiling(told.append)
+    on_compiling(lambda *word: told.append(word))
     try:
         compiling()
         compiling()
@@ -35,14 +38,14 @@ def test_the_user_is_told_once():
 
 def test_a_worker_tells_if_nobody_has():
     told = []
-    on_compiling(told.append)
+    on_compiling(lambda *word: told.append(word))
     try:
         shared = to_workers()
         for _ in range(3):  # as if in three workers
             heard_by(shared)
             compiling()
         assert len(told) == 1
-        on_compiling(told.append)
+        on_compiling(lambda *word: told.append(word))
         compiling()
         heard_by(to_workers())
         compiling()
@@ -52,9 +55,27 @@ def test_a_worker_tells_if_nobody_has():
     assert to_workers() is None
 
 
+def test_without_numba_kernels_stay_interpreted_and_the_user_is_told_once(monkeypatch):
+    monkeypatch.setattr(kernels, "can_compile", lambda: False)
+    monkeypatch.setattr(kernels, "_dispatcher", lambda function: pytest.fail(f"{function} is compiled"))
+    monkeypatch.setattr(kernels._kernels, "used", False)
+    told = []
+    on_compiling(lambda *word: told.append(word))
+    try:
+        kernels.use_machine_code()
+        kernels.use_machine_code()
+    finally:
+        on_compiling(None)
+    assert (told, kernels.uses_machine_code()) == ([(None, False)], False)
+    with pytest.warns(UserWarning, match=re.escape(INTERPRETED)):  # where nobody is to be notified
+        kernels.use_machine_code()
+    kernels.use_machine_code()  # a second warning would be an error
+    on_compiling(None)
+
+
 @pytest.mark.slow
 def test_one_process_of_several_tells(tmp_path):
     make_toy(tmp_path)
     values, told = run(WORKERS, tmp_path, tmp_path / "cache")
     assert values == [50, 55, 50]
-    assert told == "compiling True\n"
+    assert told == "compiling True True\n"
