@@ -15,6 +15,7 @@ from synth.guidance.fourbars import (
     four_bars as four_bars,
     motion_of as motion_of,
 )
+from synth.guidance.many import DyadTable as DyadTable, dyads_of_sets as dyads_of_sets
 from synth.guidance.order import (
     Hoop as Hoop,
     HoopCrossing as HoopCrossing,

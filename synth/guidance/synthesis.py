@@ -29,16 +29,16 @@ Numbers = npt.NDArray[Any]
 """Real or complex."""
 
 _SOLUTIONS = 6
-_SOLVED = 1e-13
+SOLVED = 1e-13
 """Largest |G . (M_i - M_1) W| / |M_i - M_1| of a solution, of unit vectors: what Newton's steps reach."""
-_NEARLY_REAL = 1e-5
+NEARLY_REAL = 1e-5
 """Imaginary part, of unit vectors, below which a real solution is looked for nearby: two that nearly coincide come
 out of an eigenvalue problem as a complex pair, the root of the rounding error apart."""
 _TRIES = 8
 _NEWTON_STEPS = 30
 _SQUARES = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]
 """The products G_a G_b, in the order of the unknowns."""
-_PLACE = {pair: k for k, (a, b) in enumerate(_SQUARES) for pair in ((a, b), (b, a))}
+PLACE = {pair: k for k, (a, b) in enumerate(_SQUARES) for pair in ((a, b), (b, a))}
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +112,7 @@ def _kernel(conditions: Floats) -> tuple[Floats, float]:
     equations = np.zeros((4, 3, 6, 3))
     for i in range(3):
         for times in range(3):
-            equations[:, times, _PLACE[i, times]] += conditions[:, i]
+            equations[:, times, PLACE[i, times]] += conditions[:, i]
     parts = split(equations.reshape(12, 18))
     return parts.right[12:].T.reshape(6, 3, 6), float(parts.values[11] / parts.values[0])
 
@@ -129,12 +129,26 @@ def _forms(kernel: Floats) -> Floats:
 
     Raise `UnsolvableError` if every one is singular: then there are infinitely many solutions.
     """
-    forms = np.random.default_rng(20110802).normal(size=(_TRIES, 2, 3))
+    forms = _random_forms()
     sizes = singular_values(np.einsum("tfj,ajk->tfak", forms, kernel)[:, 1])
     ratios = sizes[:, -1] / sizes[:, 0]
     if ratios.max() < DOUBLE.zero:
         raise _without_number(float(ratios.max()))
     return np.asarray(forms[np.argsort(-ratios)])
+
+
+def _random_forms() -> Floats:
+    return np.random.default_rng(20110802).normal(size=(_TRIES, 2, 3))
+
+
+def pencils(kernels: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return the most regular pencil of each of many kernels, float[N, 6, 3, 6], and how regular it is, float[N]."""
+    every = np.einsum("tfj,najk->ntfak", _random_forms(), kernels)
+    sizes = singular_values(every[:, :, 1])
+    ratios = sizes[..., -1] / sizes[..., 0]
+    best = ratios.argmax(axis=1)
+    chosen = every[np.arange(len(every)), best]
+    return chosen[:, 0], chosen[:, 1], ratios[np.arange(len(every)), best]
 
 
 def _second_smallest(conditions: Floats, g: Numbers, w: Numbers) -> float:
@@ -156,7 +170,7 @@ def _six(conditions: Floats, kernel: Floats, forms: Floats) -> tuple[Complexes, 
         # near a double solution the conditions lose rank: there two of the six may lie closer than the bound
         worst_condition = max(np.linalg.cond(_linearised(conditions, g, w)[0]) for g, w in solutions)
         double = worst_condition > 0.01 / DOUBLE.same_configuration
-        if worst < _SOLVED and (closest > DOUBLE.same_configuration or double):
+        if worst < SOLVED and (closest > DOUBLE.same_configuration or double):
             return fixed, moving
     raise NumericalError(
         f"six dyads could not be told apart: residual {worst:.0e}, two of them {closest:.0e} from each other"
@@ -176,7 +190,7 @@ def _eigenpairs(kernel: Floats, forms: Floats) -> list[tuple[Complexes, Complexe
     for vector in vectors.T:
         products = kernel @ vector
         w = _longest(products)
-        square = (products @ w.conj())[[_PLACE[a, b] for a in range(3) for b in range(3)]].reshape(3, 3)
+        square = (products @ w.conj())[[PLACE[a, b] for a in range(3) for b in range(3)]].reshape(3, 3)
         pairs.append((_longest(square), w))
     return pairs
 
@@ -220,13 +234,13 @@ def _real_ones(conditions: Floats, fixed: Complexes, moving: Complexes) -> tuple
     number = 0
     for g, w in zip(map(_turned, fixed), map(_turned, moving), strict=True):
         apart = max(np.linalg.norm(g.imag), np.linalg.norm(w.imag))
-        if apart > _NEARLY_REAL:
+        if apart > NEARLY_REAL:
             continue
         near = []
         for side in (0.0,) if apart < DOUBLE.same_configuration / 100.0 else (1.0, -1.0):
             start = g.real + side * g.imag, w.real + side * w.imag
             one = _polished(conditions, *start)
-            if _misses(conditions, *one) < _SOLVED and _apart(one, start) < 10.0 * _NEARLY_REAL:
+            if _misses(conditions, *one) < SOLVED and _apart(one, start) < 10.0 * NEARLY_REAL:
                 near.append(one)
         number += bool(near)
         for one in near:
