@@ -14,7 +14,7 @@ Reading and writing: `read`, `write`. Questions: `look`, a first answer; `mobili
 mechanisms of old ones: `reduce`, `convert`, `edit`. All mechanisms of a kind: `chains`, `sc_graphs`, `scd_graphs`,
 `strings`, `addenda`, `conical_candidates`, and their numbers: `count_chains`, .... Cones and cylinders:
 `map_to_cones`, `map_to_cylinders`, `map_linkage`; of many loops at once, by arrays: `cones_of_loops`. Guidance of a
-body: `Orientations`, `analyse_order`, `guiding_dyads`, `dyads_of_sets`, `four_bars`. A type with coordinates:
+body: `Orientations`, `analyse_order`, `guiding_dyads`, `four_bars`. A type with coordinates:
 `realise`, `realise_on_cone`. Motion: `fold`, a crease pattern with rigid panels, frame by frame; `move`, any
 linkage; `positions`, all assembly modes at given inputs; `sweep`, many members of a type, arrays in and out.
 `explain`: why it moves; `advise`: what to lock, which panels to crease; `states`: which members bend, and what

@@ -83,7 +83,7 @@ reveal_type(synth.cones_of_loops([[2.1, 1.7, 0.8, 1.5]]).status)
 reveal_type(synth.map_to_cylinders([4.0, 3.0, 5.0, 1.0]))
 orientations = synth.Orientations(np.eye(4))
 dyads = synth.guiding_dyads(orientations)
-reveal_type(synth.dyads_of_sets(np.zeros((0, 5, 3, 3))).count)
+reveal_type(synth.guiding_dyads(np.zeros((0, 5, 3, 3))).count)
 reveal_type((dyads, synth.analyse_order(orientations, (0.0, 0.0, 1.0)), synth.four_bars(orientations, dyads.dyads)))
 
 # Pictures, templates, pages, the atlas

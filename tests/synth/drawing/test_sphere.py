@@ -16,7 +16,7 @@ from synth.drawing.sphere import CCW, CW, NEITHER, draw_hoop, draw_map, hammer, 
 from synth.guidance.dyads import centre_axes, dyads_of_three
 from synth.guidance.order import hoop, order_verdicts
 from synth.guidance.orientations import read_orientations
-from synth.guidance.synthesis import guiding_dyads
+from synth.guidance.guiding import guiding_dyads
 
 TASK = Path(__file__).resolve().parents[3] / "data" / "orientations" / "tipparthi.json"
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from graphs.errors import InvariantError, SynthedraError
-from synth.guidance import Orientations, dyads_of_five, dyads_of_sets, many
+from synth.guidance import Orientations, dyads_of_five, dyads_of_sets, guiding_dyads, many
 
 
 def check(matrices):
@@ -38,6 +38,7 @@ def test_sets_at_random_and_a_motion_with_errors():
     table = check(np.concatenate([anyhow, near]))
     assert {0, 2, 4, 6} >= set(table.count.tolist())
     assert many._solved(anyhow)[3].mean() > 0.9
+    assert guiding_dyads(near).count.tolist() == table.count[30:].tolist()
     assert "50 sets of 5 orientations" in str(table)
     told = table.to_json()
     assert [len(rows) for rows in told["fixed"]] == table.count.tolist()
