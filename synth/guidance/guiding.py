@@ -104,6 +104,7 @@ def guiding_dyads(
 
     Examples
     --------
+    >>> import numpy as np
     >>> guiding_dyads(Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7]), [(3, 1, 2)])
     <GuidingDyads: 3 orientations, 1 dyad>
     """
