@@ -44,9 +44,9 @@ from synth.editing import edit as edit
 from synth.first_look import FirstLook as FirstLook, look as look
 from synth.folding.motion import fold as fold
 from synth.guidance.fourbars import four_bars as four_bars
+from synth.guidance.guiding import guiding_dyads as guiding_dyads
 from synth.guidance.order import analyse_order as analyse_order
 from synth.guidance.orientations import Orientations as Orientations
-from synth.guidance.synthesis import guiding_dyads as guiding_dyads
 from synth.members.sweeping import sweep as sweep
 from synth.moving.motion import move as move
 from synth.notebook import load_ipython_extension as load_ipython_extension

@@ -233,6 +233,12 @@ def singular_values(matrices: Floats) -> Floats:
     return np.asarray(np.linalg.svd(matrices, compute_uv=False))
 
 
+def right_vectors(matrices: Floats) -> tuple[Floats, Floats]:
+    """Return singular values of matrices float[..., m, n], the largest first, and right vectors float[..., n, n]."""
+    _, values, right = np.linalg.svd(matrices)
+    return values, right
+
+
 def _counted(values: Floats, zero: float, scale: float | None = None) -> int:
     """Return how many singular values are none; all that are greater than the floor, where some are undecided."""
     return int((values > zero * (values.max(initial=0.0) if scale is None else scale)).sum())

@@ -5,21 +5,21 @@ it without the driven joint turning back. Theory: docs/theory/positions.md.
 """
 
 from bisect import bisect_right
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import degrees, isfinite
-from typing import Any, NamedTuple
+from math import degrees
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 
 from graphs.errors import InvariantError, SynthedraError, check_argument, numbered, shown
 from graphs.printing import Block, Printed, TableBlock, plain
-from graphs.rank.singular_values import rank_of
-from graphs.tolerances import DOUBLE, EPSILON, canonical_order
+from graphs.tolerances import DOUBLE, canonical_order
 from graphs.types import Flags, Floats, JointId
-from synth.assembly.family import SMALL, Family, GeneralPositions, TrackedPaths, apart, as_real, family_of, same
+from synth.assembly.family import Family, GeneralPositions, family_of
 from synth.assembly.kept import kept_positions
-from synth.assembly.kernel import CLOSED, Complexes
+from synth.assembly.solutions import Solutions, solutions_of_many
+from synth.assembly.table import PositionTable
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
 from synth.motion.path import circuit_through
@@ -195,18 +195,29 @@ class _Passed(Event):
                 self.frames[number] = len(walk.frames) - 1
 
 
-_POLISHED = 4
-_TOWARDS_SINGULAR, _LEVENBERG = 30, 1e-3
-"""Steps of Newton's method towards a singular position, regularised by a share of what does not close."""
-_NEAR_END = 1e-2
-"""A path that could not go on ended so near to a singular position, radians and units of the extent."""
-_SURER = (SMALL, SMALL / 30, SMALL / 1000)
-"""Corrections that are allowed along paths: less, where one was lost, or two came to one place."""
+@overload
+def positions(
+    mechanism: Movable, *, drive: Mapping[JointId, float], circuits: bool | None = None, seed: int = 0
+) -> PositionSet: ...
+
+
+@overload
+def positions(
+    mechanism: Movable,
+    *,
+    drive: Mapping[JointId, Sequence[float] | Floats],
+    circuits: bool | None = None,
+    seed: int = 0,
+) -> PositionTable: ...
 
 
 def positions(
-    mechanism: Movable, *, drive: Mapping[JointId, float], circuits: bool = True, seed: int = 0
-) -> PositionSet:
+    mechanism: Movable,
+    *,
+    drive: Mapping[JointId, float] | Mapping[JointId, Sequence[float] | Floats],
+    circuits: bool | None = None,
+    seed: int = 0,
+) -> PositionSet | PositionTable:
     """Find all positions of a spherical or planar linkage at angles of as many driven joints as it has freedoms.
 
     Parameters
@@ -214,13 +225,18 @@ def positions(
     mechanism : Mechanism or PosedLinkage
         With coordinates. The axes of each loop meet in a point, which need not be the same for all, or are
         parallel; prismatic joints slide across them.
-    drive : mapping of joint id to float
+    drive : mapping of joint id to float, or to float[F]
         Radians; of creases fold angles, of other joints from the input configuration. Of prismatic joints lengths,
-        in the unit of the coordinates. Empty for a linkage of mobility 0, whose assemblies are found.
+        in the unit of the coordinates. Empty for a linkage of mobility 0, whose assemblies are found. With arrays
+        all are found at each of F inputs.
     circuits : bool, optional
-        Find the circuits and branches of a linkage of one freedom.
+        Find the circuits and branches of a linkage of one freedom: by default at one input, and not at many.
     seed : int, optional
         Random seed of the general member that the search starts from.
+
+    Returns
+    -------
+    PositionSet, or of arrays PositionTable
 
     Raises
     ------
@@ -228,7 +244,7 @@ def positions(
         If it has no coordinates, or a spatial loop; if the driven joints are not as many as the freedoms by count,
         or do not determine the others.
     InvariantError
-        If a driven joint is in no loop, or an angle is no number.
+        If a driven joint is in no loop, an angle is no number, or arrays are not of one length.
     NumericalError
         If the positions of a general member could not be counted.
 
@@ -239,117 +255,104 @@ def positions(
     >>> answer = positions(generate("four-bar").mechanism, drive={0: radians(10)})
     >>> len(answer.positions), answer.general, answer.exhaustive
     (2, 2, True)
+    >>> positions(generate("four-bar").mechanism, drive={0: np.linspace(0, 1, 100)})
+    <PositionTable: 100 inputs, 200 modes>
     """
     check_argument("positions", mechanism, Movable)
     at = configuration_of(mechanism, slides=True)
     linkage = at.linkage
-    for joint, angle in drive.items():
-        if not isfinite(angle):
-            raise InvariantError("angle", f"the angle of joint {shown(joint)} is {angle}", "a finite number")
+    inputs, several = _inputs(drive)
+    if several and circuits:
+        raise InvariantError("circuits", "circuits of many inputs", "one input")
     family, axes = family_of(linkage, list(drive))
     general = kept_positions(family, seed)
     names = list(linkage.graph.joints)
     places = [names.index(joint) for joint in drive]
     units = _units(linkage)
-    inputs = np.array(list(drive.values()), dtype=float) / units[places]
-    member = np.concatenate([axes, inputs - linkage.angles[places]])
-    ends = solutions(family, general, member, seed)
-    real = np.abs(ends.values.imag).max(axis=1, initial=0.0) <= DOUBLE.same_configuration
-    angles = [_angles(linkage, family, member, unknowns) for unknowns in ends.values.real[real]]
-    order = canonical_order(angles)
+    turned = inputs / units[places] - linkage.angles[places]
+    members = np.concatenate([np.broadcast_to(axes, (len(turned), len(axes))), turned], axis=1)
+    modes = [
+        _real(linkage, family, member, ends, units)
+        for member, ends in zip(members, solutions_of_many(family, general, members, seed), strict=True)
+    ]
+    if several:
+        return _table(at, tuple(drive), inputs, general, modes)
+    (found,) = modes
     answer = PositionSet(
         at,
         tuple(names),
-        dict(drive),
-        tuple(AssemblyMode(angles[place] * units, bool(ends.regular[real][place])) for place in order),
+        dict(zip(drive, inputs[0].tolist(), strict=True)),
+        tuple(AssemblyMode(*mode) for mode in zip(found.angles, found.regular.tolist(), strict=True)),
         len(general.values),
-        int((~real).sum()),
-        ends.far,
-        ends.singular,
-        ends.lost,
+        found.imaginary,
+        found.ends.far,
+        found.ends.singular,
+        found.ends.lost,
         general.curves,
     )
-    return _with_circuits(answer) if circuits and len(drive) == 1 else answer
+    return _with_circuits(answer) if circuits is not False and len(drive) == 1 else answer
 
 
-class Solutions(NamedTuple):
-    """The ends of the paths from the positions of a general member to one member.
+def _inputs(drive: Mapping[JointId, Any]) -> tuple[Floats, bool]:
+    """Return the angles of driven joints, float[F, D], and whether they were arrays."""
+    columns = [np.asarray(angle, dtype=float) for angle in drive.values()]
+    for joint, column in zip(drive, columns, strict=True):
+        if not np.isfinite(column).all():
+            angle = column.ravel()[~np.isfinite(column.ravel())][0]
+            raise InvariantError("angle", f"the angle of joint {shown(joint)} is {angle}", "a finite number")
+    shapes = {column.shape for column in columns}
+    if len(shapes) > 1 or any(len(shape) > 1 for shape in shapes):
+        listed = ", ".join(map(str, sorted(shapes)))
+        raise InvariantError("inputs", f"inputs of shapes {listed}", "a number, or float[F], for each driven joint")
+    if not columns:
+        return np.zeros((1, 0)), False
+    return np.stack([np.atleast_1d(column) for column in columns], axis=1), columns[0].ndim == 1
 
-    `values`, complex[N, U], are the unknowns of the positions, real or not, each once; `regular`, bool[N], says
-    where the closure equations are independent, so that the position is rigid at its inputs. Of the paths, `far`
-    went to infinity, `singular` ended where closure equations depend on each other (the linkage moves though its
-    inputs are held, or positions come together), `lost` ended at unknown places.
-    """
 
-    values: Complexes
+class _RealModes(NamedTuple):
+    """The real ones of some solutions in their order: angles float[M, J], in units of the coordinates."""
+
+    angles: Floats
     regular: Flags
-    far: int
-    singular: int
-    lost: int
+    imaginary: int
+    ends: Solutions
 
 
-def solutions(family: Family, general: GeneralPositions, member: Floats, seed: int = 0) -> Solutions:
-    """Return all positions of one member, real or not, by following those of a general one.
-
-    The path of members is bent at random into complex parameters, so that it meets no special member on the way.
-    """
-    random = np.random.default_rng(seed)
-    count = len(general.values)
-    best = None
-    for small in _SURER:
-        bend = random.uniform(-1.0, 1.0, len(member)) + 1j * random.uniform(-1.0, 1.0, len(member))
-        curve = (general.parameters, member.astype(complex), bend)
-        start, end, bent = (np.tile(parameters, (count, 1)) for parameters in curve)
-        followed = family.followed((start, end, bent), general.values, small)
-        ends = _ends(family, end, followed)
-        if best is None or ends.lost < best.lost:
-            best = ends
-        if not ends.lost:
-            break
-    assert best is not None
-    return best
+def _real(linkage: PosedLinkage, family: Family, member: Floats, ends: Solutions, units: Floats) -> _RealModes:
+    real = np.abs(ends.values.imag).max(axis=1, initial=0.0) <= DOUBLE.same_configuration
+    angles = [_angles(linkage, family, member, unknowns) for unknowns in ends.values.real[real]]
+    order = canonical_order(angles)
+    listed = np.array([angles[place] * units for place in order]).reshape(-1, len(units))
+    return _RealModes(listed, ends.regular[real][list(order)], int((~real).sum()), ends)
 
 
-def _ends(family: Family, member: Complexes, followed: TrackedPaths) -> Solutions:
-    """Return where paths ended."""
-    polished, parameters = _polished(family, member, followed), member[0]
-    values = apart(polished, family.turning)
-    regular = np.array([_is_regular(family, parameters, solution) for solution in values], dtype=bool)
-    # several paths may end in one singular position; paths that stopped near one count as singular too
-    paths = np.array([int(same(polished, solution, family.turning).sum()) for solution in values], dtype=int)
-    stopped = followed.values[~(followed.arrived | followed.far)]
-    singular = int((paths - 1)[~regular].sum()) + sum(_is_singular(family, parameters, end) for end in stopped)
-    far = int(followed.far.sum())
-    return Solutions(values, regular, far, singular, len(member) - far - len(values) - singular)
-
-
-def _is_regular(family: Family, parameters: Complexes, values: Complexes, zero: float = DOUBLE.zero) -> bool:
-    """Return whether the closure equations are independent of each other."""
-    parts = as_real(family.at(parameters, values)[1])
-    return bool(rank_of(parts, zero) == min(parts.shape))
-
-
-def _is_singular(family: Family, parameters: Complexes, start: Complexes) -> bool:
-    """Return whether a singular position is near, where a path could not go on."""
-    values = start.copy()
-    for _ in range(_TOWARDS_SINGULAR):
-        residual, derivatives = family.at(parameters, values)
-        gram = derivatives @ derivatives.conj().T
-        regular = max(_LEVENBERG * float(np.abs(residual).max()), EPSILON * float(np.abs(gram).max()))
-        values = values - derivatives.conj().T @ np.linalg.solve(gram + regular * np.eye(len(gram)), residual)
-    residual, _ = family.at(parameters, values)
-    near = float(np.abs(values - start).max()) <= _NEAR_END
-    closed = bool(np.abs(residual).max() <= CLOSED)
-    return near and closed and not _is_regular(family, parameters, values, DOUBLE.singular)
-
-
-def _polished(family: Family, parameters: Complexes, paths: TrackedPaths) -> Complexes:
-    """Return where paths arrived, real ones with angles that are so to the last digit."""
-    values = paths.values[paths.arrived]
-    real = np.abs(values.imag).max(axis=1, initial=0.0) <= DOUBLE.same_configuration
-    near = np.where(real[:, None], values.real, values)
-    sharp, errors = family.corrected(parameters[paths.arrived], near, _POLISHED)
-    return np.where((errors <= CLOSED)[:, None], sharp, values)
+def _table(
+    at: Configuration,
+    driven: tuple[JointId, ...],
+    inputs: Floats,
+    general: GeneralPositions,
+    modes: Sequence[_RealModes],
+) -> PositionTable:
+    most, joints = max((len(one.angles) for one in modes), default=0), tuple(at.linkage.graph.joints)
+    angles = np.full((len(modes), most, len(joints)), np.nan)
+    regular = np.zeros((len(modes), most), dtype=bool)
+    for number, one in enumerate(modes):
+        angles[number, : len(one.angles)], regular[number, : len(one.angles)] = one.angles, one.regular
+    counts = [
+        np.array(column, dtype=np.int64)
+        for column in (
+            [len(one.angles) for one in modes],
+            [one.imaginary for one in modes],
+            [one.ends.far for one in modes],
+            [one.ends.singular for one in modes],
+            [one.ends.lost for one in modes],
+        )
+    ]
+    count, imaginary, far, singular, lost = counts
+    return PositionTable(
+        at, joints, driven, inputs, angles, regular, count, len(general.values), imaginary, far, singular, lost,
+        general.curves,
+    )  # fmt: skip
 
 
 def _angles(linkage: PosedLinkage, family: Family, member: Floats, unknowns: Floats) -> Floats:

@@ -15,6 +15,8 @@ from synth.guidance.fourbars import (
     four_bars as four_bars,
     motion_of as motion_of,
 )
+from synth.guidance.guiding import GuidingDyads as GuidingDyads, guiding_dyads as guiding_dyads
+from synth.guidance.many import DyadTable as DyadTable, dyads_of_sets as dyads_of_sets
 from synth.guidance.order import (
     Hoop as Hoop,
     HoopCrossing as HoopCrossing,
@@ -30,8 +32,6 @@ from synth.guidance.orientations import (
 )
 from synth.guidance.synthesis import (
     DyadsOfFive as DyadsOfFive,
-    GuidingDyads as GuidingDyads,
     dyads_by_least_squares as dyads_by_least_squares,
     dyads_of_five as dyads_of_five,
-    guiding_dyads as guiding_dyads,
 )

@@ -7,21 +7,18 @@ the error at an orientation is how far the angle between G and M_i W is from its
 docs/theory/dyads.md.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from math import degrees
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from graphs.errors import InvariantError, NumericalError, UnsolvableError, numbered
-from graphs.printing import Block, Printed, TableBlock
+from graphs.errors import NumericalError, UnsolvableError
 from graphs.rank.singular_values import singular_values, split
 from graphs.tolerances import DOUBLE, canonical_order
 from graphs.types import Floats
-from synth.guidance.dyads import Dyad, dyad_of, dyads_of_four, dyads_of_three
-from synth.guidance.order import direction_words, nearest_moving_axis
+from synth.guidance.dyads import Dyad, dyad_of
+from synth.guidance.order import nearest_moving_axis
 from synth.guidance.orientations import Orientations
 
 Complexes = npt.NDArray[np.complex128]
@@ -29,16 +26,16 @@ Numbers = npt.NDArray[Any]
 """Real or complex."""
 
 _SOLUTIONS = 6
-_SOLVED = 1e-13
+SOLVED = 1e-13
 """Largest |G . (M_i - M_1) W| / |M_i - M_1| of a solution, of unit vectors: what Newton's steps reach."""
-_NEARLY_REAL = 1e-5
+NEARLY_REAL = 1e-5
 """Imaginary part, of unit vectors, below which a real solution is looked for nearby: two that nearly coincide come
 out of an eigenvalue problem as a complex pair, the root of the rounding error apart."""
 _TRIES = 8
 _NEWTON_STEPS = 30
 _SQUARES = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)]
 """The products G_a G_b, in the order of the unknowns."""
-_PLACE = {pair: k for k, (a, b) in enumerate(_SQUARES) for pair in ((a, b), (b, a))}
+PLACE = {pair: k for k, (a, b) in enumerate(_SQUARES) for pair in ((a, b), (b, a))}
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +109,7 @@ def _kernel(conditions: Floats) -> tuple[Floats, float]:
     equations = np.zeros((4, 3, 6, 3))
     for i in range(3):
         for times in range(3):
-            equations[:, times, _PLACE[i, times]] += conditions[:, i]
+            equations[:, times, PLACE[i, times]] += conditions[:, i]
     parts = split(equations.reshape(12, 18))
     return parts.right[12:].T.reshape(6, 3, 6), float(parts.values[11] / parts.values[0])
 
@@ -129,12 +126,26 @@ def _forms(kernel: Floats) -> Floats:
 
     Raise `UnsolvableError` if every one is singular: then there are infinitely many solutions.
     """
-    forms = np.random.default_rng(20110802).normal(size=(_TRIES, 2, 3))
+    forms = _random_forms()
     sizes = singular_values(np.einsum("tfj,ajk->tfak", forms, kernel)[:, 1])
     ratios = sizes[:, -1] / sizes[:, 0]
     if ratios.max() < DOUBLE.zero:
         raise _without_number(float(ratios.max()))
     return np.asarray(forms[np.argsort(-ratios)])
+
+
+def _random_forms() -> Floats:
+    return np.random.default_rng(20110802).normal(size=(_TRIES, 2, 3))
+
+
+def pencils(kernels: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return the most regular pencil of each of many kernels, float[N, 6, 3, 6], and how regular it is, float[N]."""
+    every = np.einsum("tfj,najk->ntfak", _random_forms(), kernels)
+    sizes = singular_values(every[:, :, 1])
+    ratios = sizes[..., -1] / sizes[..., 0]
+    best = ratios.argmax(axis=1)
+    chosen = every[np.arange(len(every)), best]
+    return chosen[:, 0], chosen[:, 1], ratios[np.arange(len(every)), best]
 
 
 def _second_smallest(conditions: Floats, g: Numbers, w: Numbers) -> float:
@@ -156,7 +167,7 @@ def _six(conditions: Floats, kernel: Floats, forms: Floats) -> tuple[Complexes, 
         # near a double solution the conditions lose rank: there two of the six may lie closer than the bound
         worst_condition = max(np.linalg.cond(_linearised(conditions, g, w)[0]) for g, w in solutions)
         double = worst_condition > 0.01 / DOUBLE.same_configuration
-        if worst < _SOLVED and (closest > DOUBLE.same_configuration or double):
+        if worst < SOLVED and (closest > DOUBLE.same_configuration or double):
             return fixed, moving
     raise NumericalError(
         f"six dyads could not be told apart: residual {worst:.0e}, two of them {closest:.0e} from each other"
@@ -176,7 +187,7 @@ def _eigenpairs(kernel: Floats, forms: Floats) -> list[tuple[Complexes, Complexe
     for vector in vectors.T:
         products = kernel @ vector
         w = _longest(products)
-        square = (products @ w.conj())[[_PLACE[a, b] for a in range(3) for b in range(3)]].reshape(3, 3)
+        square = (products @ w.conj())[[PLACE[a, b] for a in range(3) for b in range(3)]].reshape(3, 3)
         pairs.append((_longest(square), w))
     return pairs
 
@@ -220,13 +231,13 @@ def _real_ones(conditions: Floats, fixed: Complexes, moving: Complexes) -> tuple
     number = 0
     for g, w in zip(map(_turned, fixed), map(_turned, moving), strict=True):
         apart = max(np.linalg.norm(g.imag), np.linalg.norm(w.imag))
-        if apart > _NEARLY_REAL:
+        if apart > NEARLY_REAL:
             continue
         near = []
         for side in (0.0,) if apart < DOUBLE.same_configuration / 100.0 else (1.0, -1.0):
             start = g.real + side * g.imag, w.real + side * w.imag
             one = _polished(conditions, *start)
-            if _misses(conditions, *one) < _SOLVED and _apart(one, start) < 10.0 * _NEARLY_REAL:
+            if _misses(conditions, *one) < SOLVED and _apart(one, start) < 10.0 * NEARLY_REAL:
                 near.append(one)
         number += bool(near)
         for one in near:
@@ -332,91 +343,3 @@ def _fitted(orientations: Orientations, start: Floats) -> tuple[float, Dyad]:
 
 def _sine_between(a: Floats, b: Floats) -> float:
     return float(np.linalg.norm(np.cross(a, b)))
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class GuidingDyads(Printed):
-    """The dyads that guide a body through orientations.
-
-    Attributes
-    ----------
-    orientations : Orientations
-    dyads : tuple of Dyad
-    all_found : DyadsOfFive or None
-        Of five orientations: what shows that none is missing.
-    """
-
-    orientations: Orientations
-    dyads: tuple[Dyad, ...]
-    all_found: DyadsOfFive | None = None
-
-    def blocks(self) -> list[Block]:
-        """Return the table, and what shows that no dyad is missing."""
-        heads = ("dyad", "G", "W (body)", "link", "residual", "misfit", "in order")
-        rows = [
-            (
-                str(number),
-                *(" ".join(f"{x:9.6f}" for x in axis) for axis in (one.fixed, one.moving)),
-                f"{degrees(one.link_angle):.3f}",
-                f"{one.residual:.0e}",
-                f"{degrees(one.misfit):.4f}",
-                direction_words(one.direction),
-            )
-            for number, one in enumerate(self.dyads, start=1)
-        ]
-        blocks: list[Block] = [
-            f"{len(self.orientations)} orientations: {numbered(len(self.dyads), 'dyad')}",
-            TableBlock(heads, rows, ["dyad", "link", "misfit"]),
-        ]
-        if self.all_found is not None:
-            largest = f"largest residual {self.all_found.residual:.0e}"
-            blocks.append(f"all six solutions found, {self.all_found.complex_solutions} of them complex; {largest}")
-        return blocks
-
-    def __repr__(self) -> str:
-        return f"<GuidingDyads: {len(self.orientations)} orientations, {numbered(len(self.dyads), 'dyad')}>"
-
-    def to_json(self) -> dict[str, Any]:
-        """Return the dyads as plain data, with the keys that scripts rely on (docs/command-json.md)."""
-        document: dict[str, Any] = {
-            "orientations": len(self.orientations),
-            "dyads": [dyad.to_json() for dyad in self.dyads],
-        }
-        if self.all_found is not None:
-            document |= {
-                "complex": self.all_found.complex_solutions,
-                "residual": self.all_found.residual,
-                "smallest_singular_value": self.all_found.smallest_singular_value,
-            }
-        return document
-
-
-def guiding_dyads(orientations: Orientations, axes: Sequence[Sequence[float]] = (), samples: int = 36) -> GuidingDyads:
-    """Return the RR dyads that guide a body through orientations: of five all, of more those that fit best.
-
-    Parameters
-    ----------
-    orientations : Orientations
-        Three or more.
-    axes : sequence of (x, y, z), optional
-        Fixed axes to take, for three orientations, and for no other number, else `InvariantError`.
-    samples : int, optional
-        Dyads on each curve, for four orientations.
-
-    Examples
-    --------
-    >>> guiding_dyads(Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7]), [(3, 1, 2)])
-    <GuidingDyads: 3 orientations, 1 dyad>
-    """
-    if axes and len(orientations) != 3:
-        raise InvariantError("axes", f"fixed axes require 3 orientations, got {len(orientations)}")
-    if len(orientations) == 3:
-        if not axes:
-            raise InvariantError("axes", "three orientations leave the fixed axis to be chosen", "an axis")
-        return GuidingDyads(orientations, dyads_of_three(orientations, axes))
-    if len(orientations) == 4:
-        return GuidingDyads(orientations, dyads_of_four(orientations, samples))
-    if len(orientations) == 5:
-        every = dyads_of_five(orientations)
-        return GuidingDyads(orientations, every.dyads, every)
-    return GuidingDyads(orientations, dyads_by_least_squares(orientations))

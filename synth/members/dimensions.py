@@ -226,13 +226,19 @@ def _by_points(linkage: PosedLinkage, family: Family, points: Floats, driven: In
     return Batch(Members(axes, np.zeros(len(family.joints))), linkage.angles, np.zeros(len(points), dtype=bool))
 
 
+def checked_coordinates(at: SheetConfiguration, given: object) -> Floats:
+    """Return the vertices of members, float[N, V, 2 or 3]."""
+    coordinates = np.asarray(given, dtype=float)
+    wanted = len(at.sheet.coordinates or ())
+    if coordinates.ndim != 3 or coordinates.shape[1] != wanted or coordinates.shape[2] not in (2, 3):
+        raise InvariantError("coordinates", f"an array of shape {coordinates.shape}", f"float[N, {wanted}, 3]")
+    return coordinates
+
+
 def _by_coordinates(at: Configuration, family: Family, coordinates: Floats, driven: Ints) -> Batch:
     if not isinstance(at, SheetConfiguration):
         raise UnsolvableError("coordinates require a crease pattern: of other mechanisms give axes, points or arcs")
-    sheet = at.sheet
-    wanted = len(sheet.coordinates or ())
-    if coordinates.ndim != 3 or coordinates.shape[1] != wanted or coordinates.shape[2] not in (2, 3):
-        raise InvariantError("coordinates", f"an array of shape {coordinates.shape}", f"float[N, {wanted}, 3]")
+    coordinates = checked_coordinates(at, coordinates)
     names = [list(at.linkage.graph.joints)[place] for place in driven.tolist()]
     kind = type_of(family)
     axes = np.zeros((len(coordinates), len(kind.joint), 3))
@@ -240,7 +246,7 @@ def _by_coordinates(at: Configuration, family: Family, coordinates: Floats, driv
     why: dict[int, str] = {}
     for member, corners in enumerate(coordinates):
         try:
-            moved = replace(sheet, coordinates=tuple(map(tuple, corners.tolist())))
+            moved = replace(at.sheet, coordinates=tuple(map(tuple, corners.tolist())))
             linkage = configuration_of(moved, mend=False).linkage
             own, parameters = family_of(linkage, names)
         except SynthedraError as error:

@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from graphs.types import Flags, Floats, Ints
 
-CLOSED, TURNS_BACK, OPEN = 0, 1, 2
-"""What becomes of a member at given inputs: it closes; the inputs cannot be reached; its loops do not close at all."""
+CLOSED, TURNS_BACK, OPEN, BARRED = 0, 1, 2, 3
+"""A member at given inputs: closed; its driven joint turns back before; not reached; unable to close."""
 STRAY = 0.25
 """A corrected place is at most this part of its step from where it was expected."""
 LEAST = 1e-4

@@ -9,12 +9,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from graphs.errors import InvariantError, check_argument, numbered, shown
+from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
 from graphs.printing import Block, Printed, TableBlock, plain
-from graphs.types import Flags, Floats, JointId
+from graphs.types import Flags, Floats, Ints, JointId
 from synth.assembly.family import family_of
-from synth.members.dimensions import Dimensions, batch_of, type_of
+from synth.folding.configuration import SheetConfiguration
+from synth.members.dimensions import Dimensions, batch_of, checked_coordinates, type_of
 from synth.members.kernel import swept
+from synth.members.member_type import BARRED, CLOSED
+from synth.members.walking import walked
 from synth.motion.configuration import Configuration
 from synth.moving.made import Movable, configuration_of
 
@@ -25,7 +28,6 @@ It is closed there. Its driven joint turns back before, or within 1e-4 radians (
 reached). It is not reached from the mechanism's configuration, its loops do not stay closed on the way or it is
 singular. Its loops cannot close at all.
 """
-_CLOSED, _CANNOT = 0, 3
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -47,7 +49,7 @@ class Sweep(Printed):
     state : int8[N, F]
         Places in `STATES`.
     why : mapping of int to str
-        Of members that cannot close, what is wrong with them, where more is known.
+        Of members that cannot close, or do not move, what is wrong with them, where more is known.
 
     Examples
     --------
@@ -72,7 +74,7 @@ class Sweep(Printed):
     @property
     def closed(self) -> Flags:
         """Where members are closed: bool[N, F]."""
-        return np.asarray(self.state == _CLOSED)
+        return np.asarray(self.state == CLOSED)
 
     @property
     def counts(self) -> dict[str, int]:
@@ -130,8 +132,9 @@ def sweep(
         float[N, A] in the order of `arcs_of`, or a mapping of pairs of joints to float[N], the others being those of
         the mechanism; the angle between two arcs of a link stays. ``"axes"``: directions of all joints where
         spherical loops are closed, float[N, J, 3]. ``"points"``: of all joints where planar loops are closed, float[N,
-        J, 3], in the unit of the coordinates. ``"coordinates"``: vertices of a crease pattern, partly folded,
-        float[N, V, 3].
+        J, 3], in the unit of the coordinates. ``"coordinates"``: vertices of a crease pattern, float[N, V, 2 or 3];
+        where it is flat, or has more closure equations than creases to solve them for, each member is folded by
+        itself, which takes milliseconds.
     drive : mapping of joint id to float[F] or float[N, F]
         Radians; of creases fold angles, of other joints from the configuration of the mechanism, or from the axes
         that are given; of prismatic joints lengths. They are gone through one after the other. As many joints as
@@ -167,18 +170,20 @@ def sweep(
     check_argument("sweep", mechanism, Movable)
     at = configuration_of(mechanism, slides=True)
     linkage = at.linkage
-    family, of_mechanism = family_of(linkage, list(drive))
     names = list(linkage.graph.joints)
+    for joint in [*drive, *(joints or ())]:
+        if joint not in names:
+            raise InvariantError("joint", f"{shown(joint)} is no joint of the mechanism", "one of its joints")
     driven = np.array([names.index(joint) for joint in drive], dtype=np.int64)
+    if isinstance(at, SheetConfiguration) and "coordinates" in parameters and (at.flat or not _determined(at, drive)):
+        return _walked(at, parameters["coordinates"], drive, driven, joints, report)
+    family, of_mechanism = family_of(linkage, list(drive))
     batch = batch_of(at, family, of_mechanism, parameters, driven)
     count = len(batch.barred)
     units = np.ones(len(names))
     units[list(linkage.slides)] = linkage.extent
     inputs = _inputs(drive, count)
     listed = names if joints is None else list(joints)
-    for joint in listed:
-        if joint not in names:
-            raise InvariantError("joint", f"{shown(joint)} is no joint of the mechanism", "one of its joints")
     places = np.array([names.index(joint) for joint in listed], dtype=np.int64)
     in_loops = [joint for joint in listed if joint in family.joints]
     columns = family.column[[family.joints.index(joint) for joint in in_loops]]
@@ -187,7 +192,7 @@ def sweep(
     turned = inputs / units[driven] - (batch.zero[driven] if shared else zero[:, None, driven])
     answer = swept(type_of(family), batch.members, np.ascontiguousarray(turned), count, columns, report)
     state, residuals = answer.status, answer.residuals
-    state[batch.barred], residuals[batch.barred] = _CANNOT, np.nan
+    state[batch.barred], residuals[batch.barred] = BARRED, np.nan
     angles = answer.angles
     if len(in_loops) < len(listed):  # the others stay as they are
         angles = np.zeros((*state.shape, len(listed)))
@@ -199,8 +204,34 @@ def sweep(
         angles *= units[places]
     angles[batch.barred] = np.nan
     if len(in_loops) < len(listed):
-        angles[state != _CLOSED] = np.nan
+        angles[state != CLOSED] = np.nan
     return Sweep(at, tuple(listed), tuple(drive), inputs, angles, residuals, state, batch.why)
+
+
+def _determined(at: Configuration, drive: Mapping[JointId, object]) -> bool:
+    """Tell whether so many driven joints determine the others by count, and no loop is spatial."""
+    try:
+        family_of(at.linkage, list(drive))
+    except UnsolvableError:
+        return False
+    return True
+
+
+def _walked(
+    at: SheetConfiguration,
+    given: object,
+    drive: Mapping[JointId, npt.ArrayLike],
+    driven: Ints,
+    joints: Sequence[JointId] | None,
+    report: Callable[[int], None] | None,
+) -> Sweep:
+    """Fold members of a crease pattern one after the other: it is flat, or creases are not determined by count."""
+    coordinates = checked_coordinates(at, given)
+    inputs = _inputs(drive, len(coordinates))
+    answer, why = walked(at, coordinates, driven, inputs, report)
+    listed = at.joints if joints is None else tuple(joints)
+    angles = answer.angles[..., [at.joints.index(joint) for joint in listed]]
+    return Sweep(at, tuple(listed), tuple(drive), inputs, angles, answer.residuals, answer.status, why)
 
 
 def _listed(values: Floats, there: Flags) -> list[Any]:

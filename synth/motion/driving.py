@@ -154,7 +154,7 @@ class MotionOptions:
     `drive` gives the angles of driven joints, radians; by default the joint that moves most goes as far as it can.
     `along` gives initial rates in their place, and the path goes straight on. The branch is a number or signs;
     `frames` counts those after the first, `report` is called with their number; `events` are looked for on the
-    way.
+    way. With `values`, float[F, D], driven joints have these angles one after the other, in place of even steps.
     """
 
     drive: Mapping[JointId, float] = field(default_factory=dict)
@@ -163,6 +163,7 @@ class MotionOptions:
     frames: int = 20
     report: Callable[[int], None] | None = None
     events: Sequence[Event] = ()
+    values: Floats | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,7 +209,8 @@ def driven_from(configuration: Configuration, options: MotionOptions) -> DrivenM
     signs = _signs(configuration, rates, places) if configuration.limited else None
     straight, report, events = bool(options.along), options.report, options.events
     on_path = PathOptions(direction, limited, straight, report, joints, allowance, still, events, signs)
-    path = _path(closure, linkage.angles, places, start + steps * (goals - start), on_path)
+    values = start + steps * (goals - start) if options.values is None else options.values
+    path = _path(closure, linkage.angles, places, values, on_path)
     ends = {joints[place]: float(goal) for place, goal in zip(places, goals, strict=True)}
     return DrivenMotion(number, places, ends, path)
 

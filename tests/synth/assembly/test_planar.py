@@ -13,7 +13,7 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from synth.assembly import positions
 from synth.assembly.family import family_of, general_positions
-from synth.assembly.modes import solutions
+from synth.assembly.solutions import solutions
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_axes
 from synth.moving.made import configuration_of

@@ -12,7 +12,7 @@ from graphs.files.formats import read
 from graphs.mechanism.sc import SCGraph
 from synth.assembly import positions
 from synth.assembly.family import family_of, general_positions
-from synth.assembly.modes import solutions
+from synth.assembly.solutions import solutions
 from synth.fourbar.position import output_spherical
 from synth.moving.made import configuration_of
 from synth.patterns import generate
@@ -162,3 +162,35 @@ def test_what_cannot_be_answered_is_refused(data):
 def test_an_open_chain_has_no_positions_to_solve_for(data):
     with pytest.raises(UnsolvableError, match="positions requires a closed loop; here each joint moves by itself"):
         positions(read(data / "realised" / "chain-US.fold"), drive={})
+
+
+@pytest.mark.parametrize(("name", "drive"), [("four-bar", (0,)), ("five-bar", (0, 2))])
+def test_many_inputs_have_the_modes_of_each(name, drive):
+    """Also where there are fewer real ones, or none: each input has a row, and counts say what became of the others."""
+    mechanism = generate(name).mechanism
+    random = np.random.default_rng(6)
+    inputs = {joint: random.uniform(-pi, pi, 12) for joint in drive}
+    table = positions(mechanism, drive=inputs)
+    for row in range(12):
+        alone = positions(mechanism, drive={joint: float(inputs[joint][row]) for joint in drive}, circuits=False)
+        assert table.count[row] == len(alone.positions)
+        assert table.exhaustive[row] == alone.exhaustive
+        modes = table.angles[row, : table.count[row]]
+        np.testing.assert_allclose(modes, np.array([one.angles for one in alone.positions]).reshape(modes.shape))
+        assert np.isnan(table.angles[row, table.count[row] :]).all()
+        assert (table.imaginary[row], table.far[row], table.lost[row]) == (alone.imaginary, alone.far, alone.lost)
+    assert f"assembly modes at 12 inputs of joint {', '.join(map(str, drive))}" in str(table)
+    told = table.to_json()
+    assert [len(modes) for modes in told["positions"]] == table.count.tolist()
+
+
+def test_dead_points_and_arrays_that_do_not_fit():
+    ring = spherical_ring(np.radians([100, 40, 40, 40]))
+    table = positions(ring, drive={0: [0.0, radians(150)]})
+    assert table.count.tolist()[1] == 0
+    with pytest.raises(InvariantError, match="circuits of many inputs; expected one input"):
+        positions(ring, drive={0: [0.1]}, circuits=True)
+    with pytest.raises(InvariantError, match=r"inputs of shapes \(2,\), \(3,\)"):
+        positions(generate("five-bar").mechanism, drive={0: [0.1, 0.2], 1: [0.1, 0.2, 0.3]})
+    with pytest.raises(InvariantError, match="the angle of joint 0 is nan"):
+        positions(ring, drive={0: [0.1, float("nan")]})

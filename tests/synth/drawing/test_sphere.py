@@ -14,9 +14,9 @@ from graphs.errors import UnsolvableError
 from synth.drawing.scene import shapes
 from synth.drawing.sphere import CCW, CW, NEITHER, draw_hoop, draw_map, hammer, hammer_inverse, spread
 from synth.guidance.dyads import centre_axes, dyads_of_three
+from synth.guidance.guiding import guiding_dyads
 from synth.guidance.order import hoop, order_verdicts
 from synth.guidance.orientations import read_orientations
-from synth.guidance.synthesis import guiding_dyads
 
 TASK = Path(__file__).resolve().parents[3] / "data" / "orientations" / "tipparthi.json"
 

@@ -201,6 +201,23 @@ def test_coordinates_of_sheets(data):
     np.testing.assert_allclose(swept.angles[[0, 2], 0], [folded, folded], atol=1e-9)
 
 
+@pytest.mark.parametrize("name", ["miura", "huffman-grid"])
+def test_sheets_that_are_not_determined_by_count(name):
+    """Flat ones, and ones with redundant loops, are folded as `fold` does it; out of reach, and in no order, is told."""
+    sheet = generate(name).mechanism
+    at = configuration_of(sheet)
+    joint = at.joints[int(np.abs(fold(sheet, frames=2).path.angles[-1]).argmax())]
+    sense = np.sign(fold(sheet, frames=2).path.angles[-1][at.joints.index(joint)])
+    corners = np.array(at.sheet.coordinates, dtype=float)
+    values = sense * np.array([0.4, 0.2, 0.9, 0.0])
+    swept = sweep(sheet, {"coordinates": np.array([corners, 2.0 * corners])}, drive={joint: values})
+    assert swept.closed.all()
+    np.testing.assert_allclose(swept.angles[0], swept.angles[1], atol=1e-8)
+    for value, angles in zip(values[:3], swept.angles[0], strict=False):
+        np.testing.assert_allclose(angles, fold(sheet, drive={joint: value}).path.angles[-1], atol=1e-8)
+    np.testing.assert_allclose(swept.angles[0, 3], 0.0, atol=1e-9)
+
+
 def test_links_of_three_joints_keep_the_angle_between_their_arcs():
     linkage = spherical(WATT, np.random.default_rng(4))
     arcs = arcs_of(linkage)

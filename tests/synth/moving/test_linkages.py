@@ -14,8 +14,8 @@ from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.vertex_edge import VertexEdgeGraph
 from synth.guidance.fourbars import four_bars
+from synth.guidance.guiding import guiding_dyads
 from synth.guidance.orientations import read_orientations
-from synth.guidance.synthesis import guiding_dyads
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import link_motions
 from synth.motion.singular.second_order import rates_at

@@ -1,0 +1,82 @@
+"""Members of crease patterns whose creases are not determined by count: each is folded as `synth.fold` folds it.
+
+Loops of such sheets have redundant equations, so a square system does not decide them; the walk of one member after
+the other does (`synth.motion.walk`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from graphs.errors import SynthedraError
+from graphs.tolerances import DOUBLE
+from graphs.types import Floats, Ints
+from synth.folding.configuration import SheetConfiguration
+from synth.members.member_type import BARRED, CLOSED, OPEN, TURNS_BACK, Swept
+from synth.motion.driving import MotionOptions, driven_from
+from synth.moving.made import configuration_of
+
+
+def walked(
+    at: SheetConfiguration, coordinates: Floats, driven: Ints, inputs: Floats, report: Callable[[int], None] | None
+) -> tuple[Swept, dict[int, str]]:
+    """Fold members with vertices float[N, V, 3] to inputs, float[F, D] or float[N, F, D]: fold angles, radians.
+
+    Return the angles of all creases, and why members have none.
+    """
+    joints, rows = len(at.joints), inputs.shape[-2]
+    answer = Swept(
+        np.full((len(coordinates), rows, joints), np.nan),
+        np.full((len(coordinates), rows), np.nan),
+        np.full((len(coordinates), rows), OPEN, dtype=np.int8),
+    )
+    why: dict[int, str] = {}
+    for member, corners in enumerate(coordinates):
+        answer.status[member] = BARRED  # unless it has a configuration
+        try:
+            own = configuration_of(replace(at.sheet, coordinates=tuple(map(tuple, corners.tolist()))))
+            answer.status[member] = OPEN
+            for places, angles, errors in _folded(own, driven, inputs[member] if inputs.ndim == 3 else inputs):
+                answer.status[member, places] = TURNS_BACK
+                reached = places[: len(angles)]
+                answer.status[member, reached] = CLOSED
+                answer.angles[member, reached], answer.residuals[member, reached] = angles, errors
+        except SynthedraError as error:
+            why[member] = str(error)
+        if report is not None:
+            report(member + 1)
+    return answer, why
+
+
+def _folded(own: object, driven: Ints, values: Floats) -> Iterator[tuple[Ints, Floats, Floats]]:
+    """Yield numbers of inputs, in the order in which they are come to, and the configurations at the first of them.
+
+    One crease goes from where it is to larger angles, and to smaller ones; several go from input to input.
+    """
+    assert isinstance(own, SheetConfiguration)
+    start = own.linkage.angles[driven]
+    ways = [np.arange(len(values))]
+    if len(driven) == 1:
+        rising = np.argsort(values[:, 0], kind="stable")
+        above = values[rising, 0] >= start[0]
+        ways = [rising[above], rising[~above][::-1]]
+    names = [own.joints[place] for place in driven.tolist()]
+    for places in filter(len, ways):
+        wanted = values[places]
+        here = np.abs(wanted - start).max(axis=1) <= DOUBLE.closed
+        if here.all():
+            yield places, np.tile(own.linkage.angles, (len(places), 1)), np.zeros(len(places))
+            continue
+        goals = dict(zip(names, wanted[-1].tolist(), strict=True))
+        path = driven_from(own, MotionOptions(goals, frames=len(wanted), values=wanted)).path
+        frame, found = 0, list[int]()
+        for value in wanted:  # frames at turning points stand between those at inputs
+            off = np.abs(path.angles[frame:][:, driven] - value).max(axis=1) <= DOUBLE.same_configuration
+            if not off.any():
+                break
+            frame += int(off.argmax())
+            found.append(frame)
+        yield places, path.angles[found], path.errors[found]
