@@ -42,9 +42,9 @@ def barycentric_start(pattern: Pattern, random: np.random.Generator | None = Non
     weights = np.ones(len(pairs)) if random is None else np.exp(_SPREAD * random.standard_normal(len(pairs)))
     count = pattern.vertices + len(rings)
     matrix = np.zeros((count, count))
-    for (a, b), weight in zip(pairs.tolist(), weights.tolist(), strict=True):
-        matrix[[a, b], [a, b]] += weight
-        matrix[[a, b], [b, a]] -= weight
+    both = np.repeat(weights, 2)
+    np.add.at(matrix, (pairs.ravel(), pairs.ravel()), both)
+    np.subtract.at(matrix, (pairs.ravel(), pairs[:, ::-1].ravel()), both)
     around = np.array(pattern.outer)
     angles = 2 * np.pi * np.arange(len(around)) / len(around)
     places = np.zeros((count, 2))
@@ -86,6 +86,8 @@ def off_centres(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
     1: float[A + D], with derivatives float[A + D, 2 (V + C + B)]; in these lengths are taken as constant, so that
     they are exact where nothing is off.
     """
+    if not len(pattern.aims):
+        return np.zeros(0), np.zeros((0, unknowns.size))
     a, b, centre, infinite = pattern.aims.T
     along = unknowns[b] - unknowns[a]
     reach = (1 - infinite)[:, None] / 2
@@ -140,7 +142,7 @@ class _Cost:
     off: Floats
     off_by: Floats
 
-    @property
+    @cached_property
     def merit(self) -> float:
         return float(self.residuals @ self.residuals + _OFF * np.abs(self.off).sum())
 
