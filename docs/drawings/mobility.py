@@ -16,7 +16,7 @@ from graphs.convert.duality import mechanism_of_sheet
 from graphs.count.report import mobility_report
 from graphs.creasing.edits import SheetEdit, crease_sheet, lock_crease, take_off_panels
 from graphs.errors import numbered
-from graphs.mechanism.estimate import estimate_of, nearly_exact
+from graphs.mechanism.estimate import Corners, estimate_of, nearly_exact
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.exact import diagnose
@@ -140,7 +140,7 @@ def precision() -> Scene:
     rounded = with_places(sheet, (np.array(sheet.coordinates) @ turn).round(4))
     points = np.zeros((rounded.vertices, 3))
     points[:, :2] = np.array(rounded.coordinates) - np.mean(rounded.coordinates, axis=0)
-    off = np.sort(np.concatenate([one.off for one in nearly_exact(rounded, points / np.abs(points).max())]))
+    off = np.sort(np.concatenate([one.off for one in nearly_exact(Corners(rounded, points / np.abs(points).max()))]))
     found = estimate_of(rounded)
     assert found is not None
     plot = Plot(40.0, 22.0, 220.0, 150.0, (0.0, len(off) + 1.0), (-8.0, 0.0))

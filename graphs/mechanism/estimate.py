@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import log, log2, pi, sqrt
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +23,8 @@ from graphs.tolerances import DOUBLE, EPSILON
 from graphs.types import Floats
 
 Numbers = npt.NDArray[np.int64]
+Rows: TypeAlias = "scipy.sparse.csr_array | Floats"
+"""A matrix, sparse or dense."""
 
 OF_45 = "multiples of 45 degrees"
 _EIGHTH = pi / 4
@@ -34,6 +36,8 @@ _BENT = 0.3
 """A panel that is planar by no more than chance is off its plane by this part of its size."""
 _MOST_CREASES = 32
 """Alternating sums are taken of vertices of no more creases."""
+_DENSE = 30_000
+"""Matrices of so many entries, zeros included, are dense."""
 
 
 class Relations(NamedTuple):
@@ -46,75 +50,22 @@ class Relations(NamedTuple):
     kind: str
     off: Floats
     reach: Floats
-    between: scipy.sparse.csr_array
-
-
-def nearly_exact(sheet: Sheet, points: Floats) -> list[Relations]:
-    """Return relations that hardly any drawing has nearly and not exactly: lines, right angles, sums, planes.
-
-    The points, float[n, 3], are in units of the extent.
-    """
-    corners = _Corners(sheet, points)
-    if not len(corners.apex):
-        return []
-    runs = _sums(corners)
-    turns = np.rint(runs.sums / _EIGHTH)
-    off = runs.sums - turns * _EIGHTH
-    straight = turns == 4
-    found = [
-        corners.relations("straight lines", runs.rows[straight], off[straight], _EIGHTH / 2),
-        corners.relations(OF_45, runs.rows[~straight], off[~straight], _EIGHTH / 2),
-        *_round_vertices(corners),
-    ]
-    if np.ptp(points[:, 2]) > 0.0:
-        found.append(_planes(sheet, points))
-    return found
-
-
-def nearly_fine(sheet: Sheet, points: Floats) -> Relations:
-    """Return angles near multiples of 15 and 22.5 degrees that are none of 45."""
-    corners = _Corners(sheet, points)
-    runs = _sums(corners)
-    rest = runs.sums % _EIGHTH
-    off = rest[:, None] - _FINE
-    nearest = np.abs(off).argmin(axis=1)
-    reach = np.array([11.25, 7.5, 11.25])[nearest]
-    picked = off[np.arange(len(off)), nearest]
-    return corners.relations("multiples of 15 and 22.5 degrees", runs.rows, picked, np.radians(reach))
-
-
-def nearly_soft(sheet: Sheet, points: Floats) -> list[Relations]:
-    """Return relations of neighbours that patterns of slowly changing cells have nearly: equals and parallels."""
-    corners = _Corners(sheet, points)
-    beside = corners.after_in_face
-    second = beside[beside]
-    whole = corners.sides > 3
-    pairs = [np.stack([np.arange(len(beside)), beside], axis=1)]
-    pairs.append(np.stack([np.arange(len(beside)), second], axis=1)[whole])
-    here = np.flatnonzero(corners.following >= 0)
-    pairs.append(np.stack([here, corners.following[here]], axis=1))
-    across = corners.across
-    there = np.flatnonzero(across > np.arange(len(across)))
-    pairs.append(np.stack([there, across[there]], axis=1))
-    both = np.concatenate(pairs)
-    rows = _rows(both, np.array([1.0, -1.0]), len(beside))
-    equal = corners.relations("equal angles", rows, rows @ corners.angles, pi / 2)
-    sides = np.stack([np.arange(len(beside)), beside], axis=1)[whole]
-    rows = _rows(sides, np.array([1.0, 1.0]), len(beside))
-    parallel = corners.relations("parallel sides", rows, rows @ corners.angles - pi, pi / 2)
-    return [equal, parallel, corners.lengths_alike(beside, second, whole)]
+    between: Rows
 
 
 class _Runs(NamedTuple):
     """Sums of neighbouring corners at a vertex: which, and how much, radians."""
 
-    rows: scipy.sparse.csr_array
+    rows: Rows
     sums: Floats
 
 
 @dataclass(frozen=True)
-class _Corners:
-    """The corners of the faces of a sheet: angles between a side and the next, and where they are."""
+class Corners:
+    """The corners of the faces of a sheet: angles between a side and the next, and where they are.
+
+    The points, float[n, 3], are in units of the extent.
+    """
 
     sheet: Sheet
     points: Floats
@@ -131,6 +82,7 @@ class _Corners:
 
     @property
     def apex(self) -> Numbers:
+        """The vertex of each corner."""
         return self._listed[0]
 
     @cached_property
@@ -193,16 +145,22 @@ class _Corners:
 
     @property
     def angles(self) -> Floats:
+        """The angle of each corner, radians, from 0 to a whole turn."""
         return self._turned[0]
 
     @cached_property
-    def slopes(self) -> scipy.sparse.csr_array:
+    def runs(self) -> _Runs:
+        """The sums of neighbouring corners."""
+        return _sums(self)
+
+    @cached_property
+    def slopes(self) -> Rows:
         """The derivatives of angles by coordinates: corners by 3 n."""
         apex, after, before, _ = self._listed
         _, first, last, _ = self._turned
         return _derivatives([(after, first), (before, last), (apex, -first - last)], len(self.points))
 
-    def relations(self, kind: str, rows: scipy.sparse.csr_array, off: Floats, reach: float | Floats) -> Relations:
+    def relations(self, kind: str, rows: Rows, off: Floats, reach: float | Floats) -> Relations:
         """Return relations between angles, whose sums rows name, with how far they are off in radians."""
         return _relations(kind, rows @ self.slopes, off, reach)
 
@@ -218,30 +176,95 @@ class _Corners:
         return _relations("equal lengths", rows @ slopes, rows @ (0.5 * np.log(squares)), 1.0)
 
 
-def _derivatives(parts: list[tuple[Numbers, Floats]], many: int) -> scipy.sparse.csr_array:
+def nearly_exact(corners: Corners) -> list[Relations]:
+    """Return relations that hardly any drawing has nearly and not exactly: lines, right angles, sums, planes."""
+    if not len(corners.apex):
+        return []
+    sheet, points, runs = corners.sheet, corners.points, corners.runs
+    turns = np.rint(runs.sums / _EIGHTH)
+    off = runs.sums - turns * _EIGHTH
+    straight = turns == 4
+    found = [
+        corners.relations("straight lines", runs.rows[straight], off[straight], _EIGHTH / 2),
+        corners.relations(OF_45, runs.rows[~straight], off[~straight], _EIGHTH / 2),
+        *_round_vertices(corners),
+    ]
+    if np.ptp(points[:, 2]) > 0.0:
+        found.append(_planes(sheet, points))
+    return found
+
+
+def nearly_fine(corners: Corners) -> Relations:
+    """Return angles near multiples of 15 and 22.5 degrees that are none of 45."""
+    runs = corners.runs
+    rest = runs.sums % _EIGHTH
+    off = rest[:, None] - _FINE
+    nearest = np.abs(off).argmin(axis=1)
+    reach = np.array([11.25, 7.5, 11.25])[nearest]
+    picked = off[np.arange(len(off)), nearest]
+    return corners.relations("multiples of 15 and 22.5 degrees", runs.rows, picked, np.radians(reach))
+
+
+def nearly_soft(corners: Corners) -> list[Relations]:
+    """Return relations of neighbours that patterns of slowly changing cells have nearly: equals and parallels."""
+    beside = corners.after_in_face
+    second = beside[beside]
+    whole = corners.sides > 3
+    pairs = [np.stack([np.arange(len(beside)), beside], axis=1)]
+    pairs.append(np.stack([np.arange(len(beside)), second], axis=1)[whole])
+    here = np.flatnonzero(corners.following >= 0)
+    pairs.append(np.stack([here, corners.following[here]], axis=1))
+    across = corners.across
+    there = np.flatnonzero(across > np.arange(len(across)))
+    pairs.append(np.stack([there, across[there]], axis=1))
+    both = np.concatenate(pairs)
+    rows = _rows(both, np.array([1.0, -1.0]), len(beside))
+    equal = corners.relations("equal angles", rows, rows @ corners.angles, pi / 2)
+    sides = np.stack([np.arange(len(beside)), beside], axis=1)[whole]
+    rows = _rows(sides, np.array([1.0, 1.0]), len(beside))
+    parallel = corners.relations("parallel sides", rows, rows @ corners.angles - pi, pi / 2)
+    return [equal, parallel, corners.lengths_alike(beside, second, whole)]
+
+
+def _matrix(held: Floats, at: Numbers, to: Numbers, shape: tuple[int, int]) -> Rows:
+    """Return a matrix with some entries, dense if it is small: a sparse one takes longer to make than to fill."""
+    if shape[0] * shape[1] > _DENSE:
+        return scipy.sparse.csr_array((held, (at, to)), shape=shape)
+    matrix = np.zeros(shape)
+    np.add.at(matrix, (at, to), held)
+    return matrix
+
+
+def _derivatives(parts: list[tuple[Numbers, Floats]], many: int) -> Rows:
     """Return derivatives by coordinates, rows by 3 n: of each row by some points, float[rows, 3] each."""
     rows = np.arange(len(parts[0][0]))
     held = np.concatenate([rate.ravel() for _, rate in parts])
     at = np.concatenate([np.repeat(rows, 3) for _ in parts])
     to = np.concatenate([(3 * vertex[:, None] + np.arange(3)).ravel() for vertex, _ in parts])
-    return scipy.sparse.csr_array((held, (at, to)), shape=(len(rows), 3 * many))
+    return _matrix(held, at, to, (len(rows), 3 * many))
 
 
-def _rows(columns: Numbers, signs: Floats, width: int) -> scipy.sparse.csr_array:
+def _rows(columns: Numbers, signs: Floats, width: int) -> Rows:
     """Return rows of a sum each: which corners, int[n, k], with which signs, float[k]."""
     many, each = columns.shape
     at = np.repeat(np.arange(many), each)
-    return scipy.sparse.csr_array((np.tile(signs, many), (at, columns.ravel())), shape=(many, width))
+    return _matrix(np.tile(signs, many), at, columns.ravel(), (many, width))
 
 
-def _relations(kind: str, slopes: scipy.sparse.csr_array, off: Floats, reach: float | Floats) -> Relations:
-    steep = np.sqrt(np.asarray(slopes.multiply(slopes).sum(axis=1)).ravel())
+def _steepness(slopes: Rows) -> Floats:
+    """Return the sizes of rows of derivatives."""
+    sizes: Floats = np.sqrt(np.asarray((slopes * slopes).sum(axis=1)).ravel())
+    return sizes
+
+
+def _relations(kind: str, slopes: Rows, off: Floats, reach: float | Floats) -> Relations:
+    steep = _steepness(slopes)
     moved = steep > 0.0
     reaches = (reach + np.zeros_like(off))[moved] / steep[moved]
     return Relations(kind, np.abs(off[moved]) / steep[moved], reaches, slopes[np.flatnonzero(moved)])
 
 
-def _sums(corners: _Corners) -> _Runs:
+def _sums(corners: Corners) -> _Runs:
     """Return the sums of one, two, ... neighbouring corners; of the two parts of a whole turn the smaller one."""
     starts = np.arange(len(corners.apex))
     ends, columns, sums, widths = starts, [starts], [], []
@@ -264,12 +287,11 @@ def _sums(corners: _Corners) -> _Runs:
             break
         starts, ends, total = starts[going], ends[going], total[going] + corners.angles[ends[going]]
         columns = [*(column[going] for column in columns), ends]
-    index = (np.concatenate(at), np.concatenate(to))
-    held = np.ones(len(index[0]))
-    return _Runs(scipy.sparse.csr_array((held, index), shape=(rows, len(corners.apex))), np.concatenate(sums))
+    ends, of_corners = np.concatenate(at), np.concatenate(to)
+    return _Runs(_matrix(np.ones(len(ends)), ends, of_corners, (rows, len(corners.apex))), np.concatenate(sums))
 
 
-def _round_vertices(corners: _Corners) -> Iterator[Relations]:
+def _round_vertices(corners: Corners) -> Iterator[Relations]:
     """Yield alternating sums at inner vertices, zero if the paper folds flat; of folded ones whole turns too."""
     _, first = np.unique(corners.apex, return_index=True)
     degrees = corners.degree[first]
@@ -304,8 +326,7 @@ def _planes(sheet: Sheet, points: Floats) -> Relations:
     areas = [np.cross(d - b, c - b), np.cross(c - a, d - a), np.cross(d - a, b - a), np.cross(b - a, c - a)]
     slopes = _derivatives(list(zip(around, areas, strict=True)), len(points))
     size = (np.linalg.norm(c - a, axis=1) + np.linalg.norm(d - b, axis=1)) / 2.0
-    steep = np.sqrt(np.asarray(slopes.multiply(slopes).sum(axis=1)).ravel())
-    return _relations("planar panels", slopes, volume, _BENT * size * steep)
+    return _relations("planar panels", slopes, volume, _BENT * size * _steepness(slopes))
 
 
 _WIDE = 16.0
@@ -370,13 +391,14 @@ def estimate_of(sheet: Sheet) -> Estimate | None:
     if extent == 0.0:
         return None
     points /= extent
-    exact = nearly_exact(sheet, points)
+    corners = Corners(sheet, points)
+    exact = nearly_exact(corners)
     # Where many angles are near multiples of 45 degrees by chance the others may show a cluster without them.
     found = _estimated(exact) or _estimated([one for one in exact if one.kind != OF_45])
-    found = found or _estimated([*exact, nearly_fine(sheet, points)])
+    found = found or _estimated([*exact, nearly_fine(corners)])
     if found is not None and found.size > DOUBLE.closed:
         return found
-    soft = _estimated(nearly_soft(sheet, points), _BY_CHANCE_SOFT)
+    soft = _estimated(nearly_soft(corners), _BY_CHANCE_SOFT)
     # A few exact relations, as of the corners of a border, say nothing of the vertices inside.
     few = 0 if found is None else 2 * found.relations
     return found if soft is None or soft.relations < max(_LEAST_SOFT, few) else soft
@@ -410,7 +432,8 @@ def _of_one_vertex(relations: Sequence[Relations], off: Floats, rms: float) -> b
     wrong = (off <= _TOP * rms) & ~exact
     if exact.sum() < _SHARE * wrong.sum():
         return False
-    between = scipy.sparse.vstack([one.between for one in relations]).tocsr()[np.flatnonzero(wrong)]
+    parts = [scipy.sparse.csr_array(one.between) for one in relations]
+    between = scipy.sparse.vstack(parts).tocsr()[np.flatnonzero(wrong)]
     rows, columns = between.nonzero()
     pairs = np.unique(np.stack([rows, columns // 3]), axis=1)
     often = np.bincount(pairs[1])

@@ -496,15 +496,17 @@ class _BranchSearch:
         """Return a branch that begins at some rates, followed unless it is late."""
         still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= DOUBLE.zero_rate).tolist())
         linear = self.vertices.linear and not space.left
+        beside = None if linear or proved else self._freedoms_beside(rates)
         if linear:
             end = in_half_tangents(self.closure, space, rates)
         elif late:
             end = TracedBranch(None, self.linkage.angles, self.closure.error(self.linkage.angles), 0.0)
         else:
             self._allowance.left = max(self._allowance.left, _AT_LEAST)
-            end = followed(self.linkage, self.closure, rates, still, self._allowance)
+            counted = not (beside or proved)
+            end = followed(self.linkage, self.closure, rates, still, self._allowance, counted=counted)
         certainty: Certainty = "numerical" if end.far else "not known"
-        freedoms = self._freedoms_beside(rates) or end.freedoms if end.far else None
+        freedoms = beside or end.freedoms if end.far else None
         if linear or proved:
             freedoms, certainty = space.basis.shape[1] - len(space.left), "proved"
         modes, begun = self.vertices.modes(rates), not late or linear

@@ -21,6 +21,7 @@ from graphs.types import Floats
 from synth.motion.walk.step import Allowance
 from synth.realisation import measures
 from synth.realisation.conditions import Condition, DrawingConditions, together
+from synth.realisation.kernel import KernelDrawing, Sizes, kernel
 from synth.realisation.pattern import Pattern
 
 _SPREAD = 0.5
@@ -41,9 +42,9 @@ def barycentric_start(pattern: Pattern, random: np.random.Generator | None = Non
     weights = np.ones(len(pairs)) if random is None else np.exp(_SPREAD * random.standard_normal(len(pairs)))
     count = pattern.vertices + len(rings)
     matrix = np.zeros((count, count))
-    for (a, b), weight in zip(pairs.tolist(), weights.tolist(), strict=True):
-        matrix[[a, b], [a, b]] += weight
-        matrix[[a, b], [b, a]] -= weight
+    both = np.repeat(weights, 2)
+    np.add.at(matrix, (pairs.ravel(), pairs.ravel()), both)
+    np.subtract.at(matrix, (pairs.ravel(), pairs[:, ::-1].ravel()), both)
     around = np.array(pattern.outer)
     angles = 2 * np.pi * np.arange(len(around)) / len(around)
     places = np.zeros((count, 2))
@@ -85,6 +86,8 @@ def off_centres(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
     1: float[A + D], with derivatives float[A + D, 2 (V + C + B)]; in these lengths are taken as constant, so that
     they are exact where nothing is off.
     """
+    if not len(pattern.aims):
+        return np.zeros(0), np.zeros((0, unknowns.size))
     a, b, centre, infinite = pattern.aims.T
     along = unknowns[b] - unknowns[a]
     reach = (1 - infinite)[:, None] / 2
@@ -105,14 +108,14 @@ def off_centres(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
 
 
 _ROUNDS = 40
-_SHARP = np.radians(35.0)
+_SHARP = float(np.radians(35.0))
 """Corners sharper than this, or as near to 180 degrees, cost more than they should."""
 _LENGTH = 1.1
 _BORDER = 0.15
 """Part of the mean turn at a vertex of the border below which the border is nearly straight there."""
 _OFF = 30.0
 """Cost of a crease off its centre, per sine of the angle."""
-_SEEN = np.radians(6.0)
+_SEEN = float(np.radians(6.0))
 """Sides of bent panels that are seen from the hub under less than this cost more than they should."""
 _TIGHT = 1e-14
 """Conditions that are off by less are met: no step can do better."""
@@ -139,7 +142,7 @@ class _Cost:
     off: Floats
     off_by: Floats
 
-    @property
+    @cached_property
     def merit(self) -> float:
         return float(self.residuals @ self.residuals + _OFF * np.abs(self.off).sum())
 
@@ -156,11 +159,12 @@ class _Cost:
 
 
 class _Aims(NamedTuple):
-    """A convex border, logarithms of the lengths of edges, and the exact conditions."""
+    """A convex border, logarithms of the lengths of edges, and the exact conditions; the library, if there is one."""
 
     convex: bool
     lengths: Floats
     exactly: Condition
+    library: KernelDrawing | None
 
 
 @np.errstate(divide="ignore", invalid="ignore")  # steps on which vertices coincide are not taken
@@ -184,7 +188,7 @@ def improved(
     # and within that to the better shape; it is accepted if the cost with its penalty for creases off their
     # centres falls.
     exactly = together(partial(off_centres, pattern), *conditions)
-    goal = _Aims(convex, np.zeros(len(pattern.edges)) if aims is None else aims, exactly)
+    goal = _Aims(convex, np.zeros(len(pattern.edges)) if aims is None else aims, exactly, _library(pattern, len(start)))
     unknowns, cost = start, _cost(pattern, start, goal)
     damping = 1e-2
     for _ in range(_ROUNDS):
@@ -260,6 +264,29 @@ def _held(pattern: Pattern, unknowns: Floats, cost: _Cost, step: Floats) -> Floa
 
 def _cost(pattern: Pattern, unknowns: Floats, goal: _Aims) -> _Cost | None:
     """Return the cost of a drawing; None where vertices coincide, a panel is turned over or the border is bent."""
+    if goal.library is None:
+        shape = shape_cost(pattern, unknowns, goal.lengths, convex=goal.convex)
+    else:
+        shape = goal.library.cost(unknowns, goal.lengths, convex=goal.convex)
+    if shape is None:
+        return None
+    off, off_by = goal.exactly(unknowns)
+    if not (np.isfinite(off).all() and np.isfinite(off_by).all()):
+        return None
+    return _Cost(*shape, off, off_by)
+
+
+def _library(pattern: Pattern, points: int) -> KernelDrawing | None:
+    """Return what the library does for drawings of so many points; None where there is no library."""
+    found = kernel()
+    return None if found is None else KernelDrawing(found, pattern, points, Sizes(_SHARP, _LENGTH, _BORDER, _SEEN))
+
+
+def shape_cost(pattern: Pattern, unknowns: Floats, aims: Floats, *, convex: bool) -> tuple[Floats, Floats] | None:
+    """Return the residuals of corners, lengths, turns of the border and seen sides, with derivatives, or None.
+
+    Aims, float[E], are logarithms of lengths. The library does the same (`synth.realisation.kernel`).
+    """
     places = unknowns[: pattern.vertices]
     points = np.concatenate([places, unknowns[len(unknowns) - len(pattern.hubs) :]])
     if len(set(map(tuple, points.tolist()))) < len(points):
@@ -268,7 +295,7 @@ def _cost(pattern: Pattern, unknowns: Floats, goal: _Aims) -> _Cost | None:
     if not measures.is_drawn(pattern, angles):
         return None
     lengths, by_lengths = measures.edge_lengths(places, pattern.edges)
-    lengths = lengths - goal.lengths
+    lengths = lengths - aims
     rows = [
         *_near(angles, by, _SHARP, 1.0),
         *_near(pattern.widest - angles, by, _SHARP, -1.0),
@@ -276,13 +303,10 @@ def _cost(pattern: Pattern, unknowns: Floats, goal: _Aims) -> _Cost | None:
         _LENGTH * (1 + 3 * lengths[:, None] ** 2) * by_lengths,
     ]
     for place, sums in enumerate(pattern.sums_at_rings):  # the border first
-        left = (np.pi if goal.convex and not place else 2 * np.pi) - sums @ angles
+        left = (np.pi if convex and not place else 2 * np.pi) - sums @ angles
         if left.min() <= 0.0:
             return None
         rows += _near(left, sums @ by, _BORDER * 2 * np.pi / len(left), -1.0)
-    off, off_by = goal.exactly(unknowns)
-    if not (np.isfinite(off).all() and np.isfinite(off_by).all()):
-        return None
     if pattern.hubs:
         seen, by_seen = _seen(pattern, unknowns)
         if seen.min() <= 0.0 or measures.crossings(pattern, places):
@@ -293,7 +317,7 @@ def _cost(pattern: Pattern, unknowns: Floats, goal: _Aims) -> _Cost | None:
     for part in rows[1::2]:
         derivatives[start : start + len(part), : part.shape[1]] = part
         start += len(part)
-    return _Cost(residuals, derivatives, off, off_by)
+    return residuals, derivatives
 
 
 def _seen(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:

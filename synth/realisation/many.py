@@ -11,7 +11,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any, Literal
 
-from enumerate.runner.job import Column, Job, Row, Unit, batches, row_as_dict
+from enumerate.runner.job import Column, Job, Row, Unit, packed, row_as_dict
 from enumerate.runner.store import SqliteSink, read_rows
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import FileError, SynthedraError, UnsolvableError
@@ -19,6 +19,8 @@ from graphs.files.atomic import check_new_folder, write_text
 from graphs.files.native import dumps
 from graphs.files.patterns.fold import fold_text
 from graphs.identity.drawings import map_id
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from synth.drawing.catalogue import CatalogueEntry, catalogue_entries
 from synth.drawing.mechanisms.chains import OrderOnCircle
@@ -90,8 +92,13 @@ class RealisationFolder:
 
 Outcome = Literal["realised", "not found", "refused"]
 
-_TYPES, _WEIGHT = 4, 1000
-"""Types per unit, and the weight of a type: it takes as long as so many rows of a list."""
+_WEIGHT, _JOINTS = 1000, 10
+"""Weight of an SCD graph of so many joints: it takes as long as so many rows of a list. Half of it grows as the
+square of the number of joints."""
+_UNDRAWN, _CONDITIONS = 8, 3
+"""How many times as long an SC graph takes, of which panels round one centre are bent; and conditions on sheets."""
+_UNIT = 40_000
+"""Weight of a unit: about a second, so that a run that is stopped has little to do again."""
 
 COLUMNS: dict[str, Column] = {
     "number": int, "name": str, "outcome": str, "reason": str, "code": str, "mobility": int, "freedoms": int,
@@ -107,11 +114,13 @@ class RealisationJob:
     """All types of a store, a list or a folder, realised.
 
     `source` is anything that `synth.drawing.catalogue.catalogue_entries` reads (FileError if it cannot be
-    read); `options` are keyword arguments of `synth.realisation.realise`, JSON values.
+    read); `options` are keyword arguments of `synth.realisation.realise`, JSON values. `unit_weight` is the weight
+    of a unit, in rows of a list that take as long; a type that takes longer is one by itself.
     """
 
     source: str
     options: tuple[tuple[str, Any], ...] = ()
+    unit_weight: int = _UNIT
     columns = COLUMNS
 
     def __getstate__(self) -> dict[str, Any]:
@@ -120,8 +129,8 @@ class RealisationJob:
 
     @property
     def key(self) -> dict[str, Any]:
-        """The identity of the job: a digest of the types, and the options."""
-        digest = sha256()
+        """The identity of the job: a digest of the types and how many are in each unit, and the options."""
+        digest = sha256(repr([len(unit.payload) for unit in self.units()]).encode())
         for entry in self._read[0]:
             digest.update(f"{entry.number} {entry.name}\n{_text_of(entry)}\n".encode())
         return {"realise": digest.hexdigest(), **dict(self.options)}
@@ -137,8 +146,9 @@ class RealisationJob:
         return list(catalogue_entries(self.source, failures=failures)), failures
 
     def units(self) -> list[Unit]:
-        """Units of a few types each."""
-        return [Unit(portion, _WEIGHT * len(portion)) for portion in batches(self._read[0], _TYPES)]
+        """Units of about a second each."""
+        options = dict(self.options)
+        return list(packed(((entry, _weight_of(entry, options)) for entry in self._read[0]), self.unit_weight))
 
     def work(self, payload: Iterable[CatalogueEntry]) -> list[Row]:
         """Return a row for each type of a unit."""
@@ -151,6 +161,17 @@ def summary_of(rows: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
     types = [{name: row[name] for name in kept} for row in rows]
     outcomes = [row["outcome"].replace(" ", "_") for row in types]
     return {**{name: outcomes.count(name) for name in ("realised", "not_found", "refused")}, "types": types}
+
+
+def _weight_of(entry: CatalogueEntry, options: Mapping[str, Any]) -> int:
+    """Return about how many rows of a list take as long as the realisation of a type."""
+    mechanism = entry.mechanism
+    if not isinstance(mechanism, SCGraph):
+        return _WEIGHT
+    weight = _WEIGHT * (1.0 + (len(mechanism.joints) / _JOINTS) ** 2) / 2.0
+    undrawn = _UNDRAWN if not isinstance(mechanism, SCDGraph) else 1
+    conditions = _CONDITIONS if options.get("flat_foldable") or options.get("symmetric") else 1
+    return max(1, round(weight * undrawn * conditions))
 
 
 def _row(entry: CatalogueEntry, options: dict[str, Any]) -> Row:

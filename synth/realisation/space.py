@@ -16,7 +16,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy.optimize
+import scipy
 
 from graphs.errors import UnsolvableError
 from graphs.geometry import area_vector, lines_meet, unit

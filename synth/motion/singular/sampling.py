@@ -91,8 +91,8 @@ _SPACES = 64
 class TracedBranch:
     """How far one branch was followed: joint angles at the end, radians, and the loop-closure residual there.
 
-    Freedoms there are to second order; None where no motion was found or second order does not decide. `far` says
-    how far the joint that moves most has moved, radians; 0 where no motion was found.
+    Freedoms there are to second order; None where no motion was found, second order does not decide, or they were
+    not asked for. `far` says how far the joint that moves most has moved, radians; 0 where no motion was found.
     """
 
     freedoms: int | None
@@ -107,8 +107,13 @@ def followed(
     rates: Floats,
     still: tuple[int, ...] = (),
     allowance: Allowance | None = None,
+    *,
+    counted: bool = True,
 ) -> TracedBranch:
-    """Follow a branch for ten degrees, or as far as it goes, by joints that are not `still`."""
+    """Follow a branch for ten degrees, or as far as it goes, by joints that are not `still`.
+
+    Its freedoms at the end are counted unless they are known.
+    """
     ways = [closure.locked(still), closure] if still else [closure]
     for way in ways:
         end, error = walked(linkage.angles, way, rates, allowance)
@@ -118,7 +123,7 @@ def followed(
     else:
         return TracedBranch(None, linkage.angles, closure.error(linkage.angles), 0.0)
     # what came here moves: where second order leaves nothing, it does not tell
-    return TracedBranch(freedoms_at(linkage, closure, end) or None, end, error, far)
+    return TracedBranch(freedoms_at(linkage, closure, end) or None if counted else None, end, error, far)
 
 
 def walked(

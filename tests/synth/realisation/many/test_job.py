@@ -9,6 +9,7 @@ from read_strings import string_of_chain
 from enumerate.runner.job import row_as_dict
 from enumerate.runner.running import run
 from enumerate.runner.store import read_rows
+from enumerate.sc.jobs import sc_rows
 from enumerate.scd.jobs import scd_rows
 from enumerate.strings.panel_strings import ChainString
 from graphs.convert.panels import scd_from_panels
@@ -42,10 +43,10 @@ def test_a_stopped_run_goes_on_and_gives_equal_files(tmp_path):
     codes = [row["code"] for row in islice(scd_rows(4, 1, 4), 6)]
     source, things = _list_of(codes, tmp_path / "types.jsonl"), tmp_path / "things"
     with pytest.raises(KeyboardInterrupt):
-        run(RealisationJob(source, OPTIONS), _StoppedAfterOne(things))
+        run(RealisationJob(source, OPTIONS, 2400), _StoppedAfterOne(things))
     assert len(list(things.iterdir())) == 4
     (things / "0000002.fold").unlink()
-    progress = run(RealisationJob(source, OPTIONS), RealisationFolder(things, resume=True))
+    progress = run(RealisationJob(source, OPTIONS, 2400), RealisationFolder(things, resume=True))
     assert progress.rows == 2
     for place in (2, 6):
         found = realise(mechanism_from_map_id(codes[place - 1]), **dict(OPTIONS))
@@ -53,6 +54,17 @@ def test_a_stopped_run_goes_on_and_gives_equal_files(tmp_path):
     rows = [row_as_dict(COLUMNS, row) for row in read_rows(store_beside(things))]
     assert [row["code"] for row in rows] == codes
     assert summary_of(rows)["realised"] == 6
+
+
+def test_units_take_about_a_second(tmp_path):
+    """Forty types of ten joints with a drawing, or five without, of which the panels are bent."""
+    drawn = _list_of((row["code"] for row in islice(scd_rows(8, 1, 4), 100)), tmp_path / "drawn.jsonl")
+    bare = _list_of((row["code"] for row in islice(sc_rows(8, 1), 12)), tmp_path / "bare.jsonl")
+    sizes = [[len(unit.payload) for unit in RealisationJob(source).units()] for source in (drawn, bare)]
+    assert sizes == [[40, 40, 20], [5, 5, 2]]
+    (together,) = RealisationJob(bare, unit_weight=10**9).units()
+    assert len(together.payload) == 12
+    assert RealisationJob(bare).key != RealisationJob(bare, unit_weight=10**9).key
 
 
 def test_other_types_or_options_are_another_run(tmp_path):
