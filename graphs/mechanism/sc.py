@@ -474,7 +474,6 @@ def _is_direction(vertices: int, edges: Sequence[tuple[int, int]], class_of: Seq
     for a, b in inside:
         within[part_of[a]] |= {(a, b), (b, a)}
     return all(
-        len(to) == len(set(to.values())) == sizes[first]
-        and {(to[a], to[b]) for a, b in within[first]} == within[last]
+        len(to) == len(set(to.values())) == sizes[first] and {(to[a], to[b]) for a, b in within[first]} == within[last]
         for (first, last), to in joined.items()
     )
