@@ -91,8 +91,8 @@ def signed_loops(sc: SCGraph, loops: Sequence[Loop]) -> SignedLoops:
     number = {link: place for place, link in enumerate(sc.nodes)}
     ends = np.array([(number[a], number[b]) for a, b in sc.joints.values()], dtype=np.int64).reshape(-1, 2)
     begin = np.cumsum([0, *(len(loop.joints) for loop in loops)], dtype=np.int64)
-    joints = np.array([column[joint] for loop in loops for joint in loop.joints], dtype=np.int64)
-    following = np.append(joints[1:], 0)
+    joints: Ints = np.array([column[joint] for loop in loops for joint in loop.joints], dtype=np.int64)
+    following = np.roll(joints, -1)
     following[begin[1:] - 1] = joints[begin[:-1]]
     ahead = (ends[joints, 1, None] == ends[following]).any(axis=1)
     back = begin[:-1][np.diff(begin) == 2] + 1  # two joints share both links: the second goes on from the first
