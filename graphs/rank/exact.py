@@ -14,13 +14,14 @@ from itertools import pairwise
 from typing import Any
 
 import networkx as nx
+import numpy as np
 from flint import nmod_mat
 
 from graphs.errors import NumericalError
 from graphs.loops.loop import Centre, Loop, added_independent, signed_cycle
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.realisation import PRIMES, Field, GenericRealisation, Line, Point, PrimeField, realise
-from graphs.types import JointId, LinkId
+from graphs.types import Floats, Ints, JointId, LinkId
 
 _FINITE = [(0, 0), (0, 1), (0, 2)]
 _SPATIAL = [*_FINITE, (1, 0), (1, 1), (1, 2)]
@@ -60,6 +61,43 @@ def independent_cycles(sc: SCGraph) -> tuple[Loop, ...]:
         candidates.append((joint, *(tree[frozenset(step)] for step in steps)))
     chosen = added_independent([loop.joints for loop in sc.loops], candidates)
     return (*sc.loops, *(Loop(candidates[i], Centre.NONE) for i in chosen))
+
+
+@dataclass(frozen=True, slots=True)
+class SignedLoops:
+    """Loops as arrays: the columns of the joints of loop l, in its order, are at begin[l] to begin[l + 1] of `joints`.
+
+    A sign is 1 where the loop passes from a joint's first link to its second, else -1.
+    """
+
+    begin: Ints
+    joints: Ints
+    signs: Floats
+
+    def by_length(self) -> list[tuple[Ints, Ints, Floats]]:
+        """Return the loops of each length k: their numbers int[n], their joints and signs [n, k]."""
+        lengths = np.diff(self.begin)
+        groups = []
+        for length in np.unique(lengths).tolist():
+            loops = np.flatnonzero(lengths == length)
+            places = self.begin[loops, None] + np.arange(length)
+            groups.append((loops, self.joints[places], self.signs[places]))
+        return groups
+
+
+def signed_loops(sc: SCGraph, loops: Sequence[Loop]) -> SignedLoops:
+    """Return loops of a mechanism, in cyclic order, as `graphs.loops.loop.signed_cycle` passes them."""
+    column = {joint: place for place, joint in enumerate(sc.joints)}
+    number = {link: place for place, link in enumerate(sc.nodes)}
+    ends = np.array([(number[a], number[b]) for a, b in sc.joints.values()], dtype=np.int64).reshape(-1, 2)
+    begin = np.cumsum([0, *(len(loop.joints) for loop in loops)], dtype=np.int64)
+    joints: Ints = np.array([column[joint] for loop in loops for joint in loop.joints], dtype=np.int64)
+    following = np.roll(joints, -1)
+    following[begin[1:] - 1] = joints[begin[:-1]]
+    ahead = (ends[joints, 1, None] == ends[following]).any(axis=1)
+    back = begin[:-1][np.diff(begin) == 2] + 1  # two joints share both links: the second goes on from the first
+    ahead[back] = ends[joints[back], 0] == ends[joints[back - 1], 1]
+    return SignedLoops(begin, joints, np.where(ahead, 1.0, -1.0))
 
 
 def closure_of(sc: SCGraph, axes: Mapping[JointId, Line], centres: Mapping[int, Point], field: Field) -> Closure:

@@ -32,12 +32,12 @@ from graphs.mechanism.precision import (
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.dissection import sparse_spectrum
-from graphs.rank.exact import Closure, closure_of
-from graphs.rank.realisation import Line, Reals, join
+from graphs.rank.exact import SignedLoops, closure_of, independent_cycles, signed_loops
+from graphs.rank.realisation import Reals, join
 from graphs.rank.rods import numbered_columns, velocity_constraints
 from graphs.rank.singular_values import NEARLY, Spectrum, singular_values, spectrum
 from graphs.tolerances import DOUBLE, Tolerances
-from graphs.types import Floats, JointId
+from graphs.types import Floats, Ints, JointId
 
 _DENSE = 500
 """Up to this many joints all singular values are computed."""
@@ -114,17 +114,18 @@ def pose_mobility(sheet: Sheet, mechanism: SheetMechanism | None = None, *, hing
     (2, 1, True)
     """
     mechanism = mechanism or mechanism_of_sheet(sheet, hinge_flat=hinge_flat)
-    closure = closure_at_pose(sheet, mechanism)
+    loops = _loops_of(mechanism)
+    matrix = closure_at_pose(sheet, mechanism, loops)
     assert sheet.coordinates is not None
     points = _centred(sheet.coordinates)
     precision = precision_of_sheet(sheet)
     error = _error_of_axes(points, mechanism)
     nearly = _nearly(points, mechanism, off_panel_planes(sheet))
-    matrix = _matrix(closure.rows, len(closure.joints))
-    places = _places_of_rows(points, mechanism, closure)
+    places = _places_of_rows(points, mechanism, loops)
     evidence = _spectrum(matrix, places, error * precision.size, error * nearly)
-    found = _mobility(evidence, len(closure.joints), len(closure.rows), points, precision)
-    return replace(found, flat_loops=_flat_loops(points, mechanism, precision))
+    equations, unknowns = matrix.shape
+    found = _mobility(evidence, unknowns, equations, points, precision)
+    return replace(found, flat_loops=_flat_loops(points, mechanism, loops, precision))
 
 
 def pose_mobility_of_axes(
@@ -161,7 +162,8 @@ def pose_mobility_of_axes(
     if precision is None:
         precision = precision_of_axes(points, directions)
     closure = closure_of(SCGraph(sc.nodes, sc.joints), lines, {}, Reals())
-    evidence = spectrum(dense(closure), 2 * precision.size, 2 * NEARLY)
+    matrix = _matrix(closure.rows, len(closure.joints)).toarray()
+    evidence = spectrum(matrix, 2 * precision.size, 2 * NEARLY)
     return _mobility(evidence, len(sc.joints), 6 * sc.independent_loops, points, precision)
 
 
@@ -223,8 +225,13 @@ def _mobility(evidence: Spectrum, unknowns: int, equations: int, points: Floats,
     )
 
 
+def _ends(mechanism: SheetMechanism) -> Ints:
+    """Return the vertices at the ends of each hinge: int[J, 2]."""
+    return np.array(list(mechanism.hinges.values()), dtype=np.int64).reshape(-1, 2)
+
+
 def _lengths(points: Floats, mechanism: SheetMechanism) -> Floats:
-    ends = np.array(list(mechanism.hinges.values()), dtype=np.int64).reshape(-1, 2)
+    ends = _ends(mechanism)
     return np.asarray(np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1))
 
 
@@ -243,30 +250,63 @@ def _nearly(points: Floats, mechanism: SheetMechanism, off_panels: float) -> flo
     return max([small, *(2 * off for off in (off_panels, off_plane(points)) if off <= _SPREAD)])
 
 
-def _flat_loops(points: Floats, mechanism: SheetMechanism, precision: Precision) -> int:
+def _loops_of(mechanism: SheetMechanism) -> SignedLoops:
+    """Return the loops of a sheet's mechanism, those with a centre first."""
+    return signed_loops(mechanism.sc, independent_cycles(mechanism.sc))
+
+
+def _flat_loops(points: Floats, mechanism: SheetMechanism, loops: SignedLoops, precision: Precision) -> int:
     """Count the loops with a centre whose axes lie in one plane, within the precision."""
-    hinges: dict[JointId, tuple[int, int]] = dict(mechanism.hinges.items())
+    ends = _ends(mechanism)
+    centred = np.array([loop.has_centre for loop in mechanism.sc.loops], dtype=bool)
     flat = 0
-    for loop in mechanism.sc.centred_loops:
-        if len(loop.joints) < 3:
-            continue
-        ends = points[np.array([hinges[joint] for joint in loop.joints]).ravel()]
-        sizes = singular_values(ends - ends.mean(axis=0))
-        flat += bool(sizes[2] <= 2 * precision.size * len(ends) ** 0.5 + DOUBLE.flat * sizes[0])
+    for numbers, joints, _ in loops.by_length():
+        around = joints[numbers < len(centred)]
+        around = around[centred[numbers[numbers < len(centred)]]]
+        if joints.shape[1] > 2 and len(around):
+            corners = points[ends[around].reshape(len(around), -1)]
+            sizes = singular_values(corners - corners.mean(axis=1, keepdims=True))
+            noise = 2 * precision.size * corners.shape[1] ** 0.5 + DOUBLE.flat * sizes[:, 0]
+            flat += int((sizes[:, 2] <= noise).sum())
     return flat
 
 
-def closure_at_pose(sheet: Sheet, mechanism: SheetMechanism) -> Closure:
-    """Return the closure equations of a sheet's mechanism at its coordinates.
+def closure_at_pose(
+    sheet: Sheet, mechanism: SheetMechanism, loops: SignedLoops | None = None
+) -> scipy.sparse.csr_matrix:
+    """Return the closure equations of a sheet's mechanism at its coordinates: sparse float[rows, joints].
 
-    Raises `UnsolvableError` if the sheet has no coordinates, `InvariantError` if a hinge has no length.
+    Three for each loop about a vertex, six for any other, as `graphs.rank.exact.closure_of` has them; the loops are
+    those of the mechanism. Raises `UnsolvableError` if the sheet has no coordinates, `InvariantError` if a hinge
+    has no length.
     """
     if sheet.coordinates is None:
         raise UnsolvableError("degrees of freedom at a configuration require coordinates, and the sheet has none")
-    places = _centred(sheet.coordinates)
-    axes = _axes(places, mechanism)
-    centres = {loop: (*places[vertex].tolist(), 1.0) for loop, vertex in enumerate(mechanism.loop_vertices)}
-    return closure_of(mechanism.sc, axes, centres, Reals())
+    loops = loops or _loops_of(mechanism)
+    twists = _twists(_centred(sheet.coordinates), mechanism)
+    rows_of = _rows_of_loops(mechanism, loops)
+    first = np.cumsum(rows_of) - rows_of
+    parts = []
+    for numbers, joints, signs in loops.by_length():
+        for rows in (3, 6):
+            these = rows_of[numbers] == rows
+            values = twists[joints[these], :rows] * signs[these][..., None]
+            row = first[numbers[these], None, None] + np.arange(rows)
+            column = np.broadcast_to(joints[these][..., None], values.shape)
+            parts.append((values.ravel(), np.broadcast_to(row, values.shape).ravel(), column.ravel()))
+    shape = (int(rows_of.sum()), len(mechanism.sc.joints))
+    if not parts:
+        return scipy.sparse.csr_matrix(shape)
+    data, row, column = (np.concatenate(arrays) for arrays in zip(*parts, strict=True))
+    matrix = scipy.sparse.csr_matrix((data, (row, column)), shape=shape)
+    matrix.eliminate_zeros()
+    return matrix
+
+
+def _rows_of_loops(mechanism: SheetMechanism, loops: SignedLoops) -> Ints:
+    """Return the number of equations of each loop."""
+    about_vertex = np.arange(len(loops.begin) - 1) < len(mechanism.loop_vertices)
+    return np.where(about_vertex, 3, 6)
 
 
 def _centred(coordinates: Sequence[Sequence[float]]) -> Floats:
@@ -277,22 +317,16 @@ def _centred(coordinates: Sequence[Sequence[float]]) -> Floats:
     return points / (extent_of(points) or 1.0)
 
 
-def _axes(places: Floats, mechanism: SheetMechanism) -> Mapping[JointId, Line]:
-    axes: dict[JointId, Line] = {}
-    for (joint, (a, b)), length in zip(mechanism.hinges.items(), _lengths(places, mechanism).tolist(), strict=True):
-        p = places[a]
-        if length == 0.0:
-            raise InvariantError(
-                "hinge", f"the crease between vertices {a} and {b} has no length", part=("edges", joint)
-            )
-        u = (places[b] - p) / length
-        axes[joint] = join((*p.tolist(), 1.0), (*(p + u).tolist(), 1.0), Reals())
-    return axes
-
-
-def dense(closure: Closure) -> Floats:
-    """Return the matrix of closure equations: float[rows, joints]."""
-    return np.asarray(_matrix(closure.rows, len(closure.joints)).toarray())
+def _twists(places: Floats, mechanism: SheetMechanism) -> Floats:
+    """Return the direction of each hinge and its moment: float[J, 6]."""
+    ends = _ends(mechanism)
+    lengths = _lengths(places, mechanism)
+    for hinge in np.flatnonzero(lengths == 0.0).tolist():
+        (a, b), part = ends[hinge].tolist(), ("edges", list(mechanism.hinges)[hinge])
+        raise InvariantError("hinge", f"the crease between vertices {a} and {b} has no length", part=part)
+    near = places[ends[:, 0]]
+    far = near + (places[ends[:, 1]] - near) / lengths[:, None]
+    return np.concatenate([far - near, np.cross(near, far)], axis=1)
 
 
 def _matrix(rows: Sequence[Mapping[int, float]], columns: int) -> scipy.sparse.csr_matrix:
@@ -301,8 +335,10 @@ def _matrix(rows: Sequence[Mapping[int, float]], columns: int) -> scipy.sparse.c
     return scipy.sparse.csr_matrix((np.array(values, dtype=float), (at, to)), shape=(len(rows), columns))
 
 
-def _places_of_rows(points: Floats, mechanism: SheetMechanism, closure: Closure) -> Floats:
+def _places_of_rows(points: Floats, mechanism: SheetMechanism, loops: SignedLoops) -> Floats:
     """Return the middle of the hinges of the loop of each row."""
-    middle: dict[JointId, Floats] = {joint: (points[a] + points[b]) / 2 for joint, (a, b) in mechanism.hinges.items()}
-    by_loop = {loop: np.mean([middle[joint] for joint in loop], axis=0) for loop in dict.fromkeys(closure.loops)}
-    return np.array([by_loop[loop] for loop in closure.loops]).reshape(-1, 3)
+    middles = points[_ends(mechanism)].sum(axis=1) / 2
+    places = np.zeros((len(loops.begin) - 1, 3))
+    for numbers, joints, _ in loops.by_length():
+        places[numbers] = middles[joints].mean(axis=1)
+    return np.repeat(places, _rows_of_loops(mechanism, loops), axis=0)

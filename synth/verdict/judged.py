@@ -25,7 +25,7 @@ from synth.motion.branches import Branch, Branches, Certainty, signs_of
 from synth.motion.configuration import EXACT, Configuration
 from synth.motion.marked import Marked
 from synth.motion.singular.sampling import walked
-from synth.motion.walk.events import free_rates
+from synth.motion.walk.events import number_of_free_rates
 from synth.moving.made import configuration_of, with_precision
 from synth.verdict.verdict import (
     AsWritten,
@@ -109,8 +109,7 @@ def _of_one_motion(configuration: Configuration, generic: int | None) -> Verdict
     if rates is None or far <= DOUBLE.moved:
         return _of_no_motion(configuration, generic, rigid=begun.rigid)
     moving = np.flatnonzero((np.abs(rates) > DOUBLE.zero_rate) | (np.abs(end - linkage.angles) > DOUBLE.immobile))
-    basis = free_rates(closure, end, moving)
-    freedoms = None if basis is None else basis.shape[1]
+    freedoms = number_of_free_rates(closure, end, moving)
     turning = set(moving.tolist())
     still = tuple(joint for place, joint in enumerate(joints) if place not in turning)
     from_folded = None if begun.folded is None else (begun.folded.found_at, begun.folded.back_to)

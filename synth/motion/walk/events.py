@@ -8,7 +8,7 @@ from math import pi
 
 import numpy as np
 
-from graphs.rank.singular_values import row_space, split
+from graphs.rank.singular_values import rank_of, row_space, split
 from graphs.tolerances import DOUBLE, pivots
 from graphs.types import Flags, Floats, Ints, JointId
 from synth.motion.closure import ClosureEquations, Corrected, corrected
@@ -207,17 +207,38 @@ def free_rates(closure: ClosureEquations, angles: Floats, moving: Ints | None = 
     are the joints that move, of a branch on which others are immobile: these may have rates of their own there,
     which begin other branches; by default all. The columns are orthonormal, float[n, F].
     """
+    spanning = _spanning(closure, angles, moving)
+    return None if spanning is None else row_space(spanning, DOUBLE.singular, float(np.sqrt(spanning.shape[1])))
+
+
+def number_of_free_rates(closure: ClosureEquations, angles: Floats, moving: Ints | None = None) -> int | None:
+    """Return how many columns the basis of `free_rates` has, without making it."""
+    spanning = _spanning(closure, angles, moving)
+    return None if spanning is None else _rank(spanning @ spanning.T, spanning.shape[1])
+
+
+def _rank(products: Floats, size: int) -> int:
+    """Return the rank of random rates by their products, float[k, k].
+
+    Projected random rates have singular values of their number's root, or none, and products the squares of these.
+    """
+    return rank_of(products, DOUBLE.singular**2, float(size))
+
+
+def _spanning(closure: ClosureEquations, angles: Floats, moving: Ints | None) -> Floats | None:
+    """Return rates, rows of float[k, n], that span all, more than these are."""
     jacobian = closure.at(angles)[1]
     space = TangentSpace(jacobian if moving is None else jacobian[:, moving])
     size = len(angles) if moving is None else len(moving)
     chance = np.random.default_rng(size)
-    projected: list[Floats] = []
+    projected, products = np.zeros((0, size)), np.zeros((0, 0))
     while len(projected) < min(_MOST, size):
-        projected += [space.projected(chance.normal(size=size)) for _ in range(_BLOCK)]
-        # projected random rates have singular values of their number's root, or none
-        basis = row_space(np.array(projected), DOUBLE.singular, float(np.sqrt(size)))
-        if basis.shape[1] < len(projected):
-            return basis
+        more = np.array([space.projected(chance.normal(size=size)) for _ in range(_BLOCK)])
+        between, own = projected @ more.T, more @ more.T
+        products = np.block([[products, between], [between.T, own]])
+        projected = np.concatenate([projected, more])
+        if _rank(products, size) < len(projected):
+            return projected
     return None
 
 

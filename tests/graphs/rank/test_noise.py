@@ -16,7 +16,7 @@ from graphs.mechanism.precision import precision_of, precision_of_sheet
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.dissection import number_below, sparse_spectrum
-from graphs.rank.pose import closure_at_pose, dense, pose_mobility
+from graphs.rank.pose import closure_at_pose, pose_mobility
 from graphs.rank.singular_values import spectrum
 from synth.conformed.rates import ConformedChain, first_order
 
@@ -173,8 +173,7 @@ def test_large_matrices_by_parts(size, folded):
     """Nested dissection, singular values, and ranks modulo a prime: three ways to one rank."""
     sheet = grid(size, np.random.default_rng(2) if folded else None)
     mechanism = mechanism_of_sheet(sheet)
-    closure = closure_at_pose(sheet, mechanism)
-    matrix = dense(closure)
+    matrix = closure_at_pose(sheet, mechanism).toarray()
     places = np.repeat(np.array(sheet.coordinates)[list(mechanism.loop_vertices)], 3, axis=0)
     none = np.zeros(matrix.shape[1])
     parts = sparse_spectrum(scipy.sparse.csr_matrix(matrix), places, none, none)

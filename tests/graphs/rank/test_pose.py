@@ -11,7 +11,7 @@ from graphs.errors import InvariantError, SynthedraError, UnsolvableError
 from graphs.files.formats import read
 from graphs.mechanism.precision import stated
 from graphs.mechanism.sheet import Sheet
-from graphs.rank.pose import closure_at_pose, dense, pose_mobility
+from graphs.rank.pose import closure_at_pose, pose_mobility
 from graphs.rank.singular_values import spectrum
 
 
@@ -69,7 +69,7 @@ def test_where_no_gap_tells():
 
 def test_rank_agrees_with_numpy():
     sheet = folded_mesh(4, 4)
-    matrix = dense(closure_at_pose(sheet, mechanism_of_sheet(sheet)))
+    matrix = closure_at_pose(sheet, mechanism_of_sheet(sheet)).toarray()
     assert spectrum(matrix).rank == np.linalg.matrix_rank(matrix, tol=1e-9)
 
 

@@ -6,7 +6,7 @@ from sizes import first_quick
 
 from graphs.files.formats import read
 from synth.folding.configuration import configuration_of_sheet
-from synth.motion.walk.events import free_rates, independent_joints
+from synth.motion.walk.events import free_rates, independent_joints, number_of_free_rates
 
 
 @pytest.fixture(scope="module")
@@ -25,6 +25,7 @@ def test_rates_are_those_of_the_dense_matrix(bird_base, general_pose):
     basis = free_rates(bird_base.closure, angles)
     jacobian = bird_base.closure.at(angles)[1].toarray()
     assert basis.shape[1] == len(angles) - np.linalg.matrix_rank(jacobian, tol=1e-7)
+    assert number_of_free_rates(bird_base.closure, angles) == basis.shape[1]
     assert np.abs(jacobian @ basis).max() < 1e-9
     np.testing.assert_allclose(basis.T @ basis, np.eye(basis.shape[1]), atol=1e-12)
 
