@@ -292,6 +292,7 @@ def test_results_have_short_descriptions(data):
             synth.edit(FOUR_BAR, lock=[0]),
             synth.explain(ring),
             synth.advise(pattern, 0),
+            synth.layers(data / "patterns" / "bird-base.fold"),
             synth.fold(pattern, frames=2),
         ),
         *(synth.positions(ring, drive={0: 0.1}), synth.states(ring, joints=[0]), synth.generate("miura")),

@@ -1,0 +1,82 @@
+"""Crease patterns folded flat: from the front, from the back, and with light through the layers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import shapely
+
+from graphs.errors import numbered
+from graphs.types import Floats
+from synth.drawing.scene.frame import PictureFrame, PictureOptions, captions_of, framed, page_of
+from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, Label, Layer, Line, Polygon, Shape, moved
+from synth.drawing.scene.writing import Scene
+from synth.layering.image import OUTSIDE
+from synth.layering.orders import LayerOrder
+
+_GAP = 6.0
+_CLEAR = 0.85
+"""The part of the light that a layer lets through."""
+
+
+def flat_folded_scene(order: LayerOrder, options: PictureOptions) -> Scene:
+    """Return a layer order as it is seen from the front, from the back (turned over) and through its layers."""
+    nodes = order.image.nodes
+    box = ((options.box[0] - 2 * _GAP) / 3, options.box[1])
+    frame = framed(nodes.tolist(), max(options.box), box, _GAP)
+    turned = nodes * (-1.0, 1.0)
+    frame_back = framed(turned.tolist(), max(options.box), box, _GAP)
+    views = [
+        _seen(order, frame, nodes, back=False, numbers=options.numbers),
+        _seen(order, frame_back, turned, back=True, numbers=options.numbers),
+        _through(order, frame),
+    ]
+    layers = [moved(layer, place * (frame.width + _GAP), 0.0) for place, view in enumerate(views) for layer in view]
+    width = 3 * frame.width + 2 * _GAP
+    whole = PictureFrame(frame.scale, 0.0, 0.0, 0.0, 0.0, width, frame.height)
+    layered = numbered(order.image.depth, "layer")
+    return page_of(whole, layers, captions_of(options.caption, f"front, back and light through at most {layered}"))
+
+
+def _seen(order: LayerOrder, frame: PictureFrame, nodes: Floats, *, back: bool, numbers: bool) -> Iterator[Layer]:
+    """Yield the layers of a view from one side: what is on top of each cell, and the lines where that changes."""
+    image = order.image
+    on_top = [(stack[0] if back else stack[-1]) if stack else OUTSIDE for stack in order.stacks]
+    panels: list[Shape] = []
+    best: dict[int, tuple[float, Label]] = {}
+    for cell, panel in zip(image.cells, on_top, strict=True):
+        if panel == OUTSIDE:
+            continue
+        corners = frame.row(nodes[list(cell)].tolist())
+        fill = "front" if bool(image.panels.flipped[panel]) == back else "back"
+        panels.append(Polygon(corners, fill, fill, FINE, data=(("link", str(panel)),)))
+        circle = shapely.maximum_inscribed_circle(shapely.Polygon(corners))
+        (x, y), _ = circle.coords
+        label = Label((x, y), str(panel), SMALL, data=(("link", str(panel)),))
+        left, top, right, low = label.box
+        room = circle.length - float(np.hypot(right - left, low - top)) / 2
+        if room > best.get(panel, (0.0, label))[0]:
+            best[panel] = (room, label)
+    lines: list[Shape] = []
+    for (one, other), sides in zip(image.segments.tolist(), image.sides.tolist(), strict=True):
+        seen = {OUTSIDE if cell == OUTSIDE else on_top[cell] for cell in sides}
+        if len(seen) > 1:
+            width = NORMAL if OUTSIDE in seen else FINE
+            lines.append(Line(frame.row([nodes[one].tolist(), nodes[other].tolist()]), "ink", width))
+    yield Layer("panels", tuple(panels))
+    yield Layer("edges", tuple(lines))
+    yield Layer("labels", tuple(label for _, label in best.values()) if numbers else ())
+
+
+def _through(order: LayerOrder, frame: PictureFrame) -> Iterator[Layer]:
+    """Yield the layers of a view against the light: the more layers, the darker; all edges."""
+    nodes = order.image.nodes
+    shades = [
+        Polygon(frame.row(nodes[list(cell)].tolist()), "shadow", None, opacity=1.0 - _CLEAR ** len(stack))
+        for cell, stack in zip(order.image.cells, order.stacks, strict=True)
+        if stack
+    ]
+    edges = [Line(frame.row(nodes[pair].tolist()), "ink", FINE) for pair in order.image.segments]
+    yield Layer("shades", tuple(shades))
+    yield Layer("edges", tuple(edges))

@@ -1,0 +1,7 @@
+from synth.layering.local import FlatVertex as FlatVertex
+from synth.layering.orders import (
+    FlatFolding as FlatFolding,
+    LayerComponent as LayerComponent,
+    LayerOrder as LayerOrder,
+    layers as layers,
+)
