@@ -1,3 +1,4 @@
+from synth.layering.cores import CoreCondition as CoreCondition, LayerCore as LayerCore
 from synth.layering.local import FlatVertex as FlatVertex
 from synth.layering.orders import (
     FlatFolding as FlatFolding,

@@ -27,6 +27,7 @@ from synth.folding.configuration import opened
 from synth.folding.mending.nearest import FARTHEST
 from synth.layering.checking import fault_of
 from synth.layering.constraints import LayerConstraints, layer_constraints
+from synth.layering.cores import LayerCore, core_lines, core_of
 from synth.layering.image import FoldedImage, folded, image_of
 from synth.layering.local import FlatVertex, closing_points, flat_vertices
 from synth.layering.problem import LayerProblem, solutions
@@ -161,6 +162,9 @@ class FlatFolding(Printed):
         The number of layer orders: 0 if there is none.
     fault : str
         Why there is none; empty if there is any.
+    core : LayerCore, optional
+        Conditions on layers that contradict each other, none of which can go; None if there is an order, if the image
+        does not close, or without `explain`.
 
     Examples
     --------
@@ -180,6 +184,7 @@ class FlatFolding(Printed):
     parts: tuple[LayerComponent, ...]
     orders: int
     fault: str
+    core: LayerCore | None = None
     _constraints: LayerConstraints | None = field(default=None)
     _reduced: ReducedLayers | None = field(default=None)
 
@@ -284,6 +289,7 @@ class FlatFolding(Printed):
             "orders": self.orders,
             "components": [component.to_json() for component in self.components],
             "fault": self.fault or None,
+            "core": None if self.core is None else self.core.to_json(),
             "vertices": [vertex.to_json() for vertex in self.vertices],
             "misfit": self.misfit,
             "moved": self.moved,
@@ -303,6 +309,8 @@ class FlatFolding(Printed):
         faults = self.local_faults
         if not self.foldable:
             blocks: list[Block] = [f"Does not fold flat: {self.fault}."]
+            if self.core is not None:
+                blocks += core_lines(self.core, _LISTED)
             if faults:
                 rows = [(str(v.vertex), f"{v.place[0]:.6g}, {v.place[1]:.6g}", v.fault) for v in faults[:_LISTED]]
                 blocks.append(TableBlock(("vertex", "place", "fault"), rows, ("vertex",)))
@@ -401,7 +409,9 @@ def flat_pattern(sheet: Sheet) -> FlatPattern:
     return FlatPattern(kept, mechanism, precision, points, moved, tuple(vertices))
 
 
-def layers(mechanism: MechanismLike, *, frame: int | None = None, precision: float | None = None) -> FlatFolding:
+def layers(
+    mechanism: MechanismLike, *, frame: int | None = None, precision: float | None = None, explain: bool = True
+) -> FlatFolding:
     """Return whether a crease pattern folds flat, in how many layer orders, and why not if it does not.
 
     Every mountain, valley and unassigned crease is folded by 180 degrees; unassigned ones either way. A layer order
@@ -414,6 +424,8 @@ def layers(mechanism: MechanismLike, *, frame: int | None = None, precision: flo
         The frame of the file; 0 is the key frame.
     precision : float, optional
         The error of a coordinate, in its unit, as for `synth.mobility`.
+    explain : bool, optional
+        If there is no layer order, find panels and conditions that contradict each other, none of which can go.
 
     Returns
     -------
@@ -460,12 +472,12 @@ def layers(mechanism: MechanismLike, *, frame: int | None = None, precision: flo
     constraints = layer_constraints(image)
     known, _ = constraints.creases(valleys_of(pattern.sheet, pattern.mechanism))
     left = reduced(constraints, known)
-    if left is None:
-        return FlatFolding(*about, image, misfit, (), 0, local or _CONTRADICTION, constraints, None)
-    parts = _components(constraints, left)
-    orders = prod(part.orders for part in parts)
-    fault = "" if orders else local or _CONTRADICTION
-    return FlatFolding(*about, image, misfit, parts if orders else (), orders, fault, constraints, left)
+    parts = () if left is None else _components(constraints, left)
+    orders = 0 if left is None else prod(part.orders for part in parts)
+    if orders:
+        return FlatFolding(*about, image, misfit, parts, orders, "", None, constraints, left)
+    core = core_of(image, valleys_of(pattern.sheet, pattern.mechanism)) if explain else None
+    return FlatFolding(*about, image, misfit, (), 0, local or _CONTRADICTION, core, constraints)
 
 
 def _local_fault(vertices: Sequence[FlatVertex]) -> str:

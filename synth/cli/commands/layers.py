@@ -23,9 +23,14 @@ if TYPE_CHECKING:
 @options.number("--frame", "N", "Frame of a FOLD file; 0 is the key frame.", 0)
 @options.number("--order", "N", "Print this layer order, counted from 0: the panels over each cell, from below.", 0)
 @options.number("--sample", "SEED", "Print a layer order drawn at random, each as likely as any other.", 0)
+@options.flag(
+    "--explain/--no-explain",
+    "If there is no layer order, find panels and conditions that contradict each other, none of which can go.",
+    default=True,
+)
 @options.JSON
 @PRECISION
-def layers(file: str, frame: int | None, order: int | None, sample: int | None, as_json: bool) -> None:
+def layers(file: str, frame: int | None, order: int | None, sample: int | None, explain: bool, as_json: bool) -> None:
     """Check whether a crease pattern folds flat, and count its layer orders exactly.
 
     Every mountain, valley and unassigned crease is folded by 180 degrees. Vertices are checked first (Kawasaki,
@@ -45,7 +50,7 @@ def layers(file: str, frame: int | None, order: int | None, sample: int | None, 
     mechanism = read(file)
     with about(file):
         check_argument("layers", mechanism, Sheet)
-        answer = synth.layering.layers(precise_sheet(mechanism), frame=frame)
+        answer = synth.layering.layers(precise_sheet(mechanism), frame=frame, explain=explain)
         shown = _shown(answer, order, sample) if answer.foldable else None
     if as_json:
         print_json({"file": file, **answer.to_json(), "order": None if shown is None else shown.to_json()})
