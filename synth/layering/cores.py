@@ -20,8 +20,8 @@ from graphs.printing import plain
 from synth.layering.constraints import PairTable, layer_constraints
 from synth.layering.image import FoldedImage
 from synth.layering.problem import LayerProblem, solutions
-from synth.layering.reduction import reduced
-from synth.layering.settling import counted
+from synth.layering.reduction import merged, reduced
+from synth.layering.settling import contradicting, counted
 from synth.layering.sweep import count_by_cells
 
 
@@ -103,7 +103,8 @@ def core_of(image: FoldedImage, valleys: Mapping[int, bool]) -> LayerCore:
     def contradict(panels: Sequence[int]) -> bool:
         return _has_none(restricted(image, panels), valleys)
 
-    panels = tuple(sorted(_least(contradict, _near_each_other(image))))
+    suspects = _suspects(image, valleys)
+    panels = tuple(sorted(_least(contradict, [panel for panel in _near_each_other(image) if panel in suspects])))
     part = restricted(image, panels)
     primitives = list(_primitives(part, valleys))
 
@@ -147,6 +148,22 @@ def _has_none(image: FoldedImage, valleys: Mapping[int, bool]) -> bool:
     constraints = layer_constraints(image)
     left = reduced(constraints, constraints.creases(valleys)[0])
     return left is None or not all(counted(problem) for problem, _ in left.parts)
+
+
+def _suspects(image: FoldedImage, valleys: Mapping[int, bool]) -> set[int]:
+    """Return panels that contradict each other: those from which a contradiction followed, or all."""
+    every = set(range(len(image.panels.flipped)))
+    constraints = layer_constraints(image)
+    table = constraints.table
+    one, other, *_ = constraints.beside
+    known, _ = constraints.creases(valleys)
+    literal = merged(constraints.variables + 1, one + 2, other + 2)
+    if literal is None:
+        return every
+    rows = literal[2 * (table.variable + 1)]
+    classes = int(literal.max()) // 2 + 1
+    met = contradicting(table, rows, literal[known + 2], classes, literal[constraints.nested[0] + 2])
+    return every if met is None else set(table.panels[np.isin(rows >> 1, met)].ravel().tolist())
 
 
 def _near_each_other(image: FoldedImage) -> list[int]:

@@ -54,6 +54,11 @@ class FoldedPanels:
         of = {face: panel for panel, faces in enumerate(self.mechanism.panels) for face in faces}
         return [of[face] for face in range(len(self.sheet.faces))]
 
+    @cached_property
+    def faces_up(self) -> list[bool]:
+        """Whether the folded corners of each face turn counter-clockwise: its normal points up."""
+        return [float(signed_area(self.places[list(face)])) > 0.0 for face in self.sheet.faces]
+
 
 def folded(sheet: Sheet, mechanism: SheetMechanism, points: Floats) -> FoldedPanels:
     """Return the panels of a sheet reflected along a tree of its longest creases.

@@ -22,14 +22,25 @@ typedef struct {
     int8_t *value;
     int64_t *queue;
     int64_t end;
+    int64_t *why; /* for each class four others that it follows from, -1 fills up; the last row is the contradiction */
+    int64_t *contradiction;
 } known;
 
-static int learn(known *k, int64_t literal)
+static int contradicted(known *k, const int64_t *because, int64_t v)
+{
+    memcpy(k->contradiction, because, 3 * sizeof *because);
+    k->contradiction[3] = v;
+    return 0;
+}
+
+/* Make a literal true, since three classes have the values that they have. */
+static int learn(known *k, int64_t literal, const int64_t *because)
 {
     int64_t v = literal >> 1;
     int8_t truth = (int8_t)!(literal & 1);
-    if (k->value[v] != UNKNOWN) return k->value[v] == truth;
+    if (k->value[v] != UNKNOWN) return k->value[v] == truth || contradicted(k, because, v);
     k->value[v] = truth;
+    memcpy(k->why + 4 * v, because, 3 * sizeof *because);
     k->queue[k->end++] = v;
     return 1;
 }
@@ -50,22 +61,22 @@ static int64_t over(const int64_t *rows, int64_t size, int64_t i, int64_t j)
 
 static int settle_cell(known *k, const int64_t *rows, int64_t size, int64_t i, int64_t j)
 {
-    int first = truth_of(k->value, over(rows, size, i, j));
+    int64_t here = over(rows, size, i, j);
+    int first = truth_of(k->value, here);
     for (int64_t other = 0; other < size; other++) {
         if (other == i || other == j) continue;
         int64_t after = over(rows, size, j, other), back = over(rows, size, other, i);
         int one = truth_of(k->value, after), two = truth_of(k->value, back);
-        if (one == first && two == first) return 0;
-        if (one == first && two == UNKNOWN && !learn(k, back ^ first)) return 0;
-        if (two == first && one == UNKNOWN && !learn(k, after ^ first)) return 0;
+        if (one == first && two != !first && !learn(k, back ^ first, (int64_t[3]){here >> 1, after >> 1, -1})) return 0;
+        if (two == first && one == UNKNOWN && !learn(k, after ^ first, (int64_t[3]){here >> 1, back >> 1, -1})) return 0;
     }
     return 1;
 }
 
 static int settle_parity(known *k, const int64_t *row, int64_t width)
 {
-    int64_t left = -1;
-    int odd = 0;
+    int64_t left = -1, because[4] = {-1, -1, -1, -1};
+    int odd = 0, met = 0;
     for (int64_t i = 0; i < width; i++) {
         if (row[i] < 0) continue;
         int here = truth_of(k->value, row[i]);
@@ -77,14 +88,17 @@ static int settle_parity(known *k, const int64_t *row, int64_t width)
             left = row[i];
         } else {
             odd ^= here;
+            because[met++] = row[i] >> 1;
         }
     }
-    return left < 0 ? !odd : learn(k, left ^ !odd);
+    if (left < 0) return !odd || contradicted(k, because, because[3]);
+    return learn(k, left ^ !odd, because);
 }
 
-/* Values of classes, -1 where unknown: what is known is extended; 1 if all is consistent, 0 if not, -1 no memory. */
+/* Values of classes, -1 where unknown: what is known is extended; 1 if all is consistent, 0 if not, -1 no memory.
+ * Why has four classes for each class that was found, -1 fills up, and four for the contradiction, in the last row. */
 EXPORT int settled(int64_t cells, const int64_t *sizes, const int64_t *first, const int64_t *rows, int64_t classes,
-                   int64_t parities, const int64_t *parity, int8_t *value)
+                   int64_t parities, const int64_t *parity, int8_t *value, int64_t *why)
 {
     int64_t count = first[cells], width = 4;
     int64_t *begin = calloc((size_t)classes + 1, sizeof *begin), *place = malloc(((size_t)count + 1) * sizeof *place);
@@ -112,7 +126,7 @@ EXPORT int settled(int64_t cells, const int64_t *sizes, const int64_t *first, co
         for (int64_t i = parities * width; i-- > 0;)
             if (parity[i] >= 0) place4[--begin4[parity[i] >> 1]] = i / width;
         begin[classes] = count;
-        known k = {value, queue, 0};
+        known k = {value, queue, 0, why, why + 4 * classes};
         for (int64_t v = 0; v < classes; v++)
             if (value[v] != UNKNOWN) queue[k.end++] = v;
         for (int64_t i = 0; good == 1 && i < parities; i++) good = settle_parity(&k, parity + i * width, width);

@@ -23,7 +23,7 @@ MOST_BYTES = 1 << 28
 """Bytes of the keys of a cache; when they are used up it is emptied."""
 _P = c_void_p
 _FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
-    "settled": (c_int, (c_int64, _P, _P, _P, c_int64, c_int64, _P, _P)),
+    "settled": (c_int, (c_int64, _P, _P, _P, c_int64, c_int64, _P, _P, _P)),
     "probed": (c_int, (c_int64, c_int64, _P, c_int64, _P, c_int64, _P, _P)),
     "counted": (c_int, (c_int64, c_int64, _P, c_int64, _P, c_int64, _P, c_int64, _P, c_int64, _P, _P, _P)),
 }
@@ -86,11 +86,18 @@ class ProblemInLibrary:
         return None if state[0] == _TOO_LARGE else int(halves[0]) + (int(halves[1]) << 64)
 
 
-def settled_in_library(found: ctypes.CDLL, sizes: Ints, first: Ints, rows: Ints, parities: Ints, values: Signs) -> bool:
-    """Extend the values of classes, int8[n], by what follows from them; return whether that is consistent."""
+def settled_in_library(
+    found: ctypes.CDLL, sizes: Ints, first: Ints, rows: Ints, parities: Ints, values: Signs
+) -> tuple[bool, Ints]:
+    """Extend the values of classes, int8[n], by what follows from them; return whether that is consistent, and why.
+
+    The reasons, int[n + 1, 4], are classes from which each follows, -1 fills up; the last row is the contradiction.
+    """
     arrays = [np.ascontiguousarray(array, dtype=np.int64) for array in (sizes, first, rows, parities)]
     places = [array.ctypes.data for array in arrays]
-    state = found.settled(len(sizes), *places[:3], len(values), len(parities), places[3], values.ctypes.data)
+    why = np.full((len(values) + 1, 4), -1, dtype=np.int64)
+    written = (values.ctypes.data, why.ctypes.data)
+    state = found.settled(len(sizes), *places[:3], len(values), len(parities), places[3], *written)
     if state < 0:
         raise MemoryError("no memory for so many pairs of panels")
-    return bool(state)
+    return bool(state), why

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import islice
+from itertools import combinations, islice
 from math import prod
 from random import Random
 from typing import Any
@@ -16,7 +16,6 @@ from graphs.answer.mechanisms import sheet_in_frame
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.files.accepted import MechanismLike, mechanism_for, with_stated_precision
-from graphs.geometry import signed_area
 from graphs.limits import check_work
 from graphs.mechanism.precision import Precision, extent_of, flat_places, keeping, precision_of_sheet
 from graphs.mechanism.sheet import Sheet, with_all_edges
@@ -35,6 +34,8 @@ from synth.layering.reduction import ReducedLayers, reduced
 from synth.layering.settling import counted
 
 _CONTRADICTION = "its layers contradict each other"
+_FEW = 12
+"""Wishes of which the largest number that can be met is looked for."""
 _LISTED = 12
 """Faults and components that are printed; data has all."""
 
@@ -76,9 +77,9 @@ class LayerOrder(Printed):
     def face_orders(self) -> list[tuple[int, int, int]]:
         """Return ``faceOrders`` of FOLD: faces f, g, and 1 if f lies on the side of g that its normal points to."""
         panels = self.image.panels
-        faces, places = panels.sheet.faces, panels.mechanism.panels
+        places = panels.mechanism.panels
         return [
-            (f, g, 1 if first_on_top == (float(signed_area(panels.places[list(faces[g])])) > 0.0) else -1)
+            (f, g, 1 if first_on_top == panels.faces_up[g] else -1)
             for (one, other), first_on_top in sorted(self.above().items())
             for f in places[one]
             for g in places[other]
@@ -250,6 +251,44 @@ class FlatFolding(Printed):
         for chosen in combined(mine):
             yield self._with([*rest, *chosen])
 
+    def nearest(self, wishes: Sequence[tuple[int, int]]) -> tuple[LayerOrder, tuple[tuple[int, int], ...]]:
+        """Return a layer order that meets as many wishes as possible, and the wishes that it does not meet.
+
+        A wish is a pair of panels, the first to be on top. Up to twelve wishes on one part are met in the largest
+        number possible; of more, one after the other as far as that is possible. Raises `InvariantError` for panels
+        that do not overlap.
+        """
+        self._check_any()
+        assert self._constraints is not None
+        assert self._reduced is not None
+        table = self._constraints.table
+        places: dict[tuple[int, int], set[int]] = {}
+        for one, other, variable in np.unique(np.column_stack([table.panels, table.variable]), axis=0).tolist():
+            places.setdefault((one, other), set()).add(variable)
+        parts = [part for part, _ in self._parts()]
+        part_of = {number: place for place, (_, classes) in enumerate(parts) for number in classes.tolist()}
+        wanted: list[list[int]] = [[] for _ in parts]
+        for upper, lower in wishes:
+            pair = min(upper, lower), max(upper, lower)
+            if pair not in places:
+                raise InvariantError("wish", f"panels {upper} and {lower} do not overlap", "two panels that do")
+            for variable in places[pair]:
+                literal = int(self._reduced.literal[2 * variable + (upper > lower)])
+                if literal >> 1 in part_of:
+                    place = part_of[literal >> 1]
+                    local = int(np.searchsorted(parts[place][1], literal >> 1))
+                    wanted[place].append(2 * local + (literal & 1))
+        order = self._with(
+            [
+                (classes, next(solutions(problem, _met(problem, list(dict.fromkeys(literals))))))
+                for (problem, classes), literals in zip(parts, wanted, strict=True)
+            ]
+        )
+        above = order.above()
+        return order, tuple(
+            (upper, lower) for upper, lower in wishes if above[min(upper, lower), max(upper, lower)] != (upper < lower)
+        )
+
     def _check_any(self) -> None:
         if not self.foldable:
             raise UnsolvableError(f"there is no layer order: {self.fault}")
@@ -343,6 +382,24 @@ class FlatFolding(Printed):
 
     def __repr__(self) -> str:
         return f"<FlatFolding: {numbered(self.orders, 'layer order')}>"
+
+
+def _met(problem: LayerProblem, literals: Sequence[int]) -> list[int]:
+    """Return as many of some literals as can be true together; of more than a few, those that go with the first."""
+
+    def possible(some: Sequence[int]) -> bool:
+        return next(solutions(problem, some), None) is not None
+
+    if len(literals) <= _FEW:
+        for number in range(len(literals), -1, -1):
+            for some in combinations(literals, number):
+                if possible(some):
+                    return list(some)
+    kept: list[int] = []
+    for literal in literals if not possible(literals) else ():
+        if possible([*kept, literal]):
+            kept.append(literal)
+    return kept or list(literals)
 
 
 def _drawn(problem: LayerProblem, draw: Random) -> list[int]:

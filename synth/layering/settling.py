@@ -22,10 +22,32 @@ def settled(table: PairTable, rows: Ints, classes: int, parities: Ints) -> Signs
     values[0] = 1
     found = kernel()
     if found is not None:
-        good = settled_in_library(found, table.sizes, table.first, rows, parities, values)
+        good, _ = settled_in_library(found, table.sizes, table.first, rows, parities, values)
     else:
         good = _settled(table, rows, parities, values)
     return values if good else None
+
+
+def contradicting(table: PairTable, rows: Ints, known: Ints, classes: int, parities: Ints) -> Ints | None:
+    """Return classes whose values contradict each other where some literals are true; None where it is not known."""
+    values = np.full(classes, UNKNOWN, dtype=np.int8)
+    values[known >> 1] = 1 - (known & 1)
+    wrong = np.flatnonzero(_truths(values, known) == 0)
+    if len(wrong):
+        return known[wrong[:1]] >> 1
+    found = kernel()
+    if found is None:
+        return None
+    good, why = settled_in_library(found, table.sizes, table.first, rows, parities, values)
+    if good:
+        return None
+    classes_met: set[int] = set()
+    left = set(why[-1].tolist()) - {-1}
+    while left:
+        number = left.pop()
+        classes_met.add(number)
+        left |= set(why[number].tolist()) - {-1} - classes_met
+    return np.array(sorted(classes_met), dtype=np.int64)
 
 
 def _truths(values: Signs, literals: Ints) -> Signs:

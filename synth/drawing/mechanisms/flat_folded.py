@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import shapely
 
 from graphs.errors import numbered
+from graphs.files.outputs import Format, check_writable, formats_by_suffix, write_as
 from graphs.types import Floats
-from synth.drawing.scene.frame import PictureFrame, PictureOptions, captions_of, framed, page_of
+from synth.drawing.scene.frame import PLAIN, PictureFrame, PictureOptions, captions_of, framed, page_of
 from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, Label, Layer, Line, Polygon, Shape, moved
-from synth.drawing.scene.writing import Scene
+from synth.drawing.scene.writing import PICTURES, Pages, Scene
+from synth.layering.face_orders import folded_fold_text
 from synth.layering.image import OUTSIDE
-from synth.layering.orders import LayerOrder
+from synth.layering.orders import FlatFolding, LayerOrder
 
 _GAP = 6.0
 _CLEAR = 0.85
@@ -80,3 +84,62 @@ def _through(order: LayerOrder, frame: PictureFrame) -> Iterator[Layer]:
     edges = [Line(frame.row(nodes[pair].tolist()), "ink", FINE) for pair in order.image.segments]
     yield Layer("shades", tuple(shades))
     yield Layer("edges", tuple(edges))
+
+
+@dataclass(frozen=True, slots=True)
+class _WrittenOrder:
+    """A layer order that is written, with the answer that it is of."""
+
+    answer: FlatFolding
+    order: LayerOrder
+
+
+def _picture_as(picture: Format[Pages]) -> Format[_WrittenOrder]:
+    """Return the format of a picture for a layer order."""
+
+    def to_bytes(written: _WrittenOrder) -> bytes:
+        return picture.to_bytes(Pages([flat_folded_scene(written.order, PLAIN)], "light"))
+
+    return Format(picture.suffix, picture.name, to_bytes, needs=picture.needs)
+
+
+_ORDERS = formats_by_suffix(
+    Format(".fold", "FOLD", lambda written: folded_fold_text(written.answer, written.order).encode()),
+    *(_picture_as(picture) for picture in PICTURES.values()),
+)
+"""Suffix to the format in which a layer order is written."""
+
+
+def check_order_path(path: str | Path, *, force: bool = False) -> None:
+    """Refuse a path that no layer order can be written to: `FileError`, `UnsolvableError`."""
+    check_writable(path, _ORDERS, force=force)
+
+
+def write_order(answer: FlatFolding, order: LayerOrder, path: str | Path, *, force: bool = False) -> None:
+    """Write a layer order: as FOLD with ``faceOrders`` in a folded frame, or as a picture.
+
+    Parameters
+    ----------
+    answer : FlatFolding
+    order : LayerOrder
+        One of its orders.
+    path : str or Path
+        Ending in .fold, .svg, .png or .pdf.
+    force : bool, optional
+        Overwrite an existing file.
+
+    Raises
+    ------
+    FileError
+        If the extension is unknown, or the file cannot be written.
+
+    Examples
+    --------
+    >>> import synth
+    >>> answer = synth.layers("data/patterns/bird-base.fold")
+    >>> write_order(answer, answer.order(1), "folder/that/is/missing.fold")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.OpenError: folder/that/is/missing.fold: there is no folder 'folder/that/is'; expected a folder that exists
+    """
+    write_as(_WrittenOrder(answer, order), path, _ORDERS, force=force)
