@@ -84,6 +84,7 @@ LIMITS = {
     "shapes": 30_000,
     "levels": 250,
     "letters": 10_000,
+    "pairs": 10_000_000,
 }
 """Name to the most that is allowed:
 
@@ -94,7 +95,8 @@ LIMITS = {
 - ``meetings``: pairs of lines that meet, and of ends that are near each other;
 - ``shapes``: elements of an SVG file that ``use`` draws beyond those that are written there;
 - ``levels``: groups in groups of an SVG file, what ``use`` draws among them;
-- ``letters``: of a transform or a style sheet of an SVG file.
+- ``letters``: of a transform or a style sheet of an SVG file;
+- ``pairs``: of panels over the cells of a folded image, some 200 bytes each.
 """
 
 

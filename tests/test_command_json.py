@@ -46,6 +46,7 @@ COMMANDS = [
     "positions data/surfaces/fig11-stephenson.json --drive O=30",
     "explain data/linkages/bennett.json",
     "advise data/patterns/four-bar-vertex.fold --freedoms 0",
+    "layers data/patterns/bird-base.fold --order 1",
     "dyads --orientations data/orientations/tipparthi.json",
     "fourbar --orientations data/orientations/crank-rocker.json --best 1",
     "cone move data/surfaces/fig11-stephenson.json",

@@ -288,7 +288,13 @@ def test_results_have_short_descriptions(data):
     dyads = synth.guiding_dyads(orientations)
     results = [
         *(synth.mobility(pattern), synth.identify(pattern), synth.reconstruct(pattern), synth.reduce(FOUR_BAR)),
-        *(synth.edit(FOUR_BAR, lock=[0]), synth.explain(ring), synth.advise(pattern, 0), synth.fold(pattern, frames=2)),
+        *(
+            synth.edit(FOUR_BAR, lock=[0]),
+            synth.explain(ring),
+            synth.advise(pattern, 0),
+            synth.layers(data / "patterns" / "bird-base.fold"),
+            synth.fold(pattern, frames=2),
+        ),
         *(synth.positions(ring, drive={0: 0.1}), synth.states(ring, joints=[0]), synth.generate("miura")),
         *(next(synth.addenda(FOUR_BAR)), next(synth.strings(4)), synth.template(pattern, size=100)),
         *(synth.realise("m1:a-b.ac-.b-d.cd-"), synth.realise_on_cone(FOUR_BAR), dyads),

@@ -11,6 +11,7 @@ import synth
 VERBS = {
     "mobility": {}, "identify": {}, "reconstruct": {}, "reduce": {}, "convert": {"kind": "sc"}, "write": {"path": "a.json"},
     "draw": {}, "fold": {}, "move": {}, "positions": {"drive": {}}, "explain": {}, "states": {}, "advise": {"freedoms": 1},
+    "layers": {},
     "realise": {}, "realise_on_cone": {}, "map_linkage": {},
 }  # fmt: skip
 """The functions that take a mechanism, and what else they need."""

@@ -21,7 +21,8 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.types import Floats
 from synth.drawing import Scene
-from synth.drawing.scene.frame import Plot, signed
+from synth.drawing.mechanisms.flat_folded import flat_folded_scene
+from synth.drawing.scene.frame import PictureOptions, Plot, signed
 from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Shape, colour_of_class
 from synth.drawing.space.panels import bodies_of, places_of_hinges
 from synth.drawing.space.poses import pose_scenes
@@ -237,6 +238,13 @@ def derivatives() -> Scene:
     )
 
 
+def layer_orders() -> Scene:
+    """The bird base folded flat, from the front, from the back and against the light; panels are numbered."""
+    bird_base = synth.layers(sheet_of_file("patterns/bird-base.fold"))
+    picture = flat_folded_scene(bird_base.order(), PictureOptions(box=(420.0, 200.0), caption=None))
+    return said(picture, f"{numbered(bird_base.orders, 'layer order')} of 16 panels; the first is shown")
+
+
 DRAWINGS: dict[str, Callable[[], Scene]] = {
     "folding": folding,
     "moving": moving,
@@ -245,5 +253,6 @@ DRAWINGS: dict[str, Callable[[], Scene]] = {
     "joints": joints,
     "mending": mending,
     "derivatives": derivatives,
+    "layer-orders": layer_orders,
 }
 """Theory page to what draws its picture."""

@@ -25,6 +25,7 @@ _SECTIONS: dict[str, dict[str, str]] = {
         "look": "Say in three sentences what a file is, how it moves, and what is wrong with it.",
         "mobility": "Report mobility, degrees of freedom and motion branches, with the evidence.",
         "fold": "Fold a crease pattern with rigid panels; list its folding branches.",
+        "layers": "Check whether a crease pattern folds flat; count its layer orders.",
         "positions": "Find all assembly modes of a spherical or planar linkage at given inputs.",
         "explain": "Explain why a mechanism moves although counts say that it is rigid.",
         "advise": "Find joints to lock, or panels to crease, for a number of degrees of freedom.",

@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from synth.templates.hinges import HingeKind
 
 _KINDS = (
-    "pattern", "marks", "repairs", "folded", "chain", "graph", "model", "solids", "cone", "cylinder", "circle",
-    "sphere",
+    "pattern", "marks", "repairs", "flat-folded", "folded", "chain", "graph", "model", "solids", "cone", "cylinder",
+    "circle", "sphere",
 )  # fmt: skip
 _COLOURS = ("letters", "verdict", "branch", "centres", "none")
 
@@ -73,8 +73,9 @@ def draw(
 
     KIND is pattern (a crease pattern in its plane), marks (a pattern with the creases whose assignment disagrees
     with a branch: the nearest one, or that of --branch), repairs (a pattern with the repairs that reading the
-    drawing needed), folded (a folded sheet in space), chain (links as bodies, joints as small circles), graph (an
-    SC or SCD graph, with the signs of the centres), model (vertices and rods), solids (hinged at edges, in space),
+    drawing needed), flat-folded (folded flat, in its first layer order: front, back, light through the layers),
+    folded (a folded sheet in space), chain (links as bodies, joints as small circles), graph (an SC or SCD graph,
+    with the signs of the centres), model (vertices and rods), solids (hinged at edges, in space),
     cone (a linkage round a cone, on the first of its cones), circle (the order of its joints round a cone) or
     sphere (which axes keep orientations in their order). Numbers are those that messages and JSON use; in SVG,
     shapes carry them as data-link and data-joint.

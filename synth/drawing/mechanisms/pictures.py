@@ -53,12 +53,12 @@ def draw(
     mechanism : Mechanism, str, Path, Configuration, Orientations, ChainString, OrderOnCircle or networkx graph
         A mechanism, its file or its configuration, orientations of a body, an R/- string, an order of joints
         around a cone, or a plain link-joint graph.
-    kind : {"pattern", "marks", "repairs", "folded", "chain", "graph", "model", "solids", "cone", ...}, optional
+    kind : {"pattern", "marks", "repairs", "flat-folded", "folded", "chain", "graph", "model", "solids", ...}, optional
         One of `KINDS`: a crease pattern in its plane, with the creases whose assignment disagrees with a branch,
-        or with repairs made when it was read; a folded sheet in space; links as bodies; links as discs with the
-        signs of the centres; vertices and rods; solids in space; a linkage on its circle and surface; the order of
-        joints round a cone; the sphere by the order of orientations. By default a sheet is a pattern or folded, as
-        its coordinates are; a graph with assumed centres is a chain.
+        with repairs made when it was read, or folded flat, in its first layer order; a folded sheet in space; links
+        as bodies; links as discs with the signs of the centres; vertices and rods; solids in space; a linkage on
+        its circle and surface; the order of joints round a cone; the sphere by the order of orientations. By default
+        a sheet is a pattern or folded, as its coordinates are; a graph with assumed centres is a chain.
     colour : {"letters", "verdict", "branch", "centres", "none"}, optional
         Colouring of a crease pattern.
     branch : int or str, optional
@@ -147,6 +147,17 @@ def _repairs(drawable: object, options: PictureOptions) -> Scene:
     return crease_scene(sheet, replace(options, numbers=False), overlay=overlay)
 
 
+def _flat_folded(drawable: object, options: PictureOptions) -> Scene:
+    from synth.drawing.mechanisms.flat_folded import flat_folded_scene
+    from synth.layering.orders import layers
+
+    sheet = _sheet(drawable, "flat-folded")
+    answer = layers(sheet.drawn if isinstance(sheet, SheetConfiguration) else sheet)
+    if not answer.foldable:
+        raise UnsolvableError(f"the pattern does not fold flat: {answer.fault}")
+    return flat_folded_scene(answer.order(), options)
+
+
 def _graph_of(drawable: Any) -> Any:
     if isinstance(drawable, SurfaceLinkage | OrderOnCircle):
         return drawable.chain
@@ -199,6 +210,7 @@ KINDS: Mapping[str, Callable[[Any, PictureOptions], Scene]] = MappingProxyType(
         "pattern": lambda drawable, options: crease_scene(_sheet(drawable, "pattern"), options),
         "marks": _marks,
         "repairs": _repairs,
+        "flat-folded": _flat_folded,
         "folded": lambda drawable, options: folded_scene(_sheet(drawable, "folded"), options),
         "chain": lambda drawable, options: chain_scene(_graph_of(drawable), options),
         "graph": lambda drawable, options: sc_scene(_graph_of(drawable), options),

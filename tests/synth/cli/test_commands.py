@@ -110,6 +110,7 @@ def test_shell_completion_knows_the_commands():
         "look",
         "mobility",
         "fold",
+        "layers",
         "positions",
         "explain",
         "states",

@@ -174,7 +174,7 @@ def test_only_sheets_are_patterns(kind):
 
 
 def test_kinds_and_colourings_that_are_none():
-    with pytest.raises(InvariantError, match="unknown kind 'x'; expected pattern, marks, repairs, folded"):
+    with pytest.raises(InvariantError, match="unknown kind 'x'; expected pattern, marks, repairs, flat-folded, folded"):
         draw(read("k1:Cr"), "x")
     with pytest.raises(InvariantError, match="unknown colouring 'x'; expected letters"):
         draw(read(DATA / "patterns" / "bird-base.fold"), colour="x")

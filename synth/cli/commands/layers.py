@@ -1,0 +1,142 @@
+"""``synth layers``: whether a crease pattern folds flat, and in how many layer orders."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+import synth.drawing.mechanisms
+import synth.layering
+from graphs.errors import InvariantError, check_argument
+from synth.cli import options
+from synth.cli.output import about, plain, print_answer, print_json, tell_written
+from synth.cli.reading import MECHANISM, PRECISION, precise_sheet, read
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from synth.layering import FlatFolding, LayerOrder
+
+
+_MOST_WRITTEN = 1000
+"""Orders of a component that are written, each to a file."""
+
+
+def _pair(word: str) -> tuple[int, int]:
+    """Return the panels of a word ``UPPER,LOWER``."""
+    parts = word.split(",")
+    if len(parts) != 2 or not all(part.isascii() and part.isdigit() and len(part) < 10 for part in parts):
+        raise ValueError(f"{plain(word)!r} is not two numbers of panels such as 3,7")
+    return int(parts[0]), int(parts[1])
+
+
+@click.command()
+@MECHANISM
+@options.number("--frame", "N", "Frame of a FOLD file; 0 is the key frame.", 0)
+@options.number("--order", "N", "Show this layer order, counted from 0.", 0)
+@options.number("--sample", "SEED", "Show a layer order drawn at random, each as likely as any other.", 0)
+@options.repeated(
+    "--wish wishes", "UPPER,LOWER",
+    "Show the layer order that meets most wishes: panel UPPER is to lie above panel LOWER. May be repeated.",
+    type=options.WordType("panels", _pair),
+)  # fmt: skip
+@options.flag("--face-orders", "Show the layer order nearest to the faceOrders of a FOLD file.")
+@options.number("--component", "K", "With -o: write one file per order of this component, NAME-0, NAME-1, ...", 0)
+@options.flag(
+    "--explain/--no-explain",
+    "If there is no layer order, find panels and conditions that contradict each other, none of which can go.",
+    default=True,
+)
+@options.output("Write the layer order: .fold with faceOrders, or a picture (.svg, .png, .pdf). By default order 0.")
+@options.FORCE
+@options.JSON
+@PRECISION
+def layers(
+    file: str, frame: int | None, explain: bool, component: int | None, output: str | None, force: bool,
+    as_json: bool, **which: Any,
+) -> None:  # fmt: skip
+    """Check whether a crease pattern folds flat, and count its layer orders exactly.
+
+    Every mountain, valley and unassigned crease is folded by 180 degrees. Vertices are checked first (Kawasaki,
+    Maekawa, crimps), then whether the folded image closes; then the orders of the panels in which the paper passes
+    nowhere through itself are counted, component by component. A layer order that is shown lists the panels over
+    each cell from below, and is checked by geometry alone. If there is none, the answer names panels and conditions
+    on them that contradict each other.
+
+    \b
+    Examples:
+      synth layers data/patterns/bird-base.fold
+      synth layers data/patterns/bird-base.fold --order 0
+      synth layers data/patterns/bird-base.fold --wish 3,7 -o layered.fold
+
+    Exit status 1: the pattern does not fold flat.
+    """
+    if sum((which["order"] is not None, which["sample"] is not None, bool(which["wishes"]), which["face_orders"])) > 1:
+        raise click.UsageError("--order, --sample, --wish and --face-orders exclude each other")
+    if component is not None and output is None:
+        raise click.UsageError("--component requires -o")
+    if output is not None and component is None:
+        synth.drawing.mechanisms.check_order_path(output, force=force)
+    from graphs.mechanism import Sheet
+
+    mechanism = read(file)
+    with about(file):
+        check_argument("layers", mechanism, Sheet)
+        answer = synth.layering.layers(precise_sheet(mechanism), frame=frame, explain=explain)
+        shown, unmet = _shown(answer, file, **which) if answer.foldable else (None, ())
+        written = _write(answer, shown, component, output, force=force) if answer.foldable and output else []
+    if as_json:
+        order = None if shown is None else shown.to_json()
+        print_json({"file": file, **answer.to_json(), "order": order, "unmet": [list(pair) for pair in unmet]})
+    else:
+        print_answer(answer)
+        if shown is not None:
+            print_answer(shown)
+        for upper, lower in unmet:
+            click.echo(f"wish not met: panel {upper} above panel {lower}")
+        tell_written(*written)
+    if not answer.foldable:
+        sys.exit(1)
+
+
+def _shown(
+    answer: FlatFolding,
+    file: str,
+    order: int | None,
+    sample: int | None,
+    wishes: Sequence[tuple[int, int]],
+    face_orders: bool,
+) -> tuple[LayerOrder | None, Sequence[tuple[int, int]]]:
+    """Return the layer order that the options name, if any, and the wishes that it does not meet."""
+    if order is not None:
+        return answer.order(order), ()
+    if sample is not None:
+        return answer.sample(sample), ()
+    if face_orders:
+        wishes = synth.layering.wishes_of(answer, synth.layering.read_face_orders(file))
+    return answer.nearest(wishes) if wishes else (None, ())
+
+
+def _write(
+    answer: FlatFolding, shown: LayerOrder | None, component: int | None, output: str, *, force: bool
+) -> list[Path]:
+    """Write a layer order, or all of a component; return the files."""
+    if component is None:
+        synth.drawing.mechanisms.write_order(answer, shown or answer.order(), output, force=force)
+        return [Path(output)]
+    if component >= len(answer.components):
+        numbers = f"a number from 0 to {len(answer.components) - 1}" if answer.components else "no --component"
+        raise InvariantError("component", f"component {component}", numbers)
+    orders = answer.components[component].orders
+    if orders > _MOST_WRITTEN:
+        raise InvariantError("component", f"{orders} orders", f"at most {_MOST_WRITTEN} files")
+    place = Path(output)
+    files = [place.with_stem(f"{place.stem}-{number}") for number in range(orders)]
+    for path in files:
+        synth.drawing.mechanisms.check_order_path(path, force=force)
+    for path, order in zip(files, answer.orders_of(component), strict=True):
+        synth.drawing.mechanisms.write_order(answer, order, path, force=force)
+    return files

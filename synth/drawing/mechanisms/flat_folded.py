@@ -1,0 +1,145 @@
+"""Crease patterns folded flat: from the front, from the back, and with light through the layers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import shapely
+
+from graphs.errors import numbered
+from graphs.files.outputs import Format, check_writable, formats_by_suffix, write_as
+from graphs.types import Floats
+from synth.drawing.scene.frame import PLAIN, PictureFrame, PictureOptions, captions_of, framed, page_of
+from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, Label, Layer, Line, Polygon, Shape, moved
+from synth.drawing.scene.writing import PICTURES, Pages, Scene
+from synth.layering.face_orders import folded_fold_text
+from synth.layering.image import OUTSIDE
+from synth.layering.orders import FlatFolding, LayerOrder
+
+_GAP = 6.0
+_CLEAR = 0.85
+"""The part of the light that a layer lets through."""
+
+
+def flat_folded_scene(order: LayerOrder, options: PictureOptions) -> Scene:
+    """Return a layer order as it is seen from the front, from the back (turned over) and through its layers."""
+    nodes = order.image.nodes
+    box = ((options.box[0] - 2 * _GAP) / 3, options.box[1])
+    frame = framed(nodes.tolist(), max(options.box), box, _GAP)
+    turned = nodes * (-1.0, 1.0)
+    frame_back = framed(turned.tolist(), max(options.box), box, _GAP)
+    views = [
+        _seen(order, frame, nodes, back=False, numbers=options.numbers),
+        _seen(order, frame_back, turned, back=True, numbers=options.numbers),
+        _through(order, frame),
+    ]
+    layers = [moved(layer, place * (frame.width + _GAP), 0.0) for place, view in enumerate(views) for layer in view]
+    width = 3 * frame.width + 2 * _GAP
+    whole = PictureFrame(frame.scale, 0.0, 0.0, 0.0, 0.0, width, frame.height)
+    layered = numbered(order.image.depth, "layer")
+    return page_of(whole, layers, captions_of(options.caption, f"front, back and light through at most {layered}"))
+
+
+def _seen(order: LayerOrder, frame: PictureFrame, nodes: Floats, *, back: bool, numbers: bool) -> Iterator[Layer]:
+    """Yield the layers of a view from one side: what is on top of each cell, and the lines where that changes."""
+    image = order.image
+    on_top = [(stack[0] if back else stack[-1]) if stack else OUTSIDE for stack in order.stacks]
+    panels: list[Shape] = []
+    best: dict[int, tuple[float, Label]] = {}
+    for cell, panel in zip(image.cells, on_top, strict=True):
+        if panel == OUTSIDE:
+            continue
+        corners = frame.row(nodes[list(cell)].tolist())
+        fill = "front" if bool(image.panels.flipped[panel]) == back else "back"
+        panels.append(Polygon(corners, fill, fill, FINE, data=(("link", str(panel)),)))
+        circle = shapely.maximum_inscribed_circle(shapely.Polygon(corners))
+        (x, y), _ = circle.coords
+        label = Label((x, y), str(panel), SMALL, data=(("link", str(panel)),))
+        left, top, right, low = label.box
+        room = circle.length - float(np.hypot(right - left, low - top)) / 2
+        if room > best.get(panel, (0.0, label))[0]:
+            best[panel] = (room, label)
+    lines: list[Shape] = []
+    for (one, other), sides in zip(image.segments.tolist(), image.sides.tolist(), strict=True):
+        seen = {OUTSIDE if cell == OUTSIDE else on_top[cell] for cell in sides}
+        if len(seen) > 1:
+            width = NORMAL if OUTSIDE in seen else FINE
+            lines.append(Line(frame.row([nodes[one].tolist(), nodes[other].tolist()]), "ink", width))
+    yield Layer("panels", tuple(panels))
+    yield Layer("edges", tuple(lines))
+    yield Layer("labels", tuple(label for _, label in best.values()) if numbers else ())
+
+
+def _through(order: LayerOrder, frame: PictureFrame) -> Iterator[Layer]:
+    """Yield the layers of a view against the light: the more layers, the darker; all edges."""
+    nodes = order.image.nodes
+    shades = [
+        Polygon(frame.row(nodes[list(cell)].tolist()), "shadow", None, opacity=1.0 - _CLEAR ** len(stack))
+        for cell, stack in zip(order.image.cells, order.stacks, strict=True)
+        if stack
+    ]
+    edges = [Line(frame.row(nodes[pair].tolist()), "ink", FINE) for pair in order.image.segments]
+    yield Layer("shades", tuple(shades))
+    yield Layer("edges", tuple(edges))
+
+
+@dataclass(frozen=True, slots=True)
+class _WrittenOrder:
+    """A layer order that is written, with the answer that it is of."""
+
+    answer: FlatFolding
+    order: LayerOrder
+
+
+def _picture_as(picture: Format[Pages]) -> Format[_WrittenOrder]:
+    """Return the format of a picture for a layer order."""
+
+    def to_bytes(written: _WrittenOrder) -> bytes:
+        return picture.to_bytes(Pages([flat_folded_scene(written.order, PLAIN)], "light"))
+
+    return Format(picture.suffix, picture.name, to_bytes, needs=picture.needs)
+
+
+_ORDERS = formats_by_suffix(
+    Format(".fold", "FOLD", lambda written: folded_fold_text(written.answer, written.order).encode()),
+    *(_picture_as(picture) for picture in PICTURES.values()),
+)
+"""Suffix to the format in which a layer order is written."""
+
+
+def check_order_path(path: str | Path, *, force: bool = False) -> None:
+    """Refuse a path that no layer order can be written to: `FileError`, `UnsolvableError`."""
+    check_writable(path, _ORDERS, force=force)
+
+
+def write_order(answer: FlatFolding, order: LayerOrder, path: str | Path, *, force: bool = False) -> None:
+    """Write a layer order: as FOLD with ``faceOrders`` in a folded frame, or as a picture.
+
+    Parameters
+    ----------
+    answer : FlatFolding
+    order : LayerOrder
+        One of its orders.
+    path : str or Path
+        Ending in .fold, .svg, .png or .pdf.
+    force : bool, optional
+        Overwrite an existing file.
+
+    Raises
+    ------
+    FileError
+        If the extension is unknown, or the file cannot be written.
+
+    Examples
+    --------
+    >>> import synth
+    >>> answer = synth.layers("data/patterns/bird-base.fold")
+    >>> write_order(answer, answer.order(1), "folder/that/is/missing.fold")
+    Traceback (most recent call last):
+    ...
+    graphs.errors.OpenError: folder/that/is/missing.fold: there is no folder 'folder/that/is'; expected a folder that exists
+    """
+    write_as(_WrittenOrder(answer, order), path, _ORDERS, force=force)

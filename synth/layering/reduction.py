@@ -1,0 +1,227 @@
+"""Literals that are equal made one, what follows from creases, and the independent parts of the rest.
+
+Theory: docs/theory/layer-orders.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_array, csr_array
+from scipy.sparse.csgraph import connected_components
+
+from graphs.types import Ints, Signs
+from synth.layering.components import components
+from synth.layering.constraints import FALSE, TRUE, LayerConstraints, PairTable, joined, pairs_of
+from synth.layering.problem import LayerProblem
+from synth.layering.settling import probed, settled
+
+
+def merged(count: int, one: Ints, other: Ints) -> Ints | None:
+    """Return the new literal of each of 2 count literals where some are equal; None if one equals its opposite.
+
+    Variable 0 is what is true. Classes are numbered by their first variables.
+    """
+    ends = np.concatenate([one, one ^ 1]), np.concatenate([other, other ^ 1])
+    joined = coo_array((np.ones(len(ends[0]), dtype=np.int8), ends), shape=(2 * count, 2 * count))
+    _, part = connected_components(joined, directed=False)
+    if (part[0::2] == part[1::2]).any():
+        return None
+    _, first = np.unique(part, return_index=True)
+    leader = first[part]  # the lowest literal that is equal
+    _, number = np.unique(leader // 2, return_inverse=True)
+    literals: Ints = 2 * number.ravel() + leader % 2
+    return literals
+
+
+@dataclass(frozen=True, eq=False)
+class ReducedLayers:
+    """Constraints after what follows from them at once.
+
+    `literal` has for each literal of a variable that of its class; `parts` are the independent problems, each with
+    the classes that are its variables; `components` are the places of those parts that conditions tie together.
+    """
+
+    literal: Ints
+    parts: tuple[tuple[LayerProblem, Ints], ...]
+    components: tuple[tuple[int, ...], ...]
+
+
+def reduced(constraints: LayerConstraints, known: Ints) -> ReducedLayers | None:
+    """Return what is left where some literals are known to be true; None if they contradict each other."""
+    table = constraints.table
+    count = constraints.variables + 1  # variable 0 is what is true, the others come after it
+    one, other, *_ = constraints.beside
+    literal = merged(
+        count, np.concatenate([one + 2, known + 2]), np.concatenate([other + 2, np.full(len(known), TRUE)])
+    )
+    component: Ints | None = None  # those of what creases and transitivity leave open at first
+    while literal is not None:
+        rows = literal[2 * (table.variable + 1)]
+        parities = literal[constraints.nested[0] + 2]
+        values = settled(table, rows, int(literal.max()) // 2 + 1, parities)
+        if values is None:
+            return None
+        fixed = np.flatnonzero(values >= 0)
+        step = _merged_again(literal, 2 * fixed + (values[fixed] == 0), np.full(len(fixed), TRUE))
+        if step is None:
+            return None
+        literal = step
+        if component is None:
+            component = components(constraints, _values(literal))
+        problem = _residual(constraints, literal)
+        found = _equal(problem)
+        if not len(found[0]):
+            fails = np.flatnonzero(probed(problem)[2:]) + 2
+            found = fails ^ 1, np.full(len(fails), TRUE)
+        if not len(found[0]):
+            parts = tuple(_parts(problem))
+            return ReducedLayers(literal[2:], parts, _tied_parts(literal, parts, component))
+        literal = _merged_again(literal, *found)
+    return None
+
+
+def _values(literal: Ints) -> Signs:
+    """Return the values of the variables, -1 where they are open."""
+    mine = literal[2::2]
+    found: Signs = np.where(mine > FALSE, -1, mine == TRUE).astype(np.int8)
+    return found
+
+
+def _tied_parts(
+    literal: Ints, parts: Sequence[tuple[LayerProblem, Ints]], component: Ints
+) -> tuple[tuple[int, ...], ...]:
+    """Return the places of the parts that are of one component."""
+    part_of = np.full(int(literal.max()) // 2 + 1, -1, dtype=np.int64)
+    for place, (_, classes) in enumerate(parts):
+        part_of[classes] = place
+    here = part_of[literal[2::2] >> 1]
+    there = here >= 0
+    label = joined(len(parts) + len(component), here[there], len(parts) + component[there])
+    together: dict[int, list[int]] = {}
+    for place in range(len(parts)):
+        together.setdefault(int(label[place]), []).append(place)
+    return tuple(map(tuple, together.values()))
+
+
+def _merged_again(literal: Ints, one: Ints, other: Ints) -> Ints | None:
+    step = merged(int(literal.max()) // 2 + 1, one, other)
+    return None if step is None else step[literal]
+
+
+def _residual(constraints: LayerConstraints, literal: Ints) -> LayerProblem:
+    """Return the conditions on classes that are not decided."""
+    table = constraints.table
+    rows = literal[2 * (table.variable + 1)]
+    size = int(literal.max()) + 2
+    codes = [np.empty(0, dtype=np.int64)]
+    for cell in range(len(table.sizes)):
+        low, middle, high = np.sort(_open_triples(table, cell, rows), axis=1).T
+        kept = (low ^ 1 != middle) & (middle ^ 1 != high) & ~((low == TRUE) & (middle == FALSE))
+        codes.append(np.unique((low[kept] * size + middle[kept]) * size + high[kept]))
+    code = np.unique(np.concatenate(codes))
+    triples = np.column_stack([code // (size * size), code // size % size, code % size])
+    constant = triples[:, 0] <= FALSE
+    sign = (triples[constant, :1] == TRUE).astype(np.int64)  # not all true: one of the opposites of the others is
+    clauses = np.unique(np.sort(triples[constant, 1:] ^ sign, axis=1), axis=0)
+    free = triples[~constant]
+    free[free[:, 0] % 2 == 1] ^= 1  # a triple and its opposite are one condition
+    parities = _parity_rows(literal[constraints.nested[0] + 2])
+    return LayerProblem(size // 2, np.unique(np.sort(free, axis=1), axis=0), clauses, parities)
+
+
+def _open_triples(table: PairTable, cell: int, rows: Ints) -> Ints:
+    """Return literals of three panels over a cell in a circle, int[n, 3], those of two panels that are open first."""
+    size = int(table.sizes[cell])
+    here = rows[table.first[cell] : table.first[cell + 1]]
+    undecided = np.flatnonzero(here > FALSE)
+    if size < 3 or not len(undecided):
+        return np.empty((0, 3), dtype=np.int64)
+    order = np.full((size, size), FALSE, dtype=np.int64)  # the literal that i is over k
+    low, high = pairs_of(size)
+    order[low, high], order[high, low] = here, here ^ 1
+    i, j = low[undecided], high[undecided]
+    around = np.stack([np.broadcast_to(here[undecided, None], (len(i), size)), order[j], order[:, i].T], axis=2)
+    apart = np.ones((len(i), size), dtype=bool)
+    apart[np.arange(len(i)), i] = apart[np.arange(len(i)), j] = False
+    found: Ints = around[apart]
+    return found
+
+
+def _parity_rows(rows: Ints) -> Ints:
+    """Return rows of literals an even number of which is true, without what cancels, in one form each."""
+    found = set()
+    for row in np.unique(np.sort(rows, axis=1), axis=0).tolist():
+        odd: set[int] = set()
+        flips = 0
+        for literal in row:
+            flips ^= literal & 1
+            if literal > FALSE:
+                odd ^= {literal & ~1}
+            else:
+                flips ^= 1  # what is true counts
+        if odd:
+            first, *others = sorted(odd)
+            found.add((first ^ flips, *others, *[-1] * (3 - len(others))))
+        elif flips:
+            found.add((TRUE, -1, -1, -1))
+    return np.array(sorted(found), dtype=np.int64).reshape(-1, 4)
+
+
+def _equal(problem: LayerProblem) -> tuple[Ints, Ints]:
+    """Return pairs of literals that conditions make equal: by themselves, or as implications in a circle."""
+    pairs: list[Ints] = [np.empty((0, 2), dtype=np.int64)]
+    triples, parities, clauses = problem.triples, problem.parities, problem.clauses
+    for i, j, k in ((0, 1, 2), (0, 2, 1), (1, 2, 0)):
+        alike = triples[:, i] == triples[:, j]
+        pairs.append(np.column_stack([triples[alike, i], triples[alike, k] ^ 1]))
+    alike = clauses[:, 0] == clauses[:, 1]
+    pairs.append(np.column_stack([clauses[alike, 0], np.full(int(alike.sum()), TRUE)]))
+    long = (parities >= 0).sum(axis=1)
+    pairs.append(np.column_stack([parities[long == 1, 0], np.full(int((long == 1).sum()), FALSE)]))
+    pairs.append(parities[long == 2, :2])
+    size = 2 * problem.variables
+    tails, heads = (
+        np.concatenate([clauses[:, 0] ^ 1, clauses[:, 1] ^ 1]),
+        np.concatenate([clauses[:, 1], clauses[:, 0]]),
+    )
+    implied = csr_array((np.ones(len(tails), dtype=np.int8), (tails, heads)), shape=(size, size))
+    _, part = connected_components(implied, directed=True, connection="strong")
+    _, first, place = np.unique(part, return_index=True, return_inverse=True)
+    leader = first[place.ravel()]
+    circled = np.flatnonzero(leader != np.arange(size))
+    pairs.append(np.column_stack([circled, leader[circled]]))
+    found = np.concatenate(pairs)
+    return found[:, 0], found[:, 1]
+
+
+def _parts(problem: LayerProblem) -> Sequence[tuple[LayerProblem, Ints]]:
+    """Return the independent problems, those with fewer variables first, and the classes that are their variables."""
+    conditions = [problem.triples, problem.clauses, problem.parities]
+    ones, others = [np.empty(0, dtype=np.int64)], [np.empty(0, dtype=np.int64)]
+    for rows in conditions:
+        for column in range(1, rows.shape[1]):
+            there = rows[:, column] >= 0
+            ones.append(rows[there, 0] // 2)
+            others.append(rows[there, column] // 2)
+    one, other = np.concatenate(ones), np.concatenate(others)
+    count = problem.variables
+    joined = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(count, count))
+    _, part = connected_components(joined, directed=False)
+    members: dict[int, list[int]] = {}
+    for variable in range(1, count):
+        members.setdefault(int(part[variable]), []).append(variable)
+    inside = [part[rows[:, 0] // 2] for rows in conditions]
+    parts = []
+    for label, variables in sorted(members.items(), key=lambda item: (len(item[1]), item[1])):
+        chosen = np.array(variables)
+        local = np.full(2 * count, -1, dtype=np.int64)
+        local[2 * chosen], local[2 * chosen + 1] = 2 * np.arange(len(chosen)), 2 * np.arange(len(chosen)) + 1
+        rows3 = [
+            np.where(rows[where == label] >= 0, local[rows[where == label]], -1)
+            for rows, where in zip(conditions, inside, strict=True)
+        ]
+        parts.append((LayerProblem(len(chosen), *rows3), chosen))
+    return parts

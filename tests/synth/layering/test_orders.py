@@ -1,0 +1,174 @@
+"""Layer orders: published numbers, stamps and maps, folded sheets, by two methods; witnesses; refusals."""
+
+from collections import Counter
+from math import prod
+
+import numpy as np
+import pytest
+from folded_sheets import folded_sheet, published, published_states, unassigned_map
+from sizes import slow
+
+import synth
+from graphs.errors import InvariantError, UnsolvableError
+from graphs.mechanism.sheet import Sheet
+from synth.layering.checking import fault_of
+from synth.layering.constraints import layer_constraints
+from synth.layering.image import folded, image_of
+from synth.layering.orders import flat_pattern
+from synth.layering.reduction import reduced
+from synth.layering.settling import counted
+from synth.layering.sweep import count_by_cells
+
+STAMPS = (1, 2, 6, 16, 50, 144, 462, 1392, 4536, 14060, 46310, 146376, 485914, 1557892)
+"""OEIS A000136."""
+TWO_ROWS = (2, 8, 60, 320, 1980, 10512, 60788, 320896, 1787904, 9381840)
+"""OEIS A001415."""
+THREE_ROWS = (6, 60, 1368, 15552, 201240)
+"""OEIS A001416."""
+MAPS = [
+    *((1, n, term) for n, term in enumerate(STAMPS, start=1)),
+    *((2, n, term) for n, term in enumerate(TWO_ROWS, start=1)),
+    *((3, n, term) for n, term in enumerate(THREE_ROWS, start=1)),
+    (4, 4, 300608),
+]
+
+QUICK = 5000
+
+
+def both(answer):
+    """The number by the cells, which has to be that of the answer."""
+    return count_by_cells(answer.image, answer.valleys)
+
+
+@pytest.mark.parametrize(
+    ("rows", "columns", "term"), [case if case[2] < QUICK else slow(*case) for case in MAPS], ids=str
+)
+def test_stamps_and_maps(rows, columns, term):
+    answer = synth.layers(unassigned_map(rows, columns))
+    assert answer.orders == term
+    assert both(answer) == term
+
+
+@pytest.mark.parametrize(("rows", "columns"), [(3, 4), slow(5, 5)])
+def test_square_maps_by_their_cyclic_shifts(rows, columns):
+    """Layers of a map can be shifted cyclically, so each panel is on top of equally many orders (A001415, A001418)."""
+    pattern = flat_pattern(unassigned_map(rows, columns))
+    image = image_of(folded(pattern.sheet, pattern.mechanism, pattern.points), 1e-9)
+    constraints = layer_constraints(image)
+    panels = rows * columns
+    on_top = constraints.table.literals(0, np.zeros(panels - 1, dtype=np.int64), np.arange(1, panels))
+    number = prod(counted(problem) for problem, _ in reduced(constraints, on_top).parts)
+    assert panels * number == {12: 15552, 25: 186086600}[panels]
+
+
+NAMES = [
+    "grids_002_brown_2x2_D1",
+    "grids_018_brown_3x3_D1",
+    "grids_318_brown_4x4_D58",
+    "instagram_004_traditional_Crane",
+    "instagram_196_komatsu_Giraffe",
+]
+EXACT = {"instagram_196_komatsu_Giraffe": [3, 28680], "instagram_012_ku_4x4_Grid_Unassigned": [300608]}
+"""What our methods find where the published numbers stopped at ten thousand."""
+
+
+def several(answer):
+    return sorted(component.orders for component in answer.components)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_published_states(name):
+    row = published_states()[f"{name}.fold"]
+    answer = synth.layers(published() / f"{name}.fold")
+    listed = sorted(int(part) for part in row["component_states"].split("|") if part and int(part) > 1)
+    assert several(answer) == EXACT.get(name, listed)
+    assert answer.orders == prod(EXACT.get(name, listed))
+    assert both(answer) == answer.orders
+
+
+@pytest.mark.slow
+def test_all_published_states():
+    """All files of the index; where the published number has no limit, the variables are as many too."""
+    checked = 0
+    for name, row in published_states().items():
+        answer = synth.layers(published() / name)
+        if row["states"] == "0":
+            assert not answer.foldable, name
+            continue
+        listed = sorted(int(part) for part in row["component_states"].split("|") if part and int(part) > 1)
+        assert several(answer) == EXACT.get(name.removesuffix(".fold"), listed), name
+        if row["limited"] == "no limit":
+            checked += 1
+            assert answer.orders == int(row["states"]), name
+        answer.sample(1)  # checked by geometry
+    assert checked == 21
+
+
+@pytest.mark.parametrize("seed", [*range(60), *(slow(seed) for seed in range(60, 5000))])
+def test_folded_sheets(seed):
+    """Both methods agree, and the folding that made a sheet is among its orders."""
+    rng = np.random.default_rng(seed)
+    sheet, stack = folded_sheet(rng, int(rng.integers(1, 6)), 60)
+    answer = synth.layers(sheet)
+    stacks = [[panel for panel in stack if panel in set(panels.tolist())] for panels in answer.image.above]
+    assert fault_of(answer.image, stacks, answer.valleys) == ""
+    assert answer.orders >= 1
+    assert both(answer) == answer.orders
+    assert len(answer.sample(seed).stacks) == len(answer.image.cells)
+
+
+@pytest.mark.parametrize("seed", [*range(30), *(slow(seed) for seed in range(30, 1000))])
+def test_one_crease_turned(seed):
+    """What one crease folded the other way leaves is the same by both methods, mostly nothing."""
+    rng = np.random.default_rng(seed)
+    sheet, _ = folded_sheet(rng, int(rng.integers(2, 5)), 40)
+    creases = [place for place, letter in enumerate(sheet.assignments) if letter in "MV"]
+    place = int(rng.choice(creases))
+    turned = "M" if sheet.assignments[place] == "V" else "V"
+    letters = sheet.assignments[:place] + turned + sheet.assignments[place + 1 :]
+    answer = synth.layers(Sheet(sheet.vertices, sheet.edges, letters, sheet.faces, sheet.coordinates))
+    assert both(answer) == answer.orders
+
+
+def test_every_order_of_a_component_is_another(data):
+    answer = synth.layers(unassigned_map(2, 3))
+    orders = {order.stacks for order in answer.orders_of(0)}
+    assert len(orders) == answer.orders == 60
+    assert {answer.order(number).stacks for number in range(60)} == orders
+    with pytest.raises(InvariantError, match="order 60; expected a number from 0 to 59"):
+        answer.order(60)
+
+
+def test_samples_are_uniform():
+    """600 draws of 6 orders: each between 70 and 130 times, four and a half standard deviations off."""
+    answer = synth.layers(unassigned_map(1, 3))
+    drawn = Counter(answer.sample(seed).stacks for seed in range(600))
+    assert len(drawn) == 6
+    assert all(70 <= number <= 130 for number in drawn.values())
+
+
+def test_without_faces_or_in_space_or_in_parts():
+    with pytest.raises(UnsolvableError, match="layers need panels, and the pattern has no faces"):
+        synth.layers(Sheet(2, ((0, 1),), "B", (), ((0.0, 0.0), (1.0, 0.0))))
+    bent = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 1)))
+    with pytest.raises(UnsolvableError, match="a crease pattern that is folded flat is planar, and the sheet is not"):
+        synth.layers(bent)
+    apart = tuple((float(x), float(y)) for x, y in ((0, 0), (1, 0), (0, 1), (5, 0), (6, 0), (5, 1)))
+    with pytest.raises(UnsolvableError, match="the pattern has 2 parts that no crease joins; expected one sheet"):
+        synth.layers(Sheet(6, (), "", ((0, 1, 2), (3, 4, 5)), apart))
+
+
+def test_more_pairs_than_allowed_are_refused(monkeypatch):
+    monkeypatch.setenv("SYNTHEDRA_MOST", "pairs=5")
+    with pytest.raises(InvariantError, match="6 pairs of panels over cells; expected at most 5"):
+        synth.layers(unassigned_map(2, 2))
+
+
+def test_an_image_that_does_not_close():
+    """A square ring folded along four lines that are no rectangle: its hole does not close."""
+    outer = [(0.0, 0.0), (3.0, 0.0), (3.0, 3.0), (0.0, 3.0)]
+    inner = [(1.0, 1.0), (2.0, 1.1), (2.0, 2.0), (1.0, 2.0)]
+    faces = tuple((k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k) for k in range(4))
+    answer = synth.layers(Sheet(8, (), "", faces, tuple(outer + inner)))
+    assert not answer.foldable
+    assert "the folded image does not close: panels part by" in answer.fault
