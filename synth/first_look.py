@@ -223,7 +223,9 @@ def _of_sheet(answer: JudgedMobility, freedoms: int | None) -> list[Question]:
     if freedoms:
         questions.append(("synth fold FILE -o folded.fold", "its motion, as frames"))
         questions.append(("synth template FILE -o template.pdf", "a template to print, cut and fold"))
-    elif freedoms == 0:
+    if at is not None and at.flat:
+        questions.append(("synth layers FILE", "whether it folds flat, and in how many layer orders"))
+    if freedoms == 0:
         questions.append(("synth advise FILE --freedoms 1", "which panels to crease so that it moves"))
     return questions
 
