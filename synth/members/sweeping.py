@@ -29,6 +29,8 @@ reached). It is not reached from the mechanism's configuration, its loops do not
 singular. Its loops cannot close at all.
 """
 
+_OTHER_QUESTION = "sweep takes other members of the type through inputs, on the assembly mode of this configuration"
+
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Sweep(Printed):
@@ -102,6 +104,7 @@ class Sweep(Printed):
     def to_json(self) -> dict[str, Any]:
         """Return all as plain data; angles in radians, null where a member is not closed."""
         return {
+            "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
             "joints": list(self.joints),
             "driven": list(self.driven),
             "inputs": self.inputs.tolist(),
