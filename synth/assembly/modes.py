@@ -19,7 +19,7 @@ from graphs.types import Flags, Floats, JointId
 from synth.assembly.family import Family, GeneralPositions, family_of
 from synth.assembly.kept import kept_positions
 from synth.assembly.solutions import Solutions, solutions_of_many
-from synth.assembly.table import PositionTable
+from synth.assembly.table import OTHER_QUESTION, PositionTable
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
 from synth.motion.path import circuit_through
@@ -27,8 +27,6 @@ from synth.motion.walk.events import TurningPoint
 from synth.motion.walk.step import Step
 from synth.motion.walk.walking import Event, Walk
 from synth.moving.made import Movable, configuration_of
-
-_OTHER_QUESTION = "positions finds all configurations at given angles of driven joints, on all branches"
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +106,7 @@ class PositionSet(Printed):
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {
-            "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
+            "configuration": self.configuration.to_json(other_question=OTHER_QUESTION),
             **self._values(self.driven.items(), "driven_deg", "driven_lengths"),
             "positions": [
                 {

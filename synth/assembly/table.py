@@ -12,6 +12,8 @@ from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.types import Flags, Floats, Ints, JointId
 from synth.motion.configuration import Configuration
 
+OTHER_QUESTION = "positions finds all configurations at given angles of driven joints, on all branches"
+
 
 @dataclass(frozen=True, slots=True, repr=False)
 class PositionTable(Printed):
@@ -80,6 +82,7 @@ class PositionTable(Printed):
         modes = [rows[:count].tolist() for rows, count in zip(self.angles, self.count.tolist(), strict=True)]
         rigid = [rows[:count].tolist() for rows, count in zip(self.regular, self.count.tolist(), strict=True)]
         return {
+            "configuration": self.configuration.to_json(other_question=OTHER_QUESTION),
             "joints": list(self.joints),
             "driven": list(self.driven),
             "inputs": self.inputs.tolist(),

@@ -109,8 +109,11 @@ def axes_of(family: Family, parameters: Floats) -> Floats:
 def batch_of(at: Configuration, family: Family, parameters: Floats, dimensions: Dimensions, driven: Ints) -> Batch:
     """Return the members that have given dimensions, of one kind."""
     names = sorted(dimensions)
+    if not names:  # the mechanism alone
+        members = Members(axes_of(family, parameters), np.zeros(len(family.joints)))
+        return Batch(members, at.linkage.angles, np.zeros(1, dtype=bool))
     if len(names) != 1 or names[0] not in ("arcs", "axes", "points", "coordinates"):
-        listed = ", ".join(map(shown, names)) or "none"
+        listed = ", ".join(map(shown, names))
         raise InvariantError("parameters", f"parameters {listed}", "one of arcs, axes, points, coordinates")
     given = dimensions[names[0]]
     if names[0] == "arcs":

@@ -17,7 +17,7 @@ from synth.folding.configuration import SheetConfiguration
 from synth.members.dimensions import Dimensions, batch_of, checked_coordinates, type_of
 from synth.members.kernel import swept
 from synth.members.member_type import BARRED, CLOSED
-from synth.members.walking import walked
+from synth.members.walking import sheets_at, walked
 from synth.motion.configuration import Configuration
 from synth.moving.made import Movable, configuration_of
 
@@ -28,6 +28,8 @@ It is closed there. Its driven joint turns back before, or within 1e-4 radians (
 reached). It is not reached from the mechanism's configuration, its loops do not stay closed on the way or it is
 singular. Its loops cannot close at all.
 """
+
+_OTHER_QUESTION = "sweep takes other members of the type through inputs, on the assembly mode of this configuration"
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -102,6 +104,7 @@ class Sweep(Printed):
     def to_json(self) -> dict[str, Any]:
         """Return all as plain data; angles in radians, null where a member is not closed."""
         return {
+            "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
             "joints": list(self.joints),
             "driven": list(self.driven),
             "inputs": self.inputs.tolist(),
@@ -126,7 +129,7 @@ def sweep(
     Parameters
     ----------
     mechanism : Movable
-        With coordinates, and spherical or planar loops; it gives the type, and the assembly mode.
+        With coordinates; it gives the type, and the assembly mode. Loops are spherical or planar.
     parameters : mapping
         The dimensions of N members, of one kind. ``"arcs"``: radians between axes that follow each other in a loop,
         float[N, A] in the order of `arcs_of`, or a mapping of pairs of joints to float[N], the others being those of
@@ -134,7 +137,7 @@ def sweep(
         spherical loops are closed, float[N, J, 3]. ``"points"``: of all joints where planar loops are closed, float[N,
         J, 3], in the unit of the coordinates. ``"coordinates"``: vertices of a crease pattern, float[N, V, 2 or 3];
         where it is flat, or has more closure equations than creases to solve them for, each member is folded by
-        itself, which takes milliseconds.
+        itself, which takes milliseconds. Empty: the mechanism alone, which may have spatial loops then.
     drive : mapping of joint id to float[F] or float[N, F]
         Radians; of creases fold angles, of other joints from the configuration of the mechanism, or from the axes
         that are given; of prismatic joints lengths. They are gone through one after the other. As many joints as
@@ -175,8 +178,9 @@ def sweep(
         if joint not in names:
             raise InvariantError("joint", f"{shown(joint)} is no joint of the mechanism", "one of its joints")
     driven = np.array([names.index(joint) for joint in drive], dtype=np.int64)
-    if isinstance(at, SheetConfiguration) and "coordinates" in parameters and (at.flat or not _determined(at, drive)):
-        return _walked(at, parameters["coordinates"], drive, driven, joints, report)
+    walks = set(parameters) <= ({"coordinates"} if isinstance(at, SheetConfiguration) else set())
+    if walks and (_is_flat(at) or not _determined(at, drive)):
+        return _walked(at, parameters, drive, driven, joints, report)
     family, of_mechanism = family_of(linkage, list(drive))
     batch = batch_of(at, family, of_mechanism, parameters, driven)
     count = len(batch.barred)
@@ -217,18 +221,28 @@ def _determined(at: Configuration, drive: Mapping[JointId, object]) -> bool:
     return True
 
 
+def _is_flat(at: Configuration) -> bool:
+    return isinstance(at, SheetConfiguration) and at.flat
+
+
 def _walked(
-    at: SheetConfiguration,
-    given: object,
+    at: Configuration,
+    parameters: Dimensions,
     drive: Mapping[JointId, npt.ArrayLike],
     driven: Ints,
     joints: Sequence[JointId] | None,
     report: Callable[[int], None] | None,
 ) -> Sweep:
-    """Fold members of a crease pattern one after the other: it is flat, or creases are not determined by count."""
-    coordinates = checked_coordinates(at, given)
-    inputs = _inputs(drive, len(coordinates))
-    answer, why = walked(at, coordinates, driven, inputs, report)
+    """Move members one after the other: they are flat, or joints are not determined by count."""
+    members: Sequence[Callable[[], Configuration]] = [lambda: at]
+    if parameters:
+        assert isinstance(at, SheetConfiguration)
+        members = sheets_at(at, checked_coordinates(at, parameters["coordinates"]))
+    inputs = _inputs(drive, len(members))
+    units = np.ones(len(at.joints))
+    units[list(at.linkage.slides)] = at.linkage.extent
+    answer, why = walked(members, driven, inputs / units[driven], len(at.joints), report)
+    answer.angles[:] *= units
     listed = at.joints if joints is None else tuple(joints)
     angles = answer.angles[..., [at.joints.index(joint) for joint in listed]]
     return Sweep(at, tuple(listed), tuple(drive), inputs, angles, answer.residuals, answer.status, why)

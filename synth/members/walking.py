@@ -1,13 +1,14 @@
-"""Members of crease patterns whose creases are not determined by count: each is folded as `synth.fold` folds it.
+"""Members whose joints are not determined by count, or that are flat: each moves as `synth.move` moves it.
 
-Loops of such sheets have redundant equations, so a square system does not decide them; the walk of one member after
-the other does (`synth.motion.walk`).
+Loops of most crease patterns, and of spatial linkages that move, have redundant equations, so a square system does
+not decide them; the walk of one member after the other does (`synth.motion.walk`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -16,30 +17,34 @@ from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints
 from synth.folding.configuration import SheetConfiguration
 from synth.members.member_type import BARRED, CLOSED, OPEN, TURNS_BACK, Swept
+from synth.motion.configuration import Configuration
 from synth.motion.driving import MotionOptions, driven_from
 from synth.moving.made import configuration_of
 
 
 def walked(
-    at: SheetConfiguration, coordinates: Floats, driven: Ints, inputs: Floats, report: Callable[[int], None] | None
+    members: Sequence[Callable[[], Configuration]],
+    driven: Ints,
+    inputs: Floats,
+    joints: int,
+    report: Callable[[int], None] | None,
 ) -> tuple[Swept, dict[int, str]]:
-    """Fold members with vertices float[N, V, 3] to inputs, float[F, D] or float[N, F, D]: fold angles, radians.
+    """Move members, each made when it is its turn, to inputs, float[F, D] or float[N, F, D]: radians.
 
-    Return the angles of all creases, and why members have none.
+    Return the angles of all joints, and why members have none.
     """
-    joints, rows = len(at.joints), inputs.shape[-2]
+    rows = inputs.shape[-2]
     answer = Swept(
-        np.full((len(coordinates), rows, joints), np.nan),
-        np.full((len(coordinates), rows), np.nan),
-        np.full((len(coordinates), rows), OPEN, dtype=np.int8),
+        np.full((len(members), rows, joints), np.nan),
+        np.full((len(members), rows), np.nan),
+        np.full((len(members), rows), BARRED, dtype=np.int8),
     )
     why: dict[int, str] = {}
-    for member, corners in enumerate(coordinates):
-        answer.status[member] = BARRED  # unless it has a configuration
+    for member, made in enumerate(members):
         try:
-            own = configuration_of(replace(at.sheet, coordinates=tuple(map(tuple, corners.tolist()))))
+            own = made()
             answer.status[member] = OPEN
-            for places, angles, errors in _folded(own, driven, inputs[member] if inputs.ndim == 3 else inputs):
+            for places, angles, errors in _moved(own, driven, inputs[member] if inputs.ndim == 3 else inputs):
                 answer.status[member, places] = TURNS_BACK
                 reached = places[: len(angles)]
                 answer.status[member, reached] = CLOSED
@@ -51,12 +56,20 @@ def walked(
     return answer, why
 
 
-def _folded(own: object, driven: Ints, values: Floats) -> Iterator[tuple[Ints, Floats, Floats]]:
+def sheets_at(at: SheetConfiguration, coordinates: Floats) -> list[Callable[[], Configuration]]:
+    """Return what makes the configuration of a crease pattern with each of some vertices, float[N, V, 3]."""
+
+    def made(corners: Floats) -> Configuration:
+        return configuration_of(replace(at.sheet, coordinates=tuple(map(tuple, corners.tolist()))))
+
+    return [partial(made, corners) for corners in coordinates]
+
+
+def _moved(own: Configuration, driven: Ints, values: Floats) -> Iterator[tuple[Ints, Floats, Floats]]:
     """Yield numbers of inputs, in the order in which they are come to, and the configurations at the first of them.
 
-    One crease goes from where it is to larger angles, and to smaller ones; several go from input to input.
+    One joint goes from where it is to larger angles, and to smaller ones; several go from input to input.
     """
-    assert isinstance(own, SheetConfiguration)
     start = own.linkage.angles[driven]
     ways = [np.arange(len(values))]
     if len(driven) == 1:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import degrees, sqrt
+from math import degrees, remainder, sqrt, tau
 from typing import Any, Literal
 
 import numpy as np
@@ -223,12 +223,19 @@ class Step:
         """
         chord = self.chord
         square = float(chord @ chord)
+        sizes = np.abs(chord)
+        lead = int(sizes.argmax())
+        largest = float(sizes[lead])
+        # the cubic strays from the chord by at most half of its length: most steps are told by one joint
+        off = remainder(float(angles[lead] - self.before.angles[lead] - chord[lead] / 2.0), tau)
+        if abs(off) > (0.5 + STRAY) * largest + 0.5 * sqrt(square):
+            return None
         turned = angles - 2.0 * np.pi * np.rint((angles - self.before.angles - chord / 2.0) / (2.0 * np.pi))
         part = float((turned - self.before.angles) @ chord) / square
         if not -_AT_END <= part <= 1.0 + _AT_END:
             return None
         beside = self.expected(part)
-        if np.abs(turned - beside).max() > STRAY * np.abs(chord).max():
+        if np.abs(turned - beside).max() > STRAY * largest:
             return None
         for _ in range(_NEARINGS):
             beside = corrected(self.closure, beside).angles

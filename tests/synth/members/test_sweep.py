@@ -17,6 +17,7 @@ from synth.members import STATES, arcs_of, kernel, sweep
 from synth.motion.closure import ClosureEquations
 from synth.motion.path import driven_path
 from synth.moving.made import configuration_of
+from synth.moving.motion import move
 from synth.patterns import generate
 from synth.patterns.hinged_rings import spherical_ring
 
@@ -218,6 +219,23 @@ def test_sheets_that_are_not_determined_by_count(name):
     np.testing.assert_allclose(swept.angles[0, 3], 0.0, atol=1e-9)
 
 
+@pytest.mark.parametrize("name", ["bennett", "four-bar", "kaleidocycle", "miura"])
+def test_a_mechanism_alone(name):
+    """Without parameters the mechanism itself is moved to each input, also where its loops are spatial."""
+    mechanism = generate(name).mechanism
+    at = configuration_of(mechanism)
+    joint = at.joints[0]
+    values = at.linkage.angles[0] + np.array([0.2, 0.1, -0.1])
+    swept = sweep(mechanism, {}, drive={joint: values})
+    assert len(swept) == 1
+    for row, value in enumerate(values.tolist()):
+        moved = move(mechanism, drive={joint: value}, frames=1).path
+        assert swept.closed[0, row] == (moved.stopped == "")
+        if swept.closed[0, row]:
+            np.testing.assert_allclose(swept.angles[0, row], moved.angles[-1], atol=1e-8)
+    assert swept.closed.any()
+
+
 def test_links_of_three_joints_keep_the_angle_between_their_arcs():
     linkage = spherical(WATT, np.random.default_rng(4))
     arcs = arcs_of(linkage)
@@ -242,7 +260,7 @@ def test_only_some_joints_and_a_report():
 @pytest.mark.parametrize(
     ("parameters", "drive", "told"),
     [
-        ({}, {0: [0.1]}, "parameters none; expected one of arcs, axes, points, coordinates"),
+        ({"sides": [1.0]}, {0: [0.1]}, "parameters 'sides'; expected one of arcs, axes, points, coordinates"),
         ({"arcs": np.ones((2, 3))}, {0: [0.1]}, "an array of shape (2, 3); expected float[N, 4]"),
         ({"arcs": np.ones((2, 4)) * [1, 1, 1, 4]}, {0: [0.1]}, "arc 3 of member 0 is 229.183 degrees"),
         ({"arcs": {(0, 2): [1.0]}}, {0: [0.1]}, "(0, 2) is no arc of the mechanism"),
