@@ -58,7 +58,10 @@ def table() -> str:
             f"{name}: {one['median']:.3g} {row['unit']} ({one['ratio']:g} times)"
             for name, one in row.get("others", {}).items()
         ]
-        lines.append(f"| {row['what']} | {row['median']:.3g} {row['unit']} | {', '.join(others) or '-'} |")
+        middle = f"{row['median']:.3g} {row['unit']}"
+        if "worst" in row:
+            middle += f", worst of {len(row['runs'])}: {row['worst']:.3g} {row['unit']}"
+        lines.append(f"| {row['what']} | {middle} | {', '.join(others) or '-'} |")
     lines += ["", f"Python {told['python']}, {told['machine']}, {told['cores']} cores."]
     return "\n".join(lines)
 
