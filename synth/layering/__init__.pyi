@@ -10,3 +10,4 @@ from synth.layering.orders import (
     layers as layers,
 )
 from synth.layering.settling import counted as counted
+from synth.layering.summary import FlatFoldability as FlatFoldability, flat_foldability as flat_foldability

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import combinations, islice
@@ -528,7 +528,14 @@ def layers(
     return flat_folding(sheet_in_frame(sheet, frame), count, explain=explain)
 
 
-def flat_folding(sheet: Sheet, count: Counter, *, explain: bool = True) -> FlatFolding:
+def _check_pairs(pairs: int) -> None:
+    """Refuse more pairs of panels over cells than the limit allows, before they take memory."""
+    check_work("pairs", pairs, "pairs of panels over cells")
+
+
+def flat_folding(
+    sheet: Sheet, count: Counter, *, explain: bool = True, check: Callable[[int], None] = _check_pairs
+) -> FlatFolding:
     """Return what `layers` does of a sheet, its problems counted by a function: a run that can be resumed, say.
 
     Parameters
@@ -538,6 +545,8 @@ def flat_folding(sheet: Sheet, count: Counter, *, explain: bool = True) -> FlatF
         Takes problems, and returns how many solutions each has.
     explain : bool, optional
         As for `layers`; so are the errors.
+    check : callable, optional
+        Takes the number of pairs of panels over cells, and raises an error if there are too many.
 
     Examples
     --------
@@ -560,7 +569,7 @@ def flat_folding(sheet: Sheet, count: Counter, *, explain: bool = True) -> FlatF
         wrong = f"the folded image does not close: panels part by {misfit:.2g} of the extent at ({place})"
         return FlatFolding(*about, None, misfit, (), 0, wrong)
     image = image_of(panels, max(tolerances.same_point * extent, 4.0 * panels.misfit))
-    check_work("pairs", sum(len(there) * (len(there) - 1) // 2 for there in image.above), "pairs of panels over cells")
+    check(sum(len(there) * (len(there) - 1) // 2 for there in image.above))
     constraints = layer_constraints(image)
     known, _ = constraints.creases(valleys_of(pattern.sheet, pattern.mechanism))
     left = reduced(constraints, known)
@@ -578,8 +587,8 @@ def _local_fault(vertices: Sequence[FlatVertex]) -> str:
     if not faults:
         return ""
     first = faults[0]
-    several = f"; {numbered(len(faults) - 1, 'more vertex', 'more vertices')} not either" if len(faults) > 1 else ""
-    return f"vertex {first.vertex} at ({first.place[0]:.6g}, {first.place[1]:.6g}) does not: {first.fault}{several}"
+    several = f"; faults at {numbered(len(faults) - 1, 'more vertex', 'more vertices')}" if len(faults) > 1 else ""
+    return f"vertex {first.vertex} at ({first.place[0]:.6g}, {first.place[1]:.6g}): {first.fault}{several}"
 
 
 def _components(constraints: LayerConstraints, left: ReducedLayers, count: Counter) -> tuple[LayerComponent, ...]:
