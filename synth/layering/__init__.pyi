@@ -1,9 +1,13 @@
 from synth.layering.cores import CoreCondition as CoreCondition, LayerCore as LayerCore
 from synth.layering.face_orders import read_face_orders as read_face_orders, wishes_of as wishes_of
+from synth.layering.job import LayerCountJob as LayerCountJob, numbers_of as numbers_of
 from synth.layering.local import FlatVertex as FlatVertex
 from synth.layering.orders import (
     FlatFolding as FlatFolding,
     LayerComponent as LayerComponent,
     LayerOrder as LayerOrder,
+    flat_folding as flat_folding,
     layers as layers,
 )
+from synth.layering.settling import counted as counted
+from synth.layering.summary import FlatFoldability as FlatFoldability, flat_foldability as flat_foldability

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import combinations, islice
@@ -28,6 +28,7 @@ from synth.layering.checking import fault_of
 from synth.layering.constraints import LayerConstraints, layer_constraints
 from synth.layering.cores import LayerCore, core_lines, core_of
 from synth.layering.image import FoldedImage, folded, image_of
+from synth.layering.job import Counter, LayerCountJob, numbers_of
 from synth.layering.local import FlatVertex, closing_points, flat_vertices
 from synth.layering.problem import LayerProblem, solutions
 from synth.layering.reduction import ReducedLayers, reduced
@@ -467,7 +468,12 @@ def flat_pattern(sheet: Sheet) -> FlatPattern:
 
 
 def layers(
-    mechanism: MechanismLike, *, frame: int | None = None, precision: float | None = None, explain: bool = True
+    mechanism: MechanismLike,
+    *,
+    frame: int | None = None,
+    precision: float | None = None,
+    explain: bool = True,
+    workers: int = 1,
 ) -> FlatFolding:
     """Return whether a crease pattern folds flat, in how many layer orders, and why not if it does not.
 
@@ -483,6 +489,8 @@ def layers(
         The error of a coordinate, in its unit, as for `synth.mobility`.
     explain : bool, optional
         If there is no layer order, find panels and conditions that contradict each other, none of which can go.
+    workers : int, optional
+        Processes that count; 1 counts in this one.
 
     Returns
     -------
@@ -511,7 +519,43 @@ def layers(
     """
     sheet = with_stated_precision(mechanism_for("layers", mechanism, Sheet), precision)
     assert isinstance(sheet, Sheet)
-    pattern = flat_pattern(sheet_in_frame(sheet, frame))
+
+    def count(problems: Sequence[LayerProblem]) -> Sequence[int]:
+        if workers == 1:
+            return list(map(counted, problems))
+        return numbers_of(LayerCountJob(tuple(problems)), workers=workers)
+
+    return flat_folding(sheet_in_frame(sheet, frame), count, explain=explain)
+
+
+def _check_pairs(pairs: int) -> None:
+    """Refuse more pairs of panels over cells than the limit allows, before they take memory."""
+    check_work("pairs", pairs, "pairs of panels over cells")
+
+
+def flat_folding(
+    sheet: Sheet, count: Counter, *, explain: bool = True, check: Callable[[int], None] = _check_pairs
+) -> FlatFolding:
+    """Return what `layers` does of a sheet, its problems counted by a function: a run that can be resumed, say.
+
+    Parameters
+    ----------
+    sheet : Sheet
+    count : callable
+        Takes problems, and returns how many solutions each has.
+    explain : bool, optional
+        As for `layers`; so are the errors.
+    check : callable, optional
+        Takes the number of pairs of panels over cells, and raises an error if there are too many.
+
+    Examples
+    --------
+    >>> import synth
+    >>> from synth.layering.settling import counted
+    >>> flat_folding(synth.read("data/patterns/bird-base.fold"), lambda problems: list(map(counted, problems))).orders
+    2
+    """
+    pattern = flat_pattern(sheet)
     extent = extent_of(pattern.points)
     about = (pattern.sheet, pattern.mechanism, pattern.precision, pattern.moved, pattern.vertices)
     local = _local_fault(pattern.vertices)
@@ -525,11 +569,11 @@ def layers(
         wrong = f"the folded image does not close: panels part by {misfit:.2g} of the extent at ({place})"
         return FlatFolding(*about, None, misfit, (), 0, wrong)
     image = image_of(panels, max(tolerances.same_point * extent, 4.0 * panels.misfit))
-    check_work("pairs", sum(len(there) * (len(there) - 1) // 2 for there in image.above), "pairs of panels over cells")
+    check(sum(len(there) * (len(there) - 1) // 2 for there in image.above))
     constraints = layer_constraints(image)
     known, _ = constraints.creases(valleys_of(pattern.sheet, pattern.mechanism))
     left = reduced(constraints, known)
-    parts = () if left is None else _components(constraints, left)
+    parts = () if left is None else _components(constraints, left, count)
     orders = 0 if left is None else prod(part.orders for part in parts)
     if orders:
         return FlatFolding(*about, image, misfit, parts, orders, "", None, constraints, left)
@@ -543,11 +587,11 @@ def _local_fault(vertices: Sequence[FlatVertex]) -> str:
     if not faults:
         return ""
     first = faults[0]
-    several = f"; {numbered(len(faults) - 1, 'more vertex', 'more vertices')} not either" if len(faults) > 1 else ""
-    return f"vertex {first.vertex} at ({first.place[0]:.6g}, {first.place[1]:.6g}) does not: {first.fault}{several}"
+    several = f"; faults at {numbered(len(faults) - 1, 'more vertex', 'more vertices')}" if len(faults) > 1 else ""
+    return f"vertex {first.vertex} at ({first.place[0]:.6g}, {first.place[1]:.6g}): {first.fault}{several}"
 
 
-def _components(constraints: LayerConstraints, left: ReducedLayers) -> tuple[LayerComponent, ...]:
+def _components(constraints: LayerConstraints, left: ReducedLayers, count: Counter) -> tuple[LayerComponent, ...]:
     """Count the orders of all components."""
     table = constraints.table
     class_of = left.literal[::2] >> 1
@@ -556,10 +600,11 @@ def _components(constraints: LayerConstraints, left: ReducedLayers) -> tuple[Lay
     pairs = np.unique(np.column_stack([class_of[table.variable[open_rows]], table.panels[open_rows]]), axis=0)
     for number, one, other in pairs.tolist():
         panels_of.setdefault(number, set()).update((one, other))
+    counts = count([problem for problem, _ in left.parts])
     found = []
     for places in left.components:
         problems = tuple(left.parts[place] for place in places)
         classes = np.concatenate([classes for _, classes in problems]).tolist()
         panels = tuple(sorted({panel for number in classes for panel in panels_of[number]}))
-        found.append(LayerComponent(panels, problems, tuple(counted(problem) for problem, _ in problems)))
+        found.append(LayerComponent(panels, problems, tuple(counts[place] for place in places)))
     return tuple(found)

@@ -119,7 +119,20 @@ def probed(problem: LayerProblem) -> Signs:
 
 
 def counted(problem: LayerProblem, literals: tuple[int, ...] = ()) -> int:
-    """Return in how many ways the variables of a problem can be set where some literals are true."""
+    """Return in how many ways the variables of a problem can be set where some literals are true.
+
+    Parameters
+    ----------
+    problem : LayerProblem
+    literals : tuple of int, optional
+
+    Examples
+    --------
+    >>> none = np.empty((0, 2), dtype=np.int64), np.empty((0, 4), dtype=np.int64)
+    >>> problem = LayerProblem(3, np.array([[0, 2, 4]]), *none)
+    >>> counted(problem), counted(problem, (0, 2))
+    (6, 1)
+    """
     found = kernel()
     number = None if found is None else ProblemInLibrary(found, problem).count(literals)
     return count_in_python(problem, literals) if number is None else number

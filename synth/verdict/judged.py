@@ -21,6 +21,7 @@ from graphs.printing import Block
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId
 from synth.folding.configuration import SheetConfiguration
+from synth.layering.summary import FlatFoldability, flat_foldability
 from synth.motion.branches import Branch, Branches, Certainty, signs_of
 from synth.motion.configuration import EXACT, Configuration
 from synth.motion.marked import Marked
@@ -271,10 +272,13 @@ class JudgedMobility(MobilityAnswer):
     verdict : Verdict
     configuration : Configuration or None
         Where it moves from; None for a type, and where its motion was not looked for.
+    flat_folding : FlatFoldability or None
+        Whether a flat pattern folds flat, panels bending on the way; None for others, and for large ones.
     """
 
     verdict: Verdict | None = None
     configuration: Configuration | None = None
+    flat_folding: FlatFoldability | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
@@ -283,6 +287,7 @@ class JudgedMobility(MobilityAnswer):
             "verdict": None if self.verdict is None else self.verdict.to_json(),
             "configuration": None if at is None else at.to_json(at.branch(at.chosen)),
             "assignment": None if at is None else at.nearest_to_json(),
+            "flat_folding": None if self.flat_folding is None else self.flat_folding.to_json(),
         }
         return {**first, **super(JudgedMobility, self).to_json(), **mended}
 
@@ -305,6 +310,8 @@ class JudgedMobility(MobilityAnswer):
         lines: list[Block] = [] if self.verdict is None else [self.verdict.text]
         if self.configuration is not None and self.configuration.disagreeing:
             lines.append(self.configuration.disagreeing)
+        if self.flat_folding is not None:
+            lines.append(str(self.flat_folding))
         repaired: list[Block] = [f"repaired: {note}" for note in self.mended]
         return [*self.unread(), *lines, *self.evidence(verbose=verbose), *self._precision(), *repaired]
 
@@ -373,7 +380,10 @@ def mobility(
     if at is None:
         return _judged(answer, verdict_of_type(answer, reason if answer.pose is not None else ""))
     at = replace(at, more=True) if more else at
-    return _judged(answer, verdict_of_motion(at, answer.mobility), at)
+    judged = _judged(answer, verdict_of_motion(at, answer.mobility), at)
+    if hinge_flat or not isinstance(at, SheetConfiguration) or not at.flat:
+        return judged
+    return replace(judged, flat_folding=flat_foldability(at.drawn))
 
 
 def mobility_of_type(

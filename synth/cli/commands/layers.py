@@ -14,11 +14,14 @@ from graphs.errors import InvariantError, check_argument
 from synth.cli import options
 from synth.cli.output import about, plain, print_answer, print_json, tell_written
 from synth.cli.reading import MECHANISM, PRECISION, precise_sheet, read
+from synth.cli.runner import RunOptions, run_resumable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from enumerate.runner.job import Row
     from synth.layering import FlatFolding, LayerOrder
+    from synth.layering.problem import LayerProblem
 
 
 _MOST_WRITTEN = 1000
@@ -50,13 +53,19 @@ def _pair(word: str) -> tuple[int, int]:
     "If there is no layer order, find panels and conditions that contradict each other, none of which can go.",
     default=True,
 )
+@options.output(
+    "Keep the counts in this .sqlite store, from which a stopped run is continued with --resume.", "STORE", "--counts"
+)
+@options.flag("--resume", "Continue a stopped run from the store of --counts.")
+@options.number("--workers", "N", "Number of processes that count. By default one; with --counts one per core.")
+@options.value("--scheduler", "ADDRESS", "Count on a Dask cluster, such as tcp://host:8786.")
 @options.output("Write the layer order: .fold with faceOrders, or a picture (.svg, .png, .pdf). By default order 0.")
 @options.FORCE
 @options.JSON
 @PRECISION
 def layers(
     file: str, frame: int | None, explain: bool, component: int | None, output: str | None, force: bool,
-    as_json: bool, **which: Any,
+    as_json: bool, counts: str | None, resume: bool, workers: int | None, scheduler: str | None, **which: Any,
 ) -> None:  # fmt: skip
     """Check whether a crease pattern folds flat, and count its layer orders exactly.
 
@@ -80,12 +89,17 @@ def layers(
         raise click.UsageError("--component requires -o")
     if output is not None and component is None:
         synth.drawing.mechanisms.check_order_path(output, force=force)
+    if resume and counts is None:
+        raise click.UsageError("--resume requires --counts STORE, the store to continue")
+    from graphs.answer.mechanisms import sheet_in_frame
     from graphs.mechanism import Sheet
 
+    running = RunOptions(counts, workers, scheduler, resume, quiet=as_json, force=force and not resume, counting=True)
     mechanism = read(file)
     with about(file):
         check_argument("layers", mechanism, Sheet)
-        answer = synth.layering.layers(precise_sheet(mechanism), frame=frame, explain=explain)
+        sheet = sheet_in_frame(precise_sheet(mechanism), frame)
+        answer = synth.layering.flat_folding(sheet, lambda problems: _count(problems, running), explain=explain)
         shown, unmet = _shown(answer, file, **which) if answer.foldable else (None, ())
         written = _write(answer, shown, component, output, force=force) if answer.foldable and output else []
     if as_json:
@@ -100,6 +114,23 @@ def layers(
         tell_written(*written)
     if not answer.foldable:
         sys.exit(1)
+
+
+def _count(problems: Sequence[LayerProblem], running: RunOptions) -> list[int]:
+    """Count problems, in the store of --counts if there is one."""
+    if running.output is None and running.workers is None and running.scheduler is None:
+        return list(map(synth.layering.counted, problems))
+    from enumerate.runner.sinks import RowSink
+    from enumerate.runner.store import SqliteSink, read_rows
+
+    job = synth.layering.LayerCountJob(tuple(problems))
+    if running.output is None:
+        rows: list[Row] = []
+        run_resumable(job, lambda **_: RowSink(lambda _columns, more: rows.extend(more)), running)
+        return synth.layering.numbers_of(job, rows)
+    path, resume, force = running.output, running.resume, running.force
+    run_resumable(job, lambda **how: SqliteSink(path, resume=resume, force=force, **how), running)
+    return synth.layering.numbers_of(job, read_rows(path))
 
 
 def _shown(

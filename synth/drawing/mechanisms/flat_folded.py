@@ -137,9 +137,8 @@ def write_order(answer: FlatFolding, order: LayerOrder, path: str | Path, *, for
     --------
     >>> import synth
     >>> answer = synth.layers("data/patterns/bird-base.fold")
-    >>> write_order(answer, answer.order(1), "folder/that/is/missing.fold")
-    Traceback (most recent call last):
-    ...
-    graphs.errors.OpenError: folder/that/is/missing.fold: there is no folder 'folder/that/is'; expected a folder that exists
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     write_order(answer, answer.order(1), Path(folder) / "layered.fold")
     """
     write_as(_WrittenOrder(answer, order), path, _ORDERS, force=force)

@@ -47,11 +47,11 @@ def test_crimps_agree_with_layer_orders(seed):
 
 def test_faults_in_words():
     odd = synth.layers(vertex_of([2.0, 2.0, 2 * pi - 4.0], "MMV"))
-    assert odd.fault == "vertex 0 at (0, 0) does not: 3 creases, an odd number"
+    assert odd.fault == "vertex 0 at (0, 0): 3 creases, an odd number"
     unequal = synth.layers(vertex_of([1.0, 1.0, 1.5, 2 * pi - 3.5], "MMMV"))
     assert "every other sector adds up to" in unequal.fault
     alike = synth.layers(vertex_of([pi / 2] * 4, "MMVV"))
-    assert alike.fault == "vertex 0 at (0, 0) does not: 2 mountains and 2 valleys"
+    assert alike.fault == "vertex 0 at (0, 0): 2 mountains and 2 valleys"
 
 
 @pytest.mark.parametrize("seed", range(8))
