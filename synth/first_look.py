@@ -36,7 +36,7 @@ class FirstLook(Printed):
     kind : str
         What it is: its kind, parts and where it lies.
     motion : str
-        The first sentences of the verdict.
+        The verdict, and whether a flat pattern folds flat.
     drawing : str
         Repairs, creases whose assignment disagrees with the motion, and what was left out, with places; or that
         nothing had to be repaired.
@@ -109,8 +109,8 @@ def look(mechanism: MechanismLike, *, precision: float | None = None) -> FirstLo
     file = "FILE" if isinstance(mechanism, Mechanism) else str(mechanism)
     read: Mechanism = mechanism_for("look", mechanism, Mechanism)
     answer = mobility(read, precision=precision)
-    moves = "" if answer.verdict is None else answer.verdict.text
-    return FirstLook(_kind(read, answer), moves, _drawing(answer), tuple(_questions(read, answer)), answer, file)
+    questions = tuple(_questions(read, answer))
+    return FirstLook(_kind(read, answer), _motion(answer), _drawing(answer), questions, answer, file)
 
 
 def _kind(mechanism: Mechanism, answer: JudgedMobility) -> str:
@@ -167,6 +167,14 @@ def _named(mechanism: Mechanism, answer: JudgedMobility) -> str:
         return ""
     name = name_of(chain_id(to_sc(mechanism)))
     return f"; its chain is named {name}" if name else ""
+
+
+def _motion(answer: JudgedMobility) -> str:
+    """Return the verdict, and for a flat pattern whether it folds flat."""
+    sentences = [] if answer.verdict is None else [answer.verdict.text]
+    if answer.flat_folding is not None:
+        sentences.append(f"{str(answer.flat_folding).capitalize()}.")
+    return " ".join(sentences)
 
 
 def _drawing(answer: JudgedMobility) -> str:

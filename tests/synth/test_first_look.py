@@ -8,6 +8,7 @@ import pytest
 from commands import run
 
 import synth
+from synth.viewer import pages
 
 ROOT = Path(__file__).resolve().parents[2]
 MECHANISMS = {
@@ -30,12 +31,19 @@ def place_of(mechanism):
 def test_it_says_what_it_is_and_what_the_verdict_is(mechanism, kind):
     seen = synth.look(place_of(mechanism))
     assert seen.kind.startswith(kind)
-    assert seen.motion == synth.mobility(place_of(mechanism)).verdict.text
+    answer = synth.mobility(place_of(mechanism))
+    assert seen.motion.startswith(answer.verdict.text)
+    assert ("layer orders" in seen.motion) == (answer.flat_folding is not None)
     assert seen.drawing == "Nothing had to be repaired."
 
 
 @pytest.mark.parametrize("mechanism", MECHANISMS)
 def test_the_commands_it_names_are_answered(mechanism, tmp_path, monkeypatch):
+    for name in ("page.js", "page.css"):  # the script of the page, which may not be built
+        (tmp_path / name).write_text("")
+    monkeypatch.setattr(pages, "BUILT", tmp_path)
+    monkeypatch.setattr(pages.page, "__kwdefaults__", {**pages.page.__kwdefaults__, "built": tmp_path})
+    monkeypatch.setattr(pages, "check_built", lambda: None)
     monkeypatch.chdir(tmp_path)
     for row in json.loads(run("look", place_of(mechanism), "--json").stdout)["next"]:
         words = shlex.split(row["command"])
