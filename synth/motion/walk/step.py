@@ -149,12 +149,19 @@ class Step:
         A cubic through both ends with the rates of both keeps to the curve to the fourth power of the step, so
         that Newton's method does not stray to another branch that passes there.
         """
-        chord = self.chord
+        return self.cubic()(part)
+
+    def cubic(self) -> Callable[[float], Floats]:
+        """Return what `expected` returns for a part."""
+        chord, start = self.chord, self.before.angles
         size = length_of(chord)
-        out, back = (rates * (size / length_of(rates)) for rates in (self.leaving, self.arriving))
-        rest = 1.0 - part
-        bulge = part * rest * (rest * (out - chord) - part * (back - chord))
-        return np.asarray(self.before.angles + part * chord + bulge)
+        out, back = (rates * (size / length_of(rates)) - chord for rates in (self.leaving, self.arriving))
+
+        def expected(part: float) -> Floats:
+            rest = 1.0 - part
+            return np.asarray(start + part * chord + part * rest * (rest * out - part * back))
+
+        return expected
 
     def at(self, part: float) -> Corrected:
         """Return the closed configuration at a part of the step."""
@@ -352,9 +359,10 @@ class RankWatch:
 
     def _least(self, step: Step, freedoms: int, exact: float) -> tuple[float, float]:
         """Return the part of a step at which the least singular value across the freedoms is least; its square."""
+        expected = step.cubic()
 
         def square(part: float) -> float:
-            return float(self._squares(step.expected(part))[freedoms])
+            return float(self._squares(expected(part))[freedoms])
 
         from scipy.optimize import minimize_scalar  # takes a third of a second to load
 

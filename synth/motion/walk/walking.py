@@ -44,6 +44,8 @@ _EASY = 5
 _MOST = 20_000
 _FEW, _AT_ONCE = 64, 24
 """Of linkages of so few joints the library takes so many steps at once: those beyond an event are lost."""
+_MANNER = np.array([FREE, DOUBLE.clear, _FIRST, _LARGEST, _LEAST, STRAY, _STRAY_FIRST, _ALIKE, _EASY, SINGULAR])
+"""These numbers as kernel.c takes them."""
 
 
 class Event:
@@ -147,36 +149,34 @@ class Ahead:
 
     def __init__(self, closure: ClosureEquations) -> None:
         self._closure = closure
-        self._steps: list[StepAhead] = []
+        self._places: dict[str, Floats] = {}
+        self._next, self._last = 1, 0
 
     def forget(self) -> None:
         """Forget the steps that were not taken yet."""
-        self._steps = []
+        self._next, self._last = 1, 0
 
     def next(self, walk: Walk) -> StepAhead | None:
         """Return the next step; None where the walk has to take it: of many joints, or if none is found."""
-        if not self._steps and walk.tangent is not None and 0 < self._closure.joints <= _FEW and self._closure.rows:
-            self._steps = self._taken(walk)
-        return self._steps.pop() if self._steps else None
+        if self._next > self._last and walk.tangent is not None and 0 < self._closure.joints <= _FEW:
+            self._take(walk)
+        if self._next > self._last:
+            return None
+        k, places = self._next, self._places
+        self._next += 1
+        error, corrections = float(places["error"][k]), int(places["steps"][k])
+        after = Corrected(places["angles"][k], error, corrections, self._closure, places["entries"][k])
+        step = Step(self._closure, walk.here, after, places["leaving"][k], places["arriving"][k])
+        across = places["across"][k], places["image"][k]
+        singular = walk.watch is not None and bool(places["singular"][k])
+        return StepAhead(step, places["tangent"][k], places["bend"][k], across, float(places["length"][k]), singular)
 
-    def _taken(self, walk: Walk) -> list[StepAhead]:
-        """Return steps from where the walk is, the first one last."""
-        manner = [FREE, DOUBLE.clear, _FIRST, _LARGEST, _LEAST, STRAY, _STRAY_FIRST, _ALIKE, _EASY, SINGULAR]
-        walked = self._closure.walked(np.array(manner), walk.state, _AT_ONCE)
-        if walked is None:
-            return []
-        found, taken = walked
-        here, steps = walk.here, []
-        for k in range(1, taken + 1):
-            error, corrections = float(found["error"][k]), int(found["steps"][k])
-            after = Corrected(found["angles"][k], error, corrections, self._closure, found["entries"][k])
-            step = Step(self._closure, here, after, found["leaving"][k], found["arriving"][k])
-            across = found["across"][k], found["image"][k]
-            singular = walk.watch is not None and bool(found["singular"][k])
-            length = float(found["length"][k])
-            steps.append(StepAhead(step, found["tangent"][k], found["bend"][k], across, length, singular))
-            here = after
-        return steps[::-1]
+    def _take(self, walk: Walk) -> None:
+        """Take steps from where the walk is."""
+        self.forget()
+        walked = self._closure.walked(_MANNER, walk.state, _AT_ONCE) if self._closure.rows else None
+        if walked is not None:
+            self._places, self._last = walked
 
 
 class Walk(Iterator[Step]):
