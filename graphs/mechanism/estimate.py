@@ -173,7 +173,11 @@ class Corners:
         own = np.arange(len(beside))
         pairs = np.concatenate([np.stack([own, beside], axis=1), np.stack([own, second], axis=1)[whole]])
         rows = _rows(pairs, np.array([1.0, -1.0]), len(beside))
-        return _relations("equal lengths", rows @ slopes, rows @ (0.5 * np.log(squares)), 1.0)
+        logarithms = 0.5 * np.log(squares)[pairs]
+        known = np.isfinite(logarithms).all(axis=1)  # others are of sides that have no length
+        off = np.full(len(pairs), np.inf)
+        off[known] = logarithms[known] @ [1.0, -1.0]
+        return _relations("equal lengths", rows @ slopes, off, 1.0)
 
 
 def nearly_exact(corners: Corners) -> list[Relations]:
