@@ -38,6 +38,14 @@ class PositionTable(Printed):
         The others at each input, as of `PositionSet`.
     curves : int
         Closed curves that were walked to count those of a generic realisation.
+
+    Examples
+    --------
+    >>> from synth.assembly import positions
+    >>> from synth.patterns import generate
+    >>> table = positions(generate("four-bar").mechanism, drive={0: [0.0, 0.5, 1.0]})
+    >>> table.count.tolist(), table.angles.shape, bool(table.exhaustive.all())
+    ([2, 2, 2], (3, 2, 4), True)
     """
 
     configuration: Configuration

@@ -46,6 +46,14 @@ class DyadTable(Printed):
         1 where a counter-clockwise crank takes the orientations in their order, -1 a clockwise one, 0 neither.
     why : mapping of int to str
         Why sets have no answer, such as infinitely many dyads.
+
+    Examples
+    --------
+    >>> from scipy.spatial.transform import Rotation
+    >>> sets = Rotation.random(20, random_state=1).as_matrix().reshape(4, 5, 3, 3)
+    >>> table = dyads_of_sets(sets)
+    >>> table, table.fixed.shape
+    (<DyadTable: 4 sets, 8 dyads>, (4, 6, 3))
     """
 
     matrices: Floats
