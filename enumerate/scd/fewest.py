@@ -9,6 +9,7 @@ its orbit is the one. Theory: docs/theory/scd-enumeration.md.
 from math import prod
 
 import numpy as np
+import numpy.typing as npt
 
 from enumerate.scd.listing import SCD_FACTS, Choice, list_choice
 from enumerate.scd.patterns import (
@@ -30,7 +31,7 @@ from graphs.types import Bytes, Flags, Ints
 
 _MOST_UNDECIDED = 22
 """Corners that may have open edges or not: of more than so many the choices take too much room."""
-_IMPOSSIBLE = 1 << 30
+_IMPOSSIBLE = (1 << 15) - 1
 _FIRST, _GROWTH = 16, 4
 """Placements of a choice that are made at first, and how many more each time that none represents its orbit."""
 
@@ -59,7 +60,7 @@ def fewest_open_edges(code: Bytes, labels: Ints, most: int, dof: int) -> tuple[B
             continue
         if forced_mobility(turn, face, kinds, number, pattern) != dof:
             continue
-        found = least[place]
+        found = int(least[place])
         for explicit in sets[fewest[place] == found].tolist():
             states = corner_states(face, kinds, pattern, explicit)
             choice = Choice(turn, vertex, face, kinds, states, symmetries, most, True)
@@ -74,23 +75,25 @@ def fewest_open_edges(code: Bytes, labels: Ints, most: int, dof: int) -> tuple[B
 
 def _fewest_of_choices(
     vertex: Ints, face: Ints, kinds: Ints, free: Ints, pattern: Bytes, sets: Ints, most: int
-) -> Ints:
-    """Return the fewest open edges of all choices: int64[patterns, explicit sets], `_IMPOSSIBLE` where they have none.
+) -> npt.NDArray[np.int16]:
+    """Return the fewest open edges of all choices: int16[patterns, explicit sets], `_IMPOSSIBLE` where they have none.
 
     Bit ``i`` of the number of a pattern says whether the undecided corner ``free[i]`` is opened.
     """
     links = int(vertex.max()) + 1
-    degree = np.bincount(vertex, minlength=links)
+    degree = np.bincount(vertex, minlength=links).astype(np.int8)
     numbers = np.arange(1 << len(free))
     opened = np.zeros((len(numbers), links), np.int8)
     for i, corner in enumerate(free.tolist()):
         opened[:, vertex[corner]] += ((numbers >> i) & 1).astype(np.int8)
-    fewest = np.full((len(numbers), len(sets)), _IMPOSSIBLE)
+    fewest = np.full((len(numbers), len(sets)), _IMPOSSIBLE, np.int16)
     pattern[free] = CLOSED
     for column, explicit in enumerate(sets.tolist()):
         states = corner_states(face, kinds, pattern, explicit)
-        taken = opened + np.bincount(vertex[states == OPENED], minlength=links)
-        slots = opened + np.bincount(vertex[states != CLOSED], minlength=links)
+        taken, slots = (
+            opened + np.bincount(vertex[held], minlength=links).astype(np.int8)
+            for held in (states == OPENED, states != CLOSED)
+        )
         fits = (degree + taken <= most) & ((slots > 0) | (degree >= 3))
         total = np.maximum(taken, 3 - degree).sum(axis=1)
         fewest[:, column] = np.where(fits.all(axis=1), total, _IMPOSSIBLE)
