@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from graphs.tolerances import DOUBLE, canonical_basis
+from graphs.tolerances import DOUBLE, MARGIN, canonical_basis
 from graphs.types import Floats, Ints
 
 NEARLY = 2e-3
@@ -215,6 +215,19 @@ def null_space(matrix: Floats, zero: float = DOUBLE.zero, scale: float | None = 
     """
     _, values, right = np.linalg.svd(matrix, full_matrices=matrix.shape[0] < matrix.shape[1])
     return canonical_basis(right[_counted(values, zero, scale) :].T)
+
+
+def null_vectors(matrices: Floats, zero: float = DOUBLE.zero) -> tuple[Ints, Floats]:
+    """Return the ranks of matrices, float[n, m, k], m at least k: int[n], and a vector of each: float[n, k].
+
+    It is that of the least singular value, the canonical basis of a kernel of one dimension.
+    """
+    _, values, right = np.linalg.svd(matrices, full_matrices=False)
+    vectors = right[:, -1]
+    sizes = vectors**2
+    place = (sizes >= (1.0 - MARGIN) * sizes.max(axis=1, keepdims=True)).argmax(axis=1)
+    ranks = (values > zero * values.max(axis=1, keepdims=True)).sum(axis=1)
+    return ranks, vectors * np.sign(np.take_along_axis(vectors, place[:, None], axis=1))
 
 
 def row_space(matrix: Floats, zero: float = DOUBLE.zero, scale: float | None = None) -> Floats:

@@ -25,7 +25,7 @@ _APART = radians(3.0)
 _REFINED = 10
 """Halvings of the way between two frames."""
 _BLOCK = 256
-"""Pieces whose boxes are compared with all others at a time."""
+"""Pieces whose boxes are compared with all others near them at a time."""
 
 
 class PanelShapes:
@@ -38,7 +38,7 @@ class PanelShapes:
     def __init__(
         self, faces: Sequence[Sequence[int]], panel_of: Sequence[int], flat: Floats, tolerances: Tolerances = DOUBLE
     ) -> None:
-        pieces = [_convex(face, flat) for face in faces]
+        pieces = _pieces_of(faces, flat)
         corners = [piece for pieces_of_face in pieces for piece in pieces_of_face]
         most = max(map(len, corners), default=3)
         filled = [[*piece, *[piece[-1]] * (most - len(piece))] for piece in corners]
@@ -52,25 +52,37 @@ class PanelShapes:
             return None
         corners = places[self._corners]
         normals = unit(area_vector(corners))
+        crossing: list[tuple[int, int]] = []
         for first, second in self._near(corners):
-            pairs = np.flatnonzero(self._cross(corners, normals, first, second))
-            if len(pairs):
-                panels = (int(self._panel[pieces[pairs[0]]]) for pieces in (first, second))
-                low, high = sorted(panels)
-                return low, high
-        return None
+            crossed = self._cross(corners, normals, first, second)
+            crossing += zip(first[crossed].tolist(), second[crossed].tolist(), strict=True)
+        if not crossing:
+            return None
+        low, high = sorted(int(self._panel[piece]) for piece in min(crossing))
+        return low, high
 
     def _near(self, corners: Floats) -> Iterator[tuple[Ints, Ints]]:
-        """Yield pairs of pieces of different panels whose boxes meet, block by block."""
+        """Yield pairs of pieces of different panels whose boxes meet, the lesser panel first, block by block.
+
+        Pieces stand in the order in which they begin along one axis: none meets one that begins where it has ended.
+        """
         low, high = corners.min(axis=1) - self._touching, corners.max(axis=1)
-        for start in range(0, len(corners), _BLOCK):
+        along = int(np.ptp(low, axis=0).argmax())
+        order = np.argsort(low[:, along], kind="stable")
+        low, high, panel = low[order], high[order], self._panel[order]
+        ends = np.searchsorted(low[:, along], high[:, along], side="right")
+        for start in range(0, len(order), _BLOCK):
             block = slice(start, start + _BLOCK)
-            meet = self._panel[block, None] < self._panel
-            for axis in range(3):
-                meet &= low[block, None, axis] <= high[:, axis]
-                meet &= low[:, axis] <= high[block, None, axis]
-            first, second = np.nonzero(meet)
-            yield first + start, second
+            others = slice(start, int(ends[block].max()))
+            number = np.arange(others.start, others.stop)
+            meet = (number[: len(ends[block]), None] < number) & (number < ends[block, None])
+            meet &= panel[block, None] != panel[others]
+            for axis in {0, 1, 2} - {along}:
+                meet &= low[block, None, axis] <= high[others, axis]
+                meet &= low[others, axis] <= high[block, None, axis]
+            one, other = (order[place + start] for place in np.nonzero(meet))
+            swapped = self._panel[one] > self._panel[other]
+            yield np.where(swapped, other, one), np.where(swapped, one, other)
 
     def _cross(self, corners: Floats, normals: Floats, first: Ints, second: Ints) -> Flags:
         """Tell which pairs of pieces cross: bool[pairs]."""
@@ -171,6 +183,24 @@ class Collision(Event):
 
     def _crossing(self, angles: Floats) -> tuple[int, int] | None:
         return self._panels.crossing(self._places(angles[None])[0])
+
+
+def _pieces_of(faces: Sequence[Sequence[int]], flat: Floats) -> list[list[list[int]]]:
+    """Return each face as convex pieces."""
+    sizes = np.array([len(face) for face in faces], dtype=np.int64)
+    pieces = [[list(face)] for face in faces]
+    for size in np.unique(sizes).tolist():
+        numbers = np.flatnonzero(sizes == size)
+        places = flat[np.array([faces[number] for number in numbers.tolist()])]
+        normals = area_vector(places)
+        plane = places @ frame_about(normals)[:, :2].swapaxes(1, 2)
+        steps = np.roll(plane, -1, axis=1) - plane
+        after = np.roll(steps, -1, axis=1)
+        bends = steps[..., 0] * after[..., 1] - steps[..., 1] * after[..., 0]
+        concave = (bends < -DOUBLE.same_point * np.abs(normals).max(axis=1, keepdims=True)).any(axis=1)
+        for number in numbers[concave].tolist():
+            pieces[number] = _convex(faces[number], flat)
+    return pieces
 
 
 def _convex(face: Sequence[int], flat: Floats) -> list[list[int]]:

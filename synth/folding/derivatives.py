@@ -21,7 +21,7 @@ from graphs.mechanism.sheet import Sheet
 from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations
 from synth.motion.derivatives import AxisDependence, BodyPoses, BodyTree, Sensitivity, spatial
-from synth.motion.linkage import Creases, PosedLinkage, creases_of, link_motions
+from synth.motion.linkage import Creases, PosedLinkage, creases_of, placed_links
 
 
 def vertex_places(
@@ -33,19 +33,23 @@ def vertex_places(
     """
     assert sheet.coordinates is not None
     local = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
-    motions = link_motions(linkage, angles, largest_panel(mechanism.panels))
+    rotation, shift = placed_links(linkage, angles, largest_panel(mechanism.panels))
+    corners = np.array(
+        [
+            (link, vertex)
+            for link, faces in enumerate(mechanism.panels)
+            for vertex in dict.fromkeys(vertex for face in faces for vertex in sheet.faces[face])
+        ],
+        dtype=np.int64,
+    ).reshape(-1, 2)
+    links, vertices = corners.T
+    placed, first = np.unique(vertices, return_index=True)  # each by the first of its panels
     places = np.broadcast_to(local, (len(angles), *local.shape)).copy()
-    placed = np.zeros(sheet.vertices, dtype=bool)
     apart = np.zeros(len(angles))
-    for link, faces in enumerate(mechanism.panels):
-        here = sorted({vertex for face in faces for vertex in sheet.faces[face]})
-        rotation, shift = motions[link]
-        moved = np.einsum("fij,vj->fvi", rotation, local[here]) + shift[:, None]
-        known = placed[here]
-        again = moved[:, known] - places[:, np.array(here)[known]]
-        apart = np.maximum(apart, np.linalg.norm(again, axis=-1).max(axis=1, initial=0.0))
-        places[:, np.array(here)[~known]] = moved[:, ~known]
-        placed[here] = True
+    for frame in range(len(angles)):
+        moved = (rotation[frame, links] @ local[vertices, :, None])[..., 0] + shift[frame, links]
+        places[frame, placed] = moved[first]
+        apart[frame] = np.linalg.norm(moved - places[frame, vertices], axis=1).max(initial=0.0)
     return places * linkage.extent + linkage.middle, apart
 
 

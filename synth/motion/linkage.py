@@ -293,17 +293,36 @@ def link_motions(
     >>> (rotation[0] @ [1.0, 0.0, 0.0]).round(12).tolist()
     [0.0, 1.0, 0.0]
     """
-    still = (np.broadcast_to(np.eye(3), (len(angles), 3, 3)), np.zeros((len(angles), 3)))
-    motions: dict[LinkId, tuple[Floats, Floats]] = {}
-    for near, far, place, sign in joints_outwards(linkage, ground):
-        value = sign * (angles[:, place] - linkage.angles[place])
-        rotation, shift = motions.setdefault(near, still)
-        if place in linkage.slides:
-            motions[far] = rotation, shift + value[:, None] * (rotation @ linkage.directions[place])
-            continue
-        turn, point = rotations(linkage.directions[place], value), linkage.points[place]
-        motions[far] = rotation @ turn, shift + (rotation @ (point - turn @ point)[..., None])[..., 0]
-    return {link: motions.get(link, still) for link in linkage.graph.nodes}
+    rotations_of, shifts = placed_links(linkage, angles, ground)
+    return {link: (rotations_of[:, place], shifts[:, place]) for place, link in enumerate(linkage.graph.nodes)}
+
+
+def placed_links(linkage: PosedLinkage, angles: Floats, ground: LinkId | None = None) -> tuple[Floats, Floats]:
+    """Return the motions of `link_motions` as arrays, links in order: float[F, N, 3, 3] and float[F, N, 3]."""
+    number = {link: place for place, link in enumerate(linkage.graph.nodes)}
+    carried = list(joints_outwards(linkage, ground))
+    ends = np.array([(number[near], number[far], place) for near, far, place, _ in carried], dtype=np.int64)
+    senses = np.array([sense for *_, sense in carried], dtype=float)
+    shape = (len(angles), len(number))
+    rotation, shift = np.broadcast_to(np.eye(3), (*shape, 3, 3)).copy(), np.zeros((*shape, 3))
+    depth = [0] * len(number)
+    levels: list[list[int]] = []  # joints that are as far out
+    for row, (inner, outer, _) in enumerate(ends.tolist()):
+        depth[outer] = depth[inner] + 1
+        if depth[outer] > len(levels):
+            levels.append([])
+        levels[depth[outer] - 1].append(row)
+    for rows in levels:
+        (near, far, place), sense = ends[rows].T, senses[rows]
+        value = sense * (angles[:, place] - linkage.angles[place])
+        slides = np.isin(place, linkage.slides)
+        turn = rotations(linkage.directions[place], np.where(slides, 0.0, value))
+        point = linkage.points[place]
+        step = point - (turn @ point[..., None])[..., 0]
+        step = np.where(slides[:, None], value[..., None] * linkage.directions[place], step)
+        rotation[:, far] = rotation[:, near] @ turn
+        shift[:, far] = shift[:, near] + (rotation[:, near] @ step[..., None])[..., 0]
+    return rotation, shift
 
 
 def joints_outwards(linkage: PosedLinkage, ground: LinkId | None = None) -> Iterator[tuple[LinkId, LinkId, int, float]]:
@@ -327,10 +346,9 @@ def joints_outwards(linkage: PosedLinkage, ground: LinkId | None = None) -> Iter
 
 def moved(linkage: PosedLinkage, angles: Floats) -> PosedLinkage:
     """Return the linkage with its axes where they are at joint angles float[J], radians: its pose is that one."""
-    motions = link_motions(linkage, angles[None])
-    points, directions = np.empty_like(linkage.points), np.empty_like(linkage.directions)
-    for place, (first, _) in enumerate(linkage.graph.joints.values()):
-        rotation, shift = motions[first]
-        points[place] = rotation[0] @ linkage.points[place] + shift[0]
-        directions[place] = rotation[0] @ linkage.directions[place]
+    number = {link: place for place, link in enumerate(linkage.graph.nodes)}
+    first = [number[link] for link, _ in linkage.graph.joints.values()]
+    rotation, shift = (part[0, first] for part in placed_links(linkage, angles[None]))
+    points = (rotation @ linkage.points[..., None])[..., 0] + shift
+    directions = (rotation @ linkage.directions[..., None])[..., 0]
     return replace(linkage, points=points, directions=directions, angles=angles)

@@ -20,7 +20,14 @@ from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import PosedLinkage
 from synth.motion.singular.sampling import rates_towards
-from synth.motion.singular.second_order import Quadric, RateSpace, quadrics_of, rates_at, rates_near
+from synth.motion.singular.second_order import (
+    Quadric,
+    RateSpace,
+    equations_by_size,
+    quadrics_of,
+    rates_at,
+    rates_near,
+)
 from synth.motion.tangent import TangentSpace
 from synth.motion.walk.step import STRAY
 
@@ -204,15 +211,11 @@ class _EquationGroups:
     """Equations, those between as many joints in one array each."""
 
     def __init__(self, quadrics: Sequence[Quadric], zero: float) -> None:
-        sizes = np.array([len(quadric.joints) for quadric in quadrics], dtype=np.int64)
-        self._groups = []
-        for size in np.unique(sizes).tolist():
-            numbers = np.flatnonzero(sizes == size)
-            alike = [quadrics[number] for number in numbers.tolist()]
-            joints = np.array([quadric.joints for quadric in alike], dtype=np.int64)
-            forms = np.array([quadric.form / np.abs(quadric.form).max() for quadric in alike])
-            self._groups.append((numbers, joints, forms))
-        self._most = int(sizes.max(initial=0))
+        self._groups = [
+            (numbers, joints, forms / np.abs(forms).max(axis=(1, 2), keepdims=True))
+            for numbers, joints, forms in equations_by_size(quadrics)
+        ]
+        self._most = max((joints.shape[1] for _, joints, _ in self._groups), default=0)
         self._zero = zero
 
     def split(self, basis: Floats, left: Ints, wanted: Floats) -> Iterator[tuple[Floats, Ints]]:

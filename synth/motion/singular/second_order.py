@@ -22,7 +22,7 @@ import numpy as np
 import scipy
 
 from graphs.loops.loop import Centre
-from graphs.rank.singular_values import inertia, null_space, row_space, spectrum, split
+from graphs.rank.singular_values import inertia, null_space, null_vectors, row_space, spectrum, split
 from graphs.tolerances import DOUBLE, canonical_basis, canonical_order, signed
 from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations
@@ -47,16 +47,34 @@ def quadrics_of(linkage: PosedLinkage, zero: float = DOUBLE.zero) -> list[Quadri
 
     Singular values below `zero` times the largest are zero, and forms whose entries are below it.
     """
-    quadrics = []
-    for loop in linkage.loops:
-        twists = _twists(linkage, loop)
-        stresses = null_space(twists.T, zero)
-        if not stresses.shape[1]:
-            continue
-        for form in np.moveaxis(_second_order(twists) @ stresses, -1, 0):
-            if np.abs(form).max(initial=0.0) > zero:
-                quadrics.append(Quadric(loop.joints, form))
-    return quadrics
+    found: list[list[Quadric]] = [[] for _ in linkage.loops]
+    about_points: dict[int, list[int]] = {}
+    for number, loop in enumerate(linkage.loops):
+        if loop.centre is Centre.FINITE and len(loop.joints) > 2:
+            about_points.setdefault(len(loop.joints), []).append(number)
+        else:
+            found[number] = _quadrics_of_loop(linkage, loop, zero)
+    for numbers in about_points.values():
+        loops = [linkage.loops[number] for number in numbers]
+        axes = linkage.directions[[loop.joints for loop in loops]]
+        axes = axes * np.array([loop.signs for loop in loops], dtype=float)[..., None]
+        ranks, stresses = null_vectors(axes, zero)
+        flat = np.flatnonzero(ranks == 2)
+        forms = _second_order(axes[flat].swapaxes(1, 2)) @ stresses[flat, None, :, None]
+        for place, form in zip(flat.tolist(), forms[..., 0], strict=True):
+            if np.abs(form).max() > zero:
+                found[numbers[place]] = [Quadric(loops[place].joints, form)]
+        for place in np.flatnonzero(ranks < 2).tolist():
+            found[numbers[place]] = _quadrics_of_loop(linkage, loops[place], zero)
+    return [quadric for of_loop in found for quadric in of_loop]
+
+
+def _quadrics_of_loop(linkage: PosedLinkage, loop: PosedLoop, zero: float) -> list[Quadric]:
+    """Return the equations of second order of one loop."""
+    twists = _twists(linkage, loop)
+    stresses = null_space(twists.T, zero)
+    forms = np.moveaxis(_second_order(twists) @ stresses, -1, 0)
+    return [Quadric(loop.joints, form) for form in forms if np.abs(form).max(initial=0.0) > zero]
 
 
 def shared_quadrics(
@@ -131,14 +149,18 @@ def _twists(linkage: PosedLinkage, loop: PosedLoop) -> Floats:
 
 
 def _second_order(twists: Floats) -> Floats:
-    """Return the forms of r -> sum over i < j of r_i r_j [x_i, x_j], one for each coordinate: float[k, k, e]."""
-    turn, shift = twists[:3].T, twists[3:].T
-    brackets = np.cross(turn[:, None], turn[None])
-    if len(twists) > 3:
-        moments = np.cross(turn[:, None], shift[None]) + np.cross(shift[:, None], turn[None])
+    """Return the forms of r -> sum over i < j of r_i r_j [x_i, x_j], one for each coordinate: float[..., k, k, e].
+
+    Twists x_i are columns, float[..., e, k].
+    """
+    turn, shift = twists[..., :3, :].swapaxes(-1, -2), twists[..., 3:, :].swapaxes(-1, -2)
+    brackets = np.cross(turn[..., :, None, :], turn[..., None, :, :])
+    if shift.shape[-1]:
+        moments = np.cross(turn[..., :, None, :], shift[..., None, :, :])
+        moments = moments + np.cross(shift[..., :, None, :], turn[..., None, :, :])
         brackets = np.concatenate([brackets, moments], axis=-1)
-    upper = brackets * np.triu(np.ones(brackets.shape[:2]), 1)[..., None]  # twist i comes before twist j
-    return np.asarray(upper + upper.transpose(1, 0, 2)) / 2.0
+    upper = brackets * np.triu(np.ones(brackets.shape[-3:-1]), 1)[..., None]  # twist i comes before twist j
+    return np.asarray(upper + upper.swapaxes(-3, -2)) / 2.0
 
 
 _MOST = 300
@@ -251,13 +273,15 @@ def rates_near(
     _, jacobian = closure.at(angles)
     size = float(np.linalg.norm(wanted))
     rates = TangentSpace(jacobian).projected(wanted)
-    rows = np.repeat(np.arange(len(quadrics)), [len(quadric.joints) for quadric in quadrics])
-    columns = np.array([joint for quadric in quadrics for joint in quadric.joints], dtype=np.int64)
+    groups = equations_by_size(quadrics)
+    empty = np.zeros(0, dtype=np.int64)
+    rows = np.concatenate([empty, *(np.repeat(numbers, joints.shape[1]) for numbers, joints, _ in groups)])
+    columns = np.concatenate([empty, *(joints.ravel() for _, joints, _ in groups)])
     for _ in range(_STEPS):
         if not np.linalg.norm(rates) > DOUBLE.zero_rate * size:
             return None
         rates = rates * (size / np.linalg.norm(rates))
-        slopes = [quadric.form @ rates[list(quadric.joints)] for quadric in quadrics]
+        slopes = [(forms @ rates[joints][..., None]).ravel() for _, joints, forms in groups]
         values = np.concatenate([np.zeros(0), *slopes])
         quadratic = scipy.sparse.csr_matrix((values, (rows, columns)), shape=(len(quadrics), len(rates)))
         off = np.concatenate([jacobian @ rates, quadratic @ rates])
@@ -266,6 +290,18 @@ def rates_near(
         both = scipy.sparse.vstack([jacobian, 2.0 * quadratic], format="csr")
         rates = rates + TangentSpace(both).step(off)
     return None
+
+
+def equations_by_size(quadrics: Sequence[Quadric]) -> list[tuple[Ints, Ints, Floats]]:
+    """Return the equations between as many joints: numbers int[n], joints int[n, k] and forms float[n, k, k]."""
+    sizes = np.array([len(quadric.joints) for quadric in quadrics], dtype=np.int64)
+    groups = []
+    for size in np.unique(sizes).tolist():
+        numbers = np.flatnonzero(sizes == size)
+        alike = [quadrics[number] for number in numbers.tolist()]
+        joints = np.array([quadric.joints for quadric in alike], dtype=np.int64)
+        groups.append((numbers, joints, np.array([quadric.form for quadric in alike])))
+    return groups
 
 
 def rates_at(closure: ClosureEquations, angles: Floats, zero: float = DOUBLE.zero) -> Floats:
