@@ -26,7 +26,6 @@ from graphs.convert.panels import polyhedron_of, scd_from_panels
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.exact import centres_of_loops, closure_modulo, closure_of, exact_mobility, matrix_modulo
-from graphs.rank.pose import dense
 from graphs.rank.realisation import PRIMES, PrimeField, Realisation, Reals, realise
 from graphs.rank.rods import exact_mobility_of_model
 
@@ -90,7 +89,11 @@ def real_matrix(sc: SCGraph) -> np.ndarray:
     """Return the closure of a random member over the reals."""
     field = Reals()
     placed = realise(sc, field)
-    return dense(closure_of(sc, placed.axes, centres_of_loops(sc, placed), field))
+    closure = closure_of(sc, placed.axes, centres_of_loops(sc, placed), field)
+    matrix = np.zeros((len(closure.rows), len(closure.joints)))
+    for row, values in enumerate(closure.rows):
+        matrix[row, list(values)] = list(values.values())
+    return matrix
 
 
 def main() -> None:

@@ -20,7 +20,7 @@ from graphs.mechanism.estimate import Corners, estimate_of, nearly_exact
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.exact import diagnose
-from graphs.rank.pose import PoseMobility, closure_at_pose, dense, pose_mobility
+from graphs.rank.pose import PoseMobility, closure_at_pose, pose_mobility
 from graphs.types import Floats
 from synth.drawing import Scene
 from synth.drawing.scene.frame import Plot, signed
@@ -121,7 +121,7 @@ def pose() -> Scene:
     rounded = with_places(sheet, np.array(sheet.coordinates).round(5))
     found = pose_mobility(rounded)
     assert found.dof is not None
-    values = np.linalg.svd(dense(closure_at_pose(rounded, mechanism_of_sheet(rounded))), compute_uv=False)
+    values = np.linalg.svd(closure_at_pose(rounded, mechanism_of_sheet(rounded)).toarray(), compute_uv=False)
     picture = _singular_values(values / values[0], found)
     return beside(
         said(

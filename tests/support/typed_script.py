@@ -40,6 +40,7 @@ reveal_type(synth.convert(sheet, "sc"))
 edited = synth.edit(chain, lock=[0], add_ride_along=[(0, 1)])
 reveal_type((edited, edited.mechanism, edited.edits[0].predicted))
 reveal_type(synth.explain(source).idle)
+reveal_type((synth.layers(source), synth.layers(source).orders))
 reveal_type(synth.advise(source, 1).locks)
 
 # Motion

@@ -20,14 +20,7 @@ from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import PosedLinkage
 from synth.motion.singular.sampling import rates_towards
-from synth.motion.singular.second_order import (
-    Quadric,
-    RateSpace,
-    equations_by_size,
-    quadrics_of,
-    rates_at,
-    rates_near,
-)
+from synth.motion.singular.second_order import Quadric, RateSpace, equations_by_size, quadrics_of, rates_at, rates_near
 from synth.motion.tangent import TangentSpace
 from synth.motion.walk.step import STRAY
 
