@@ -141,22 +141,30 @@ def _maps(plane: _Plane, vertices: list[_Vertex]) -> Iterator[Ints]:
                 cos, sin = float(seen @ goal), float(seen[0] * goal[1] - seen[1] * goal[0])
                 matrix = np.array([[cos, -sin], [sin, cos]]) * (1.0, mirror)
                 shift = vertex.place - matrix @ start.place
-                there = _taken(plane, tree, matrix, shift)
-                if there is None or _taken(plane, tree, matrix.T, -matrix.T @ shift) is None:
+                near, same = _nearest(plane, tree, matrix, shift, start.joints)
+                if not same.all() or set(near.tolist()) != set(vertex.joints.tolist()):
                     continue
-                if set(there[start.joints].tolist()) == set(vertex.joints.tolist()):
+                there = _taken(plane, tree, matrix, shift)
+                if there is not None and _taken(plane, tree, matrix.T, -matrix.T @ shift) is not None:
                     yield there
 
 
 def _taken(plane: _Plane, tree: cKDTree, matrix: Floats, shift: Floats) -> Ints | None:
     """Return the crease that each is taken to, -1 where it leaves the sheet; None if one is taken to no crease."""
-    middles, directions = plane.middles @ matrix.T + shift, plane.directions @ matrix.T
-    off, there = tree.query(middles)
-    across = directions[:, 0] * plane.directions[there, 1] - directions[:, 1] * plane.directions[there, 0]
-    same = (off <= plane.same) & (np.abs(across) <= plane.same) & (plane.marks == plane.marks[there])
-    if plane.inside(middles[~same]).any():
+    every = np.arange(len(plane.middles))
+    there, same = _nearest(plane, tree, matrix, shift, every)
+    if plane.inside(plane.middles[~same] @ matrix.T + shift).any():
         return None
     return np.where(same, there, -1)
+
+
+def _nearest(plane: _Plane, tree: cKDTree, matrix: Floats, shift: Floats, joints: Ints) -> tuple[Ints, Flags]:
+    """Return the crease nearest to where a motion takes each of some, int[n], and whether it is taken to that."""
+    directions = plane.directions[joints] @ matrix.T
+    off, there = tree.query(plane.middles[joints] @ matrix.T + shift)
+    across = directions[:, 0] * plane.directions[there, 1] - directions[:, 1] * plane.directions[there, 0]
+    same = (off <= plane.same) & (np.abs(across) <= plane.same) & (plane.marks[joints] == plane.marks[there])
+    return there, same
 
 
 def _joined(maps: list[Ints], count: int) -> Ints:
@@ -215,6 +223,8 @@ _DEAD_ENDS = 4
 """Spaces of rates that are tried for each of these."""
 _DRIVERS = 3
 """Creases that are driven in turn, of different classes, where the one that moves most turns back."""
+MOST_ALIKE = 1200
+"""Creases that look alike are looked for up to so many: the motions of the plane that are tried grow with them."""
 _STEPS = 1000
 """Steps of one path: 170 degrees take 20 to 100."""
 
@@ -257,7 +267,7 @@ def fold_to(sheet: Sheet, angle: float) -> Motion:
 def _starts(sheet: Sheet) -> Iterator[_Start]:
     """Yield motions, the most symmetric one first; all ways to move are looked for only when these are used up."""
     pattern = configuration_of_sheet(sheet)
-    if pattern.flat:
+    if pattern.flat and len(pattern.joints) <= MOST_ALIKE:
         meant = Tolerances.of(pattern.precision.size)
         for classes in alike_classes(pattern.sheet, pattern.linkage, pattern.marks, meant):
             closure = AlikeClosure(pattern.linkage, classes)

@@ -7,8 +7,14 @@ from graphs.joints.linkage import JointedLinkage
 from synth.patterns import creases, goods, hinged_rings, platforms, scissors
 from synth.patterns.generator import Generator, Parameter, Values, angle, count, length
 
-_MESH = (count("rows", 3, 2, 12, "number of rows of panels"), count("columns", 3, 2, 12, "number of columns of panels"))
-_TILES = (count("rows", 2, 1, 8, "number of rows of units"), count("columns", 2, 1, 8, "number of columns of units"))
+_MESH = (
+    count("rows", 3, 2, 400, "number of rows of panels"),
+    count("columns", 3, 2, 400, "number of columns of panels"),
+)
+_TILES = (
+    count("rows", 2, 1, 150, "number of rows of units"),
+    count("columns", 2, 1, 150, "number of columns of units"),
+)
 _SECTOR = angle("sector", 60, 20, 85, "acute angle of the panels")
 _SIDES = (
     length("straight", 1.0, 0.1, 10, "side of a panel along the straight lines"),
@@ -61,8 +67,8 @@ _CREASES = (
     Generator(
         "resch", "Resch's triangles", creases.resch,
         (
-            count("rows", 1, 1, 5, "number of rows of large triangles"),
-            count("columns", 1, 1, 5, "number of columns of large triangles"),
+            count("rows", 1, 1, 100, "number of rows of large triangles"),
+            count("columns", 1, 1, 100, "number of columns of large triangles"),
         ),
         lambda v: creases.freedoms_of_triangles(creases.resch(int(v["rows"]), int(v["columns"]))),
         _TRIANGLES, "Resch 1968; Tachi 2013", True,

@@ -259,8 +259,13 @@ def _generic(freedoms: int, how: str, end: str) -> str:
     return f"A generic realisation has {in_words(freedoms)} ({how}){end}."
 
 
-MOST_PANELS = 1200
+MOST_PANELS = 12_000
 """The motion of larger sheets is looked for on request only."""
+
+
+def on_request(sheet: Sheet) -> str:
+    """Return why the motion of a large sheet was not looked for."""
+    return f"the motion of {len(sheet.faces)} panels is analysed on request (--motion)"
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -370,7 +375,7 @@ def mobility(
         if isinstance(mechanism, Configuration):
             at = mechanism
         elif placed.coordinates is not None and len(placed.faces) > MOST_PANELS and not demanded:
-            reason = f"the motion of {len(placed.faces)} panels is analysed on request (--motion)"
+            reason = on_request(placed)
         elif placed.coordinates is not None or demanded:
             at, reason = _configuration(mechanism, pose, hinge_flat, demanded=demanded)
     dual = at.dual if isinstance(at, SheetConfiguration) and geometry else None

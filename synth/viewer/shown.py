@@ -6,7 +6,7 @@ with the reason. Theory: docs/theory/viewer.md.
 
 import json
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -31,7 +31,7 @@ from synth.motion.linkage import PosedLinkage
 from synth.motion.singular.sampling import walked
 from synth.motion.walk.events import free_rates, independent_joints
 from synth.moving.made import configuration_of
-from synth.verdict.judged import MOST_PANELS, mobility
+from synth.verdict.judged import mobility, on_request, verdict_of_type
 from synth.viewer.linkage import (
     Bodies,
     ShownCentre,
@@ -49,6 +49,8 @@ _BOX = (420.0, 420.0)
 """Largest width and height of the picture, points."""
 _STEPS = 4
 """Number of steps that are reported; the last is that the page shows the mechanism."""
+_MOST_PANELS = 1200
+"""Larger sheets are shown as they are; their motion is looked for on request only."""
 _MOST_DRIVERS = 40
 """Joints with a slider of their own, at most; others can be dragged."""
 
@@ -262,11 +264,13 @@ def shown_of(
         mechanism.frames.first_placed() if isinstance(mechanism, Sheet) and mechanism.frames is not None else mechanism
     )
     notes: list[str] = []
-    on_request = isinstance(placed, Sheet) and len(placed.faces) > MOST_PANELS and not motion
+    still = isinstance(placed, Sheet) and len(placed.faces) > _MOST_PANELS and not motion
     report("finding motion branches", 1, _STEPS)
-    at, moving = _moving(placed, notes, still=on_request)
+    at, moving = _moving(placed, notes, still=still)
     report("finding the mobility", 2, _STEPS)
-    answer = mobility(placed if at is None or on_request else at, motion=motion)
+    answer = mobility(placed if at is None or still else at, motion=False if still else motion)
+    if still and isinstance(placed, Sheet) and motion is None and answer.pose is not None:
+        answer = replace(answer, verdict=verdict_of_type(answer, on_request(placed)))
     verdict = answer.verdict
     assert verdict is not None
     report("drawing", 3, _STEPS)
@@ -287,7 +291,7 @@ def shown_of(
         tuple(map(plain, verdict.stiff_joints)) if verdict.certainty != "not known" else (),
         tuple(tuple(map(plain, cluster)) for cluster in verdict.clusters),
         drawn,
-        on_request,
+        still,
     )
 
 

@@ -195,6 +195,7 @@ def test_small_singular_values_by_parts(size):
     assert (found.rank, found.nearly) == (size - 1, 3)
     np.testing.assert_allclose(found.smallest, 1e-8, rtol=0.01)
     assert number_below(matrix, 1e-4 * values[0]) == 4 + 3
+    assert number_below(matrix, 1e-4 * values[0], ordered=True) == 4 + 3
 
 
 @pytest.mark.parametrize("size", [12, slow(18)])

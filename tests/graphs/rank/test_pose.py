@@ -9,8 +9,11 @@ from graphs.convert.duality import mechanism_of_sheet
 from graphs.count.equations import loop_form
 from graphs.errors import InvariantError, SynthedraError, UnsolvableError
 from graphs.files.formats import read
+from graphs.loops.loop import Loop, signed_cycle
 from graphs.mechanism.precision import stated
+from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
+from graphs.rank.exact import independent_cycles, signed_loops
 from graphs.rank.pose import closure_at_pose, pose_mobility
 from graphs.rank.singular_values import spectrum
 
@@ -171,3 +174,15 @@ def test_kresling_rings_are_as_stiff_as_they_should_be(fold_folder):
     for name, dof in [("ev_kresling_n6_m1_open.fold", 6), ("ev_kresling_n6_m1_closed.fold", 0)]:
         found = pose_mobility(read(fold_folder / name))
         assert found.dof == dof
+
+
+@pytest.mark.parametrize("name", ["bird-base", "four-bar-vertex"])
+def test_loops_as_arrays_are_passed_as_one_by_one(name, data):
+    """Two joints between the same links are a loop too, passed once each way."""
+    bundle = SCGraph(3, [(0, 1), (1, 0), (1, 2), (2, 0)], [Loop((0, 1))])
+    for sc in (bundle, mechanism_of_sheet(read(next((data / "patterns").glob(f"{name}*.fold")))).sc):
+        loops, column = independent_cycles(sc), list(sc.joints)
+        arrays = signed_loops(sc, loops)
+        for loop, begin, end in zip(loops, arrays.begin, arrays.begin[1:], strict=False):
+            passed = zip(arrays.joints[begin:end].tolist(), arrays.signs[begin:end].tolist(), strict=True)
+            assert [(column[joint], sign) for joint, sign in passed] == list(signed_cycle(loop.joints, sc.joints))

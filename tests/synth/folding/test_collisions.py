@@ -134,3 +134,27 @@ def test_the_command_line_ends_before_a_collision(tmp_path):
     told = json.loads(run(*words, "--collisions").stdout)
     assert told["frames"] == 13
     assert (told["events"][0]["kind"], told["events"][0]["panels"]) == ("collision", [0, 2])
+
+
+@pytest.mark.parametrize("largest", [0.05, 2.0])
+def test_pairs_whose_boxes_meet_are_those_of_all_pairs(largest):
+    """More pieces than are compared at a time, some of a panel of two, boxes of all sizes; every pair by itself."""
+    rng = np.random.default_rng(int(100 * largest))
+    count = 300
+    corners = rng.uniform(0.0, 1.0, (count, 1, 3)) + rng.uniform(0.0, largest, (count, 1, 1)) * rng.uniform(
+        size=(count, 3, 3)
+    )
+    panel_of = np.arange(count) // 2
+    shapes = PanelShapes(np.arange(3 * count).reshape(-1, 3).tolist(), panel_of.tolist(), corners.reshape(-1, 3))
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    expected = {
+        (i, j)
+        for i in range(count)
+        for j in range(i + 1, count)
+        if panel_of[i] != panel_of[j] and (low[i] <= high[j]).all() and (low[j] <= high[i]).all()
+    }
+    found = [
+        pair for first, second in shapes._near(corners) for pair in zip(first.tolist(), second.tolist(), strict=True)
+    ]
+    assert len(found) == len(set(found)) > 0
+    assert set(found) == expected

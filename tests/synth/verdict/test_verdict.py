@@ -170,3 +170,10 @@ def test_the_table_of_equations_is_printed_on_request(data):
     assert all(equation.why in long for equation in answer.equations.values())
     named = line.removeprefix("equations that apply: ").partition("   ")[0].split("; ")
     assert len(named) == sum(one.applies and one.value is not None for one in answer.equations.values())
+
+
+def test_a_large_sheet_is_judged_by_one_motion_along_its_assignment():
+    """More panels than were once analysed at all: the freedoms are those of the source."""
+    verdict = told(miura(36, 36, 1.0))
+    assert (verdict.freedoms, verdict.basis, verdict.certainty) == (1, "motion", "numerical")
+    assert "with the given mountain-valley assignment" in verdict.text

@@ -7,13 +7,20 @@ import pytest
 from sizes import slow
 
 from graphs.mechanism.sheet import Sheet
-from graphs.tolerances import Tolerances
+from graphs.tolerances import DOUBLE, Tolerances
 from synth.motion import configuration as configurations
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
 from synth.motion.singular import nearest
 from synth.motion.singular.nearest import begun_near, spaces_near
-from synth.motion.singular.second_order import largest_only, quadrics_of, rates_at, rates_near, spaces_within
+from synth.motion.singular.second_order import (
+    _quadrics_of_loop,
+    largest_only,
+    quadrics_of,
+    rates_at,
+    rates_near,
+    spaces_within,
+)
 from synth.patterns.creases import fan, map_sheet, miura
 from synth.verdict.judged import mobility
 from synth.verdict.verdict import AsWritten
@@ -125,3 +132,21 @@ def test_newtons_method_ends_at_no_rates_where_lines_cross():
 def test_a_map_of_four_hundred_panels_folds_along_its_lines():
     verdict = mobility(map_sheet(20, 20), exact=False).verdict
     assert (verdict.freedoms, verdict.certainty) == (19, "numerical")
+
+
+@pytest.mark.parametrize(
+    "sheet",
+    [
+        miura(3, 4, 1.0),
+        map_sheet(3, 3),
+        fan(np.radians([0, 60, 180, 300])),
+        fan(np.radians([0, 50, 130, 180, 200, 290])),
+    ],
+)
+def test_equations_of_all_loops_together_are_those_of_each(sheet):
+    linkage = linkage_of_sheet(sheet)
+    alone = [quadric for loop in linkage.loops for quadric in _quadrics_of_loop(linkage, loop, DOUBLE.zero)]
+    together = quadrics_of(linkage)
+    assert [one.joints for one in together] == [one.joints for one in alone]
+    for one, other in zip(together, alone, strict=True):
+        np.testing.assert_allclose(one.form, other.form, atol=1e-15)

@@ -69,7 +69,6 @@ def test_what_is_large_is_judged_on_request():
     sheet = miura(30, 41, np.radians(60.0))
     shown = shown_of(sheet)
     assert shown.on_request
-    assert shown.verdict == synth.mobility(sheet).verdict.text
     assert "the motion of 1230 panels is analysed on request" in shown.verdict
     assert len(shown.moving.bodies.faces) == 1230
     assert shown.moving.ways is None
