@@ -1,5 +1,6 @@
 from synth.layering.cores import CoreCondition as CoreCondition, LayerCore as LayerCore
 from synth.layering.face_orders import read_face_orders as read_face_orders, wishes_of as wishes_of
+from synth.layering.fixing import ChangedAssignment as ChangedAssignment, locally_fixed as locally_fixed
 from synth.layering.job import LayerCountJob as LayerCountJob, numbers_of as numbers_of
 from synth.layering.local import FlatVertex as FlatVertex
 from synth.layering.orders import (

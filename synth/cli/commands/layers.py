@@ -12,7 +12,15 @@ import synth.drawing.mechanisms
 import synth.layering
 from graphs.errors import InvariantError, check_argument
 from synth.cli import options
-from synth.cli.output import about, plain, print_answer, print_json, tell_written
+from synth.cli.output import (
+    about,
+    check_output,
+    plain,
+    print_answer,
+    print_json,
+    print_result,
+    tell_written,
+)
 from synth.cli.reading import MECHANISM, PRECISION, precise_sheet, read
 from synth.cli.runner import RunOptions, run_resumable
 
@@ -49,6 +57,11 @@ def _pair(word: str) -> tuple[int, int]:
 @options.flag("--face-orders", "Show the layer order nearest to the faceOrders of a FOLD file.")
 @options.number("--component", "K", "With -o: write one file per order of this component, NAME-0, NAME-1, ...", 0)
 @options.flag(
+    "--fix",
+    "Find creases that have to change for the local conditions to hold, none of which can be left out; -o writes the "
+    "pattern with them changed.",
+)
+@options.flag(
     "--explain/--no-explain",
     "If there is no layer order, find panels and conditions that contradict each other, none of which can go.",
     default=True,
@@ -65,7 +78,8 @@ def _pair(word: str) -> tuple[int, int]:
 @PRECISION
 def layers(
     file: str, frame: int | None, explain: bool, component: int | None, output: str | None, force: bool,
-    as_json: bool, counts: str | None, resume: bool, workers: int | None, scheduler: str | None, **which: Any,
+    as_json: bool, fix: bool, counts: str | None, resume: bool, workers: int | None, scheduler: str | None,
+    **which: Any,
 ) -> None:  # fmt: skip
     """Check whether a crease pattern folds flat, and count its layer orders exactly.
 
@@ -85,9 +99,13 @@ def layers(
     """
     if sum((which["order"] is not None, which["sample"] is not None, bool(which["wishes"]), which["face_orders"])) > 1:
         raise click.UsageError("--order, --sample, --wish and --face-orders exclude each other")
+    if fix and (component is not None or any(which.values())):
+        raise click.UsageError("--fix changes the assignment, and shows no layer order; leave out the other option")
     if component is not None and output is None:
         raise click.UsageError("--component requires -o")
-    if output is not None and component is None:
+    if fix:
+        check_output(output, force=force)
+    elif output is not None and component is None:
         synth.drawing.mechanisms.check_order_path(output, force=force)
     if resume and counts is None:
         raise click.UsageError("--resume requires --counts STORE, the store to continue")
@@ -99,7 +117,12 @@ def layers(
     with about(file):
         check_argument("layers", mechanism, Sheet)
         sheet = sheet_in_frame(precise_sheet(mechanism), frame)
-        answer = synth.layering.flat_folding(sheet, lambda problems: _count(problems, running), explain=explain)
+        answer = synth.layering.flat_folding(
+            sheet, lambda problems: _count(problems, running), explain=explain and not fix
+        )
+        if fix:
+            _print_fixed(answer, file, output, force=force, as_json=as_json)
+            return
         shown, unmet = _shown(answer, file, **which) if answer.foldable else (None, ())
         written = _write(answer, shown, component, output, force=force) if answer.foldable and output else []
     if as_json:
@@ -114,6 +137,16 @@ def layers(
         tell_written(*written)
     if not answer.foldable:
         sys.exit(1)
+
+
+def _print_fixed(answer: FlatFolding, file: str, output: str | None, *, force: bool, as_json: bool) -> None:
+    """Print which creases have to change for the local conditions to hold, and write the changed pattern."""
+    from graphs.files.formats import write
+
+    fixed = synth.layering.locally_fixed(answer)
+    if output is not None:
+        write(fixed.sheet, output, force=force)
+    print_result(fixed, {"file": file, "output": output}, as_json=as_json, written=[output])
 
 
 def _count(problems: Sequence[LayerProblem], running: RunOptions) -> list[int]:
