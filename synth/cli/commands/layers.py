@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from enumerate.runner.job import Row
     from synth.layering import FlatFolding, LayerOrder
-    from synth.layering.problem import LayerProblem
+    from synth.layering.counting.problem import LayerProblem
 
 
 _MOST_WRITTEN = 1000
@@ -56,6 +56,7 @@ def _pair(word: str) -> tuple[int, int]:
 )  # fmt: skip
 @options.flag("--face-orders", "Show the layer order nearest to the faceOrders of a FOLD file.")
 @options.number("--component", "K", "With -o: write one file per order of this component, NAME-0, NAME-1, ...", 0)
+@options.flag("--assignments", "Count the layer orders for each assignment of unassigned creases.")
 @options.flag(
     "--fix",
     "Find creases that have to change for the local conditions to hold, none of which can be left out; -o writes the "
@@ -78,8 +79,8 @@ def _pair(word: str) -> tuple[int, int]:
 @PRECISION
 def layers(
     file: str, frame: int | None, explain: bool, component: int | None, output: str | None, force: bool,
-    as_json: bool, fix: bool, counts: str | None, resume: bool, workers: int | None, scheduler: str | None,
-    **which: Any,
+    as_json: bool, assignments: bool, fix: bool, counts: str | None, resume: bool, workers: int | None,
+    scheduler: str | None, **which: Any,
 ) -> None:  # fmt: skip
     """Check whether a crease pattern folds flat, and count its layer orders exactly.
 
@@ -97,18 +98,7 @@ def layers(
 
     Exit status 1: the pattern does not fold flat.
     """
-    if sum((which["order"] is not None, which["sample"] is not None, bool(which["wishes"]), which["face_orders"])) > 1:
-        raise click.UsageError("--order, --sample, --wish and --face-orders exclude each other")
-    if fix and (component is not None or any(which.values())):
-        raise click.UsageError("--fix changes the assignment, and shows no layer order; leave out the other option")
-    if component is not None and output is None:
-        raise click.UsageError("--component requires -o")
-    if fix:
-        check_output(output, force=force)
-    elif output is not None and component is None:
-        synth.drawing.mechanisms.check_order_path(output, force=force)
-    if resume and counts is None:
-        raise click.UsageError("--resume requires --counts STORE, the store to continue")
+    _check_options(component, output, counts, fix=fix, resume=resume, force=force, **which)
     from graphs.answer.mechanisms import sheet_in_frame
     from graphs.mechanism import Sheet
 
@@ -124,12 +114,16 @@ def layers(
             _print_fixed(answer, file, output, force=force, as_json=as_json)
             return
         shown, unmet = _shown(answer, file, **which) if answer.foldable else (None, ())
+        by = synth.layering.orders_by_assignment(answer) if assignments else None
         written = _write(answer, shown, component, output, force=force) if answer.foldable and output else []
     if as_json:
         order = None if shown is None else shown.to_json()
-        print_json({"file": file, **answer.to_json(), "order": order, "unmet": [list(pair) for pair in unmet]})
+        told = {"order": order, "unmet": [list(pair) for pair in unmet]}
+        print_json({"file": file, **answer.to_json(), **told, "assignments": None if by is None else by.to_json()})
     else:
         print_answer(answer)
+        if by is not None:
+            print_answer(by)
         if shown is not None:
             print_answer(shown)
         for upper, lower in unmet:
@@ -137,6 +131,24 @@ def layers(
         tell_written(*written)
     if not answer.foldable:
         sys.exit(1)
+
+
+def _check_options(
+    component: int | None, output: str | None, counts: str | None, *, fix: bool, resume: bool, force: bool, **which: Any
+) -> None:
+    """Refuse options that exclude each other, and an output that cannot be written."""
+    if sum((which["order"] is not None, which["sample"] is not None, bool(which["wishes"]), which["face_orders"])) > 1:
+        raise click.UsageError("--order, --sample, --wish and --face-orders exclude each other")
+    if fix and (component is not None or any(which.values())):
+        raise click.UsageError("--fix changes the assignment, and shows no layer order; leave out the other option")
+    if component is not None and output is None:
+        raise click.UsageError("--component requires -o")
+    if fix:
+        check_output(output, force=force)
+    elif output is not None and component is None:
+        synth.drawing.mechanisms.check_order_path(output, force=force)
+    if resume and counts is None:
+        raise click.UsageError("--resume requires --counts STORE, the store to continue")
 
 
 def _print_fixed(answer: FlatFolding, file: str, output: str | None, *, force: bool, as_json: bool) -> None:

@@ -13,10 +13,10 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.mechanism.sheet import Sheet
 from synth.layering.checking import fault_of
 from synth.layering.constraints import layer_constraints
+from synth.layering.counting.settling import counted
 from synth.layering.image import folded, image_of
 from synth.layering.orders import flat_pattern
 from synth.layering.reduction import reduced
-from synth.layering.settling import counted
 from synth.layering.sweep import count_by_cells
 
 STAMPS = (1, 2, 6, 16, 50, 144, 462, 1392, 4536, 14060, 46310, 146376, 485914, 1557892)

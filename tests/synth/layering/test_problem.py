@@ -7,9 +7,9 @@ import pytest
 from folded_sheets import folded_sheet, unassigned_map
 
 import synth
-from synth.layering import settling
-from synth.layering.kernel import ProblemInLibrary, kernel
-from synth.layering.problem import LayerProblem, count_in_python, probe_in_python, solutions
+from synth.layering.counting import settling
+from synth.layering.counting.kernel import ProblemInLibrary, kernel
+from synth.layering.counting.problem import LayerProblem, count_in_python, probe_in_python, solutions
 
 needs_library = pytest.mark.skipif(kernel() is None, reason="there is no library: no compiler was at hand")
 
