@@ -12,15 +12,7 @@ import synth.drawing.mechanisms
 import synth.layering
 from graphs.errors import InvariantError, check_argument
 from synth.cli import options
-from synth.cli.output import (
-    about,
-    check_output,
-    plain,
-    print_answer,
-    print_json,
-    print_result,
-    tell_written,
-)
+from synth.cli.output import about, check_output, plain, print_answer, print_json, print_result, tell_written
 from synth.cli.reading import MECHANISM, PRECISION, precise_sheet, read
 from synth.cli.runner import RunOptions, run_resumable
 

@@ -64,9 +64,9 @@ def test_square_maps_by_their_cyclic_shifts(rows, columns):
 NAMES = [
     "grids_002_brown_2x2_D1",
     "grids_018_brown_3x3_D1",
-    "grids_318_brown_4x4_D58",
+    slow("grids_318_brown_4x4_D58"),
     "instagram_004_traditional_Crane",
-    "instagram_196_komatsu_Giraffe",
+    slow("instagram_196_komatsu_Giraffe"),
 ]
 EXACT = {"instagram_196_komatsu_Giraffe": [3, 28680], "instagram_012_ku_4x4_Grid_Unassigned": [300608]}
 """What our methods find where the published numbers stopped at ten thousand."""
@@ -104,7 +104,7 @@ def test_all_published_states():
     assert checked == 21
 
 
-@pytest.mark.parametrize("seed", [*range(60), *(slow(seed) for seed in range(60, 5000))])
+@pytest.mark.parametrize("seed", [*range(16), *(slow(seed) for seed in range(16, 5000))])
 def test_folded_sheets(seed):
     """Both methods agree, and the folding that made a sheet is among its orders."""
     rng = np.random.default_rng(seed)
@@ -117,7 +117,7 @@ def test_folded_sheets(seed):
     assert len(answer.sample(seed).stacks) == len(answer.image.cells)
 
 
-@pytest.mark.parametrize("seed", [*range(30), *(slow(seed) for seed in range(30, 1000))])
+@pytest.mark.parametrize("seed", [*range(8), *(slow(seed) for seed in range(8, 1000))])
 def test_one_crease_turned(seed):
     """What one crease folded the other way leaves is the same by both methods, mostly nothing."""
     rng = np.random.default_rng(seed)
