@@ -65,7 +65,10 @@ def _pair(word: str) -> tuple[int, int]:
 @options.flag("--resume", "Continue a stopped run from the store of --counts.")
 @options.number("--workers", "N", "Number of processes that count. By default one; with --counts one per core.")
 @options.value("--scheduler", "ADDRESS", "Count on a Dask cluster, such as tcp://host:8786.")
-@options.output("Write the layer order: .fold with faceOrders, or a picture (.svg, .png, .pdf). By default order 0.")
+@options.output(
+    "Write the layer order, by default order 0: .fold with faceOrders, or a picture (.svg, .png, .pdf). If there is "
+    "none, a picture shows why on the pattern."
+)
 @options.FORCE
 @options.JSON
 @PRECISION
@@ -107,7 +110,7 @@ def layers(
             return
         shown, unmet = _shown(answer, file, **which) if answer.foldable else (None, ())
         by = synth.layering.orders_by_assignment(answer) if assignments else None
-        written = _write(answer, shown, component, output, force=force) if answer.foldable and output else []
+        written = _write(answer, shown, component, output, force=force) if output else []
     if as_json:
         order = None if shown is None else shown.to_json()
         told = {"order": order, "unmet": [list(pair) for pair in unmet]}
@@ -191,7 +194,12 @@ def _shown(
 def _write(
     answer: FlatFolding, shown: LayerOrder | None, component: int | None, output: str, *, force: bool
 ) -> list[Path]:
-    """Write a layer order, or all of a component; return the files."""
+    """Write a layer order, or all of a component, or why there is none; return the files."""
+    if not answer.foldable:
+        if Path(output).suffix.lower() == ".fold":
+            return []
+        synth.drawing.mechanisms.fault_scene(answer).save(output, force=force)
+        return [Path(output)]
     if component is None:
         synth.drawing.mechanisms.write_order(answer, shown or answer.order(), output, force=force)
         return [Path(output)]
