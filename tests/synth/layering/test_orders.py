@@ -130,6 +130,20 @@ def test_one_crease_turned(seed):
     assert both(answer) == answer.orders
 
 
+@pytest.mark.parametrize("seed", [*range(6), *(slow(seed) for seed in range(6, 400))])
+def test_tessellations_of_degree_four(seed):
+    """Miura sheets of random angles, some creases unassigned, by both methods; with their assignment they fold flat."""
+    rng = np.random.default_rng(seed)
+    rows, columns = (int(number) for number in rng.integers(2, 5, 2))
+    sheet = synth.generate("miura", rows=rows, columns=columns, sector=float(rng.uniform(0.7, 1.4))).mechanism
+    assert synth.layers(sheet).foldable
+    letters = "".join("U" if letter in "MV" and rng.random() < 0.5 else letter for letter in sheet.assignments)
+    answer = synth.layers(Sheet(sheet.vertices, sheet.edges, letters, sheet.faces, sheet.coordinates))
+    assert answer.orders >= 1
+    assert both(answer) == answer.orders
+    answer.sample(seed)
+
+
 def test_every_order_of_a_component_is_another(data):
     answer = synth.layers(unassigned_map(2, 3))
     orders = {order.stacks for order in answer.orders_of(0)}
