@@ -1,6 +1,12 @@
+from synth.layering.assignments import (
+    OrdersByAssignment as OrdersByAssignment,
+    orders_by_assignment as orders_by_assignment,
+)
 from synth.layering.cores import CoreCondition as CoreCondition, LayerCore as LayerCore
+from synth.layering.counting.job import LayerCountJob as LayerCountJob, numbers_of as numbers_of
+from synth.layering.counting.settling import counted as counted
 from synth.layering.face_orders import read_face_orders as read_face_orders, wishes_of as wishes_of
-from synth.layering.job import LayerCountJob as LayerCountJob, numbers_of as numbers_of
+from synth.layering.fixing import ChangedAssignment as ChangedAssignment, locally_fixed as locally_fixed
 from synth.layering.local import FlatVertex as FlatVertex
 from synth.layering.orders import (
     FlatFolding as FlatFolding,
@@ -9,5 +15,4 @@ from synth.layering.orders import (
     flat_folding as flat_folding,
     layers as layers,
 )
-from synth.layering.settling import counted as counted
 from synth.layering.summary import FlatFoldability as FlatFoldability, flat_foldability as flat_foldability

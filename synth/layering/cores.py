@@ -18,10 +18,10 @@ import numpy as np
 
 from graphs.printing import plain
 from synth.layering.constraints import PairTable, layer_constraints
+from synth.layering.counting.problem import LayerProblem, solutions
+from synth.layering.counting.settling import contradicting, counted
 from synth.layering.image import FoldedImage
-from synth.layering.problem import LayerProblem, solutions
 from synth.layering.reduction import merged, reduced
-from synth.layering.settling import contradicting, counted
 from synth.layering.sweep import count_by_cells
 
 

@@ -18,6 +18,7 @@ from scipy.sparse import csr_array, eye_array
 from scipy.sparse.linalg import spsolve
 
 from graphs.convert.duality import SheetMechanism
+from graphs.errors import numbered
 from graphs.mechanism.precision import Precision, extent_of
 from graphs.mechanism.sheet import Sheet, sides_of_face
 from graphs.tolerances import DOUBLE, EPSILON, Tolerances
@@ -46,6 +47,11 @@ class FlatVertex:
         How far the sum of every other sector is from 180 degrees, in radians; 180 degrees for an odd number.
     allowed : float
         What coordinates of this precision leave open of it.
+
+    Examples
+    --------
+    >>> FlatVertex(0, (0.0, 0.0), (0, 1), (1, 2), "MV", (pi, pi), 0.0, 1e-9).fault
+    '1 mountain and 1 valley'
     """
 
     vertex: int
@@ -86,7 +92,11 @@ class FlatVertex:
         if not self.kawasaki:
             return f"every other sector adds up to {degrees(pi + self.off):.6g} or {degrees(pi - self.off):.6g} degrees"
         if not self.maekawa:
-            number = f"{self.letters.count('M')} mountains and {self.letters.count('V')} valleys"
+            mountains, valleys = (
+                numbered(self.letters.count("M"), "mountain"),
+                numbered(self.letters.count("V"), "valley"),
+            )
+            number = f"{mountains} and {valleys}"
             return number if set(self.letters) <= set("MV") else f"{number} among {len(self.letters)} creases"
         return "" if self.crimps else "its creases cannot be crimped as they are assigned"
 

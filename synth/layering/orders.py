@@ -27,12 +27,12 @@ from synth.folding.mending.nearest import FARTHEST
 from synth.layering.checking import fault_of
 from synth.layering.constraints import LayerConstraints, layer_constraints
 from synth.layering.cores import LayerCore, core_lines, core_of
+from synth.layering.counting.job import Counter, LayerCountJob, numbers_of
+from synth.layering.counting.problem import LayerProblem, solutions
+from synth.layering.counting.settling import counted
 from synth.layering.image import FoldedImage, folded, image_of
-from synth.layering.job import Counter, LayerCountJob, numbers_of
 from synth.layering.local import FlatVertex, closing_points, flat_vertices
-from synth.layering.problem import LayerProblem, solutions
 from synth.layering.reduction import ReducedLayers, reduced
-from synth.layering.settling import counted
 
 _CONTRADICTION = "its layers contradict each other"
 _FEW = 12
@@ -289,6 +289,19 @@ class FlatFolding(Printed):
         return order, tuple(
             (upper, lower) for upper, lower in wishes if above[min(upper, lower), max(upper, lower)] != (upper < lower)
         )
+
+    @property
+    def problems(self) -> tuple[tuple[LayerProblem, Ints], ...]:
+        """The independent problems of all parts, each with the classes of variables it is about."""
+        return tuple(part for part, _ in self._parts())
+
+    def valley_literals(self, joints: Sequence[int]) -> dict[int, int]:
+        """Return for creases the literal of a class that says that each is a valley; 0 is true, 1 false."""
+        if self._constraints is None or self._reduced is None:
+            return {}
+        literals, turns = self._constraints.creases(dict.fromkeys(joints, True))
+        of = self._constraints.turns.joint[turns]
+        return dict(zip(of.tolist(), self._reduced.literal[literals].tolist(), strict=True))
 
     def _check_any(self) -> None:
         if not self.foldable:
@@ -551,7 +564,7 @@ def flat_folding(
     Examples
     --------
     >>> import synth
-    >>> from synth.layering.settling import counted
+    >>> from synth.layering.counting.settling import counted
     >>> flat_folding(synth.read("data/patterns/bird-base.fold"), lambda problems: list(map(counted, problems))).orders
     2
     """

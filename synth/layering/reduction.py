@@ -15,8 +15,8 @@ from scipy.sparse.csgraph import connected_components
 from graphs.types import Ints, Signs
 from synth.layering.components import components
 from synth.layering.constraints import FALSE, TRUE, LayerConstraints, PairTable, joined, pairs_of
-from synth.layering.problem import LayerProblem
-from synth.layering.settling import probed, settled
+from synth.layering.counting.problem import LayerProblem
+from synth.layering.counting.settling import probed, settled
 
 
 def merged(count: int, one: Ints, other: Ints) -> Ints | None:

@@ -8,9 +8,9 @@ from typing import Any
 
 from graphs.errors import NumericalError, UnsolvableError, numbered
 from graphs.mechanism.sheet import Sheet
+from synth.layering.counting.problem import LayerProblem
+from synth.layering.counting.settling import counted
 from synth.layering.orders import flat_folding
-from synth.layering.problem import LayerProblem
-from synth.layering.settling import counted
 
 _PANELS, _PAIRS, _VARIABLES = 300, 20_000, 60
 """Panels, pairs of panels over cells, and variables of a problem up to which orders are counted in a moment."""

@@ -5,7 +5,7 @@ taken one after the other, with the number of orders of those done for each orde
 panels are put on each other from below: at each segment those creases are open of which one panel lies there, the
 last one innermost, and no panel runs across an open crease. What must lie below each panel of a cell is found first
 (`Precedence`), so that few orders are tried. Nothing here is shared with the conditions and the counter of
-`synth.layering.problem`. Sources: D. Eppstein, Computational complexities of folding (2024), arXiv 2410.07666;
+`synth.layering.counting.problem`. Sources: D. Eppstein, Computational complexities of folding (2024), arXiv 2410.07666;
 I. Jensen, A transfer matrix approach to the enumeration of plane meanders (2000). Theory: docs/theory/layer-orders.md.
 """
 

@@ -12,7 +12,7 @@ import synth.drawing.mechanisms
 import synth.layering
 from graphs.errors import InvariantError, check_argument
 from synth.cli import options
-from synth.cli.output import about, plain, print_answer, print_json, tell_written
+from synth.cli.output import about, check_output, plain, print_answer, print_json, print_result, tell_written
 from synth.cli.reading import MECHANISM, PRECISION, precise_sheet, read
 from synth.cli.runner import RunOptions, run_resumable
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from enumerate.runner.job import Row
     from synth.layering import FlatFolding, LayerOrder
-    from synth.layering.problem import LayerProblem
+    from synth.layering.counting.problem import LayerProblem
 
 
 _MOST_WRITTEN = 1000
@@ -48,6 +48,12 @@ def _pair(word: str) -> tuple[int, int]:
 )  # fmt: skip
 @options.flag("--face-orders", "Show the layer order nearest to the faceOrders of a FOLD file.")
 @options.number("--component", "K", "With -o: write one file per order of this component, NAME-0, NAME-1, ...", 0)
+@options.flag("--assignments", "Count the layer orders for each assignment of unassigned creases.")
+@options.flag(
+    "--fix",
+    "Find creases that have to change for the local conditions to hold, none of which can be left out; -o writes the "
+    "pattern with them changed.",
+)
 @options.flag(
     "--explain/--no-explain",
     "If there is no layer order, find panels and conditions that contradict each other, none of which can go.",
@@ -59,13 +65,17 @@ def _pair(word: str) -> tuple[int, int]:
 @options.flag("--resume", "Continue a stopped run from the store of --counts.")
 @options.number("--workers", "N", "Number of processes that count. By default one; with --counts one per core.")
 @options.value("--scheduler", "ADDRESS", "Count on a Dask cluster, such as tcp://host:8786.")
-@options.output("Write the layer order: .fold with faceOrders, or a picture (.svg, .png, .pdf). By default order 0.")
+@options.output(
+    "Write the layer order, by default order 0: .fold with faceOrders, or a picture (.svg, .png, .pdf). If there is "
+    "none, a picture shows why on the pattern."
+)
 @options.FORCE
 @options.JSON
 @PRECISION
 def layers(
     file: str, frame: int | None, explain: bool, component: int | None, output: str | None, force: bool,
-    as_json: bool, counts: str | None, resume: bool, workers: int | None, scheduler: str | None, **which: Any,
+    as_json: bool, assignments: bool, fix: bool, counts: str | None, resume: bool, workers: int | None,
+    scheduler: str | None, **which: Any,
 ) -> None:  # fmt: skip
     """Check whether a crease pattern folds flat, and count its layer orders exactly.
 
@@ -83,14 +93,7 @@ def layers(
 
     Exit status 1: the pattern does not fold flat.
     """
-    if sum((which["order"] is not None, which["sample"] is not None, bool(which["wishes"]), which["face_orders"])) > 1:
-        raise click.UsageError("--order, --sample, --wish and --face-orders exclude each other")
-    if component is not None and output is None:
-        raise click.UsageError("--component requires -o")
-    if output is not None and component is None:
-        synth.drawing.mechanisms.check_order_path(output, force=force)
-    if resume and counts is None:
-        raise click.UsageError("--resume requires --counts STORE, the store to continue")
+    _check_options(component, output, counts, fix=fix, resume=resume, force=force, **which)
     from graphs.answer.mechanisms import sheet_in_frame
     from graphs.mechanism import Sheet
 
@@ -99,14 +102,23 @@ def layers(
     with about(file):
         check_argument("layers", mechanism, Sheet)
         sheet = sheet_in_frame(precise_sheet(mechanism), frame)
-        answer = synth.layering.flat_folding(sheet, lambda problems: _count(problems, running), explain=explain)
+        answer = synth.layering.flat_folding(
+            sheet, lambda problems: _count(problems, running), explain=explain and not fix
+        )
+        if fix:
+            _print_fixed(answer, file, output, force=force, as_json=as_json)
+            return
         shown, unmet = _shown(answer, file, **which) if answer.foldable else (None, ())
-        written = _write(answer, shown, component, output, force=force) if answer.foldable and output else []
+        by = synth.layering.orders_by_assignment(answer) if assignments else None
+        written = _write(answer, shown, component, output, force=force) if output else []
     if as_json:
         order = None if shown is None else shown.to_json()
-        print_json({"file": file, **answer.to_json(), "order": order, "unmet": [list(pair) for pair in unmet]})
+        told = {"order": order, "unmet": [list(pair) for pair in unmet]}
+        print_json({"file": file, **answer.to_json(), **told, "assignments": None if by is None else by.to_json()})
     else:
         print_answer(answer)
+        if by is not None:
+            print_answer(by)
         if shown is not None:
             print_answer(shown)
         for upper, lower in unmet:
@@ -114,6 +126,34 @@ def layers(
         tell_written(*written)
     if not answer.foldable:
         sys.exit(1)
+
+
+def _check_options(
+    component: int | None, output: str | None, counts: str | None, *, fix: bool, resume: bool, force: bool, **which: Any
+) -> None:
+    """Refuse options that exclude each other, and an output that cannot be written."""
+    if sum((which["order"] is not None, which["sample"] is not None, bool(which["wishes"]), which["face_orders"])) > 1:
+        raise click.UsageError("--order, --sample, --wish and --face-orders exclude each other")
+    if fix and (component is not None or any(which.values())):
+        raise click.UsageError("--fix changes the assignment, and shows no layer order; leave out the other option")
+    if component is not None and output is None:
+        raise click.UsageError("--component requires -o")
+    if fix:
+        check_output(output, force=force)
+    elif output is not None and component is None:
+        synth.drawing.mechanisms.check_order_path(output, force=force)
+    if resume and counts is None:
+        raise click.UsageError("--resume requires --counts STORE, the store to continue")
+
+
+def _print_fixed(answer: FlatFolding, file: str, output: str | None, *, force: bool, as_json: bool) -> None:
+    """Print which creases have to change for the local conditions to hold, and write the changed pattern."""
+    from graphs.files.formats import write
+
+    fixed = synth.layering.locally_fixed(answer)
+    if output is not None:
+        write(fixed.sheet, output, force=force)
+    print_result(fixed, {"file": file, "output": output}, as_json=as_json, written=[output])
 
 
 def _count(problems: Sequence[LayerProblem], running: RunOptions) -> list[int]:
@@ -154,7 +194,12 @@ def _shown(
 def _write(
     answer: FlatFolding, shown: LayerOrder | None, component: int | None, output: str, *, force: bool
 ) -> list[Path]:
-    """Write a layer order, or all of a component; return the files."""
+    """Write a layer order, or all of a component, or why there is none; return the files."""
+    if not answer.foldable:
+        if Path(output).suffix.lower() == ".fold":
+            return []
+        synth.drawing.mechanisms.fault_scene(answer).save(output, force=force)
+        return [Path(output)]
     if component is None:
         synth.drawing.mechanisms.write_order(answer, shown or answer.order(), output, force=force)
         return [Path(output)]

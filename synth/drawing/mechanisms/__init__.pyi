@@ -2,6 +2,7 @@ from synth.drawing.mechanisms.chains import chain_scene as chain_scene
 from synth.drawing.mechanisms.creases import crease_scene as crease_scene
 from synth.drawing.mechanisms.flat_folded import (
     check_order_path as check_order_path,
+    fault_scene as fault_scene,
     flat_folded_scene as flat_folded_scene,
     write_order as write_order,
 )

@@ -9,11 +9,12 @@ from pathlib import Path
 import numpy as np
 import shapely
 
-from graphs.errors import numbered
+from graphs.errors import UnsolvableError, numbered
 from graphs.files.outputs import Format, check_writable, formats_by_suffix, write_as
 from graphs.types import Floats
+from synth.drawing.mechanisms.creases import DrawnPattern, Overlay, crease_scene
 from synth.drawing.scene.frame import PLAIN, PictureFrame, PictureOptions, captions_of, framed, page_of
-from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, Label, Layer, Line, Polygon, Shape, moved
+from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Polygon, Shape, moved
 from synth.drawing.scene.writing import PICTURES, Pages, Scene
 from synth.layering.face_orders import folded_fold_text
 from synth.layering.image import OUTSIDE
@@ -84,6 +85,53 @@ def _through(order: LayerOrder, frame: PictureFrame) -> Iterator[Layer]:
     edges = [Line(frame.row(nodes[pair].tolist()), "ink", FINE) for pair in order.image.segments]
     yield Layer("shades", tuple(shades))
     yield Layer("edges", tuple(edges))
+
+
+def fault_scene(answer: FlatFolding, options: PictureOptions = PLAIN) -> Scene:
+    """Return the pattern with why it does not fold flat: the panels and creases of the core, the vertices at fault.
+
+    Parameters
+    ----------
+    answer : FlatFolding
+        `UnsolvableError` if it folds flat.
+    options : PictureOptions, optional
+
+    Examples
+    --------
+    >>> import synth
+    >>> fault_scene(synth.layers("data/patterns/bird-base.fold"))
+    Traceback (most recent call last):
+    ...
+    graphs.errors.UnsolvableError: the pattern folds flat: there is no fault to draw
+    """
+    if answer.foldable:
+        raise UnsolvableError("the pattern folds flat: there is no fault to draw")
+    core = answer.core
+    panels, conditions = ((), ()) if core is None else (core.panels, core.conditions)
+    joints = {joint for condition in conditions for joint in condition.joints}
+
+    def shapes(drawn: DrawnPattern) -> list[Shape]:
+        faces = [face for panel in panels for face in drawn.mechanism.panels[panel]]
+        areas: list[Shape] = [
+            Polygon([drawn.places[vertex] for vertex in drawn.sheet.faces[face]], "marked", None, opacity=0.6)
+            for face in faces
+        ]
+        lines: list[Shape] = [
+            Line([drawn.places[vertex] for vertex in edge], "class5", 3.0 * STRONG, data=(("joint", str(joint)),))
+            for joint in sorted(joints)
+            for edge in drawn.mechanism.pieces[joint]
+        ]
+        rings: list[Shape] = [
+            Disc(drawn.places[vertex.vertex], 5.0, None, "class1", STRONG) for vertex in answer.local_faults
+        ]
+        return [*areas, *lines, *rings]
+
+    said = [f"does not fold flat: {answer.fault}"]
+    if core is not None:
+        said.append(f"yellow: {numbered(len(panels), 'panel')} that cannot be layered, with their creases (light blue)")
+    if answer.local_faults:
+        said.append("circles: vertices that do not fold flat by themselves")
+    return crease_scene(answer.sheet, options, overlay=Overlay("faults", shapes, tuple(said)))
 
 
 @dataclass(frozen=True, slots=True)

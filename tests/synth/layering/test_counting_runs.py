@@ -61,7 +61,7 @@ def test_workers_count_the_same():
 
 def test_numbers_of_any_size():
     free = np.empty((0, 2), dtype=np.int64), np.empty((0, 4), dtype=np.int64)
-    from synth.layering.problem import LayerProblem
+    from synth.layering.counting.problem import LayerProblem
 
     pairs = np.array([[4 * k, 4 * k + 2, 4 * k + 4] for k in range(80)])
     assert numbers_of(LayerCountJob((LayerProblem(162, pairs, *free),)))[0] > 2**128

@@ -27,7 +27,7 @@ def image_of_pattern(pattern):
     return image_of(folded(pattern.sheet, pattern.mechanism, pattern.points), 1e-9)
 
 
-@pytest.mark.parametrize("seed", [*range(12), *(slow(seed) for seed in range(12, 100))])
+@pytest.mark.parametrize("seed", [*range(3), *(slow(seed) for seed in range(3, 100))])
 def test_crimps_agree_with_layer_orders(seed):
     rng = np.random.default_rng(seed)
     count = int(rng.choice([4, 4, 6]))
@@ -54,7 +54,7 @@ def test_faults_in_words():
     assert alike.fault == "vertex 0 at (0, 0): 2 mountains and 2 valleys"
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", [*range(3), *(slow(seed) for seed in range(3, 30))])
 def test_rounded_patterns_close_again(seed):
     """Five decimals of a sheet that folds flat: vertices are moved by the precision at most, and the orders stay."""
     rng = np.random.default_rng(seed)

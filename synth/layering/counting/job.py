@@ -15,8 +15,8 @@ import numpy as np
 
 from enumerate.runner.job import Column, Row, Unit
 from enumerate.runner.running import tuples_of
-from synth.layering.problem import LayerProblem, Values
-from synth.layering.settling import counted
+from synth.layering.counting.problem import LayerProblem, Values
+from synth.layering.counting.settling import counted
 
 Counter = Callable[[Sequence[LayerProblem]], Sequence[int]]
 """What counts the solutions of each of some problems."""

@@ -1,4 +1,4 @@
-/* Layers of panels: what follows from some orders, and how many orders there are. `synth.layering.problem` does the
+/* Layers of panels: what follows from some orders, and how many orders there are. `synth.layering.counting.problem` does the
  * same in Python. Literals are 2 v and 2 v + 1 (the opposite); all arrays are owned by the caller.
  */
 #include <stdint.h>

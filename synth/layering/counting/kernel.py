@@ -1,6 +1,7 @@
 """The library kernel.c: what follows from known orders, and how many orders there are.
 
-Whatever is here `synth.layering.problem` and `synth.layering.settling` do in Python too, where there is no library.
+Whatever is here `synth.layering.counting.problem` and `synth.layering.counting.settling` do in Python too, where there
+is no library.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import numpy as np
 
 from graphs.compiled import library
 from graphs.types import Ints, Signs
-from synth.layering.problem import LayerProblem
+from synth.layering.counting.problem import LayerProblem
 
 SOURCE = Path(__file__).with_name("kernel.c")
 MOST_BYTES = 1 << 28

@@ -9,8 +9,8 @@ import numpy as np
 
 from graphs.types import Ints, Signs
 from synth.layering.constraints import PairTable
-from synth.layering.kernel import ProblemInLibrary, kernel, settled_in_library
-from synth.layering.problem import UNKNOWN, LayerProblem, count_in_python, probe_in_python
+from synth.layering.counting.kernel import ProblemInLibrary, kernel, settled_in_library
+from synth.layering.counting.problem import UNKNOWN, LayerProblem, count_in_python, probe_in_python
 
 
 def settled(table: PairTable, rows: Ints, classes: int, parities: Ints) -> Signs | None:
