@@ -110,6 +110,25 @@ def writable_base() -> Path | None:
     return next((base for base in usable_bases() if os.access(base, os.W_OK)), None)
 
 
+def holds_code() -> bool:
+    """Return whether code of enumerations is kept already, perhaps of older sources; no folder is made to find out.
+
+    It looks where `usable_bases` does: up to the first base that can be written, or made.
+    """
+    for base in bases():
+        with suppress(OSError):
+            if _is_safe(base) and any(_of_enumerations(folder.name) for folder in base.iterdir()):
+                return True
+        there = next(folder for folder in (base, *base.parents) if folder.exists())
+        if (there != base or _is_safe(base)) and os.access(there, os.W_OK):
+            return False
+    return False
+
+
+def _of_enumerations(name: str) -> bool:
+    return name.startswith("enumerate.") and _FOLDER.fullmatch(name) is not None
+
+
 def touch(folder: Path) -> None:
     """Note that a folder is used; once a day will do."""
     with suppress(OSError):

@@ -13,26 +13,37 @@ is kept; where nothing is kept, machine code takes about three minutes of proces
     scd --links 6 --dof 1 --max-degree 4                    0.6    2.2
     conical --chain watt --ground 0 --slots 8               2.3    2.1
 
-So kept machine code is the quicker way from about a second of interpretation on, and code that has to be made
-from about a minute on. `_EXPECTED` lies between: where nothing is kept, no small job waits a minute, and where all
-is, none loses more than two seconds. What a job takes is known from the numbers of loops and freedoms, before it
-begins, and from the number of rows, once its units are there; where both were wrong, units show it (`_SPENT`).
+So kept machine code is the quicker way from about two seconds of interpretation on, and code that has to be made
+from about 40 seconds on: as long as it takes to make what a job needs. So a job is interpreted for longer where
+nothing is kept yet (`_KEPT`, `_NOTHING_KEPT`), and none takes more than twice its shortest time by much. What a job
+takes is known from the numbers of loops and freedoms, before it begins, and from the number of rows, once its units
+are there; where both were wrong, units show it.
 """
 
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from math import inf
+from typing import NamedTuple
 
+from enumerate.machine_code.folders import holds_code
 from enumerate.machine_code.kernels import use_machine_code, uses_machine_code
 
-_EXPECTED = 3.0
-"""Seconds that a job may be interpreted for, as it says itself."""
 
-_SPENT = 10.0
-"""Seconds of processor time that units may take in one process, of whatever jobs, before machine code is used."""
+class _Patience(NamedTuple):
+    """Seconds that a job may be interpreted for, as it says itself; and that units may take in one process."""
 
-_LEVELS = {1: 0.0, 2: 0.005, 3: 0.05, 4: 0.3, 5: 1.5}
+    expected: float
+    spent: float
+
+
+_KEPT = _Patience(3.0, 10.0)
+"""Where machine code is kept."""
+
+_NOTHING_KEPT = _Patience(30.0, 40.0)
+"""Where all of it has to be made, in 35 to 65 seconds for one kind of job."""
+
+_LEVELS = {1: 0.0, 2: 0.005, 3: 0.03, 4: 0.15, 5: 0.8, 6: 9.0}
 """Seconds to make the contracted graphs, or maps, with so many loops, and to count chains with M = 1 on them."""
 
 CHAIN = 0.0015
@@ -66,14 +77,18 @@ class _Units:
 
 def expect(seconds: float) -> None:
     """Use machine code from here on if what follows takes too long while kernels are interpreted."""
-    if seconds > _EXPECTED:
+    if seconds > _KEPT.expected and seconds > _patience().expected:
         use_machine_code()
+
+
+def _patience() -> _Patience:
+    return _KEPT if holds_code() else _NOTHING_KEPT
 
 
 @contextmanager
 def interpreting() -> Iterator[None]:
     """Look at the clock while a unit is worked on; use machine code if the units before it took too long."""
-    if _Units.seconds > _SPENT:
+    if _Units.seconds > _KEPT.spent and _Units.seconds > _patience().spent:
         use_machine_code()
     begin = time.thread_time()
     yield

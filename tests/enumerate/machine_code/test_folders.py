@@ -1,13 +1,23 @@
 """Folders of machine code: whose they are, and which go."""
 
 import os
+import shutil
 import tempfile
 import time
 from pathlib import Path
 
 import pytest
 
-from enumerate.machine_code.folders import bases, make_folder, prune, safe, touch, usable_bases, writable_base
+from enumerate.machine_code.folders import (
+    bases,
+    holds_code,
+    make_folder,
+    prune,
+    safe,
+    touch,
+    usable_bases,
+    writable_base,
+)
 
 unix = pytest.mark.skipif(os.name == "nt", reason="folders have no modes")
 as_root = pytest.mark.skipif(getattr(os, "geteuid", lambda: 1)() != 0, reason="only root can give folders away")
@@ -26,6 +36,23 @@ def places(tmp_path, monkeypatch):
     monkeypatch.setenv("USERPROFILE", str(tmp_path / "home"))
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "temporary"))
     return tmp_path
+
+
+def test_kept_code_is_seen_where_it_would_be_read_and_nothing_is_made(places):
+    home = places / "home" / ".cache" / "synthedra"
+    assert not holds_code()
+    assert not (places / "named").exists()
+    assert not home.exists()
+    make_folder(home, f"enumerate.toy-{NUMBER}")
+    assert not holds_code()  # the named base can be made: the one at home is not looked into
+    make_folder(places / "named", f"synth.toy-{NUMBER}")
+    make_folder(places / "named", "enumerate.toy")
+    assert not holds_code()
+    make_folder(places / "named", f"enumerate.toy-{NUMBER}")
+    assert holds_code()
+    shutil.rmtree(places / "named")
+    (places / "named").write_text("a file is in the way")
+    assert holds_code()  # at home
 
 
 def test_the_best_folder_that_can_be_made_is_used(places):

@@ -194,9 +194,12 @@ class Weighty:
         return [(payload,)]
 
 
-@pytest.mark.parametrize(("seconds", "switched"), [(0.5, 0), (0.7, 1)])
-def test_a_heavy_job_begins_machine_code(monkeypatch, seconds, switched):
+@pytest.mark.parametrize(
+    ("seconds", "kept", "switched"), [(0.5, True, 0), (0.7, True, 1), (0.7, False, 0), (5.0, False, 0), (7.0, False, 1)]
+)
+def test_a_heavy_job_begins_machine_code(monkeypatch, seconds, kept, switched):
     calls = []
+    monkeypatch.setattr(weights, "holds_code", lambda: kept)
     monkeypatch.setattr(weights, "use_machine_code", lambda: calls.append(1))
     monkeypatch.setattr(weights._Units, "seconds", 0.0)
     job = Weighty(seconds)
@@ -204,11 +207,13 @@ def test_a_heavy_job_begins_machine_code(monkeypatch, seconds, switched):
     assert (job.weights, len(calls)) == ([0, 5], switched)
 
 
-def test_units_that_take_long_begin_machine_code(monkeypatch):
+@pytest.mark.parametrize(("kept", "least"), [(True, 10.0), (False, 40.0)])
+def test_units_that_take_long_begin_machine_code(monkeypatch, kept, least):
     calls = []
+    monkeypatch.setattr(weights, "holds_code", lambda: kept)
     monkeypatch.setattr(weights, "use_machine_code", lambda: calls.append(1))
     monkeypatch.setattr(weights, "uses_machine_code", lambda: False)
-    for seconds, switched in ((9.0, 0), (11.0, 1)):
+    for seconds, switched in ((least - 1.0, 0), (least + 1.0, 1)):
         monkeypatch.setattr(weights._Units, "seconds", seconds)
         with weights.interpreting():
             assert len(calls) == switched
@@ -218,12 +223,12 @@ def test_units_that_take_long_begin_machine_code(monkeypatch):
 def test_what_jobs_weigh_grows_with_loops_and_freedoms():
     rising = [weights.placing(loops, 1) for loops in range(1, 7)]
     assert rising == sorted(rising)
-    assert weights.placing(5, 1) < weights._EXPECTED < weights.placing(6, 1)
+    assert weights.placing(5, 1) < weights._KEPT.expected < weights.placing(6, 1)
     assert weights.placing(3, 9) > weights.placing(3, 1)
     assert weights.placing(-1, 3) == 0.0
     assert weights.drawing(100, plain=False) > weights.drawing(100, plain=True)
-    assert weights.growing(9) < weights._EXPECTED < weights.growing(13)
-    assert weights.layering(6) < weights._EXPECTED < weights.layering(21)
+    assert weights.growing(9) < weights._KEPT.expected < weights.growing(13)
+    assert weights.layering(6) < weights._KEPT.expected < weights.layering(21)
 
 
 def test_functions_on_lists_do_what_is_compiled():
