@@ -19,6 +19,7 @@ from typing import Any
 from enumerate.chains.jobs import ChainJob
 from enumerate.chains.names import chain_named
 from enumerate.chains.query import ChainQuery
+from enumerate.machine_code.weights import without_kernels
 from enumerate.runner.job import Column, Job, Progress, Row, Unit
 from enumerate.runner.running import run
 from enumerate.runner.store import SqliteSink
@@ -199,7 +200,8 @@ class AtlasJob:
         return [self._row(kind, dict(zip(columns, row, strict=True))) for row in job.work(inner)]
 
     def _row(self, kind: str, listed: dict[str, Any]) -> Row:
-        values = filled(kind, listed, realised=self.plan.realised)
+        with without_kernels():
+            values = filled(kind, listed, realised=self.plan.realised)
         return tuple(values.get(column) for column in COLUMNS)
 
 

@@ -220,6 +220,16 @@ def test_units_that_take_long_begin_machine_code(monkeypatch, kept, least):
         assert weights._Units.seconds >= seconds
 
 
+def test_what_needs_no_kernels_does_not_count(monkeypatch):
+    clock = iter([0.0, 1.0, 6.0, 8.0])
+    monkeypatch.setattr(weights.time, "thread_time", lambda: next(clock))
+    monkeypatch.setattr(weights, "uses_machine_code", lambda: False)
+    monkeypatch.setattr(weights._Units, "seconds", 2.0)
+    with weights.interpreting(), weights.without_kernels():
+        pass
+    assert weights._Units.seconds == 2.0 + 8.0 - 5.0
+
+
 def test_what_jobs_weigh_grows_with_loops_and_freedoms():
     rising = [weights.placing(loops, 1) for loops in range(1, 7)]
     assert rising == sorted(rising)
