@@ -9,6 +9,7 @@ STAMP  := $(VENV)/.installed
 PARALLEL ?= -n logical --dist worksteal
 # Byte code is kept, whatever the shell says: the tests start many processes, and pytest rewrites every file.
 unexport PYTHONDONTWRITEBYTECODE
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
 
 .PHONY: demo bench compiled test test-unit test-slow test-night durations test-web test-machines page check data pictures docs examples release clean help
 
@@ -39,7 +40,7 @@ $(USER): pyproject.toml
 	  { echo "synthedra needs Python 3.11 or newer; name one with: make PYTHON=python3.11 ..." >&2; exit 2; }
 	@$(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || $(MAKE) --no-print-directory install-venv
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile -e '.[draw,view]'
+	$(BIN)/python -m pip install --quiet --no-compile -e '.[draw,view]'
 	@touch $@
 
 # Libraries of C, built by the installation too; again where a source has changed since.
