@@ -15,13 +15,12 @@ import os
 import platform
 import resource
 import shutil
-import sqlite3
 import subprocess
 import sys
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import closing, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
@@ -159,16 +158,6 @@ def _page(n: int) -> Figures | None:
     return {"median": figures["frame_ms"], "closure": figures["closure"]}
 
 
-def atlas() -> Figures:
-    """Measure an atlas of all types up to six links, realised and folded: milliseconds per type, start included."""
-    with tempfile.TemporaryDirectory() as folder:
-        place = Path(folder) / "atlas.sqlite"
-        [taken] = synth("atlas", "build", "--max-links", "6", "--workers", "1", "-o", str(place), runs=1)
-        with closing(sqlite3.connect(place)) as connection:
-            [[types]] = connection.execute("SELECT count(*) FROM type")
-        return {"runs": [1000.0 * taken / types], "types": types}
-
-
 def counted(links: int) -> Figures:
     """Measure a count of chains with machine code, and the program that holds the record of listing them."""
     words = ("enumerate", "chains", "--links", str(links), "--dof", "1", "--count")
@@ -301,7 +290,6 @@ ROWS = {
         "empty cache: Watt's linkage on cones", "s", 3, first_count("conical", "--chain", "watt", "--count")
     ),
     "mobility": Row("mobility of four panels", "s", 0.8, lambda: {"runs": synth("mobility", str(VERTEX))}),
-    "atlas": Row("atlas to 6 links, per type", "ms", 25, atlas),
     "chains-12": Row("chains of 12 links counted", "s", 1, lambda: counted(12)),
     "chains-14": Row("chains of 14 links counted", "s", 2, lambda: counted(14)),
     "frame-100": Row("a frame, 100 panels", "ms", 0.8, frames(10, 60)),
