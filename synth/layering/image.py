@@ -177,6 +177,17 @@ class FoldedImage:
             strands.append(SegmentStrands(left, right, through, (tuple(turning[0]), tuple(turning[1]))))
         return tuple(strands)
 
+    @property
+    def turns_back(self) -> bool:
+        """Whether both panels of each crease lie over the cell on one side of it: none is lost by welding."""
+        over = [set(panels.tolist()) for panels in self.above]
+        return all(
+            cell != OUTSIDE and one in over[cell] and other in over[cell]
+            for strand in self.strands
+            for cell, turning in zip((strand.left, strand.right), strand.turning, strict=True)
+            for one, other, _ in turning
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class SegmentStrands:
@@ -248,7 +259,8 @@ def _welded_image(panels: FoldedPanels, edges: Sequence[tuple[int, int]], distan
     if above is None:
         return None
     paths = {frozenset(edge): paths_of_line[line] for edge, line in ahead.items()}
-    return FoldedImage(panels, nodes, segments, sides, cells, above, paths, distance)
+    image = FoldedImage(panels, nodes, segments, sides, cells, above, paths, distance)
+    return image if image.turns_back else None
 
 
 def _welded(points: Floats, distance: float) -> tuple[Floats, Ints]:
@@ -405,6 +417,6 @@ def _covering(
     if winding.min() < 0 or winding.max() > 1:
         return None
     areas = np.array([float(signed_area(nodes[list(cell)])) for cell in cells])
-    if (np.abs(areas @ winding[:count] - size) > 4.0 * distance * rim).any():
+    if (np.abs(areas @ winding[:count] - size) > 4.0 * distance * rim).any() or not winding[:count].any(axis=0).all():
         return None
     return tuple(np.flatnonzero(row) for row in winding[:count])

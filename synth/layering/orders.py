@@ -16,9 +16,10 @@ from graphs.answer.mechanisms import sheet_in_frame
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.files.accepted import MechanismLike, mechanism_for, with_stated_precision
+from graphs.geometry import signed_area
 from graphs.limits import check_work
 from graphs.mechanism.precision import Precision, extent_of, flat_places, keeping, precision_of_sheet
-from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Floats, Ints
@@ -441,6 +442,20 @@ def valleys_of(sheet: Sheet, mechanism: SheetMechanism) -> dict[int, bool]:
     return {joint: letter == "V" for joint in mechanism.hinges if (letter := sheet.assignments[joint]) in "MV"}
 
 
+def _check_unfolded(sheet: Sheet, points: Floats) -> None:
+    """Refuse a sheet two faces of which lie on one side of the edge that they share: it is folded already."""
+    seen: dict[frozenset[int], tuple[int, bool]] = {}
+    for face, around in enumerate(sheet.faces):
+        up = float(signed_area(points[list(around)])) > 0.0
+        for a, b in sides_of_face(around):
+            side = frozenset((a, b))
+            ahead = (a < b) == up
+            if side in seen and seen[side][1] == ahead:
+                both = f"faces {seen[side][0]} and {face} lie on one side of the edge that they share"
+                raise UnsolvableError(f"{both}: the pattern is folded already; expected it flat, or --frame N")
+            seen[side] = (face, ahead)
+
+
 @dataclass(frozen=True, eq=False)
 class FlatPattern:
     """A crease pattern in its plane, opened along its cuts, with its vertices inside; what `layers` begins with."""
@@ -467,6 +482,7 @@ def flat_pattern(sheet: Sheet) -> FlatPattern:
     apart = opened(whole, dual)
     mechanism = dual if apart is whole else mechanism_of_sheet(apart, geometry=False)
     points = np.array(flat_places(apart, "a crease pattern that is folded flat"))
+    _check_unfolded(apart, points)
     vertices = flat_vertices(apart, mechanism, points, precision)
     moved = 0.0
     if all(vertex.kawasaki for vertex in vertices) and max((vertex.off for vertex in vertices), default=0.0) > 0.0:

@@ -172,6 +172,23 @@ def test_without_faces_or_in_space_or_in_parts():
         synth.layers(Sheet(6, (), "", ((0, 1, 2), (3, 4, 5)), apart))
 
 
+def test_a_pattern_that_is_folded_already_is_refused():
+    """A square folded along its diagonal, both triangles in one place."""
+    places = ((0.0, 0.0), (1.0, 0.0), (0.0, 0.0), (0.0, 1.0))
+    with pytest.raises(UnsolvableError, match="faces 0 and 1 lie on one side of the edge that they share"):
+        synth.layers(Sheet(4, (), "", ((0, 1, 3), (1, 2, 3)), places))
+
+
+def test_narrow_panels_are_not_welded_away():
+    """A pleat far narrower than its neighbours, which both run across its creases: two orders."""
+    xs = [0.0, 1.0, 1.002, 2.0]
+    corners = tuple((x, float(y)) for y in (0, 1) for x in xs)
+    faces = tuple((k, k + 1, k + 5, k + 4) for k in range(3))
+    answer = synth.layers(Sheet(8, (), "", faces, corners))
+    assert answer.orders == both(answer) == 2
+    assert set(np.concatenate(answer.image.above).tolist()) == {0, 1, 2}
+
+
 def test_more_pairs_than_allowed_are_refused(monkeypatch):
     monkeypatch.setenv("SYNTHEDRA_MOST", "pairs=5")
     with pytest.raises(InvariantError, match="6 pairs of panels over cells; expected at most 5"):
