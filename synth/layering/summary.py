@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from graphs.errors import NumericalError, UnsolvableError, numbered
+from graphs.errors import InvariantError, NumericalError, UnsolvableError, numbered
 from graphs.mechanism.sheet import Sheet
 from synth.layering.counting.problem import LayerProblem
 from synth.layering.counting.settling import counted
@@ -86,7 +86,7 @@ def flat_foldability(sheet: Sheet) -> FlatFoldability | None:
         answer = flat_folding(sheet, count, explain=False, check=check)
     except _TooLargeError:
         return FlatFoldability(None, None, "")
-    except (UnsolvableError, NumericalError):
+    except (UnsolvableError, NumericalError, InvariantError):
         return None
     if not answer.mechanism.hinges:
         return None

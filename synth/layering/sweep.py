@@ -13,7 +13,9 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
+from copy import copy
 from dataclasses import dataclass
+from itertools import combinations
 
 from synth.layering.image import OUTSIDE, FoldedImage, SegmentStrands
 
@@ -21,6 +23,15 @@ Order = tuple[int, ...]
 """Panels from the lowest to the highest."""
 Above = Mapping[tuple[int, int, int], bool]
 """For a cell and two panels over it whether the first is above the second."""
+
+_Level = dict[tuple[int, tuple[Order, ...], tuple[Order, ...]], int]
+"""Panels that lie there, as bits, open creases at each segment, orders that are written, to the number of ways."""
+_MOST = 20_000
+"""Orders that are kept at once where there are several cells."""
+
+
+class _TooManyError(Exception):
+    """More orders would have to be kept."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,14 +72,35 @@ def count_by_cells(image: FoldedImage, valleys: Mapping[int, bool], above: Above
     for (cell, one, other), is_above in (above or {}).items():
         low, high = (other, one) if is_above else (one, other)
         precedence.below[cell][high] |= 1 << low
+    return _count(image, sides, neighbours, precedence)
+
+
+def _count(
+    image: FoldedImage, sides: list[list[_Side]], neighbours: Mapping[int, tuple[int, int]], precedence: Precedence
+) -> int:
+    """Count the orders that keep a precedence; where too many would be kept, two panels are put either way."""
     if not precedence.close():
         return 0
+    try:
+        return _swept(image, sides, neighbours, precedence)
+    except _TooManyError:
+        cell, low, high = precedence.open_pair()
+    return sum(
+        _count(image, sides, neighbours, precedence.with_order(cell, *pair)) for pair in ((low, high), (high, low))
+    )
+
+
+def _swept(
+    image: FoldedImage, sides: list[list[_Side]], neighbours: Mapping[int, tuple[int, int]], precedence: Precedence
+) -> int:
+    """Count cell after cell; raises `_TooManyError` where several cells have too many orders to be kept."""
+    most = _MOST if len(image.cells) > 1 else None
     states: dict[tuple[tuple[int, Order], ...], int] = {(): 1}
     done: set[int] = set()
     for cell in _cell_order(len(image.cells), neighbours):
         shared = {side.segment for side in sides[cell] if side.segment in neighbours}
         given = {s for s in shared if set(neighbours[s]) - {cell} <= done}
-        stack = _CellStack(sides[cell], precedence.below[cell])
+        stack = _CellStack(sides[cell], precedence.below[cell], most)
         after: dict[tuple[tuple[int, Order], ...], int] = defaultdict(int)
         found: dict[tuple[tuple[int, Order], ...], dict[tuple[Order, ...], int]] = {}
         opened = sorted(shared - given)
@@ -79,6 +111,8 @@ def count_by_cells(image: FoldedImage, valleys: Mapping[int, bool], above: Above
                 found[here] = stack.orders([order for _, order in here], opened)
             for orders, number in found[here].items():
                 after[tuple(sorted((*rest, *zip(opened, orders, strict=True))))] += count * number
+            if most is not None and len(after) > most:
+                raise _TooManyError
         states = dict(after)
         done.add(cell)
     return sum(states.values())
@@ -131,6 +165,28 @@ class Precedence:
         for number, strand in enumerate(image.strands):
             self._neighbour[number, strand.left] = strand.right
             self._neighbour[number, strand.right] = strand.left
+
+    def open_pair(self) -> tuple[int, int, int]:
+        """Return the cell in which most pairs of panels are open, and the first such pair."""
+
+        def pairs(cell: int) -> list[tuple[int, int]]:
+            below = self.below[cell]
+            return [
+                (one, other)
+                for one, other in combinations(below, 2)
+                if not (below[one] >> other & 1 or below[other] >> one & 1)
+            ]
+
+        numbers = [len(pairs(cell)) for cell in range(len(self.below))]
+        cell = numbers.index(max(numbers))
+        return cell, *pairs(cell)[0]
+
+    def with_order(self, cell: int, low: int, high: int) -> Precedence:
+        """Return a copy in which one panel lies below another in a cell."""
+        other = copy(self)
+        other.below = [dict(below) for below in self.below]
+        other.below[cell][high] |= 1 << low
+        return other
 
     def close(self) -> bool:
         """Add what follows until nothing does; return whether no panel lies below itself."""
@@ -201,8 +257,9 @@ def _beside_creases(below: dict[int, int], side: _Side) -> bool:
 class _CellStack:
     """The panels over one cell, put on each other from below; `below` are those that come before each, as bits."""
 
-    def __init__(self, sides: list[_Side], below: Mapping[int, int]) -> None:
+    def __init__(self, sides: list[_Side], below: Mapping[int, int], most: int | None) -> None:
         self.panels = list(below)
+        self._most = most
         self.sides = sides
         self._bit = {panel: 1 << panel for panel in self.panels}
         self._below = below
@@ -232,11 +289,9 @@ class _CellStack:
             ]
             for panel in self.panels
         }
-        level: dict[tuple[int, tuple[Order, ...], tuple[Order, ...]], int] = {
-            (0, ((),) * len(turning), ((),) * len(places)): 1
-        }
+        level: _Level = {(0, ((),) * len(turning), ((),) * len(places)): 1}
         for _ in self.panels:
-            after: dict[tuple[int, tuple[Order, ...], tuple[Order, ...]], int] = defaultdict(int)
+            after: _Level = defaultdict(int)
             for (mask, stacks, written), count in level.items():
                 for panel in self.panels:
                     if mask & self._bit[panel] or below[panel] & ~mask:
@@ -251,11 +306,17 @@ class _CellStack:
                             lines[place] = (*lines[place], panel)
                         orders = tuple(lines)
                     after[mask | self._bit[panel], changed, orders] += count
-            level = after
+            level = self._bounded(after)
         found: dict[tuple[Order, ...], int] = defaultdict(int)
         for (_, _, written), count in level.items():
             found[written] += count
         return found
+
+    def _bounded(self, level: _Level) -> _Level:
+        """Return what is kept; raise `_TooManyError` if that is too much."""
+        if self._most is not None and len(level) > self._most:
+            raise _TooManyError
+        return level
 
     def _put(
         self, panel: int, mask: int, stacks: tuple[Order, ...], meets: Iterable[tuple[int, int]]
