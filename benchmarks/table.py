@@ -250,6 +250,19 @@ def realised(kind: str, links: int, step: int) -> Callable[[], Figures]:
     return measure
 
 
+def atlas() -> Figures:
+    """Measure an atlas of types of up to six links, per type."""
+    from synth.atlas.building import AtlasPlan, build_atlas
+
+    taken = []
+    with tempfile.TemporaryDirectory() as folder:
+        for number in range(3):
+            start = process_time()
+            rows = build_atlas(Path(folder) / f"{number}.sqlite", AtlasPlan(6)).rows
+            taken.append(1000.0 * (process_time() - start) / rows)
+    return {"runs": taken, "types": rows}
+
+
 def verdict(n: int, *words: str) -> Callable[[], Figures]:
     """Return what measures `synth mobility` of a Miura sheet of n x n panels, reading and start included."""
 
@@ -302,6 +315,7 @@ ROWS = {
     "sweep": Row("1 000 000 four-bars at 64 inputs, on two cores", "s", 30, swept(1_000_000, 50_000), long=True),
     "scd-8": Row("an SCD type of 8 links realised", "ms", 20, realised("scd", 8, 13)),
     "sc-8": Row("an SC type of 8 links realised", "ms", 200, realised("sc", 8, 1)),
+    "atlas": Row("an atlas to 6 links, each type", "ms", 25, atlas),
     "verdict-1024": Row("verdict on 1 024 panels", "s", 1, verdict(32)),
     "rank-10000": Row("exact mobility of 10 000 panels", "s", 5, verdict(100, "--no-motion"), long=True),
 }  # fmt: skip
