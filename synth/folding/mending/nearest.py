@@ -194,6 +194,8 @@ _FOLLOW = 5e2
 """Work of following a branch."""
 _FARTHER = (1e-4, 1e-3)
 """Errors of a coordinate, of the extent, at which the nearest mechanism of a rigid pattern is looked for."""
+_FINER = (0.4, 0.15, 0.06)
+"""Parts of the precision at which mechanisms are looked for where none was found at the precision itself."""
 _TIGHTER = (1.0, 0.25)
 """Angles are taken to be alike if they agree within these parts of their errors."""
 
@@ -257,7 +259,16 @@ def nearby(written: WrittenPattern, levels: int = 3) -> NearbyPatterns:
         return NearbyPatterns()
     if not written.small:
         return _Large(written, places, precision).nearby()
-    return _Search(written, places, precision).nearby(levels)
+    found = _Search(written, places, precision).nearby(levels)
+    for part in _FINER:  # what is near at smaller errors is near, though wide zeros may take its branches for one
+        if found.within or found.beyond or found.unsettled:
+            break
+        search = _Search(written, places, replace(precision, size=part * precision.size))
+        search.reach = max(search.reach, FARTHEST * precision.size)
+        finer = search.nearby(levels)
+        if finer.within:
+            return replace(finer, within=tuple(replace(mended, precision=precision) for mended in finer.within))
+    return found
 
 
 def beyond_precision(written: WrittenPattern) -> MendedPattern | None:

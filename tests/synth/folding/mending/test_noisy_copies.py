@@ -10,7 +10,9 @@ from noisy_copies import (
     agrees,
     copy_of,
     exact,
+    generated,
     kinds,
+    misdrawn,
     sentence,
     stated,
     tapered,
@@ -90,6 +92,15 @@ def test_copies_of_what_is_rigid_never_fold(name):
     assert verdict.as_written.freedoms == 0
     if verdict.within_precision.misfit is not None:
         assert verdict.within_precision.misfit > 10 * 1e-5
+
+
+@pytest.mark.parametrize("precision", [2.5e-4, slow(5e-4), 1e-3])
+def test_what_is_near_a_mechanism_is_not_called_rigid_at_any_larger_precision(precision):
+    """Two vertices of a Miura sheet are displaced; a mechanism lies within 9e-4 of the extent."""
+    pattern = misdrawn(generated("miura", rows=3, columns=3), 2, 0.08, 1)
+    verdict = verdict_of_motion(stated(pattern, precision))
+    assert verdict.freedoms != 0
+    assert sentence(verdict) in ("moves", "unknown")
 
 
 @pytest.mark.slow
