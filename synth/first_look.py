@@ -3,7 +3,7 @@
 from collections import Counter
 from dataclasses import dataclass
 from shlex import quote
-from typing import Any
+from typing import Any, TypeAlias
 
 from enumerate.chains.names import name_of
 from graphs.answer.mechanisms import sheet_in_frame
@@ -16,14 +16,14 @@ from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from graphs.mechanism.surfaces import Cone, SurfaceLinkage
+from graphs.mechanism.surfaces import SurfaceLinkage
 from graphs.printing import Block, Printed
 from synth.verdict.judged import JudgedMobility, mobility
 
 _LETTERS = {"M": "mountain", "V": "valley", "U": "unassigned", "F": "flat", "C": "cut"}
 _MOST_NAMED = 12
 """Links of a mechanism whose chain is looked up by name."""
-Question = tuple[str, str]
+Question: TypeAlias = tuple[str, str]
 """A command with FILE for the file, and what it answers or writes."""
 
 
@@ -118,8 +118,7 @@ def _kind(mechanism: Mechanism, answer: JudgedMobility) -> str:
     if isinstance(mechanism, Sheet):
         return _kind_of_sheet(sheet_in_frame(mechanism, None))
     if isinstance(mechanism, SurfaceLinkage):
-        surface = "cone" if mechanism.lengths is None and not _on_cylinder(mechanism) else "cylinder"
-        return f"A linkage on a {surface}: {_parts(answer)}{_named(mechanism, answer)}."
+        return f"A linkage on a {mechanism.kind}: {_parts(answer)}{_named(mechanism, answer)}."
     if isinstance(mechanism, HingedSolids):
         return f"Rigid bodies in space, hinged along axes: {_parts(answer)}."
     if isinstance(mechanism, JointedLinkage):
@@ -130,10 +129,6 @@ def _kind(mechanism: Mechanism, answer: JudgedMobility) -> str:
     kind = kind_in_words(mechanism)
     article = "An" if kind.startswith(("SC", "a", "e", "i", "o")) else "A"
     return f"{article} {kind}, {where}: {_parts(answer)}{_named(mechanism, answer)}."
-
-
-def _on_cylinder(linkage: SurfaceLinkage) -> bool:
-    return linkage.surface is not None and not isinstance(linkage.surface, Cone)
 
 
 def _kind_of_sheet(sheet: Sheet) -> str:
@@ -239,9 +234,8 @@ def _of_sheet(answer: JudgedMobility, freedoms: int | None) -> list[Question]:
 
 
 def _of_surface(linkage: SurfaceLinkage) -> list[Question]:
-    command = "cylinder" if linkage.lengths is not None or _on_cylinder(linkage) else "cone"
     return [
-        (f"synth {command} move FILE", "whether its links move inward or outward"),
+        (f"synth {linkage.kind} move FILE", "whether its links move inward or outward"),
         ("synth template FILE -o template.pdf", "a template to cut and roll up"),
         ("synth view FILE -o page.html", "a page on which it moves, for any browser"),
         ("synth mobility FILE", "the evidence: ranks, counts and equations"),
