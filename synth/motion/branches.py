@@ -455,7 +455,7 @@ class _BranchSearch:
         nearest = self._nearest(parts)
         begun, follow = 0, self.search.follow
         for number, (space, rates) in enumerate(parts):
-            late = number != nearest and (self._work.used_up or (follow is not None and begun >= follow))
+            late = number != nearest and (self._work.used_up if follow is None else begun >= follow)
             begun += not late
             self.complete = self.complete and not late
             yield self.branch(space, self.ahead(rates), proved=proved, late=late)
