@@ -24,7 +24,6 @@ from graphs.types import Floats, JointId
 from synth.folding.collisions import Collision, PanelShapes
 from synth.folding.derivatives import vertex_places
 from synth.folding.mending.nearest import (
-    ALL_BRANCHES,
     MendedPattern,
     NearbyPatterns,
     WrittenPattern,
@@ -32,6 +31,7 @@ from synth.folding.mending.nearest import (
     covers,
     flattened,
     nearby,
+    searched_to,
 )
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT, Configuration, PointPlaces, doubt_of, doubt_of_rigid
@@ -162,6 +162,11 @@ class SheetConfiguration(Configuration):
             return self.near.beyond
         return beyond_precision(self.as_drawn)
 
+    @property
+    def searched(self) -> float:
+        """How far vertices are displaced in search of the nearest mechanism, in units of the extent."""
+        return searched_to(self.precision)
+
     @cached_property
     def elsewhere(self) -> tuple[tuple[Configuration, int], ...]:
         """Branches that exist within the precision, but on another mechanism than this: that, and their number."""
@@ -181,8 +186,7 @@ class SheetConfiguration(Configuration):
         if self.branches is None or self.branches.branches:
             return doubt_of(self.precision)
         misfit = None if self.nearest is None else self.nearest.moved
-        too_large = "" if self.as_drawn.small else f"more than {ALL_BRANCHES} creases"
-        return doubt_of_rigid(self.precision, misfit, self.unsettled, too_large)
+        return doubt_of_rigid(self.precision, misfit, self.searched, self.unsettled)
 
     def placed(self, angles: Floats) -> PointPlaces:
         """Return where vertices are at fold angles float[F, J], radians."""

@@ -43,18 +43,19 @@ def doubt_of(precision: Precision) -> str:
     return f", with the coordinates as written; {precise}, and exact coordinates may allow motion"
 
 
-def doubt_of_rigid(precision: Precision, misfit: float | None, unsettled: bool = False, too_large: str = "") -> str:
+def doubt_of_rigid(precision: Precision, misfit: float | None, searched: float, unsettled: bool = False) -> str:
     """Return how near a rigid pattern is to one that moves, after "rigid"; empty where there is nothing to add.
 
-    The misfit is that of the nearest pattern that moves (`Configuration.misfit`), None if none was found;
-    `too_large` says why none was searched for.
+    The misfit is that of the nearest pattern that moves (`Configuration.misfit`), None if none was found with
+    vertices displaced by up to what was `searched`.
     """
     exact = precision.size <= EXACT
     within = "" if exact else f" within the drawing's precision, {precision}"
     if misfit is None:
-        nearly = "; some branches nearly exist, and whether any does there is unknown" if unsettled else ""
-        unsought = f"; the nearest rigid-foldable pattern was not searched for: {too_large}" if too_large else ""
-        return within + (nearly or unsought)
+        if unsettled:
+            return f"{within}; some branches nearly exist, and whether any does there is unknown"
+        none = f"; no rigid-foldable pattern was found with vertices moved by up to {searched:.0e} of the extent"
+        return "" if exact else within + none
     times = "" if exact else f", {misfit / precision.size:.0f} times the precision"
     moved = f"vertices moved by up to {at_most(misfit)} of the extent{times}"
     return f"{within}; the nearest rigid-foldable pattern has {moved}"

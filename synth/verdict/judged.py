@@ -74,7 +74,8 @@ def verdict_of_motion(configuration: Configuration, generic: int | None = None) 
     misfit = configuration.misfit if nearest is None else nearest.moved
     moves = bool(verdict.branches) or nearest is not None
     size = configuration.precision.size
-    within = WithinPrecision(verdict.freedoms, verdict.certainty, misfit if moves else None, size)
+    searched = None if moves else configuration.searched
+    within = WithinPrecision(verdict.freedoms, verdict.certainty, misfit if moves else None, size, searched)
     return replace(verdict, within_precision=within, places=configuration.ends_of(verdict.stiff_joints))
 
 

@@ -81,13 +81,15 @@ class WithinPrecision:
     That nothing moves is proved if no rates nearly agree, and numerical if for all that do the nearest mechanism
     is farther off or none was found. The misfit is the largest displacement of a vertex, in units of the extent,
     in the mechanism found; of a rigid pattern in the nearest one that moves, beyond the precision; None where no
-    mechanism was found nearby. The precision is the error of a coordinate, in units of the extent.
+    mechanism was found nearby, with vertices displaced by up to what was `searched`, in units of the extent. The
+    precision is the error of a coordinate, in these units too.
     """
 
     freedoms: int | None
     certainty: Certainty
     misfit: float | None
     precision: float
+    searched: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -273,8 +273,6 @@ def nearby(written: WrittenPattern, levels: int = 3) -> NearbyPatterns:
 
 def beyond_precision(written: WrittenPattern) -> MendedPattern | None:
     """Return the nearest mechanism at larger and larger errors beyond the precision; else None."""
-    if not written.small:
-        return None
     for size in _FARTHER:
         if size > written.precision.size:
             near = nearby(replace(written, precision=Precision(size, "a larger one, tried")), 1)
@@ -282,6 +280,11 @@ def beyond_precision(written: WrittenPattern) -> MendedPattern | None:
             if patterns:
                 return replace(patterns[0], precision=written.precision)
     return None
+
+
+def searched_to(precision: Precision) -> float:
+    """Return how far from a rigid pattern mechanisms were looked for: displacements, in units of the extent."""
+    return FARTHEST * max(precision.size, *_FARTHER)
 
 
 class _PatternSearch:

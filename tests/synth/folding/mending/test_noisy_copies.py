@@ -22,15 +22,14 @@ from noisy_copies import (
 )
 from sizes import first_quick, slow, slow_but
 
-from graphs.mechanism.precision import BY_DIGITS, Precision, extent_of
+from graphs.mechanism.precision import BY_DIGITS, extent_of
 from synth.folding.configuration import configuration_of_sheet
 from synth.folding.mending.nearest import nearby
 from synth.motion.branches import branches_of
 from synth.motion.closure import ClosureEquations
-from synth.motion.configuration import doubt_of_rigid
 from synth.motion.linkage import linkage_of_sheet
 from synth.motion.path import PathOptions, driven_path
-from synth.patterns.creases import polygon_twist
+from synth.patterns.creases import fan, polygon_twist
 from synth.verdict.judged import verdict_of_motion
 
 QUICK = ["miura 3 x 3", "tapered 3 x 3", "square twist", "huffman 3 x 3", "map 3 x 3", "fish base"]
@@ -202,10 +201,18 @@ def test_digits_alone_prove_no_rigidity_beside_a_mechanism():
     assert verdict.within_precision.misfit < 8e-4
 
 
-def test_what_was_not_searched_for_is_said():
-    assert doubt_of_rigid(Precision(0.0, "exact"), None, too_large="more than 120 creases").endswith(
-        "; the nearest rigid-foldable pattern was not searched for: more than 120 creases"
+def test_how_far_was_searched_is_said():
+    """Three creases at a flat vertex; no displacement of vertices in their plane makes them fold."""
+    rigid = fan(np.radians([0.0, 120.0, 240.0]))
+    assert verdict_of_motion(configuration_of_sheet(rigid)).within_precision.searched == pytest.approx(4e-3)
+    verdict = verdict_of_motion(stated(rigid, 1e-5))
+    assert (verdict.freedoms, verdict.within_precision.misfit) == (0, None)
+    assert verdict.within_precision.searched == pytest.approx(4e-3)
+    assert verdict.text.endswith(
+        "; no rigid-foldable pattern was found with vertices moved by up to 4e-03 of the extent."
     )
+    moving = verdict_of_motion(stated(generated("miura", rows=2, columns=2), 1e-5))
+    assert moving.within_precision.searched is None
 
 
 def test_nothing_is_done_to_exact_coordinates():
