@@ -195,7 +195,8 @@ _FOLLOW = 5e2
 _FARTHER = (1e-4, 1e-3)
 """Errors of a coordinate, of the extent, at which the nearest mechanism of a rigid pattern is looked for."""
 _FINER = (0.4, 0.15, 0.06)
-"""Parts of the precision at which mechanisms are looked for where none was found at the precision itself."""
+"""Parts of the precision that errors are taken to be where no mechanism was found at all of it: wide zeros may take
+branches for one that are several."""
 _TIGHTER = (1.0, 0.25)
 """Angles are taken to be alike if they agree within these parts of their errors."""
 
@@ -260,15 +261,10 @@ def nearby(written: WrittenPattern, levels: int = 3) -> NearbyPatterns:
     if not written.small:
         return _Large(written, places, precision).nearby()
     found = _Search(written, places, precision).nearby(levels)
-    for part in _FINER:  # what is near at smaller errors is near, though wide zeros may take its branches for one
-        if found.within or found.beyond or found.unsettled:
-            break
-        search = _Search(written, places, replace(precision, size=part * precision.size))
-        search.reach = max(search.reach, FARTHEST * precision.size)
-        finer = search.nearby(levels)
-        if finer.within:
-            return replace(finer, within=tuple(replace(mended, precision=precision) for mended in finer.within))
-    return found
+    if found.within or found.beyond or found.unsettled:
+        return found
+    finer = (_Search(written, places, precision, part).nearby(levels) for part in _FINER)
+    return next((one for one in finer if one.within), found)
 
 
 def beyond_precision(written: WrittenPattern) -> MendedPattern | None:
@@ -288,17 +284,21 @@ def searched_to(precision: Precision) -> float:
 
 
 class _PatternSearch:
-    """The base of all searches: the reach, angles that are meant to be alike, patterns with moved vertices."""
+    """The base of all searches: the reach, angles that are meant to be alike, patterns with moved vertices.
 
-    def __init__(self, written: WrittenPattern, places: VertexPlaces, precision: Precision) -> None:
+    Errors are taken to be a `part` of the precision; vertices may be displaced by four times all of it.
+    """
+
+    def __init__(self, written: WrittenPattern, places: VertexPlaces, precision: Precision, part: float = 1.0) -> None:
         self.written, self.places, self.precision = written, places, precision
+        self.errors = part * precision.size
         self.reach = max(FARTHEST * precision.size, places.bent)  # pieces of a crease were taken to be in line
         self.allowance = Allowance(_WORK)
 
     @cached_property
     def bases(self) -> list[tuple[Fitting, str]]:
         """Return fittings whose angles are as they are meant, the most of them first, with what holds."""
-        angles = [MeantAngles(self.places, part * self.precision.size) for part in _TIGHTER]
+        angles = [MeantAngles(self.places, part * self.errors) for part in _TIGHTER]
         if len(angles[0]) == len(angles[1]):
             angles.pop()
         angles = [*filter(len, angles), MeantAngles(self.places, 0.0)]
@@ -324,8 +324,8 @@ class _PatternSearch:
 class _Search(_PatternSearch):
     """The search in a pattern of which all spaces of rates are looked for."""
 
-    def __init__(self, written: WrittenPattern, places: VertexPlaces, precision: Precision) -> None:
-        super().__init__(written, places, precision)
+    def __init__(self, written: WrittenPattern, places: VertexPlaces, precision: Precision, part: float = 1.0) -> None:
+        super().__init__(written, places, precision, part)
         self.near: list[NearBranch] = []
         self.candidates: list[_Candidate] = []
         self.beyond: MendedPattern | None = None
@@ -337,7 +337,7 @@ class _Search(_PatternSearch):
         lengths = self.places.lengths
         exactly, left, bent = frozenset[int](), list[int](), self.places.bent > EXACT
         linkage, wanted = self.written.linkage, self.written.wanted
-        for zero in zeros_of(self.precision.size, lengths)[:levels]:
+        for zero in zeros_of(self.errors, lengths)[:levels]:
             more, complete = near_branches(linkage, zero, wanted, MOST_BRANCHES, self.near)
             known = len(self.near)
             self.near += more
@@ -428,7 +428,7 @@ class _Search(_PatternSearch):
             if fitted is not None:
                 return fitted
             # what all but closed may have been near to a mechanism, if no vertex was far from where it is written
-            all_but = 0.0 < start.error <= _ALL_BUT * self.precision.size
+            all_but = 0.0 < start.error <= _ALL_BUT * self.errors
             unsettled |= (all_but and start.displaced <= _AROUND * self.reach) or start.error == np.inf
         self.unsettled |= unsettled
         return None
