@@ -29,6 +29,7 @@ from synth.motion.singular.sampling import (
     followed,
     general_rates,
     in_half_tangents,
+    most_freedoms,
     rates_towards,
     same_part,
 )
@@ -507,6 +508,8 @@ class _BranchSearch:
             end = followed(self.linkage, self.closure, rates, still, self._allowance, counted=counted)
         certainty: Certainty = "numerical" if end.far else "not known"
         freedoms = beside or end.freedoms if end.far else None
+        if freedoms is not None and freedoms > most_freedoms(space, rates):
+            freedoms = None  # where it was traced to it meets a branch with more
         if linear or proved:
             freedoms, certainty = space.basis.shape[1] - len(space.left), "proved"
         modes, begun = self.vertices.modes(rates), not late or linear

@@ -252,6 +252,18 @@ def general_rates(
     return [*first, *others], False
 
 
+def most_freedoms(space: second_order.RateSpace, rates: Floats) -> int:
+    """Return how many freedoms a branch that begins at general rates of a space has at most.
+
+    The rates beside them at which its branch begins too are those of the space at which its equations vanish: a
+    manifold of as many dimensions as the space, less the independent slopes of the equations.
+    """
+    size = int(space.basis.shape[1])
+    if not space.left:
+        return size
+    return size - _slopes(second_order.local_forms(space.basis, space.left), _unit(space.basis.T @ rates))
+
+
 def same_part(space: second_order.RateSpace, one: Floats, other: Floats) -> bool:
     """Tell whether two rates of a space are, up to their sign, on the same part of what its equations leave."""
     halves = _halves(space)
