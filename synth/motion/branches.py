@@ -350,7 +350,7 @@ class _BranchSearch:
         self.closure = ClosureEquations(self.linkage)
         towards = None if search.towards is None else search.towards[self._order]
         self.search = replace(search, towards=towards)
-        self.complete = True
+        self.complete = self.all_spaces = True
         self.vertices = FlatVertices(self.linkage)
         joints_of = [frozenset(self._order[list(loop.joints)].tolist()) for loop in self.linkage.loops]
         place_of_loop = {joints: place for place, joints in enumerate(joints_of)}
@@ -393,7 +393,7 @@ class _BranchSearch:
                 self.complete = False
                 break
             spaces.append(space)
-        self.complete = self.complete and not self._work.used_up
+        self.complete = self.all_spaces = self.complete and not self._work.used_up
         if not self.complete:
             spaces = [*self._towards(), *spaces]
         return second_order.largest_only(spaces, self.search.zero)
@@ -508,8 +508,8 @@ class _BranchSearch:
             end = followed(self.linkage, self.closure, rates, still, self._allowance, counted=counted)
         certainty: Certainty = "numerical" if end.far else "not known"
         freedoms = beside or end.freedoms if end.far else None
-        if freedoms is not None and freedoms > most_freedoms(space, rates):
-            freedoms = None  # where it was traced to it meets a branch with more
+        if freedoms is not None and self.all_spaces and freedoms > most_freedoms(space, rates):
+            freedoms = None  # where it was traced to it meets a branch with more; no larger space has its rates
         if linear or proved:
             freedoms, certainty = space.basis.shape[1] - len(space.left), "proved"
         modes, begun = self.vertices.modes(rates), not late or linear

@@ -5,7 +5,7 @@ closure equations are squares there, which Newton's method approaches slowly, so
 no motion is found so, they are freed. Theory: docs/theory/folding.md.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import islice
 from math import radians, tan
@@ -78,14 +78,12 @@ FOLLOWED = radians(10.0)
 """How far each branch is followed, radians of the joint that moves most."""
 _STARTS = 60
 """Starts of the search for rates on which equations are left, for each pattern of signs."""
-_AT_ONCE = 64
-"""So many starts at most are computed at once."""
 _NEWTON, _ROUNDED = 30, 1e-14
 _BESIDE, _ASIDE = 8, 0.3
 """Number of starts beside wanted rates, and their distance as part of the size of these."""
 _SHORT_OF = 0.7
 """This part of a path that ended early is taken again."""
-_SPACES = 64
+_SPACES = 512
 """At a pose of a branch, after so many spaces of rates second order is said not to tell."""
 
 
@@ -232,7 +230,9 @@ def general_rates(
     parts = 2 ** max(len(halves) - 1, 0)
     found: dict[tuple[int, ...], Floats] = {}
     highest = 0
-    for x in _from_random_starts(forms, space.basis.shape, _STARTS * 2 ** min(len(halves), 6)):
+    for number in range(_STARTS * 2 ** min(len(halves), 6)):
+        chance = np.random.default_rng((*space.basis.shape, number))
+        x = _on_equations(forms, np.asarray(chance.normal(size=size)))
         if x is None or (rank := _slopes(forms, x)) < highest:
             continue
         if rank > highest:
@@ -281,37 +281,16 @@ def _scaled(rates: Floats) -> Floats:
     return np.where(np.abs(scaled) > DOUBLE.zero_rate, scaled, 0.0)
 
 
-def _from_random_starts(forms: Floats, shape: tuple[int, ...], most: int) -> Iterator[Floats | None]:
-    """Yield what Newton's method comes to from each of `most` random starts; more and more are computed at once."""
-    first, size = 0, forms.shape[-1]
-    while first < most:
-        numbers = range(first, min(max(1, 2 * first), first + _AT_ONCE, most))
-        starts = [np.random.default_rng((*shape, number)).normal(size=size) for number in numbers]
-        yield from _all_on_equations(forms, np.array(starts))
-        first = numbers.stop
-
-
-def _on_equations(forms: Floats, start: Floats) -> Floats | None:
+def _on_equations(forms: Floats, x: Floats) -> Floats | None:
     """Return a unit vector at which forms float[n, s, s] vanish, by Newton's method from a start float[s]."""
-    return _all_on_equations(forms, start[None])[0]
-
-
-def _all_on_equations(forms: Floats, starts: Floats) -> list[Floats | None]:
-    """Return for each start, float[k, s], a unit vector at which forms vanish; None where the method fails."""
-    ends: list[Floats | None] = [None] * len(starts)
-    places, x = np.arange(len(starts)), starts
     for _ in range(_NEWTON):
-        x = x / np.linalg.norm(x, axis=1)[:, None]
-        slopes = np.einsum("nij,kj->kni", forms, x)
-        off = np.einsum("kni,ki->kn", slopes, x)
-        there = np.abs(off).max(axis=1, initial=0.0) <= _ROUNDED
-        for place, end in zip(places[there], x[there], strict=True):
-            ends[place] = end
-        if there.all():
-            break
-        places, x, slopes, off = places[~there], x[~there], slopes[~there], off[~there]
-        x = x - (np.linalg.pinv(2.0 * slopes, rcond=DOUBLE.zero) @ off[..., None])[..., 0]
-    return ends
+        x = x / np.linalg.norm(x)
+        slopes = forms @ x
+        off = slopes @ x
+        if np.abs(off).max(initial=0.0) <= _ROUNDED:
+            return x
+        x = x - np.linalg.lstsq(2.0 * slopes, off, rcond=DOUBLE.zero)[0]
+    return None
 
 
 def _slopes(forms: Floats, x: Floats) -> int:

@@ -1,7 +1,6 @@
 """Freedoms at a configuration to second order."""
 
 import pytest
-from sizes import slow
 
 import synth
 from synth.motion.singular.sampling import freedoms_at, most_freedoms
@@ -19,13 +18,12 @@ def test_where_branches_meet_their_freedoms_are_known_if_they_are_equal(name, ro
     assert freedoms_at(at.linkage, at.closure, at.linkage.angles) == freedoms
 
 
-@pytest.mark.parametrize("name", ["grids_312_brown_4x4_D52", slow("instagram_196_komatsu_Giraffe")])
-def test_no_branch_has_more_freedoms_than_rates_beside_its_own(name):
-    """Traced, such a branch comes to where another one meets it, with more freedoms."""
-    file = folder_of_layers() / f"{name}.fold"
+def test_a_branch_has_no_more_freedoms_than_there_are_rates_beside_its_own():
+    """Traced, it comes to where it meets branches with more; all spaces of rates are known here."""
+    file = folder_of_layers() / "grids_124_brown_4x4_A102.fold"
     if not file.is_file():
         pytest.skip(f"no crease pattern at {file}; name their folder in SYNTHEDRA_LAYERS")
-    branches = configuration_of(synth.read(file)).branches.branches
-    assert any(branch.freedoms is None for branch in branches)
-    assert any(branch.freedoms for branch in branches)
-    assert all(branch.freedoms <= most_freedoms(branch.space, branch.rates) for branch in branches if branch.freedoms)
+    at = configuration_of(synth.read(file))
+    for branch in at.branches.branches:
+        assert freedoms_at(at.linkage, at.closure, branch.sample) > most_freedoms(branch.space, branch.rates)
+        assert branch.freedoms is None
