@@ -85,6 +85,7 @@ LIMITS = {
     "levels": 250,
     "letters": 10_000,
     "pairs": 10_000_000,
+    "choices": 100_000,
 }
 """Name to the most that is allowed:
 
@@ -96,7 +97,8 @@ LIMITS = {
 - ``shapes``: elements of an SVG file that ``use`` draws beyond those that are written there;
 - ``levels``: groups in groups of an SVG file, what ``use`` draws among them;
 - ``letters``: of a transform or a style sheet of an SVG file;
-- ``pairs``: of panels over the cells of a folded image, some 200 bytes each.
+- ``pairs``: of panels over the cells of a folded image, some 200 bytes each;
+- ``choices``: of creases that stay flat in a folded image.
 """
 
 

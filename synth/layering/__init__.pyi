@@ -1,3 +1,4 @@
+from synth.layering.answer import layers as layers
 from synth.layering.assignments import (
     OrdersByAssignment as OrdersByAssignment,
     orders_by_assignment as orders_by_assignment,
@@ -13,6 +14,6 @@ from synth.layering.orders import (
     LayerComponent as LayerComponent,
     LayerOrder as LayerOrder,
     flat_folding as flat_folding,
-    layers as layers,
 )
+from synth.layering.staying import StayingFlat as StayingFlat, staying_flat as staying_flat
 from synth.layering.summary import FlatFoldability as FlatFoldability, flat_foldability as flat_foldability

@@ -55,6 +55,12 @@ class FoldedPanels:
         return [of[face] for face in range(len(self.sheet.faces))]
 
     @cached_property
+    def unturned(self) -> int | None:
+        """A crease both panels of which show the same side, so that it is not folded; None if there is none."""
+        edges = self.mechanism.sc.edges(keys=True)
+        return min((joint for a, b, joint in edges if self.flipped[a] == self.flipped[b]), default=None)
+
+    @cached_property
     def faces_up(self) -> list[bool]:
         """Whether the folded corners of each face turn counter-clockwise: its normal points up."""
         return [float(signed_area(self.places[list(face)])) > 0.0 for face in self.sheet.faces]

@@ -12,10 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from graphs.answer.mechanisms import sheet_in_frame
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.errors import InvariantError, UnsolvableError, numbered
-from graphs.files.accepted import MechanismLike, mechanism_for, with_stated_precision
 from graphs.geometry import signed_area
 from graphs.limits import check_work
 from graphs.mechanism.precision import Precision, extent_of, flat_places, keeping, precision_of_sheet
@@ -28,7 +26,7 @@ from synth.folding.mending.nearest import FARTHEST
 from synth.layering.checking import fault_of
 from synth.layering.constraints import LayerConstraints, layer_constraints
 from synth.layering.cores import LayerCore, core_lines, core_of
-from synth.layering.counting.job import Counter, LayerCountJob, numbers_of
+from synth.layering.counting.job import Counter
 from synth.layering.counting.problem import LayerProblem, solutions
 from synth.layering.counting.settling import counted
 from synth.layering.image import FoldedImage, folded, image_of
@@ -496,67 +494,6 @@ def flat_pattern(sheet: Sheet) -> FlatPattern:
     return FlatPattern(kept, mechanism, precision, points, moved, tuple(vertices))
 
 
-def layers(
-    mechanism: MechanismLike,
-    *,
-    frame: int | None = None,
-    precision: float | None = None,
-    explain: bool = True,
-    workers: int = 1,
-) -> FlatFolding:
-    """Return whether a crease pattern folds flat, in how many layer orders, and why not if it does not.
-
-    Every mountain, valley and unassigned crease is folded by 180 degrees; unassigned ones either way. A layer order
-    says which panel is on top wherever two overlap, so that the paper passes nowhere through itself.
-
-    Parameters
-    ----------
-    mechanism : Sheet, or the path of a file
-    frame : int, optional
-        The frame of the file; 0 is the key frame.
-    precision : float, optional
-        The error of a coordinate, in its unit, as for `synth.mobility`.
-    explain : bool, optional
-        If there is no layer order, find panels and conditions that contradict each other, none of which can go.
-    workers : int, optional
-        Processes that count; 1 counts in this one.
-
-    Returns
-    -------
-    FlatFolding
-        `orders` is their number, exactly; `components` are the panels whose order is their own. Each order that it
-        returns is checked by geometry alone.
-
-    Raises
-    ------
-    UnsolvableError
-        For a sheet without faces or coordinates, in space, or in several parts.
-    InvariantError
-        For more pairs of panels than the limit ``pairs`` allows, before they take memory.
-
-    Notes
-    -----
-    Sources: M. Bern and B. Hayes, The complexity of flat origami (1996); H. A. Akitaya et al., Box pleating is hard
-    (2015); J. Ku, Flat-Folder. Theory: docs/theory/layer-orders.md.
-
-    Examples
-    --------
-    >>> import synth
-    >>> answer = synth.layers("data/patterns/bird-base.fold")
-    >>> answer.foldable
-    True
-    """
-    sheet = with_stated_precision(mechanism_for("layers", mechanism, Sheet), precision)
-    assert isinstance(sheet, Sheet)
-
-    def count(problems: Sequence[LayerProblem]) -> Sequence[int]:
-        if workers == 1:
-            return list(map(counted, problems))
-        return numbers_of(LayerCountJob(tuple(problems)), workers=workers)
-
-    return flat_folding(sheet_in_frame(sheet, frame), count, explain=explain)
-
-
 def _check_pairs(pairs: int) -> None:
     """Refuse more pairs of panels over cells than the limit allows, before they take memory."""
     check_work("pairs", pairs, "pairs of panels over cells")
@@ -596,6 +533,9 @@ def flat_folding(
     if misfit > tolerances.same_point * len(panels.flipped):
         place = ", ".join(f"{x:.6g}" for x in pattern.points[panels.vertex])
         wrong = f"the folded image does not close: panels part by {misfit:.2g} of the extent at ({place})"
+        return FlatFolding(*about, None, misfit, (), 0, wrong)
+    if panels.unturned is not None:
+        wrong = f"the folded image does not close: an odd number of creases round a hole, one of them {panels.unturned}"
         return FlatFolding(*about, None, misfit, (), 0, wrong)
     image = image_of(panels, max(tolerances.same_point * extent, 4.0 * panels.misfit))
     check(sum(len(there) * (len(there) - 1) // 2 for there in image.above))

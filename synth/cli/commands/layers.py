@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from enumerate.runner.job import Row
+    from graphs.mechanism import Sheet
     from synth.layering import FlatFolding, LayerOrder
     from synth.layering.counting.problem import LayerProblem
 
@@ -36,6 +37,16 @@ def _pair(word: str) -> tuple[int, int]:
     return int(parts[0]), int(parts[1])
 
 
+def _creases(word: str) -> str | list[int]:
+    """Return the creases of a word: unassigned, all, or numbers with commas."""
+    if word in ("unassigned", "all"):
+        return word
+    parts = word.split(",")
+    if not all(part.isascii() and part.isdigit() and len(part) < 10 for part in parts):
+        raise ValueError(f"{plain(word)!r} is no crease; expected unassigned, all, or numbers such as 3,7")
+    return list(map(int, parts))
+
+
 @click.command()
 @MECHANISM
 @options.number("--frame", "N", "Frame of a FOLD file; 0 is the key frame.", 0)
@@ -49,6 +60,12 @@ def _pair(word: str) -> tuple[int, int]:
 @options.flag("--face-orders", "Show the layer order nearest to the faceOrders of a FOLD file.")
 @options.number("--component", "K", "With -o: write one file per order of this component, NAME-0, NAME-1, ...", 0)
 @options.flag("--assignments", "Count the layer orders for each assignment of unassigned creases.")
+@options.value(
+    "--may-stay-flat",
+    "CREASES",
+    "Count the orders of all choices of creases that stay flat: unassigned, all, or numbers of creases such as 3,7.",
+    type=options.WordType("creases", _creases),
+)
 @options.flag(
     "--fix",
     "Find creases that have to change for the local conditions to hold, none of which can be left out; -o writes the "
@@ -75,7 +92,7 @@ def _pair(word: str) -> tuple[int, int]:
 def layers(
     file: str, frame: int | None, explain: bool, component: int | None, output: str | None, force: bool,
     as_json: bool, assignments: bool, fix: bool, counts: str | None, resume: bool, workers: int | None,
-    scheduler: str | None, **which: Any,
+    scheduler: str | None, may_stay_flat: str | list[int] | None, **which: Any,
 ) -> None:  # fmt: skip
     """Check whether a crease pattern folds flat, and count its layer orders exactly.
 
@@ -94,6 +111,11 @@ def layers(
     Exit status 1: the pattern does not fold flat.
     """
     _check_options(component, output, counts, fix=fix, resume=resume, force=force, **which)
+    if may_stay_flat is not None and (
+        fix or assignments or counts or workers or scheduler or component is not None or which["wishes"]
+        or which["face_orders"] or which["sample"] is not None
+    ):  # fmt: skip
+        raise click.UsageError("--may-stay-flat goes with --frame, --order, -o, --json and --precision only")
     from graphs.answer.mechanisms import sheet_in_frame
     from graphs.mechanism import Sheet
 
@@ -102,6 +124,9 @@ def layers(
     with about(file):
         check_argument("layers", mechanism, Sheet)
         sheet = sheet_in_frame(precise_sheet(mechanism), frame)
+        if may_stay_flat is not None:
+            _print_staying(sheet, may_stay_flat, which["order"], output, file, force=force, as_json=as_json)
+            return
         answer = synth.layering.flat_folding(
             sheet, lambda problems: _count(problems, running), explain=explain and not fix
         )
@@ -144,6 +169,27 @@ def _check_options(
         synth.drawing.mechanisms.check_order_path(output, force=force)
     if resume and counts is None:
         raise click.UsageError("--resume requires --counts STORE, the store to continue")
+
+
+def _print_staying(
+    sheet: Sheet, may: str | list[int], number: int | None, output: str | None, file: str, *, force: bool, as_json: bool
+) -> None:
+    """Print the orders of all choices of creases that stay flat, and one of them, and write it."""
+    answer = synth.layering.staying_flat(sheet, may, lambda problems: list(map(synth.layering.counted, problems)))
+    shown = answer.order(number or 0) if answer.foldable and (number is not None or output) else None
+    if shown is not None and output:
+        synth.drawing.mechanisms.write_order(*shown, output, force=force)
+    order = shown[1] if shown is not None and number is not None else None
+    if as_json:
+        print_json({"file": file, **answer.to_json(), "order": None if order is None else order.to_json()})
+    else:
+        print_answer(answer)
+        if order is not None:
+            print_answer(order)
+        if shown is not None:
+            tell_written(output)
+    if not answer.foldable:
+        sys.exit(1)
 
 
 def _print_fixed(answer: FlatFolding, file: str, output: str | None, *, force: bool, as_json: bool) -> None:

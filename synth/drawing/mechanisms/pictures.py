@@ -149,7 +149,7 @@ def _repairs(drawable: object, options: PictureOptions) -> Scene:
 
 def _flat_folded(drawable: object, options: PictureOptions) -> Scene:
     from synth.drawing.mechanisms.flat_folded import flat_folded_scene
-    from synth.layering.orders import layers
+    from synth.layering.answer import layers
 
     sheet = _sheet(drawable, "flat-folded")
     answer = layers(sheet.drawn if isinstance(sheet, SheetConfiguration) else sheet)
