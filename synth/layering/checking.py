@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from synth.layering.constraints import decided_at
 from synth.layering.image import OUTSIDE, FoldedImage
 
 Stacks = Sequence[Sequence[int]]
@@ -26,7 +27,7 @@ def fault_of(image: FoldedImage, stacks: Stacks, valleys: Mapping[int, bool]) ->
     flipped = image.panels.flipped
     for number, strand in enumerate(image.strands):
         cells = (strand.left, strand.right)
-        for cell, turning in zip(cells, strand.turning, strict=True):
+        for side, (cell, turning) in enumerate(zip(cells, strand.turning, strict=True)):
             arcs = [sorted((place[cell][one], place[cell][other])) for one, other, _ in turning]
             heights = [place[cell][panel] for panel in strand.through]
             for low, high in arcs:
@@ -34,6 +35,12 @@ def fault_of(image: FoldedImage, stacks: Stacks, valleys: Mapping[int, bool]) ->
                     return f"a panel runs through a crease at segment {number}"
                 if any(low < first < high < last for first, last in arcs):
                     return f"two creases cross at segment {number}"
+            for one, other in ((one, other) for one, other, _ in turning):
+                low, high = sorted((place[cell][one], place[cell][other]))
+                if any(low < place[cell][there.panel] < high for there in strand.leaving[side]):
+                    return f"a panel leaves through a crease at segment {number}"
+            if any(place[cell][upper] < place[cell][lower] for upper, lower in decided_at(strand, side)):
+                return f"a panel leaves through another at segment {number}"
             for one, other, joint in turning:
                 if joint in valleys:
                     upper_is_other = place[cell][other] > place[cell][one]
@@ -43,4 +50,7 @@ def fault_of(image: FoldedImage, stacks: Stacks, valleys: Mapping[int, bool]) ->
             orders = [sorted(strand.through, key=place[cell].__getitem__) for cell in cells]
             if orders[0] != orders[1]:
                 return f"two panels change places at segment {number}"
+    for cell, one, other, there, first, second in image.bundles:
+        if (place[cell][one] > place[cell][other]) != (place[there][first] > place[there][second]):
+            return f"panels {one} and {other} change places where they leave their plane"
     return ""

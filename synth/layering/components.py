@@ -24,6 +24,8 @@ def components(constraints: LayerConstraints, values: Signs) -> Ints:
     first, second, *_ = constraints.beside
     one.append(first >> 1)
     other.append(second >> 1)
+    one.append(constraints.bundled[0] >> 1)
+    other.append(constraints.bundled[1] >> 1)
     tied = _tied(constraints)
     for cell in range(len(table.sizes)):
         for pair in _by_transitivity(table, cell, values, tied):

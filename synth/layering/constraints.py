@@ -16,13 +16,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
+from math import pi
 
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from graphs.types import Ints
-from synth.layering.image import OUTSIDE, FoldedImage
+from synth.layering.image import OUTSIDE, FoldedImage, SegmentStrands
 
 TRUE, FALSE = 0, 1
 """The literals of the class 0."""
@@ -123,12 +124,18 @@ class LayerConstraints:
         Taco-tortilla: two literals that are equal, the turn, and the panel that runs across.
     nested : (int[m, 4], int[m], int[m])
         Taco-taco: literals of which an even number is true, and the two turns.
+    decided : (int[k], int[k, 2])
+        In space: literals that are true, since the paper of one of two panels leaves their plane, and the panels.
+    bundled : (int[b], int[b])
+        In space: literals that are equal, since two panels leave a plane for another together.
     """
 
     table: PairTable
     turns: Turns
     beside: tuple[Ints, Ints, Ints, Ints]
     nested: tuple[Ints, Ints, Ints]
+    decided: tuple[Ints, Ints]
+    bundled: tuple[Ints, Ints]
 
     @property
     def variables(self) -> int:
@@ -160,7 +167,8 @@ def layer_constraints(image: FoldedImage) -> LayerConstraints:
     for segment in range(len(image.segments)):
         for turn in range(begin[segment], begin[segment + 1]):
             cell, one, other = turns.cell[turn], turns.one[turn], turns.other[turn]
-            across = through[segment]
+            leaving = image.strands[segment].leaving[int(cell != image.strands[segment].left)]
+            across = np.array([*through[segment], *(there.panel for there in leaving)], dtype=np.int64)
             if len(across):
                 literals = table.literals(cell, one, across), table.literals(cell, other, across)
                 lines.append((*literals, np.full(len(across), turn), across))
@@ -172,4 +180,44 @@ def layer_constraints(image: FoldedImage) -> LayerConstraints:
                 nested.append((np.column_stack(four), np.full(len(before), turn), before))
     beside = tuple(np.concatenate(part) for part in zip(*lines, strict=True))
     pairs = tuple(np.concatenate(part) for part in zip(*nested, strict=True))
-    return LayerConstraints(table, turns, beside, pairs)  # type: ignore[arg-type]
+    decided, bundled = _by_turns(table), _by_bundles(table)
+    return LayerConstraints(table, turns, beside, pairs, decided, bundled)  # type: ignore[arg-type]
+
+
+def _by_turns(table: PairTable) -> tuple[Ints, Ints]:
+    """Return literals that are true where panels leave their plane, and their panels.
+
+    Round a segment the strands are chords of a circle. Of two that begin at one ray, the one that ends farther on is
+    the outer one: it begins first, which is below on the left of the segment and above on its right.
+    """
+    literals, panels = list[int](), list[tuple[int, int]]()
+    for strand in table.image.strands:
+        for side, cell in enumerate((strand.left, strand.right)):
+            for upper, lower in decided_at(strand, side):
+                literals.append(int(table.literals(cell, upper, lower)))
+                panels.append((upper, lower))
+    return np.array(literals, dtype=np.int64), np.array(panels, dtype=np.int64).reshape(-1, 2)
+
+
+def decided_at(strand: SegmentStrands, side: int) -> list[tuple[int, int]]:
+    """Return pairs of panels on a side of a segment whose order their turns decide, the upper one first."""
+    leaving = strand.leaving[side]
+    found = []
+    for place, one in enumerate(leaving):
+        others = [(other.turn, other.plane, other.panel) for other in leaving[:place]]
+        others += [(pi, -1, panel) for panel in strand.through]
+        for turn, plane, panel in others:
+            if plane != one.plane and turn != one.turn:
+                outer, inner = (one.panel, panel) if one.turn > turn else (panel, one.panel)
+                found.append((inner, outer) if side == 0 else (outer, inner))
+    return found
+
+
+def _by_bundles(table: PairTable) -> tuple[Ints, Ints]:
+    """Return literals that are equal since two panels leave a plane for another together."""
+    rows = [
+        (int(table.literals(cell, one, other)), int(table.literals(there, first, second)))
+        for cell, one, other, there, first, second in table.image.bundles
+    ]
+    one, other = np.array(rows, dtype=np.int64).reshape(-1, 2).T
+    return one, other

@@ -131,6 +131,9 @@ class FoldedImage:
         The segments that each edge runs along.
     welded : float
         The distance within which points are one, in the unit of the coordinates.
+    bundles : tuple of (cell, panel, panel, cell, panel, panel)
+        Creases at which two panels leave a plane for another together: in the first cell the first panel is over the
+        second exactly if in the other cell the first of those beyond is over the second.
     """
 
     panels: FoldedPanels
@@ -141,6 +144,7 @@ class FoldedImage:
     above: tuple[Ints, ...]
     paths: dict[frozenset[int], tuple[int, ...]]
     welded: float
+    bundles: tuple[tuple[int, int, int, int, int, int], ...] = ()
 
     @property
     def depth(self) -> int:
@@ -196,25 +200,43 @@ class FoldedImage:
 
 
 @dataclass(frozen=True, slots=True)
+class LeavingPanel:
+    """A panel that ends at a segment, at a crease beyond which the paper leaves the plane.
+
+    `turn` is the angle, 0 to 2 pi, from the panel to the one beyond about the segment, from below to above on the left
+    and from above to below on the right; `plane` is the plane of the panel beyond, by its number.
+    """
+
+    panel: int
+    joint: int
+    turn: float
+    plane: int
+
+
+@dataclass(frozen=True, slots=True)
 class SegmentStrands:
     """The panels at a segment: those that run across, and those that turn back at a crease, on its left and right.
 
-    Turning back are triples of two panels, the lower number first, and the crease that joins them.
+    Turning back are triples of two panels, the lower number first, and the crease that joins them. Leaving are panels
+    that go on in another plane, which only a configuration in space has.
     """
 
     left: int
     right: int
     through: tuple[int, ...]
     turning: tuple[tuple[tuple[int, int, int], ...], tuple[tuple[int, int, int], ...]]
+    leaving: tuple[tuple[LeavingPanel, ...], tuple[LeavingPanel, ...]] = ((), ())
 
 
-def image_of(panels: FoldedPanels, least: float) -> FoldedImage:
+def image_of(panels: FoldedPanels, least: float, more: Sequence[tuple[int, int]] = ()) -> FoldedImage:
     """Return the image of folded panels, welded by the coarsest distance that holds.
+
+    `more` are lines between vertices that join parts of the image that would not touch each other.
 
     Distances are halved, from an eighth of the shortest edge on and down to `least`, until three in a row give as
     many nodes and segments, and each panel lies over cells of its own area. Raises `NumericalError` if none does.
     """
-    edges, lengths = _distinct_edges(panels)
+    edges, lengths = _distinct_edges(panels, more)
     distance = float(lengths.min()) / 8.0
     before: list[FoldedImage] = []
     for _ in range(_HALVINGS):
@@ -236,8 +258,9 @@ def image_of(panels: FoldedPanels, least: float) -> FoldedImage:
     raise NumericalError("no welding distance gives a consistent folded image; try --precision")
 
 
-def _distinct_edges(panels: FoldedPanels) -> tuple[list[tuple[int, int]], Floats]:
-    edges = sorted({(min(side), max(side)) for face in panels.sheet.faces for side in sides_of_face(face)})
+def _distinct_edges(panels: FoldedPanels, more: Sequence[tuple[int, int]]) -> tuple[list[tuple[int, int]], Floats]:
+    sides = [side for face in panels.sheet.faces for side in sides_of_face(face)]
+    edges = sorted({(min(side), max(side)) for side in (*sides, *more)})
     ends = panels.places[np.array(edges)]
     return edges, np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
 
@@ -423,6 +446,8 @@ def _covering(
     if winding.min() < 0 or winding.max() > 1:
         return None
     areas = np.array([float(signed_area(nodes[list(cell)])) for cell in cells])
-    if (np.abs(areas @ winding[:count] - size) > 4.0 * distance * rim).any() or not winding[:count].any(axis=0).all():
+    if (np.abs(areas @ winding[:count] - size) > 4.0 * distance * rim).any() or not winding[:count, size > 0.0].any(
+        axis=0
+    ).all():
         return None
     return tuple(np.flatnonzero(row) for row in winding[:count])

@@ -33,7 +33,8 @@ from synth.layering.image import FoldedImage, folded, image_of
 from synth.layering.local import FlatVertex, closing_points, flat_vertices
 from synth.layering.reduction import ReducedLayers, reduced
 
-_CONTRADICTION = "its layers contradict each other"
+CONTRADICTION = "its layers contradict each other"
+"""Why there is no layer order where the places of panels leave none."""
 _FEW = 12
 """Wishes of which the largest number that can be met is looked for."""
 _LISTED = 12
@@ -542,12 +543,12 @@ def flat_folding(
     constraints = layer_constraints(image)
     known, _ = constraints.creases(valleys_of(pattern.sheet, pattern.mechanism))
     left = reduced(constraints, known)
-    parts = () if left is None else _components(constraints, left, count)
+    parts = () if left is None else components_of(constraints, left, count)
     orders = 0 if left is None else prod(part.orders for part in parts)
     if orders:
         return FlatFolding(*about, image, misfit, parts, orders, "", None, constraints, left)
     core = core_of(image, valleys_of(pattern.sheet, pattern.mechanism)) if explain else None
-    return FlatFolding(*about, image, misfit, (), 0, local or _CONTRADICTION, core, constraints)
+    return FlatFolding(*about, image, misfit, (), 0, local or CONTRADICTION, core, constraints)
 
 
 def _local_fault(vertices: Sequence[FlatVertex]) -> str:
@@ -560,7 +561,7 @@ def _local_fault(vertices: Sequence[FlatVertex]) -> str:
     return f"vertex {first.vertex} at ({first.place[0]:.6g}, {first.place[1]:.6g}): {first.fault}{several}"
 
 
-def _components(constraints: LayerConstraints, left: ReducedLayers, count: Counter) -> tuple[LayerComponent, ...]:
+def components_of(constraints: LayerConstraints, left: ReducedLayers, count: Counter) -> tuple[LayerComponent, ...]:
     """Count the orders of all components."""
     table = constraints.table
     class_of = left.literal[::2] >> 1

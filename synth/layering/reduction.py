@@ -54,9 +54,10 @@ def reduced(constraints: LayerConstraints, known: Ints) -> ReducedLayers | None:
     table = constraints.table
     count = constraints.variables + 1  # variable 0 is what is true, the others come after it
     one, other, *_ = constraints.beside
-    literal = merged(
-        count, np.concatenate([one + 2, known + 2]), np.concatenate([other + 2, np.full(len(known), TRUE)])
-    )
+    first, second = constraints.bundled
+    known = np.concatenate([known, constraints.decided[0]])
+    ends = np.concatenate([one, first, known]) + 2, np.concatenate([other + 2, second + 2, np.full(len(known), TRUE)])
+    literal = merged(count, *ends)
     component: Ints | None = None  # those of what creases and transitivity leave open at first
     while literal is not None:
         rows = literal[2 * (table.variable + 1)]

@@ -112,6 +112,98 @@ def folded_sheet(rng: np.random.Generator, folds: int, panels: int) -> tuple[She
     return Sheet(len(corners), sheet.edges, letters, tuple(faces), tuple(corners)), folded_up
 
 
+def bent_sheet(rng: np.random.Generator, folds: int, panels: int, angle: float) -> tuple[Sheet, Sheet, list[int]]:
+    """Return a square folded flat along random lines and then bent along another by an angle, all layers together.
+
+    The sheet in space, with its fold angles; the crease pattern before it was bent; and the panels of the sheet in
+    space from the lowest up, seen from the side to which it was bent.
+    """
+    flat, stack = folded_sheet(rng, folds, panels)
+    image, up = _images(flat)
+    points = np.concatenate(list(image))
+    through = points.min(axis=0) + rng.uniform(0.3, 0.7, 2) * np.ptp(points, axis=0)
+    turn = rng.uniform(0, pi)
+    normal = np.array([cos(turn), sin(turn)])
+    offset = float(through @ normal)
+    corners: list[tuple[float, ...]] = []
+    number: dict[tuple[int, int], int] = {}
+    faces: list[tuple[int, ...]] = []
+    order: list[int] = []
+    bent: list[tuple[frozenset[int], float]] = []
+    for panel in stack:
+        pattern = np.array([flat.coordinates[v] for v in flat.faces[panel]])
+        before = len(faces)
+        for polygon in _cut_both(image[panel], pattern, normal, offset):
+            face = []
+            for p, q in polygon:
+                key = round(q[0] * 1e7), round(q[1] * 1e7)
+                if key not in number:
+                    number[key] = len(corners)
+                    height = max(float(p @ normal) - offset, 0.0)
+                    low = p - height * normal + height * cos(angle) * normal
+                    corners.append((float(low[0]), float(low[1]), height * sin(angle)))
+                face.append(number[key])
+            order.append(len(faces))
+            faces.append(tuple(face))
+        pieces = [set(face) for face in faces[before:]]
+        if len(pieces) == 2 and len(pieces[0] & pieces[1]) == 2:
+            bent.append((frozenset(pieces[0] & pieces[1]), angle if up[panel] else -angle))
+    whole = with_all_edges(Sheet(len(corners), (), "", tuple(faces), tuple(corners)))
+    letter_of = _letters_by_middle(flat)
+    pattern_of = {v: np.array(key) / 1e7 for key, v in number.items()}
+    angles, letters = [], ""
+    bends = dict(bent)
+    for edge in whole.edges:
+        key = frozenset(edge)
+        if key in bends:
+            angles.append(bends[key])
+            letters += "V" if bends[key] > 0 else "M"
+            continue
+        letter = letter_of((pattern_of[edge[0]] + pattern_of[edge[1]]) / 2.0)
+        letters += letter
+        angles.append({"V": pi, "M": -pi}.get(letter, 0.0))
+    sheet = Sheet(len(corners), whole.edges, letters, tuple(faces), tuple(corners), fold_angles=tuple(angles))
+    return sheet, flat, order
+
+
+def _images(flat: Sheet):
+    """Return where each panel of a folded sheet lies, and whether it is face up, panel 0 being so."""
+    from synth.layering.image import folded
+    from synth.layering.orders import flat_pattern
+
+    pattern = flat_pattern(flat)
+    panels = folded(pattern.sheet, pattern.mechanism, pattern.points)
+    return [panels.places[list(face)] for face in flat.faces], [not flipped for flipped in panels.flipped]
+
+
+def _letters_by_middle(flat: Sheet):
+    """Return the function from a point of a crease pattern to the letter of the edge on which it lies."""
+    ends = np.array([[flat.coordinates[v] for v in edge] for edge in flat.edges])
+
+    def letter(point):
+        along = ends[:, 1] - ends[:, 0]
+        part = np.clip(((point - ends[:, 0]) * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
+        far = np.linalg.norm(ends[:, 0] + part[:, None] * along - point, axis=1)
+        return flat.assignments[int(np.argmin(far))]
+
+    return letter
+
+
+def _cut_both(image, pattern, normal, offset):
+    """Yield the parts of a polygon on both sides of a line of its image, as corners in image and pattern."""
+    heights = image @ normal - offset
+    ring = list(zip([*image, image[0]], [*pattern, pattern[0]], [*heights, heights[0]], strict=True))
+    for sign in (-1.0, 1.0):
+        part = []
+        for (p, a, h), (q, b, k) in pairwise(ring):
+            if sign * h >= 0:
+                part.append((p, a))
+            if h * k < 0:
+                part.append((p + (q - p) * h / (h - k), a + (b - a) * h / (h - k)))
+        if len(part) > 2:
+            yield part
+
+
 def vertex_of(sectors, letters: str) -> Sheet:
     """Return a vertex with these sectors, in radians, and creases of length 1."""
     angles = np.concatenate([[0.0], np.cumsum(sectors)[:-1]])
