@@ -1,24 +1,22 @@
 """A crease pattern at a configuration: opened along its cuts, in its plane, mended where rounding stopped it.
 
-A drawing gives the two sides of a slit one edge, or two that share their ends; so may parts that meet in a corner:
-what comes apart on folding gets vertices of its own. Theory: docs/theory/folding.md, docs/theory/mending.md.
+Theory: docs/theory/folding.md, docs/theory/mending.md.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import pairwise
 
-import networkx as nx
 import numpy as np
 
 from graphs.answer.mechanisms import sheet_in_frame
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
+from graphs.convert.opening import opened
 from graphs.errors import UnsolvableError
 from graphs.mechanism.precision import keeping, precision_of_sheet, stated
-from graphs.mechanism.sheet import Edge, Sheet, sides_of_face, with_all_edges
+from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId
 from synth.folding.collisions import Collision, PanelShapes
@@ -33,66 +31,11 @@ from synth.folding.mending.nearest import (
     nearby,
     searched_to,
 )
+from synth.layering.space.posed import PosedSheet
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT, Configuration, PointPlaces, doubt_of, doubt_of_rigid
-from synth.motion.linkage import PosedLinkage, linkage_of_sheet
+from synth.motion.linkage import Creases, PosedLinkage, creases_of, linkage_of_sheet
 from synth.motion.path import Path
-
-
-def opened(sheet: Sheet, mechanism: SheetMechanism) -> Sheet:
-    """Return a sheet in which panels share a vertex only if hinges join them there; new edges come last."""
-    beside: dict[frozenset[int], list[int]] = {}
-    for face, around in enumerate(sheet.faces):
-        for side in sides_of_face(around):
-            beside.setdefault(frozenset(side), []).append(face)
-    corners = _corners(sheet, mechanism, beside)
-    place: dict[tuple[int, int], int] = {}
-    of: list[int] = list(range(sheet.vertices))  # the vertex that each was
-    seen: set[int] = set()
-    for together in nx.connected_components(corners):
-        first = min(together, key=lambda corner: corner[1])
-        vertex = first[0]
-        if vertex in seen:
-            of.append(vertex)
-        here = len(of) - 1 if vertex in seen else vertex
-        seen.add(vertex)
-        place |= dict.fromkeys(together, here)
-    if len(of) == sheet.vertices:
-        return sheet
-    faces = tuple(tuple(place[vertex, face] for vertex in sheet.faces[face]) for face in range(len(sheet.faces)))
-    edges, letters, angles = _edges(sheet, place, beside)
-    coordinates = None if sheet.coordinates is None else tuple(sheet.coordinates[vertex] for vertex in of)
-    parted = replace(sheet, vertices=len(of), edges=edges, assignments=letters, faces=faces)
-    return replace(parted, coordinates=coordinates, fold_angles=angles)
-
-
-def _corners(sheet: Sheet, mechanism: SheetMechanism, beside: Mapping[frozenset[int], Sequence[int]]) -> nx.Graph:
-    """Return the corners (vertex, face), joined where hinges or panels join the faces."""
-    link_of = {face: link for link, faces in enumerate(mechanism.panels) for face in faces}
-    hinges = {frozenset(edge) for pieces in mechanism.pieces.values() for edge in pieces}
-    corners = nx.Graph()
-    corners.add_nodes_from((vertex, face) for face, around in enumerate(sheet.faces) for vertex in around)
-    for edge, faces in beside.items():
-        for face, other in pairwise(faces):
-            if edge in hinges or link_of[face] == link_of[other]:
-                corners.add_edges_from(((vertex, face), (vertex, other)) for vertex in edge)
-    return corners
-
-
-def _edges(
-    sheet: Sheet, place: Mapping[tuple[int, int], int], beside: Mapping[frozenset[int], Sequence[int]]
-) -> tuple[tuple[Edge, ...], str, tuple[float | None, ...] | None]:
-    """Return the edges with their new ends; those that two sides of a cut shared once more, at the end."""
-    edges, more = [], []
-    for number, (a, b) in enumerate(sheet.edges):
-        ends = dict.fromkeys((place[a, face], place[b, face]) for face in beside.get(frozenset((a, b)), ()))
-        first, *others = ends or [(a, b)]
-        edges.append(first)
-        more += [(other, number) for other in others]
-    angles = sheet.fold_angles
-    letters = sheet.assignments + "".join(sheet.assignments[number] for _, number in more)
-    every = None if angles is None else (*angles, *(angles[number] for _, number in more))
-    return (*edges, *(edge for edge, _ in more)), letters, every
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -191,6 +134,29 @@ class SheetConfiguration(Configuration):
     def placed(self, angles: Floats) -> PointPlaces:
         """Return where vertices are at fold angles float[F, J], radians."""
         return PointPlaces(*vertex_places(self.sheet, self.mechanism, self.linkage, angles))
+
+    def posed(self, angles: Floats | None = None) -> PosedSheet:
+        """Return the sheet at fold angles float[J], radians, by default its own, for the orders of its layers.
+
+        The sign of a fold of 180 degrees is known if the crease was open at this configuration, or by the file.
+        """
+        here = self.linkage.angles
+        angles = here if angles is None else angles
+        given, letters = self.sheet.fold_angles, self.sheet.assignments
+        column = {joint: place for place, joint in enumerate(self.joints)}
+        signs = {}
+        for joint in self.mechanism.hinges:
+            was_open = abs(float(here[column[joint]])) < np.pi - self.tolerances.same_configuration
+            if was_open or letters[joint] in "MV" or (given is not None and given[joint]):
+                signs[joint] = bool(angles[column[joint]] > 0.0)
+        return PosedSheet(
+            self.sheet, self.mechanism, self._creases, self.precision, self.tolerances,
+            self.placed(angles[None]).points[0], angles, signs,
+        )  # fmt: skip
+
+    @cached_property
+    def _creases(self) -> Creases:
+        return creases_of(self.sheet, self.mechanism)
 
     def ends_of(self, joints: Sequence[JointId]) -> dict[JointId, tuple[tuple[float, ...], tuple[float, ...]]]:
         """Return the two ends of creases, in the unit of the coordinates."""

@@ -207,7 +207,8 @@ def decided_at(strand: SegmentStrands, side: int) -> list[tuple[int, int]]:
         others = [(other.turn, other.plane, other.panel) for other in leaving[:place]]
         others += [(pi, -1, panel) for panel in strand.through]
         for turn, plane, panel in others:
-            if plane != one.plane and turn != one.turn:
+            together = plane == one.plane and abs(turn - one.turn) < 1.0  # not on both sides of one plane
+            if not together and turn != one.turn:
                 outer, inner = (one.panel, panel) if one.turn > turn else (panel, one.panel)
                 found.append((inner, outer) if side == 0 else (outer, inner))
     return found

@@ -31,10 +31,11 @@ class CoreCondition:
 
     Attributes
     ----------
-    kind : {"crease", "taco-tortilla", "taco-taco", "transitivity"}
+    kind : {"crease", "taco-tortilla", "taco-taco", "transitivity", "leaving", "leaving together", "motion"}
     panels : tuple of int
         A crease has two; of a taco-tortilla the last one runs across; of a taco-taco the first two and the last two
-        are joined.
+        are joined. In space: the first of two lies above the second, since the paper of one leaves their plane, or
+        since it comes from there; the first two of four leave for where the last two lie.
     joints : tuple of int
         The creases.
 
@@ -59,6 +60,14 @@ class CoreCondition:
         if self.kind == "taco-taco":
             one = f"crease {self.joints[0]} (panels {names[0]}, {names[1]})"
             return f"{one} and crease {self.joints[1]} (panels {names[2]}, {names[3]}) do not cross"
+        if self.kind == "leaving":
+            return f"panel {names[0]} is above panel {names[1]}: beyond a crease the paper of one leaves their plane"
+        if self.kind == "leaving together":
+            return (
+                f"panels {names[0]} and {names[1]} leave their plane together, in one order with {names[2]}, {names[3]}"
+            )
+        if self.kind == "motion":
+            return f"panel {names[0]} comes to lie above panel {names[1]}"
         return f"panels {', '.join(names[:2])} and {names[2]} are not above each other in a circle"
 
     def to_json(self) -> dict[str, Any]:
@@ -97,26 +106,38 @@ class LayerCore:
         }
 
 
-def core_of(image: FoldedImage, valleys: Mapping[int, bool]) -> LayerCore:
-    """Return a core of an image that has no layer order."""
+Heights = Sequence[tuple[int, int, int]]
+"""Cells, and two panels over each of which the first is known to be above the second."""
+
+
+def core_of(image: FoldedImage, valleys: Mapping[int, bool], above: Heights = ()) -> LayerCore:
+    """Return a core of an image that has no layer order where some are known to be above others."""
 
     def contradict(panels: Sequence[int]) -> bool:
-        return _has_none(restricted(image, panels), valleys)
+        return _has_none(restricted(image, panels), valleys, _among(above, panels))
 
-    suspects = _suspects(image, valleys)
+    every = set(np.concatenate(image.above).tolist())
+    in_space = bool(above or image.bundles or any(any(strand.leaving) for strand in image.strands))
+    suspects = every if in_space else _suspects(image, valleys)
     panels = tuple(sorted(_least(contradict, [panel for panel in _near_each_other(image) if panel in suspects])))
     part = restricted(image, panels)
-    primitives = list(_primitives(part, valleys))
+    primitives = list(_primitives(part, valleys, _among(above, panels)))
 
     def hold_nowhere(kept: Sequence[int]) -> bool:
         return next(solutions(*_problem([primitives[place] for place in kept])), None) is None
 
     kept = _least(hold_nowhere, list(range(len(primitives))))
     conditions = tuple(sorted((primitives[place][1] for place in kept), key=_order_of_kinds))
-    return LayerCore(panels, conditions, count_by_cells(part, valleys) == 0)
+    known = dict.fromkeys(_among(above, panels), True)
+    return LayerCore(panels, conditions, count_by_cells(part, valleys, known) == 0)
 
 
-_KINDS = ("crease", "taco-tortilla", "taco-taco", "transitivity")
+def _among(above: Heights, panels: Sequence[int]) -> list[tuple[int, int, int]]:
+    """Return what is known of some panels."""
+    return [row for row in above if row[1] in panels and row[2] in panels]
+
+
+_KINDS = ("motion", "crease", "leaving", "leaving together", "taco-tortilla", "taco-taco", "transitivity")
 
 
 def _order_of_kinds(condition: CoreCondition) -> tuple[int, tuple[int, ...]]:
@@ -135,18 +156,23 @@ def restricted(image: FoldedImage, panels: Sequence[int]) -> FoldedImage:
             turning=tuple(  # type: ignore[arg-type]
                 tuple(turn for turn in side if turn[0] in inside and turn[1] in inside) for side in strand.turning
             ),
+            leaving=tuple(  # type: ignore[arg-type]
+                tuple(there for there in side if there.panel in inside) for side in strand.leaving
+            ),
         )
         for strand in image.strands
     )
-    part = replace(image, above=above)
+    bundles = tuple(row for row in image.bundles if {row[1], row[2], row[4], row[5]} <= inside)
+    part = replace(image, above=above, bundles=bundles)
     part.__dict__["strands"] = strands
     return part
 
 
-def _has_none(image: FoldedImage, valleys: Mapping[int, bool]) -> bool:
+def _has_none(image: FoldedImage, valleys: Mapping[int, bool], above: Heights) -> bool:
     """Return whether an image has no layer order."""
     constraints = layer_constraints(image)
-    left = reduced(constraints, constraints.creases(valleys)[0])
+    heights = np.array([int(constraints.table.literals(*row)) for row in above], dtype=np.int64)
+    left = reduced(constraints, np.concatenate([constraints.creases(valleys)[0], heights]))
     return left is None or not all(counted(problem) for problem, _ in left.parts)
 
 
@@ -193,7 +219,7 @@ _Primitive = tuple[tuple[tuple[int, int], ...], CoreCondition]
 condition it is."""
 
 
-def _primitives(image: FoldedImage, valleys: Mapping[int, bool]) -> Iterator[_Primitive]:
+def _primitives(image: FoldedImage, valleys: Mapping[int, bool], above: Heights) -> Iterator[_Primitive]:
     """Yield all conditions of an image, each once; a literal is paired with the kind."""
     table = PairTable(image)
     constraints = layer_constraints(image)
@@ -210,6 +236,12 @@ def _primitives(image: FoldedImage, valleys: Mapping[int, bool]) -> Iterator[_Pr
     for literal, turn in zip(literals.tolist(), places.tolist(), strict=True):
         pair = (int(turns.one[turn]), int(turns.other[turn]))
         yield from once(1, [literal], CoreCondition("crease", pair, (int(turns.joint[turn]),)))
+    for cell, upper, lower in above:
+        yield from once(1, [int(table.literals(cell, upper, lower))], CoreCondition("motion", (upper, lower), ()))
+    for literal, (upper, lower) in zip(*(array.tolist() for array in constraints.decided), strict=True):
+        yield from once(1, [literal], CoreCondition("leaving", (upper, lower), ()))
+    for (_, a, b, _, c, d), *equal in zip(image.bundles, *(x.tolist() for x in constraints.bundled), strict=True):
+        yield from once(2, equal, CoreCondition("leaving together", (a, b, c, d), ()))
     for one, other, turn, panel in zip(*(array.tolist() for array in constraints.beside), strict=True):
         three = (int(turns.one[turn]), int(turns.other[turn]), panel)
         yield from once(2, [one, other], CoreCondition("taco-tortilla", three, (int(turns.joint[turn]),)))
@@ -241,11 +273,11 @@ def _problem(primitives: Sequence[_Primitive]) -> tuple[LayerProblem, list[int]]
     return LayerProblem(len(number), *arrays), known
 
 
-def core_lines(core: LayerCore, most: int) -> list[str]:
-    """Return a core in words: its panels, and so many of its conditions."""
+def core_lines(core: LayerCore, most: int, *, flat: bool = True) -> list[str]:
+    """Return a core in words: its panels, and so many of its conditions; in space there is no second method."""
     panels = plain(" ".join(map(str, core.panels)), 200)
-    by = "confirmed cell by cell" if core.confirmed else "not confirmed cell by cell"
-    lines = [f"panels that cannot be layered, though they can without any one of them: {panels} ({by})"]
+    by = (" (confirmed cell by cell)" if core.confirmed else " (not confirmed cell by cell)") if flat else ""
+    lines = [f"panels that cannot be layered, though they can without any one of them: {panels}{by}"]
     lines += [f"- {condition}" for condition in core.conditions[:most]]
     more = len(core.conditions) - most
     return [*lines, *([f"and {more} more conditions"] if more > 0 else [])]

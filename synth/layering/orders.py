@@ -13,16 +13,15 @@ from typing import Any
 import numpy as np
 
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
+from graphs.convert.opening import opened
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.geometry import signed_area
 from graphs.limits import check_work
 from graphs.mechanism.precision import Precision, extent_of, flat_places, keeping, precision_of_sheet
 from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
 from graphs.printing import Block, Printed, TableBlock
-from graphs.tolerances import DOUBLE, Tolerances
+from graphs.tolerances import Tolerances
 from graphs.types import Floats, Ints
-from synth.folding.configuration import opened
-from synth.folding.mending.nearest import FARTHEST
 from synth.layering.checking import fault_of
 from synth.layering.constraints import LayerConstraints, layer_constraints
 from synth.layering.cores import LayerCore, core_lines, core_of
@@ -487,7 +486,7 @@ def flat_pattern(sheet: Sheet) -> FlatPattern:
     if all(vertex.kawasaki for vertex in vertices) and max((vertex.off for vertex in vertices), default=0.0) > 0.0:
         closed = closing_points(points, vertices)
         moved = float(np.linalg.norm(closed - points, axis=1).max()) / extent_of(points)
-        if moved <= max(FARTHEST * precision.size, DOUBLE.same_point):
+        if moved <= Tolerances.of(precision.size).same_point:
             points = closed
         else:
             moved = 0.0

@@ -16,12 +16,12 @@ import networkx as nx
 import numpy as np
 
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
+from graphs.convert.opening import opened
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.limits import check_work
 from graphs.mechanism.precision import flat_places, keeping, precision_of_sheet
 from graphs.mechanism.sheet import FLAT, HINGES, Sheet, with_all_edges
 from graphs.printing import Block, Printed, TableBlock
-from synth.folding.configuration import opened
 from synth.layering.counting.job import Counter
 from synth.layering.local import FlatVertex, flat_vertices, folds_alone
 from synth.layering.orders import FlatFolding, LayerOrder, flat_folding

@@ -16,14 +16,12 @@ import networkx as nx
 import numpy as np
 import shapely
 
-from graphs.convert.duality import SheetMechanism
 from graphs.geometry import frame_about, unit
 from graphs.mechanism.precision import extent_of
 from graphs.mechanism.sheet import Sheet, sides_of_face
-from graphs.tolerances import Tolerances
 from graphs.types import Floats
 from synth.layering.image import FoldedImage, FoldedPanels, LeavingPanel, SegmentStrands, image_of
-from synth.motion.linkage import creases_of
+from synth.layering.space.posed import PosedSheet
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,14 +68,13 @@ class StackedPanels:
     creases: tuple[int, ...]
 
 
-class _Pose:
-    """A sheet at a configuration: normals of its faces, its plates, and the fold angle of each joint."""
+class _Plates:
+    """A sheet at a configuration: the normals of its faces, its plates, and the creases that are closed."""
 
-    def __init__(
-        self, sheet: Sheet, mechanism: SheetMechanism, points: Floats, angles: Floats, tolerances: Tolerances
-    ) -> None:
+    def __init__(self, posed: PosedSheet) -> None:
+        sheet, mechanism, points, tolerances = posed.sheet, posed.mechanism, posed.points, posed.tolerances
         self.sheet, self.mechanism, self.points = sheet, mechanism, points
-        creases = creases_of(sheet, mechanism)
+        creases = posed.creases
         self.normals = unit(creases.area_vectors(points))
         listed = np.array(
             [1.0 if turned == face else -1.0 for turned, face in zip(creases.faces, sheet.faces, strict=True)]
@@ -85,7 +82,7 @@ class _Pose:
         self.listed = self.normals * listed[:, None]
         self.touching = tolerances.same_point * (extent_of(points) or 1.0)
         near = max(tolerances.same_configuration, tolerances.parallel)
-        size = np.abs(angles)
+        size = np.abs(posed.angles)
         unfolded = nx.Graph()
         unfolded.add_nodes_from(range(len(mechanism.panels)))
         ends = mechanism.sc.joints
@@ -105,26 +102,29 @@ class _Pose:
 
     def planes(self) -> Iterator[PlaneOfPanels]:
         """Yield the planes in which plates overlap."""
-        plates = [plate for plate, faces in enumerate(self.faces_of_plate) if faces]
-        largest = [self.faces_of_plate[plate][0] for plate in plates]
-        normals = self.normals[largest]
+        plates = np.array([plate for plate, faces in enumerate(self.faces_of_plate) if faces])
+        if len(plates) < 2:
+            return
         corners = [
-            self.points[sorted({v for face in self.faces_of_plate[plate] for v in self.sheet.faces[face]})]
-            for plate in plates
+            sorted({v for face in self.faces_of_plate[plate] for v in self.sheet.faces[face]}) for plate in plates
         ]
-        origins = np.array([there.mean(axis=0) for there in corners])
-        far = np.empty((len(plates), len(plates)))
-        for place, there in enumerate(corners):
-            far[:, place] = np.abs((there[None] - origins[:, None]) @ normals[:, :, None]).max(axis=(1, 2))
-        near = nx.Graph(np.maximum(far, far.T) <= 4.0 * self.touching)
-        for together in sorted(map(sorted, nx.connected_components(near))):
-            if len(together) < 2:
+        begin = np.cumsum([0, *map(len, corners[:-1])])
+        every = np.concatenate(corners)
+        left = np.ones(len(plates), dtype=bool)
+        for first in range(len(plates)):
+            if not left[first]:
                 continue
-            frame = frame_about(normals[together[0]])
-            plane = PlaneOfPanels(frame, origins[together[0]], tuple(plates[place] for place in together))
-            kept = self._overlapping(plane)
-            if kept:
-                yield replace(plane, plates=kept)
+            normal = self.normals[self.faces_of_plate[plates[first]][0]]
+            origin = self.points[corners[first]].mean(axis=0)
+            far = np.maximum.reduceat(np.abs((self.points - origin) @ normal)[every], begin)
+            together = left & (far <= 4.0 * self.touching)
+            together[first] = True
+            left &= ~together
+            if together.sum() > 1:
+                plane = PlaneOfPanels(frame_about(normal), origin, tuple(plates[together].tolist()))
+                kept = self._overlapping(plane)
+                if kept:
+                    yield replace(plane, plates=kept)
 
     def _overlapping(self, plane: PlaneOfPanels) -> tuple[int, ...]:
         """Return the plates of a plane that overlap others."""
@@ -250,14 +250,9 @@ def _bridges(edges: Sequence[tuple[int, int]], places: Floats) -> Iterator[tuple
         yield one[0], other[int(np.argmax(far))]
 
 
-def stacked_panels(
-    sheet: Sheet, mechanism: SheetMechanism, points: Floats, angles: Floats, tolerances: Tolerances
-) -> StackedPanels | None:
-    """Return the panels of a sheet that lie on each other with vertices at float[V, 3]; None if none do.
-
-    `angles` are fold angles, float[J], of the joints in the order of the mechanism.
-    """
-    pose = _Pose(sheet, mechanism, points, angles, tolerances)
+def stacked_panels(posed: PosedSheet) -> StackedPanels | None:
+    """Return the panels of a sheet that lie on each other at a configuration; None if none do."""
+    pose = _Plates(posed)
     planes = tuple(pose.planes())
     if not planes:
         return None
@@ -270,7 +265,7 @@ def stacked_panels(
 
 
 def _joined(
-    pose: _Pose,
+    pose: _Plates,
     planes: tuple[PlaneOfPanels, ...],
     images: Sequence[FoldedImage],
     leaving: Sequence[Sequence[tuple[int, int, _Leaving]]],
@@ -327,7 +322,7 @@ def _joined(
 
 
 def _bundles(
-    pose: _Pose,
+    pose: _Plates,
     plane_of_face: dict[int, int],
     images: Sequence[FoldedImage],
     leaving: Sequence[Sequence[tuple[int, int, _Leaving]]],
