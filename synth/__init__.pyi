@@ -42,6 +42,7 @@ from synth.compliance.springs import Mass as Mass, Masses as Masses, Springs as 
 from synth.drawing.mechanisms.pictures import draw as draw
 from synth.editing import edit as edit
 from synth.first_look import FirstLook as FirstLook, look as look
+from synth.folding.layered import layers_at as layers_at
 from synth.folding.motion import fold as fold
 from synth.guidance.fourbars import four_bars as four_bars
 from synth.guidance.guiding import guiding_dyads as guiding_dyads

@@ -21,6 +21,7 @@ from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId
 from synth.folding.collisions import Collision, PanelShapes
 from synth.folding.derivatives import vertex_places
+from synth.folding.lying import layers_on_path
 from synth.folding.mending.nearest import (
     MendedPattern,
     NearbyPatterns,
@@ -36,6 +37,8 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT, Configuration, PointPlaces, doubt_of, doubt_of_rigid
 from synth.motion.linkage import Creases, PosedLinkage, creases_of, linkage_of_sheet
 from synth.motion.path import Path
+from synth.motion.resting import PassedPanels
+from synth.motion.walk.step import PathEvent
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -135,9 +138,10 @@ class SheetConfiguration(Configuration):
         """Return where vertices are at fold angles float[F, J], radians."""
         return PointPlaces(*vertex_places(self.sheet, self.mechanism, self.linkage, angles))
 
-    def posed(self, angles: Floats | None = None) -> PosedSheet:
+    def posed(self, angles: Floats | None = None, points: Floats | None = None) -> PosedSheet:
         """Return the sheet at fold angles float[J], radians, by default its own, for the orders of its layers.
 
+        Its vertices there, float[V, 3], may be handed in.
         The sign of a fold of 180 degrees is known if the crease was open at this configuration, or by the file.
         """
         here = self.linkage.angles
@@ -151,7 +155,7 @@ class SheetConfiguration(Configuration):
                 signs[joint] = bool(angles[column[joint]] > 0.0)
         return PosedSheet(
             self.sheet, self.mechanism, self._creases, self.precision, self.tolerances,
-            self.placed(angles[None]).points[0], angles, signs,
+            self.placed(angles[None]).points[0] if points is None else points, angles, signs,
         )  # fmt: skip
 
     @cached_property
@@ -173,9 +177,20 @@ class SheetConfiguration(Configuration):
         turned = tuple(float(angles[column[edge]]) if edge in column else None for edge in edges)
         return replace(self.sheet, coordinates=tuple(map(tuple, there.tolist())), fold_angles=turned, frames=None)
 
-    def passed(self, path: Path, points: Floats, driver: int) -> tuple[Path, tuple[int, ...]]:
-        """Return a path with the event that panels pass through each other, and the frames in which they do."""
-        return self.collision().among(self.closure, path, points, driver)
+    def passed(self, path: Path, points: Floats, driver: int) -> PassedPanels:
+        """Return where panels pass through each other on a path, and how they lie at its end.
+
+        Panels that lie on each other in no order of their layers pass through each other too.
+        """
+        crossing: tuple[int, ...] = ()
+        if not any(event.kind == "collision" for event in path.events):
+            path, crossing = self.collision().among(self.closure, path, points, driver)
+        layers = layers_on_path(self.posed, self.closure, path.angles, points)
+        if layers.wrong and not any(event.kind == "collision" for event in path.events):
+            first = layers.wrong[0]
+            event = PathEvent("collision", first, driver, (driver,), path.angles[first], panels=layers.panels)
+            path = replace(path, events=tuple(sorted((*path.events, event), key=lambda event: event.frame)))
+        return PassedPanels(path, tuple(sorted({*crossing, *layers.wrong})), layers.resting)
 
     def collision(self) -> Collision:
         """Return what ends a walk before panels pass through each other."""

@@ -11,6 +11,7 @@ from graphs.errors import FileError, InvariantError
 from graphs.files.patterns.fold import fold_text
 from graphs.files.text import json_text, load_json
 from synth.layering.orders import FlatFolding, LayerOrder
+from synth.layering.space.orders import LayersInSpace
 
 FaceOrder = tuple[int, int, int]
 """Faces f and g, and 1 if f lies on the side of g that its normal points to, -1 if on the other."""
@@ -34,13 +35,46 @@ def folded_fold_text(answer: FlatFolding, order: LayerOrder) -> str:
     return json_text(document)
 
 
-def read_face_orders(path: str | Path) -> list[FaceOrder]:
-    """Return the ``faceOrders`` of a FOLD file: of its key frame, or the first frame that has any.
+def posed_fold_text(answer: LayersInSpace, order: LayerOrder) -> str:
+    """Return the text of a FOLD file: a sheet at a configuration, with the ``faceOrders`` of panels on each other.
+
+    Parameters
+    ----------
+    answer : LayersInSpace
+        Some panels lie on each other.
+    order : LayerOrder
+        One of its orders.
+
+    Examples
+    --------
+    A strip of three squares, closed and then bent:
+
+    >>> from math import pi
+    >>> import synth
+    >>> from graphs.mechanism.sheet import Sheet
+    >>> corners = ((0, 0, 0), (1, 0, 0), (0, 0, 0), (0, 0, 1), (0, 1, 0), (1, 1, 0), (0, 1, 0), (0, 1, 1))
+    >>> faces = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6))
+    >>> strip = Sheet(8, ((1, 5), (2, 6)), "VM", faces, corners, fold_angles=(pi, -pi / 2))
+    >>> answer = synth.layers_at(strip)
+    >>> order = answer.order()
+    >>> order.face_orders(), '"faceOrders"' in posed_fold_text(answer, order)
+    ([(0, 1, 1)], True)
+    """
+    document = json.loads(fold_text(answer.sheet))
+    document["frame_classes"] = ["foldedForm"]
+    document["faceOrders"] = [list(row) for row in order.face_orders()]
+    return json_text(document)
+
+
+def read_face_orders(path: str | Path, frame: int | None = None) -> list[FaceOrder]:
+    """Return the ``faceOrders`` of a FOLD file: of a frame, or the first frame that has any.
 
     Parameters
     ----------
     path : str or Path
         `FileError` if it has none, or they are no triples of two faces and -1, 0 or 1.
+    frame : int, optional
+        The frame; 0 is the key frame. Without it, the key frame comes first.
 
     Returns
     -------
@@ -55,8 +89,9 @@ def read_face_orders(path: str | Path) -> list[FaceOrder]:
     """
     document = load_json(Path(path))
     more = document.get("file_frames") if isinstance(document, dict) else None
-    frames = [frame for frame in (document, *(more if isinstance(more, list) else ())) if isinstance(frame, dict)]
-    rows: Any = next((frame["faceOrders"] for frame in frames if "faceOrders" in frame), None)
+    frames = [one for one in (document, *(more if isinstance(more, list) else ())) if isinstance(one, dict)]
+    several = frames if frame is None else frames[frame : frame + 1]
+    rows: Any = next((one["faceOrders"] for one in several if "faceOrders" in one), None)
     if not isinstance(rows, list):
         raise FileError(path, "faceOrders", "missing", "a list of [face, face, -1, 0 or 1]")
     for place, row in enumerate(rows):

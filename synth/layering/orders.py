@@ -454,6 +454,28 @@ def _check_unfolded(sheet: Sheet, points: Floats) -> None:
             seen[side] = (face, ahead)
 
 
+def is_folded(sheet: Sheet) -> bool:
+    """Return whether a sheet is at a configuration in which it is folded, and no crease pattern.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        Without coordinates or faces it is not.
+
+    Examples
+    --------
+    >>> is_folded(Sheet(4, (), "", ((0, 1, 3), (1, 2, 3)), ((0, 0), (1, 0), (0, 0), (0, 1))))
+    True
+    """
+    if sheet.coordinates is None or not sheet.faces:
+        return False
+    try:
+        _check_unfolded(sheet, np.array(flat_places(sheet, "a crease pattern")))
+    except UnsolvableError:
+        return True
+    return False
+
+
 @dataclass(frozen=True, eq=False)
 class FlatPattern:
     """A crease pattern in its plane, opened along its cuts, with its vertices inside; what `layers` begins with."""

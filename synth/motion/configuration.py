@@ -27,6 +27,7 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, moved
 from synth.motion.marked import AssignedBranch, Disagreement, agreeing_best, assigned_branch, nearest_branch
 from synth.motion.path import Path
+from synth.motion.resting import PassedPanels
 from synth.motion.singular.nearest import InitialMotion, begun_near
 from synth.motion.singular.second_order import rates_at
 from synth.motion.walk.walking import Event
@@ -309,9 +310,9 @@ class Configuration:
         """Return the mechanism at joint angles float[J], radians: a linkage, or for a sheet the sheet."""
         return moved(self.linkage, angles)
 
-    def passed(self, path: Path, points: Floats, driver: int) -> tuple[Path, tuple[int, ...]]:
-        """Return a path with the event that panels pass through each other, and the frames in which they do."""
-        return path, ()
+    def passed(self, path: Path, points: Floats, driver: int) -> PassedPanels:
+        """Return where panels pass through each other on a path, and how they lie at its end."""
+        return PassedPanels(path)
 
     def collision(self) -> Event:
         """Return the event that ends a walk before panels cross; `UnsolvableError` without panels."""

@@ -20,6 +20,7 @@ from synth.motion.configuration import Configuration, listed
 from synth.motion.driving import DrivenMotion, MotionOptions, driven_from
 from synth.motion.linkage import PosedLinkage, link_motions
 from synth.motion.path import Path
+from synth.motion.resting import RestingPanels
 
 FRAMES = 20
 """Frames after the first, by default."""
@@ -55,6 +56,8 @@ class Motion(Printed):
         Largest distance between the places of a vertex by two panels, in units of the extent.
     crossing : tuple of int
         Numbers of the frames in which panels pass through each other.
+    resting : RestingPanels, optional
+        Panels that lie on each other in the last frame; None if none do.
 
     Examples
     --------
@@ -71,6 +74,7 @@ class Motion(Printed):
     places: Floats
     apart: float
     crossing: tuple[int, ...] = ()
+    resting: RestingPanels | None = None
 
     @property
     def linkage(self) -> PosedLinkage:
@@ -163,6 +167,7 @@ class Motion(Printed):
             "ranks_watched": self.path.watched,
             "assignment_kept": self._of_assignment(),
             "crossing_frames": list(self.crossing),
+            "resting": None if self.resting is None else self.resting.to_json(),
         }
 
     def blocks(self) -> list[Block]:
@@ -184,6 +189,8 @@ class Motion(Printed):
         if self.crossing:
             frames = ", ".join(map(str, self.crossing[:_LISTED])) + (", ..." if self.crossing[_LISTED:] else "")
             lines.append(f"panels pass through each other in frames {frames}; --collisions ends the path before")
+        if self.resting is not None:
+            lines.append(self.resting.line())
         if not self.path.watched:
             lines.append("did not check for singular configurations on the path: there are too many joints")
         lines += [f"repaired: {repair}" for repair in self.configuration.mended]
@@ -269,7 +276,20 @@ def motion_of(configuration: Configuration, options: MotionOptions, *, collision
         options = replace(options, branch=branch)
     if collisions:
         options = replace(options, events=(*options.events, configuration.collision()))
-    return motion_along(configuration, driven_from(configuration, options))
+    motion = motion_along(configuration, driven_from(configuration, options))
+    return _before_crossing(motion) if collisions and motion.crossing else motion
+
+
+def _before_crossing(motion: Motion) -> Motion:
+    """Return a motion until panels come to lie on each other in no order: where they lie still, none cross before."""
+    kept = max(motion.crossing[0], 1)
+    event = next(event for event in motion.path.events if event.kind == "collision")
+    path = motion.path.up_to(kept)
+    stopped = "panels pass through each other" + (" at the start" if motion.crossing[0] == 0 else "")
+    event = replace(event, frame=kept - 1)
+    path = replace(path, stopped=f"{stopped}: {event.line(motion.joints)}", events=(*path.events, event))
+    resting = motion.resting if kept == len(motion.path.angles) else None
+    return replace(motion, path=path, places=motion.places[:kept], crossing=(), resting=resting)
 
 
 def motion_along(configuration: Configuration, driven: DrivenMotion) -> Motion:
@@ -282,8 +302,7 @@ def motion_along(configuration: Configuration, driven: DrivenMotion) -> Motion:
         stopped = f"{reason}: creases between them are bent{configuration.doubt}"
         path = replace(path.up_to(kept), stopped=stopped)
     kept = len(path.angles)
-    crossing: tuple[int, ...] = ()
-    if not any(event.kind == "collision" for event in path.events):
-        path, crossing = configuration.passed(path, points[:kept], driven.places[0])
+    passed = configuration.passed(path, points[:kept], driven.places[0])
     far = float(apart[:kept].max(initial=0.0))
-    return Motion(configuration, driven.branch, path, driven.goals, points[:kept], far, crossing)
+    places = points[:kept]
+    return Motion(configuration, driven.branch, passed.path, driven.goals, places, far, passed.frames, passed.resting)

@@ -68,5 +68,5 @@ def box_with_flaps(depths, closed: float = 1.0) -> Sheet:
         corners += [(p + reach * inward[0], q + reach * inward[1], 1.0 + rise) for p, q in (ring[k], ring[(k + 1) % 4])]
         faces.append((4 + k, 4 + (k + 1) % 4, number + 1, number))
         edges += [(k, 4 + k), (4 + k, 4 + (k + 1) % 4)]
-        letters += "VV"
+        letters += "MM"
     return with_all_edges(Sheet(len(corners), tuple(edges), letters, tuple(faces), tuple(corners)))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 import synth.drawing.mechanisms
+import synth.folding
 import synth.layering
 from graphs.errors import InvariantError, check_argument
 from synth.cli import options
@@ -49,7 +50,10 @@ def _creases(word: str) -> str | list[int]:
 
 @click.command()
 @MECHANISM
-@options.number("--frame", "N", "Frame of a FOLD file; 0 is the key frame.", 0)
+@options.number(
+    "--frame", "N",
+    "Frame of a FOLD file; 0 is the key frame. In a frame that is folded, panels that lie on each other are ordered.", 0
+)  # fmt: skip
 @options.number("--order", "N", "Show this layer order, counted from 0.", 0)
 @options.number("--sample", "SEED", "Show a layer order drawn at random, each as likely as any other.", 0)
 @options.repeated(
@@ -100,7 +104,8 @@ def layers(
     Maekawa, crimps), then whether the folded image closes; then the orders of the panels in which the paper passes
     nowhere through itself are counted, component by component. A layer order that is shown lists the panels over
     each cell from below, and is checked by geometry alone. If there is none, the answer names panels and conditions
-    on them that contradict each other.
+    on them that contradict each other. In a frame that is folded, in space too, the orders are those of panels that
+    lie on each other there, above being the side that the normal of their plane points to.
 
     \b
     Examples:
@@ -126,6 +131,13 @@ def layers(
         sheet = sheet_in_frame(precise_sheet(mechanism), frame)
         if may_stay_flat is not None:
             _print_staying(sheet, may_stay_flat, which["order"], output, file, force=force, as_json=as_json)
+            return
+        if synth.layering.is_folded(sheet):
+            if fix or assignments or counts or workers or scheduler or component is not None:
+                raise click.UsageError(
+                    "--fix, --assignments, --counts and --component take a pattern, not a folded frame"
+                )
+            _print_folded(sheet, output, file, frame, force=force, as_json=as_json, **which)
             return
         answer = synth.layering.flat_folding(
             sheet, lambda problems: _count(problems, running), explain=explain and not fix
@@ -192,6 +204,38 @@ def _print_staying(
         sys.exit(1)
 
 
+def _print_folded(
+    sheet: Sheet, output: str | None, file: str, frame: int | None, *, force: bool, as_json: bool, **which: Any
+) -> None:
+    """Print the layer orders at a configuration, and the one that the options name, and write it."""
+    from graphs.files.atomic import write_text
+
+    if output is not None and Path(output).suffix.lower() != ".fold":
+        raise click.UsageError("-o writes the layer order of a folded frame as .fold")
+    answer = synth.folding.layers_at(sheet)
+    shown, unmet = (
+        _shown(answer, file, frame=frame, **which) if answer.image is not None and answer.foldable else (None, ())
+    )
+    if output is not None and answer.image is not None and answer.foldable:
+        text = synth.layering.posed_fold_text(answer, shown or answer.order())
+        write_text(Path(output), text, force=force)
+    else:
+        output = None
+    if as_json:
+        order = None if shown is None else shown.to_json()
+        print_json({"file": file, **answer.to_json(), "order": order, "unmet": [list(pair) for pair in unmet]})
+    else:
+        print_answer(answer)
+        if shown is not None:
+            print_answer(shown)
+        for upper, lower in unmet:
+            click.echo(f"wish not met: panel {upper} above panel {lower}")
+        if output is not None:
+            tell_written(output)
+    if not answer.foldable:
+        sys.exit(1)
+
+
 def _print_fixed(answer: FlatFolding, file: str, output: str | None, *, force: bool, as_json: bool) -> None:
     """Print which creases have to change for the local conditions to hold, and write the changed pattern."""
     from graphs.files.formats import write
@@ -226,6 +270,7 @@ def _shown(
     sample: int | None,
     wishes: Sequence[tuple[int, int]],
     face_orders: bool,
+    frame: int | None = None,
 ) -> tuple[LayerOrder | None, Sequence[tuple[int, int]]]:
     """Return the layer order that the options name, if any, and the wishes that it does not meet."""
     if order is not None:
@@ -233,7 +278,7 @@ def _shown(
     if sample is not None:
         return answer.sample(sample), ()
     if face_orders:
-        wishes = synth.layering.wishes_of(answer, synth.layering.read_face_orders(file))
+        wishes = synth.layering.wishes_of(answer, synth.layering.read_face_orders(file, frame))
     return answer.nearest(wishes) if wishes else (None, ())
 
 

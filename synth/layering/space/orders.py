@@ -15,7 +15,8 @@ from graphs.errors import numbered
 from graphs.mechanism.precision import Precision
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, TableBlock
-from synth.layering.constraints import layer_constraints
+from graphs.types import Ints
+from synth.layering.constraints import FALSE, TRUE, layer_constraints
 from synth.layering.cores import core_lines, core_of
 from synth.layering.counting.job import Counter
 from synth.layering.local import FlatVertex
@@ -54,6 +55,13 @@ class LayersInSpace(FlatFolding):
         """Whether each crease at which panels lie on each other is a valley, by its joint."""
         creases = () if self.stacked is None else self.stacked.creases
         return {joint: self.posed.signs[joint] for joint in creases if joint in self.posed.signs}
+
+    def decided(self, variables: Ints) -> list[bool | None]:
+        """Return whether the lower number is on top for each of some pairs; None where that is open."""
+        if self._reduced is None:
+            return [None] * len(variables)
+        literals = self._reduced.literal[2 * variables]
+        return [None if literal > FALSE else literal == TRUE for literal in literals.tolist()]
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
@@ -113,6 +121,7 @@ def layers_in_space(posed: PosedSheet, count: Counter, above: Sequence[Height] =
     Examples
     --------
     >>> import synth
+    >>> import synth.moving
     >>> from synth.layering.counting.settling import counted
     >>> at = synth.moving.configuration_of(synth.read("data/patterns/bird-base.fold"))
     >>> layers_in_space(at.posed(), lambda problems: list(map(counted, problems)))

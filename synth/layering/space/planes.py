@@ -15,13 +15,18 @@ from math import pi
 import networkx as nx
 import numpy as np
 import shapely
+from scipy.spatial import cKDTree
 
 from graphs.geometry import frame_about, unit
 from graphs.mechanism.precision import extent_of
 from graphs.mechanism.sheet import Sheet, sides_of_face
-from graphs.types import Floats
+from graphs.types import Floats, Ints
 from synth.layering.image import FoldedImage, FoldedPanels, LeavingPanel, SegmentStrands, image_of
 from synth.layering.space.posed import PosedSheet
+
+_NEARLY = 1e3
+"""Planes whose normals and heights, in units of the extent, differ by more than so many times the distance of points
+that are one are looked at no further."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,6 +108,7 @@ class _Plates:
     def planes(self) -> Iterator[PlaneOfPanels]:
         """Yield the planes in which plates overlap."""
         plates = np.array([plate for plate, faces in enumerate(self.faces_of_plate) if faces])
+        plates = self._with_parallel_ones_near(plates)
         if len(plates) < 2:
             return
         corners = [
@@ -125,6 +131,20 @@ class _Plates:
                 kept = self._overlapping(plane)
                 if kept:
                     yield replace(plane, plates=kept)
+
+    def _with_parallel_ones_near(self, plates: Ints) -> Ints:
+        """Return the plates whose plane is nearly that of another: those that are looked at more closely."""
+        if len(plates) < 2:
+            return plates
+        first = [self.faces_of_plate[plate][0] for plate in plates]
+        normals = self.normals[first]
+        corners = np.array([self.sheet.faces[face][0] for face in first])
+        middle = self.points.mean(axis=0)
+        heights = ((self.points[corners] - middle) * normals).sum(axis=1) / (extent_of(self.points) or 1.0)
+        planes = np.column_stack([normals, heights])
+        near, _ = cKDTree(np.concatenate([planes, -planes])).query(planes, k=2)
+        kept: Ints = plates[near[:, 1] <= _NEARLY * self.touching / (extent_of(self.points) or 1.0)]
+        return kept
 
     def _overlapping(self, plane: PlaneOfPanels) -> tuple[int, ...]:
         """Return the plates of a plane that overlap others."""
