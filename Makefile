@@ -45,7 +45,7 @@ $(USER): pyproject.toml
 
 # Libraries of C, built by the installation too; again where a source has changed since.
 LIBRARIES := $(VENV)/.libraries
-$(LIBRARIES): $(USER) $(shell find graphs enumerate synth -name '*.c')
+$(LIBRARIES): $(USER) $(shell find graphs enumerate synth -name '*.[ch]')
 	$(BIN)/python -m graphs.compiled
 	@touch $@
 

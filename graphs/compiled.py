@@ -36,8 +36,9 @@ def sources(root: Path = _ROOT) -> list[Path]:
 
 
 def place_of(source: Path) -> Path:
-    """Return where the library of a source is kept: its name says of which version it is."""
-    digest = sha256(repr(_FLAGS).encode() + source.read_bytes()).hexdigest()[:12]
+    """Return where the library of a source is kept: its name says of which version it and the headers beside it are."""
+    read = [source.read_bytes(), *(header.read_bytes() for header in sorted(source.parent.glob("*.h")))]
+    digest = sha256(b"".join([repr(_FLAGS).encode(), *read])).hexdigest()[:12]
     return source.parent / "built" / f"{source.stem}-{digest}{'.dll' if os.name == 'nt' else '.so'}"
 
 

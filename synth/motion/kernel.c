@@ -15,41 +15,32 @@ was made, so that several threads may use it. All matrices are rows by columns. 
 #define EXPORTED __attribute__((visibility("default")))
 #endif
 
+#include "factor.h"
+
 enum { FINITE = 0, INFINITE = 1, NONE = 2 }; /* the centre of a loop: a point, a direction, or none */
 
 /* The equations: loops one after the other, each with its joints in loop order. A derivative stands in row-by-row
    order, the columns of a row sorted; `column` says where those of each joint of a loop stand in its rows.
-   `order` is the order of elimination of the joints, `first` and `row` the pattern of the factor column by column,
-   `start` and `left` the same row by row; `place` says where the products of two columns of a loop are added in
-   the normal matrix, whose upper triangle stands column by column, the diagonal last. */
+   `pattern` is that of the factor of the normal equations, `place` says where the products of two columns of a loop are
+   added there. */
 typedef struct {
     int64_t joints, loops, rows, derivatives;
     int64_t *begin, *value, *equation;
     int32_t *kind, *joint, *column;
     double *sign, *turning, *axis, *point, *frame;
-    int32_t *order, *rank;
-    int64_t *first, *start, *upper;
-    int32_t *row, *left, *above;
+    Pattern pattern;
     int64_t *place;
     int analysed;
 } Equations;
 
 static int equations_of(int kind) { return kind == NONE ? 6 : 3; }
 
-static void *copied(const void *from, size_t bytes)
-{
-    void *to = malloc(bytes ? bytes : 1);
-    if (to && bytes) memcpy(to, from, bytes);
-    return to;
-}
-
 EXPORTED void equations_free(Equations *e)
 {
     if (!e) return;
     free(e->begin), free(e->value), free(e->equation), free(e->kind), free(e->joint), free(e->column);
     free(e->sign), free(e->turning), free(e->axis), free(e->point), free(e->frame);
-    free(e->order), free(e->rank), free(e->first), free(e->start), free(e->upper);
-    free(e->row), free(e->left), free(e->above), free(e->place), free(e);
+    pattern_clear(&e->pattern), free(e->place), free(e);
 }
 
 /* Loops of some kinds: begin[loops + 1] says where their joints begin in the lists that follow; frames are nine
@@ -224,122 +215,6 @@ EXPORTED void sum_of_rows(const Equations *e, const double *derivatives, const d
     }
 }
 
-/* The order of elimination: of the joints that are left always one that is joined to the fewest, approximately, as
-   elimination joins them (P. R. Amestoy, T. A. Davis, I. S. Duff, An approximate minimum degree ordering algorithm,
-   SIAM J. Matrix Anal. Appl. 17, 1996). A joint has the joints beside it, and the elements, cliques that
-   eliminated joints left; both lists share the room that its neighbours took at the beginning, elements first. */
-typedef struct {
-    int64_t n, *start, *elements, *length; /* of each joint: where its list starts, how many of it are elements, all */
-    int32_t *list;                         /* elements by the joint whose elimination made them */
-    int32_t **clique, *size;               /* of each element its joints, NULL once absorbed */
-    int32_t *degree, *head, *next, *before, least;
-    int64_t *mark, tag;
-    char *gone;
-} Ordering;
-
-static void unlisted(Ordering *o, int32_t i)
-{
-    if (o->next[i] >= 0) o->before[o->next[i]] = o->before[i];
-    if (o->before[i] >= 0) o->next[o->before[i]] = o->next[i];
-    else o->head[o->degree[i]] = o->next[i];
-}
-
-static void listed(Ordering *o, int32_t i, int32_t degree)
-{
-    o->degree[i] = degree, o->before[i] = -1, o->next[i] = o->head[degree];
-    if (o->next[i] >= 0) o->before[o->next[i]] = i;
-    o->head[degree] = i;
-    if (degree < o->least) o->least = degree;
-}
-
-/* Eliminate a joint: its clique is all that it is joined to, of which each is joined to each from then on. */
-static int eliminated(Ordering *o, int32_t p, int64_t left)
-{
-    int64_t most = 0, from = o->start[p];
-    for (int64_t q = 0; q < o->length[p]; q++)
-        most += q < o->elements[p] ? o->size[o->list[from + q]] : 1;
-    int32_t *clique = malloc((most ? most : 1) * sizeof *clique), size = 0;
-    if (!clique) return 0;
-    int64_t here = ++o->tag;
-    o->mark[p] = here;
-    for (int64_t q = 0; q < o->length[p]; q++) {
-        int32_t one = o->list[from + q];
-        int32_t *members = q < o->elements[p] ? o->clique[one] : &one;
-        int32_t many = q < o->elements[p] ? o->size[one] : 1;
-        for (int32_t m = 0; m < many; m++)
-            if (o->mark[members[m]] != here && !o->gone[members[m]])
-                o->mark[members[m]] = here, clique[size++] = members[m];
-        if (q < o->elements[p]) free(o->clique[one]), o->clique[one] = NULL;
-    }
-    o->gone[p] = 1, o->clique[p] = clique, o->size[p] = size;
-    /* Of each element beside the clique, how many of its joints are outside: mark[n + element] counts down. */
-    int64_t base = o->tag;
-    for (int32_t m = 0; m < size; m++) {
-        int32_t i = clique[m];
-        for (int64_t q = 0; q < o->elements[i]; q++) {
-            int32_t one = o->list[o->start[i] + q];
-            if (!o->clique[one] || one == p) continue;
-            int64_t *outside = o->mark + o->n + one;
-            if (*outside < base) *outside = base + o->size[one];
-            (*outside)--;
-        }
-    }
-    for (int32_t m = 0; m < size; m++) {
-        int32_t i = clique[m];
-        int32_t *list = o->list + o->start[i];
-        int64_t kept = 0, degree = size - 1, elements = o->elements[i], length = o->length[i];
-        unlisted(o, i);
-        for (int64_t q = 0; q < elements; q++) {
-            int32_t one = list[q];
-            if (!o->clique[one]) continue;
-            int64_t outside = o->mark[o->n + one] - base;
-            if (outside > 0) degree += outside, list[kept++] = one; /* else it is a part of the new one */
-        }
-        int64_t joints = kept;
-        for (int64_t q = elements; q < length; q++)
-            if (o->mark[list[q]] != here && !o->gone[list[q]]) list[joints++] = list[q], degree++;
-        /* A place is free: the eliminated joint, or an element of its own, has left the list. */
-        memmove(list + kept + 1, list + kept, (joints - kept) * sizeof *list);
-        list[kept] = p;
-        o->elements[i] = kept + 1, o->length[i] = joints + 1;
-        if (degree > o->degree[i] + size - 1) degree = o->degree[i] + size - 1;
-        if (degree > left - 2) degree = left - 2;
-        listed(o, i, (int32_t)(degree < 0 ? 0 : degree));
-    }
-    o->tag = base + o->n + 1;
-    return 1;
-}
-
-static int ordered(const Equations *e, const int64_t *start, const int32_t *beside, int32_t *order)
-{
-    int64_t n = e->joints, total = start[n];
-    Ordering o = {.n = n, .least = 0};
-    o.start = copied(start, (n + 1) * sizeof *start), o.list = copied(beside, total * sizeof *beside);
-    o.elements = calloc(n + 1, sizeof *o.elements), o.length = calloc(n + 1, sizeof *o.length);
-    o.clique = calloc(n + 1, sizeof *o.clique), o.size = calloc(n + 1, sizeof *o.size);
-    o.degree = calloc(n + 1, sizeof *o.degree), o.head = malloc((n + 1) * sizeof *o.head);
-    o.next = malloc((n + 1) * sizeof *o.next), o.before = malloc((n + 1) * sizeof *o.before);
-    o.mark = calloc(2 * n + 1, sizeof *o.mark), o.gone = calloc(n + 1, 1);
-    int good = o.start && o.list && o.elements && o.length && o.clique && o.size && o.degree && o.head && o.next &&
-               o.before && o.mark && o.gone;
-    for (int64_t i = 0; good && i <= n; i++) o.head[i] = -1;
-    for (int64_t i = n - 1; good && i >= 0; i--) {
-        o.length[i] = start[i + 1] - start[i];
-        listed(&o, (int32_t)i, (int32_t)o.length[i]);
-    }
-    for (int64_t k = 0; good && k < n; k++) {
-        while (o.head[o.least] < 0) o.least++;
-        int32_t p = o.head[o.least];
-        unlisted(&o, p);
-        order[k] = p;
-        good = eliminated(&o, p, n - k);
-    }
-    for (int64_t i = 0; o.clique && i < n; i++) free(o.clique[i]);
-    free(o.start), free(o.list), free(o.elements), free(o.length), free(o.clique), free(o.size), free(o.degree);
-    free(o.head), free(o.next), free(o.before), free(o.mark), free(o.gone);
-    return good;
-}
-
 /* The joints beside each joint: those of its loops. */
 static int neighbours(const Equations *e, int64_t **starts, int32_t **lists)
 {
@@ -373,48 +248,6 @@ static int neighbours(const Equations *e, int64_t **starts, int32_t **lists)
     return good;
 }
 
-/* The pattern of the factor from the elimination tree: the parent of a joint is the first later one that its
-   elimination touches (T. A. Davis, Direct Methods for Sparse Linear Systems, 2006, chapter 4). */
-static int patterned(Equations *e)
-{
-    int64_t n = e->joints;
-    int32_t *parent = malloc((n + 1) * sizeof *parent), *seen = malloc((n + 1) * sizeof *seen);
-    int64_t *filled = calloc(n + 1, sizeof *filled);
-    e->first = calloc(n + 1, sizeof *e->first), e->start = calloc(n + 1, sizeof *e->start);
-    int good = parent && seen && filled && e->first && e->start;
-    for (int pass = 0; good && pass < 2; pass++) {
-        for (int64_t k = 0; k < n; k++) {
-            if (!pass) parent[k] = -1;
-            seen[k] = (int32_t)k;
-            for (int64_t q = e->upper[k]; q < e->upper[k + 1] - 1; q++)
-                for (int32_t i = e->above[q]; i >= 0 && seen[i] != k; i = parent[i]) {
-                    if (parent[i] < 0) parent[i] = (int32_t)k;
-                    seen[i] = (int32_t)k;
-                    if (pass) e->row[e->first[i] + filled[i]++] = (int32_t)k;
-                    else filled[i]++, e->start[k + 1]++;
-                }
-        }
-        if (pass) break;
-        for (int64_t k = 0; k < n; k++) {
-            e->first[k + 1] = e->first[k] + filled[k], e->start[k + 1] += e->start[k];
-            filled[k] = 0, seen[k] = -1;
-        }
-        int64_t many = e->first[n] ? e->first[n] : 1;
-        e->row = malloc(many * sizeof *e->row), e->left = malloc(many * sizeof *e->left);
-        good = e->row && e->left;
-    }
-    if (good) {
-        memset(filled, 0, n * sizeof *filled);
-        for (int64_t j = 0; j < n; j++)
-            for (int64_t p = e->first[j]; p < e->first[j + 1]; p++) {
-                int32_t k = e->row[p];
-                e->left[e->start[k] + filled[k]++] = (int32_t)j;
-            }
-    }
-    free(parent), free(seen), free(filled);
-    return good;
-}
-
 /* Where the products of two columns of each loop are added in the normal matrix. */
 static int placed(Equations *e)
 {
@@ -427,40 +260,9 @@ static int placed(Equations *e)
     if (!e->place) return 0;
     for (int64_t l = 0; l < e->loops; l++)
         for (int64_t m = e->begin[l]; m < e->begin[l + 1]; m++)
-            for (int64_t o = e->begin[l]; o <= m; o++) {
-                int32_t a = e->rank[e->joint[m]], b = e->rank[e->joint[o]];
-                int32_t row = a < b ? a : b, column = a < b ? b : a;
-                int64_t low = e->upper[column], high = e->upper[column + 1] - 1;
-                while (low < high) { /* the rows of a column are sorted, the diagonal is last */
-                    int64_t middle = (low + high) / 2;
-                    if (e->above[middle] < row) low = middle + 1;
-                    else high = middle;
-                }
-                e->place[at++] = low;
-            }
+            for (int64_t o = e->begin[l]; o <= m; o++)
+                e->place[at++] = place_of(&e->pattern, e->joint[m], e->joint[o]);
     return 1;
-}
-
-/* The upper triangle of the pattern of the normal matrix, in the order of elimination. */
-static void above(Equations *e, const int64_t *start, const int32_t *list)
-{
-    int64_t n = e->joints;
-    memset(e->upper, 0, (n + 2) * sizeof *e->upper);
-    for (int64_t k = 0; k < n; k++) e->rank[e->order[k]] = (int32_t)k;
-    for (int64_t i = 0; i < n; i++) {
-        e->upper[e->rank[i] + 2]++;
-        for (int64_t q = start[i]; q < start[i + 1]; q++)
-            if (e->rank[list[q]] < e->rank[i]) e->upper[e->rank[i] + 2]++;
-    }
-    for (int64_t k = 0; k < n; k++) e->upper[k + 2] += e->upper[k + 1];
-    for (int64_t k = 0; k < n; k++) {
-        int32_t i = e->order[k];
-        for (int64_t q = start[i]; q < start[i + 1]; q++) {
-            int32_t later = e->rank[list[q]];
-            if (later > k) e->above[e->upper[later + 1]++] = (int32_t)k;
-        }
-        e->above[e->upper[k + 1]++] = (int32_t)k; /* all earlier ones are there: the diagonal is the last */
-    }
 }
 
 /* Find the order of elimination and the pattern of the factor, once: 1, or 0 if there is no memory. Not for several
@@ -468,49 +270,38 @@ static void above(Equations *e, const int64_t *start, const int32_t *list)
 EXPORTED int equations_analysed(Equations *e)
 {
     if (e->analysed) return 1;
-    int64_t n = e->joints, *start = NULL;
+    int64_t *start = NULL;
     int32_t *list = NULL;
     if (!neighbours(e, &start, &list)) return 0;
-    e->order = malloc((n + 1) * sizeof *e->order), e->rank = malloc((n + 1) * sizeof *e->rank);
-    e->upper = calloc(n + 2, sizeof *e->upper);
-    e->above = malloc((start[n] / 2 + n + 1) * sizeof *e->above);
-    int good = e->order && e->rank && e->upper && e->above && ordered(e, start, list, e->order);
-    if (good) {
-        above(e, start, list);
-        good = patterned(e) && placed(e);
-    }
+    e->analysed = pattern_found(&e->pattern, e->joints, start, list) && placed(e);
     free(start), free(list);
-    e->analysed = good;
-    return good;
+    return e->analysed;
 }
 
 /* The factor L D L' of the normal equations J' J + added. */
 typedef struct {
-    double added;
-    double *lower, *diagonal, *upper;
+    double added, *values;
 } Factor;
 
 EXPORTED void factor_free(Factor *f)
 {
-    if (f) free(f->lower), free(f->diagonal), free(f->upper), free(f);
+    if (f) free(f->values), free(f);
 }
 
 EXPORTED Factor *factor_new(const Equations *e)
 {
     Factor *f = calloc(1, sizeof *f);
     if (!f) return NULL;
-    f->lower = malloc((e->first[e->joints] + 1) * sizeof *f->lower);
-    f->diagonal = malloc((e->joints + 1) * sizeof *f->diagonal);
-    f->upper = malloc((e->upper[e->joints] + 1) * sizeof *f->upper);
-    if (f->lower && f->diagonal && f->upper) return f;
+    f->values = malloc((e->pattern.panel[e->pattern.blocks] + 1) * sizeof *f->values);
+    if (f->values) return f;
     factor_free(f);
     return NULL;
 }
 
 /* Add up the normal matrix, row by row of each loop. */
-static void normal(const Equations *e, const double *derivatives, double *upper)
+static void normal(const Equations *e, const double *derivatives, double *values)
 {
-    memset(upper, 0, e->upper[e->joints] * sizeof *upper);
+    memset(values, 0, e->pattern.panel[e->pattern.blocks] * sizeof *values);
     const int64_t *place = e->place;
     for (int64_t l = 0; l < e->loops; l++) {
         int64_t from = e->begin[l], k = e->begin[l + 1] - from, rows = e->equation[l + 1] - e->equation[l];
@@ -520,69 +311,44 @@ static void normal(const Equations *e, const double *derivatives, double *upper)
                 const double *a = block + e->column[from + m], *b = block + e->column[from + o];
                 double sum = 0.0;
                 for (int64_t r = 0; r < rows; r++) sum += a[r * k] * b[r * k];
-                upper[*place++] += sum;
+                values[*place++] += sum;
             }
     }
 }
 
-/* Factorise J' J with `regular` times its largest diagonal entry, at least that of 1, added: 1, or 0 without memory.
-   Row by row: each entry takes off what the columns to the left have of it. */
+/* Factorise J' J with `regular` times its largest diagonal entry, at least that of 1, added: 1, or 0 without memory. */
 EXPORTED int factorised(const Equations *e, Factor *f, const double *derivatives, double regular)
 {
-    int64_t n = e->joints;
-    double largest = 1.0, *work = calloc(n + 1, sizeof *work);
-    int64_t *filled = malloc((n + 1) * sizeof *filled);
-    if (!work || !filled) {
-        free(work), free(filled);
-        return 0;
-    }
-    normal(e, derivatives, f->upper);
-    for (int64_t k = 0; k < n; k++) {
-        double diagonal = f->upper[e->upper[k + 1] - 1];
-        if (diagonal > largest) largest = diagonal;
-        filled[k] = e->first[k];
+    const Pattern *p = &e->pattern;
+    double largest = 1.0;
+    normal(e, derivatives, f->values);
+    for (int64_t b = 0; b < p->blocks; b++) {
+        int64_t rows = p->at[b + 1] - p->at[b], columns = p->first[b + 1] - p->first[b];
+        for (int64_t c = 0; c < columns; c++) {
+            double diagonal = f->values[p->panel[b] + c * (rows + 1)];
+            if (diagonal > largest) largest = diagonal;
+        }
     }
     f->added = regular * largest;
-    for (int64_t k = 0; k < n; k++) {
-        for (int64_t q = e->upper[k]; q < e->upper[k + 1] - 1; q++) work[e->above[q]] = f->upper[q];
-        double diagonal = f->upper[e->upper[k + 1] - 1] + f->added;
-        for (int64_t q = e->start[k]; q < e->start[k + 1]; q++) {
-            int32_t j = e->left[q];
-            double value = work[j], share = value / f->diagonal[j];
-            int64_t end = filled[j];
-            work[j] = 0.0;
-            for (int64_t p = e->first[j]; p < end; p++) work[e->row[p]] -= f->lower[p] * value;
-            diagonal -= share * value;
-            f->lower[end] = share;
-            filled[j] = end + 1;
-        }
-        f->diagonal[k] = diagonal;
+    for (int64_t b = 0; b < p->blocks; b++) {
+        int64_t rows = p->at[b + 1] - p->at[b], columns = p->first[b + 1] - p->first[b];
+        for (int64_t c = 0; c < columns; c++) f->values[p->panel[b] + c * (rows + 1)] += f->added;
     }
-    free(work), free(filled);
-    return 1;
+    return pattern_factorised(p, f->values);
 }
 
-/* Solve (J' J + added) x = b; work has room for as many numbers. */
+/* Solve (J' J + added) x = b; work has room for twice as many numbers. */
 static void solved(const Equations *e, const Factor *f, const double *b, double *x, double *work)
 {
-    int64_t n = e->joints;
-    for (int64_t k = 0; k < n; k++) work[k] = b[e->order[k]];
-    for (int64_t j = 0; j < n; j++) {
-        double value = work[j];
-        if (value == 0.0) continue;
-        for (int64_t p = e->first[j]; p < e->first[j + 1]; p++) work[e->row[p]] -= f->lower[p] * value;
-    }
-    for (int64_t j = n - 1; j >= 0; j--) {
-        double value = work[j] / f->diagonal[j];
-        for (int64_t p = e->first[j]; p < e->first[j + 1]; p++) value -= f->lower[p] * work[e->row[p]];
-        work[j] = value;
-    }
-    for (int64_t k = 0; k < n; k++) x[e->order[k]] = work[k];
+    const Pattern *p = &e->pattern;
+    for (int64_t k = 0; k < p->n; k++) work[k] = b[p->order[k]];
+    pattern_solved(p, f->values, work, work + p->n);
+    for (int64_t k = 0; k < p->n; k++) x[p->order[k]] = work[k];
 }
 
 EXPORTED int factor_solved(const Equations *e, const Factor *f, const double *b, double *x)
 {
-    double *work = malloc((e->joints + 1) * sizeof *work);
+    double *work = malloc((2 * e->joints + 1) * sizeof *work);
     if (!work) return 0;
     solved(e, f, b, x, work);
     free(work);
@@ -591,11 +357,11 @@ EXPORTED int factor_solved(const Equations *e, const Factor *f, const double *b,
 
 /* The least rates at which loops part by off[rows], as a sum of rows of J: x = J' (off - J r) / added with the
    solution r, since r itself has rounding along the freedoms that was divided by `added`. `work` has room for
-   2 joints and rows. */
+   3 joints and rows. */
 static void least(const Equations *e, const Factor *f, const double *derivatives, const double *off, double *x,
                   double *work)
 {
-    double *rates = work + e->joints, *parted = rates + e->joints;
+    double *rates = work + 2 * e->joints, *parted = rates + e->joints;
     sum_of_rows(e, derivatives, off, x);
     solved(e, f, x, rates, work);
     image_of(e, derivatives, rates, parted);
@@ -605,7 +371,7 @@ static void least(const Equations *e, const Factor *f, const double *derivatives
 
 EXPORTED int factor_least(const Equations *e, const Factor *f, const double *derivatives, const double *off, double *x)
 {
-    double *work = malloc((2 * e->joints + e->rows + 1) * sizeof *work);
+    double *work = malloc((3 * e->joints + e->rows + 1) * sizeof *work);
     if (!work) return 0;
     least(e, f, derivatives, off, x, work);
     free(work);
@@ -617,9 +383,9 @@ EXPORTED int factor_least_exactly(const Equations *e, const Factor *f, const dou
                                   double *x)
 {
     int64_t n = e->joints;
-    double *work = malloc((3 * n + 2 * e->rows + 1) * sizeof *work);
+    double *work = malloc((4 * n + 2 * e->rows + 1) * sizeof *work);
     if (!work) return 0;
-    double *more = work + 2 * n + e->rows, *parted = more + n, *rates = work + n;
+    double *more = work + 3 * n + e->rows, *parted = more + n, *rates = work + 2 * n;
     least(e, f, derivatives, off, x, work);
     for (int64_t i = 0; i < n; i++) rates[i] -= x[i];
     image_of(e, derivatives, rates, parted);
@@ -635,9 +401,9 @@ EXPORTED int factor_projected(const Equations *e, const Factor *f, const double 
                               double *x)
 {
     int64_t n = e->joints;
-    double *work = malloc((3 * n + 2 * e->rows + 1) * sizeof *work);
+    double *work = malloc((4 * n + 2 * e->rows + 1) * sizeof *work);
     if (!work) return 0;
-    double *across = work + 2 * n + e->rows, *parted = across + n;
+    double *across = work + 3 * n + e->rows, *parted = across + n;
     memcpy(x, rates, n * sizeof *x);
     for (int round = 0; round < 2; round++) {
         image_of(e, derivatives, x, parted);

@@ -106,6 +106,20 @@ def test_any_pattern_is_factorised(seed, monkeypatch):
 
 
 @needs_library
+@pytest.mark.parametrize(("rows", "columns"), [(2, 30), (12, 12), (24, 20)])
+def test_blocks_of_a_sheet_are_factorised(rows, columns, monkeypatch):
+    """Sheets have factors with wide blocks of columns; each solves its normal equations, also where few entries are."""
+    linkage = configuration_of_sheet(generate("miura", rows=rows, columns=columns, fold=0.7).mechanism).linkage
+    fast, slow = two_ways(linkage, monkeypatch)
+    rng = np.random.default_rng(rows)
+    entries = fast.evaluated(linkage.angles + 0.1 * rng.normal(size=fast.joints))[1]
+    matrix, right = slow.matrix(entries), rng.normal(size=fast.joints)
+    normal = matrix.T @ matrix
+    normal += 0.1 * max(normal.diagonal().max(), 1.0) * scipy.sparse.identity(fast.joints)
+    np.testing.assert_allclose(normal @ KernelFactor(fast._kernel, entries, 0.1).solved(right), right, atol=1e-13)
+
+
+@needs_library
 @pytest.mark.parametrize("rows", [3, 7])
 def test_motions_are_those_of_numpy(rows, monkeypatch):
     linkage = configuration_of_sheet(generate("miura", rows=rows, columns=rows, fold=0.7).mechanism).linkage
@@ -149,6 +163,9 @@ def test_a_library_is_of_its_source(tmp_path):
     assert not place_of(source).exists()
     assert build(source) == ""
     assert not first.exists()
+    first = place_of(source)
+    (tmp_path / "part.h").write_text("int part(void);\n")
+    assert place_of(source) != first
     source.write_text("this is no C\n")
     assert "failed: " in build(source)
     assert library(SOURCE) is kernel()

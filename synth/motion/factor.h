@@ -1,0 +1,471 @@
+/* The factor L D L' of a sparse positive definite matrix whose pattern stays the same: order of elimination, blocks of
+   columns with the same rows below them, and the work on these as on full matrices.
+
+   Columns one after the other whose entries stand in the same rows are one block (a supernode), stored as a full matrix
+   column by column: the diagonal part first, then the rows below. Blocks with few entries are joined though some zeros
+   are stored then. Each block takes off what the blocks to its left have of it, four columns by four rows at once
+   (E. G. Ng, B. W. Peyton, Block sparse Cholesky algorithms on advanced uniprocessor computers, SIAM J. Sci. Comput. 14,
+   1993; T. A. Davis, Direct Methods for Sparse Linear Systems, 2006). Part of kernel.c. */
+
+static void *copied(const void *from, size_t bytes)
+{
+    void *to = malloc(bytes ? bytes : 1);
+    if (to && bytes) memcpy(to, from, bytes);
+    return to;
+}
+
+/* The order of elimination: of the joints that are left always one that is joined to the fewest, approximately, as
+   elimination joins them (P. R. Amestoy, T. A. Davis, I. S. Duff, An approximate minimum degree ordering algorithm,
+   SIAM J. Matrix Anal. Appl. 17, 1996). A joint has the joints beside it, and the elements, cliques that
+   eliminated joints left; both lists share the room that its neighbours took at the beginning, elements first. */
+typedef struct {
+    int64_t n, *start, *elements, *length; /* of each joint: where its list starts, how many of it are elements, all */
+    int32_t *list;                         /* elements by the joint whose elimination made them */
+    int32_t **clique, *size;               /* of each element its joints, NULL once absorbed */
+    int32_t *degree, *head, *next, *before, least;
+    int64_t *mark, tag;
+    char *gone;
+} Ordering;
+
+static void unlisted(Ordering *o, int32_t i)
+{
+    if (o->next[i] >= 0) o->before[o->next[i]] = o->before[i];
+    if (o->before[i] >= 0) o->next[o->before[i]] = o->next[i];
+    else o->head[o->degree[i]] = o->next[i];
+}
+
+static void listed(Ordering *o, int32_t i, int32_t degree)
+{
+    o->degree[i] = degree, o->before[i] = -1, o->next[i] = o->head[degree];
+    if (o->next[i] >= 0) o->before[o->next[i]] = i;
+    o->head[degree] = i;
+    if (degree < o->least) o->least = degree;
+}
+
+/* Eliminate a joint: its clique is all that it is joined to, of which each is joined to each from then on. */
+static int eliminated(Ordering *o, int32_t p, int64_t left)
+{
+    int64_t most = 0, from = o->start[p];
+    for (int64_t q = 0; q < o->length[p]; q++)
+        most += q < o->elements[p] ? o->size[o->list[from + q]] : 1;
+    int32_t *clique = malloc((most ? most : 1) * sizeof *clique), size = 0;
+    if (!clique) return 0;
+    int64_t here = ++o->tag;
+    o->mark[p] = here;
+    for (int64_t q = 0; q < o->length[p]; q++) {
+        int32_t one = o->list[from + q];
+        int32_t *members = q < o->elements[p] ? o->clique[one] : &one;
+        int32_t many = q < o->elements[p] ? o->size[one] : 1;
+        for (int32_t m = 0; m < many; m++)
+            if (o->mark[members[m]] != here && !o->gone[members[m]])
+                o->mark[members[m]] = here, clique[size++] = members[m];
+        if (q < o->elements[p]) free(o->clique[one]), o->clique[one] = NULL;
+    }
+    o->gone[p] = 1, o->clique[p] = clique, o->size[p] = size;
+    /* Of each element beside the clique, how many of its joints are outside: mark[n + element] counts down. */
+    int64_t base = o->tag;
+    for (int32_t m = 0; m < size; m++) {
+        int32_t i = clique[m];
+        for (int64_t q = 0; q < o->elements[i]; q++) {
+            int32_t one = o->list[o->start[i] + q];
+            if (!o->clique[one] || one == p) continue;
+            int64_t *outside = o->mark + o->n + one;
+            if (*outside < base) *outside = base + o->size[one];
+            (*outside)--;
+        }
+    }
+    for (int32_t m = 0; m < size; m++) {
+        int32_t i = clique[m];
+        int32_t *list = o->list + o->start[i];
+        int64_t kept = 0, degree = size - 1, elements = o->elements[i], length = o->length[i];
+        unlisted(o, i);
+        for (int64_t q = 0; q < elements; q++) {
+            int32_t one = list[q];
+            if (!o->clique[one]) continue;
+            int64_t outside = o->mark[o->n + one] - base;
+            if (outside > 0) degree += outside, list[kept++] = one; /* else it is a part of the new one */
+        }
+        int64_t joints = kept;
+        for (int64_t q = elements; q < length; q++)
+            if (o->mark[list[q]] != here && !o->gone[list[q]]) list[joints++] = list[q], degree++;
+        /* A place is free: the eliminated joint, or an element of its own, has left the list. */
+        memmove(list + kept + 1, list + kept, (joints - kept) * sizeof *list);
+        list[kept] = p;
+        o->elements[i] = kept + 1, o->length[i] = joints + 1;
+        if (degree > o->degree[i] + size - 1) degree = o->degree[i] + size - 1;
+        if (degree > left - 2) degree = left - 2;
+        listed(o, i, (int32_t)(degree < 0 ? 0 : degree));
+    }
+    o->tag = base + o->n + 1;
+    return 1;
+}
+
+static int ordered(int64_t n, const int64_t *start, const int32_t *beside, int32_t *order)
+{
+    int64_t total = start[n];
+    Ordering o = {.n = n, .least = 0};
+    o.start = copied(start, (n + 1) * sizeof *start), o.list = copied(beside, total * sizeof *beside);
+    o.elements = calloc(n + 1, sizeof *o.elements), o.length = calloc(n + 1, sizeof *o.length);
+    o.clique = calloc(n + 1, sizeof *o.clique), o.size = calloc(n + 1, sizeof *o.size);
+    o.degree = calloc(n + 1, sizeof *o.degree), o.head = malloc((n + 1) * sizeof *o.head);
+    o.next = malloc((n + 1) * sizeof *o.next), o.before = malloc((n + 1) * sizeof *o.before);
+    o.mark = calloc(2 * n + 1, sizeof *o.mark), o.gone = calloc(n + 1, 1);
+    int good = o.start && o.list && o.elements && o.length && o.clique && o.size && o.degree && o.head && o.next &&
+               o.before && o.mark && o.gone;
+    for (int64_t i = 0; good && i <= n; i++) o.head[i] = -1;
+    for (int64_t i = n - 1; good && i >= 0; i--) {
+        o.length[i] = start[i + 1] - start[i];
+        listed(&o, (int32_t)i, (int32_t)o.length[i]);
+    }
+    for (int64_t k = 0; good && k < n; k++) {
+        while (o.head[o.least] < 0) o.least++;
+        int32_t p = o.head[o.least];
+        unlisted(&o, p);
+        order[k] = p;
+        good = eliminated(&o, p, n - k);
+    }
+    for (int64_t i = 0; o.clique && i < n; i++) free(o.clique[i]);
+    free(o.start), free(o.list), free(o.elements), free(o.length), free(o.clique), free(o.size), free(o.degree);
+    free(o.head), free(o.next), free(o.before), free(o.mark), free(o.gone);
+    return good;
+}
+
+/* The pattern: `order` of elimination and its inverse `rank`; columns first[b] to first[b + 1] are block b, its rows
+   row[at[b]] to row[at[b + 1]], sorted, its own columns first; its entries begin at panel[b]. */
+typedef struct {
+    int64_t n, blocks, most; /* most: rows of the longest block */
+    int32_t *order, *rank, *first, *row, *block;
+    int64_t *at, *panel;
+} Pattern;
+
+static void pattern_clear(Pattern *p)
+{
+    free(p->order), free(p->rank), free(p->first), free(p->row), free(p->block), free(p->at), free(p->panel);
+    memset(p, 0, sizeof *p);
+}
+
+/* The elimination tree: the parent of a column is the first later one that its elimination touches. */
+static int rooted(const Pattern *p, const int64_t *start, const int32_t *beside, int32_t *parent)
+{
+    int32_t *root = malloc((p->n + 1) * sizeof *root);
+    if (!root) return 0;
+    for (int32_t k = 0; k < p->n; k++) {
+        parent[k] = -1, root[k] = -1;
+        for (int64_t q = start[p->order[k]]; q < start[p->order[k] + 1]; q++)
+            for (int32_t i = p->rank[beside[q]], next; i >= 0 && i < k; i = next) {
+                next = root[i], root[i] = k;
+                if (next < 0) parent[i] = k;
+            }
+    }
+    free(root);
+    return 1;
+}
+
+/* Go through the tree with each column right after those below it: columns of a block are then one after the other. */
+static int postordered(Pattern *p, int32_t *parent)
+{
+    int64_t n = p->n;
+    int32_t *child = malloc((n + 1) * sizeof *child), *sibling = malloc((n + 1) * sizeof *sibling);
+    int32_t *stack = malloc((n + 1) * sizeof *stack), *to = malloc((n + 1) * sizeof *to);
+    int32_t *order = malloc((n + 1) * sizeof *order), many = 0;
+    int good = child && sibling && stack && to && order;
+    for (int64_t k = 0; good && k < n; k++) child[k] = -1;
+    for (int64_t k = n - 1; good && k >= 0; k--)
+        if (parent[k] >= 0) sibling[k] = child[parent[k]], child[parent[k]] = (int32_t)k;
+    for (int32_t k = 0; good && k < n; k++) {
+        int64_t top = 0;
+        if (parent[k] >= 0) continue;
+        for (stack[top++] = k; top;) {
+            int32_t i = stack[top - 1];
+            if (child[i] >= 0) {
+                stack[top++] = child[i];
+                child[i] = sibling[child[i]];
+            } else {
+                to[i] = many, order[many++] = p->order[i], top--;
+            }
+        }
+    }
+    for (int64_t k = 0; good && k < n; k++) stack[to[k]] = parent[k] < 0 ? -1 : to[parent[k]];
+    for (int64_t k = 0; good && k < n; k++) p->rank[order[k]] = (int32_t)k, p->order[k] = order[k], parent[k] = stack[k];
+    free(child), free(sibling), free(stack), free(to), free(order);
+    return good;
+}
+
+/* How many entries each column has, its diagonal too: a row has one wherever the tree leads to it from its own. */
+static int counted(const Pattern *p, const int64_t *start, const int32_t *beside, const int32_t *parent, int32_t *count)
+{
+    int32_t *seen = malloc((p->n + 1) * sizeof *seen);
+    if (!seen) return 0;
+    for (int32_t k = 0; k < p->n; k++) {
+        seen[k] = k, count[k] = 1;
+        for (int64_t q = start[p->order[k]]; q < start[p->order[k] + 1]; q++)
+            for (int32_t i = p->rank[beside[q]]; i < k && seen[i] != k; i = parent[i]) seen[i] = k, count[i]++;
+    }
+    free(seen);
+    return 1;
+}
+
+/* Whether two blocks are joined, of `columns` in all and `rows`, of which `zeros` entries would be zero. */
+static int joined(double columns, double rows, double zeros)
+{
+    double part = zeros / (columns * (columns + 1.0) / 2.0 + columns * (rows - columns));
+    return part < 0.05 || (columns <= 4 && part < 0.5) || (columns <= 16 && part < 0.25) ||
+           (columns <= 48 && part < 0.1);
+}
+
+/* Put columns together: those with the same rows below them, then blocks that are joined to the one before. */
+static int blocked(Pattern *p, const int32_t *parent, const int32_t *count)
+{
+    int64_t n = p->n;
+    int32_t *begin = malloc((n + 2) * sizeof *begin), *of = malloc((n + 1) * sizeof *of), many = 0;
+    int32_t *columns = malloc((n + 1) * sizeof *columns), *rows = malloc((n + 1) * sizeof *rows);
+    int32_t *into = malloc((n + 1) * sizeof *into);
+    double *zeros = calloc(n + 1, sizeof *zeros);
+    int good = begin && of && columns && rows && into && zeros;
+    for (int32_t k = 0; good && k < n; k++) {
+        if (!k || parent[k - 1] != k || count[k - 1] != count[k] + 1) begin[many++] = k;
+        of[k] = many - 1;
+    }
+    if (good) begin[many] = (int32_t)n;
+    for (int32_t b = many - 1; good && b >= 0; b--) {
+        columns[b] = begin[b + 1] - begin[b], rows[b] = count[begin[b]], into[b] = b;
+        int32_t above = parent[begin[b + 1] - 1];
+        if (above < 0) continue;
+        for (above = of[above]; into[above] != above;) above = into[above];
+        if (above != b + 1) continue;
+        double more = (double)columns[b] * (columns[b] + rows[above] - rows[b]);
+        if (!joined(columns[b] + columns[above], columns[b] + rows[above], zeros[b] + zeros[above] + more)) continue;
+        zeros[b] += zeros[above] + more, rows[b] = columns[b] + rows[above];
+        columns[b] += columns[above], into[above] = b;
+    }
+    p->first = malloc((many + 1) * sizeof *p->first), p->at = calloc(many + 1, sizeof *p->at);
+    p->panel = calloc(many + 1, sizeof *p->panel), p->block = malloc((n + 1) * sizeof *p->block);
+    good = good && p->first && p->at && p->panel && p->block;
+    for (int32_t b = 0; good && b < many; b++) {
+        if (into[b] != b) continue;
+        int64_t at = p->blocks++;
+        p->first[at] = begin[b], p->first[at + 1] = begin[b] + columns[b];
+        p->at[at + 1] = p->at[at] + rows[b], p->panel[at + 1] = p->panel[at] + (int64_t)rows[b] * columns[b];
+        if (rows[b] > p->most) p->most = rows[b];
+        for (int32_t k = 0; k < columns[b]; k++) p->block[begin[b] + k] = (int32_t)at;
+    }
+    free(begin), free(of), free(columns), free(rows), free(into), free(zeros);
+    return good;
+}
+
+static int ascending(const void *one, const void *other)
+{
+    int32_t a = *(const int32_t *)one, b = *(const int32_t *)other;
+    return (a > b) - (a < b);
+}
+
+/* The rows of each block: its columns, those of its part of the matrix, and those of the blocks below it in the tree. */
+static int filled_in(Pattern *p, const int64_t *start, const int32_t *beside)
+{
+    int64_t blocks = p->blocks;
+    int32_t *child = malloc((blocks + 1) * sizeof *child), *sibling = malloc((blocks + 1) * sizeof *sibling);
+    int32_t *seen = malloc((p->n + 1) * sizeof *seen);
+    p->row = malloc((p->at[blocks] + 1) * sizeof *p->row);
+    int good = child && sibling && seen && p->row;
+    for (int64_t b = 0; good && b < blocks; b++) child[b] = -1;
+    for (int64_t k = 0; good && k < p->n; k++) seen[k] = -1;
+    for (int32_t b = 0; good && b < blocks; b++) {
+        int32_t *row = p->row + p->at[b], last = p->first[b + 1], many = 0;
+        for (int32_t k = p->first[b]; k < last; k++) row[many++] = k;
+        for (int32_t k = p->first[b]; k < last; k++)
+            for (int64_t q = start[p->order[k]]; q < start[p->order[k] + 1]; q++) {
+                int32_t i = p->rank[beside[q]];
+                if (i >= last && seen[i] != b) seen[i] = b, row[many++] = i;
+            }
+        for (int32_t c = child[b]; c >= 0; c = sibling[c])
+            for (int64_t q = p->at[c] + p->first[c + 1] - p->first[c]; q < p->at[c + 1]; q++) {
+                int32_t i = p->row[q];
+                if (i >= last && seen[i] != b) seen[i] = b, row[many++] = i;
+            }
+        int32_t own = last - p->first[b];
+        qsort(row + own, many - own, sizeof *row, ascending);
+        if (many > own) {
+            int32_t above = p->block[row[own]];
+            sibling[b] = child[above], child[above] = b;
+        }
+    }
+    free(child), free(sibling), free(seen);
+    return good;
+}
+
+/* The pattern of a matrix of n unknowns by the neighbours of each, beside[start[i]] to beside[start[i + 1]]: 1, or 0
+   if there is no memory. */
+static int pattern_found(Pattern *p, int64_t n, const int64_t *start, const int32_t *beside)
+{
+    memset(p, 0, sizeof *p);
+    p->n = n;
+    p->order = malloc((n + 1) * sizeof *p->order), p->rank = malloc((n + 1) * sizeof *p->rank);
+    int32_t *parent = malloc((n + 1) * sizeof *parent), *count = malloc((n + 1) * sizeof *count);
+    int good = p->order && p->rank && parent && count && ordered(n, start, beside, p->order);
+    for (int64_t k = 0; good && k < n; k++) p->rank[p->order[k]] = (int32_t)k;
+    good = good && rooted(p, start, beside, parent) && postordered(p, parent);
+    good = good && counted(p, start, beside, parent, count) && blocked(p, parent, count) && filled_in(p, start, beside);
+    free(parent), free(count);
+    if (!good) pattern_clear(p);
+    return good;
+}
+
+/* Where the entry of two unknowns stands. */
+static int64_t place_of(const Pattern *p, int32_t one, int32_t other)
+{
+    int32_t a = p->rank[one], b = p->rank[other], column = a < b ? a : b, row = a < b ? b : a, block = p->block[column];
+    int64_t from = p->at[block], rows = p->at[block + 1] - from, low = 0, high = rows - 1;
+    while (low < high) {
+        int64_t middle = (low + high) / 2;
+        if (p->row[from + middle] < row) low = middle + 1;
+        else high = middle;
+    }
+    return p->panel[block] + (column - p->first[block]) * rows + low;
+}
+
+enum { TILE = 4 };
+
+/* Take off from `target`, at rows `to` of its columns, the products of rows of a panel, `ld` apart, of w columns with
+   diagonal `d` (d[q * step]): of all m rows with the first k. Entries above the diagonal are written and never read. */
+static void taken_off(const double *panel, int64_t ld, int64_t w, const double *d, int64_t step, int64_t m, int64_t k,
+                      double *target, int64_t target_ld, const int32_t *to, const int32_t *column, double *scaled)
+{
+    if (w == 1) { /* too little for tiles */
+        for (int64_t j = 0; j < k; j++) {
+            double *out = target + column[j] * target_ld, share = panel[j] * *d;
+            for (int64_t i = j; i < m; i++) out[to[i]] -= panel[i] * share;
+        }
+        return;
+    }
+    for (int64_t j = 0; j < k; j += TILE) {
+        int64_t across = k - j < TILE ? k - j : TILE, i = j;
+        for (int64_t q = 0; q < w; q++)
+            for (int64_t c = 0; c < TILE; c++)
+                scaled[q * TILE + c] = c < across ? panel[q * ld + j + c] * d[q * step] : 0.0;
+        for (; i + TILE <= m; i += TILE) {
+            double sum[TILE][TILE] = {{0.0}};
+            const double *at = panel + i, *by = scaled;
+            for (int64_t q = 0; q < w; q++, at += ld, by += TILE)
+                for (int c = 0; c < TILE; c++)
+                    for (int r = 0; r < TILE; r++) sum[c][r] += at[r] * by[c];
+            for (int64_t c = 0; c < across; c++) {
+                double *out = target + column[j + c] * target_ld;
+                for (int r = 0; r < TILE; r++) out[to[i + r]] -= sum[c][r];
+            }
+        }
+        for (; i < m; i++) {
+            double sum[TILE] = {0.0};
+            for (int64_t q = 0; q < w; q++)
+                for (int c = 0; c < TILE; c++) sum[c] += panel[q * ld + i] * scaled[q * TILE + c];
+            for (int64_t c = 0; c < across; c++) target[column[j + c] * target_ld + to[i]] -= sum[c];
+        }
+    }
+}
+
+/* Factorise a full panel of `rows`, the first `columns` of which are square: its diagonal holds D, below it is L. */
+static void panel_factorised(double *panel, int64_t rows, int64_t columns, const int32_t *each, double *scaled)
+{
+    for (int64_t j = 0; j < columns; j += TILE) {
+        int64_t end = j + TILE < columns ? j + TILE : columns;
+        if (j) taken_off(panel + j, rows, j, panel, rows + 1, rows - j, end - j, panel + j * rows + j, rows, each, each,
+                         scaled);
+        for (int64_t c = j; c < end; c++) {
+            double *own = panel + c * rows;
+            for (int64_t q = j; q < c; q++) {
+                const double *left = panel + q * rows;
+                double share = left[c] * left[q];
+                for (int64_t r = c; r < rows; r++) own[r] -= left[r] * share;
+            }
+            double inverse = 1.0 / own[c];
+            for (int64_t r = c + 1; r < rows; r++) own[r] *= inverse;
+        }
+    }
+}
+
+/* Room for the work: numbers, then places. */
+static int64_t pattern_room(const Pattern *p) { return TILE * (p->most + 1); }
+
+/* Factorise a matrix in place, its entries where place_of says: 1, or 0 without memory. */
+static int pattern_factorised(const Pattern *p, double *values)
+{
+    int64_t n = p->n, blocks = p->blocks;
+    double *scaled = malloc(pattern_room(p) * sizeof *scaled);
+    int32_t *map = malloc((n + 1) * sizeof *map), *to = malloc((p->most + 1) * sizeof *to);
+    int32_t *each = malloc((p->most + 1) * sizeof *each), *head = malloc((blocks + 1) * sizeof *head);
+    int32_t *next = malloc((blocks + 1) * sizeof *next), *done = malloc((blocks + 1) * sizeof *done);
+    int good = scaled && map && to && each && head && next && done;
+    for (int64_t b = 0; good && b < blocks; b++) head[b] = -1;
+    for (int64_t r = 0; good && r < p->most; r++) each[r] = (int32_t)r;
+    for (int32_t b = 0; good && b < blocks; b++) {
+        const int32_t *row = p->row + p->at[b];
+        int64_t rows = p->at[b + 1] - p->at[b], columns = p->first[b + 1] - p->first[b];
+        double *panel = values + p->panel[b];
+        if (head[b] >= 0)
+            for (int64_t r = 0; r < rows; r++) map[row[r]] = (int32_t)r;
+        for (int32_t c = head[b], after; c >= 0; c = after) { /* blocks to the left with rows among these columns */
+            const int32_t *other = p->row + p->at[c];
+            int64_t from = done[c], whole = p->at[c + 1] - p->at[c], end = from, width = p->first[c + 1] - p->first[c];
+            after = next[c];
+            while (end < whole && other[end] < p->first[b + 1]) end++;
+            for (int64_t r = from; r < whole; r++) to[r - from] = map[other[r]];
+            const double *left = values + p->panel[c];
+            taken_off(left + from, whole, width, left, whole + 1, whole - from, end - from, panel, rows, to, to, scaled);
+            if (end < whole) {
+                int32_t onwards = p->block[other[end]];
+                done[c] = (int32_t)end, next[c] = head[onwards], head[onwards] = c;
+            }
+        }
+        panel_factorised(panel, rows, columns, each, scaled);
+        if (columns < rows) {
+            int32_t onwards = p->block[row[columns]];
+            done[b] = (int32_t)columns, next[b] = head[onwards], head[onwards] = b;
+        }
+    }
+    free(scaled), free(map), free(to), free(each), free(head), free(next), free(done);
+    return good;
+}
+
+/* Solve with the factor, x in the order of elimination, in place; `below` has room for the rows of a block. */
+static void pattern_solved(const Pattern *p, const double *values, double *x, double *below)
+{
+    for (int64_t b = 0; b < p->blocks; b++) {
+        int64_t rows = p->at[b + 1] - p->at[b], columns = p->first[b + 1] - p->first[b];
+        const double *panel = values + p->panel[b];
+        const int32_t *row = p->row + p->at[b];
+        double *own = x + p->first[b];
+        if (columns == 1) {
+            for (int64_t r = 1; r < rows; r++) x[row[r]] -= panel[r] * own[0];
+            continue;
+        }
+        for (int64_t r = 0; r < rows; r++) below[r] = r < columns ? own[r] : 0.0;
+        for (int64_t c = 0; c < columns; c++, panel += rows) {
+            double value = below[c];
+            for (int64_t r = c + 1; r < rows; r++) below[r] -= panel[r] * value;
+        }
+        for (int64_t r = 0; r < columns; r++) own[r] = below[r];
+        for (int64_t r = columns; r < rows; r++) x[row[r]] += below[r];
+    }
+    for (int64_t b = p->blocks - 1; b >= 0; b--) {
+        int64_t rows = p->at[b + 1] - p->at[b], columns = p->first[b + 1] - p->first[b];
+        const double *panel = values + p->panel[b] + columns * rows;
+        const int32_t *row = p->row + p->at[b];
+        double *own = x + p->first[b];
+        if (columns == 1) {
+            double value = own[0] / panel[-rows];
+            for (int64_t r = 1; r < rows; r++) value -= panel[r - rows] * x[row[r]];
+            own[0] = value;
+            continue;
+        }
+        for (int64_t r = 0; r < columns; r++) below[r] = own[r];
+        for (int64_t r = columns; r < rows; r++) below[r] = x[row[r]];
+        for (int64_t c = columns - 1; c >= 0; c--) {
+            panel -= rows;
+            double sums[TILE] = {0.0}, value = below[c] / panel[c];
+            int64_t r = c + 1;
+            for (; r + TILE <= rows; r += TILE)
+                for (int t = 0; t < TILE; t++) sums[t] += panel[r + t] * below[r + t];
+            for (; r < rows; r++) value -= panel[r] * below[r];
+            own[c] = below[c] = value - ((sums[0] + sums[1]) + (sums[2] + sums[3]));
+        }
+    }
+}
