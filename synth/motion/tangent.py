@@ -22,6 +22,10 @@ REGULAR = 1e-9
 along freedoms is multiplied by its inverse."""
 _DENSE = 40
 """Matrices of up to this many joints are full; larger full ones would wait for threads of BLAS."""
+_MANY = 30_000
+"""Linkages of more joints have singular values near the root of what is added: rates are freed of these vectors too."""
+_LEFT, _ROUNDS = 1e-11, 60
+"""By so much of the largest rate loops may part at rates that are free of them, found in at most so many rounds."""
 FREE = 0.5
 """Part of a vector across the freedoms that is left, at most, where it has become one of them after a step."""
 _SWEEPS = 24
@@ -103,7 +107,7 @@ class TangentSpace:
         sparse = scipy.sparse.issparse(derivatives)
         self._factor: Factor = SparseFactor(derivatives, regular) if sparse else derivatives
         self._moves: dict[int, Floats] = {}
-        self.image, self.projected = self._factor.image, self._factor.projected
+        self.image = self._factor.image
 
     def step(self, residual: Floats, held: Sequence[int] = ()) -> Floats:
         """Return the least change of angles that takes a residual away; held joints stay if they can."""
@@ -117,6 +121,11 @@ class TangentSpace:
         places = list(held)
         shares = np.linalg.lstsq(moves[:, places], change[places], rcond=DOUBLE.zero)[0]
         return np.asarray(change - shares @ moves)
+
+    def projected(self, rates: Floats) -> Floats:
+        """Return the rates nearest to some at which loops stay closed to first order: float[J]."""
+        nearest = self._factor.projected(rates)
+        return nearest if self._factor.shape[1] <= _MANY else closed_rates(self._factor, nearest)
 
     def sharpened(self, across: Floats) -> Floats:
         """Return a unit vector nearer to the least singular vector across the freedoms: inverse iteration.
@@ -214,6 +223,32 @@ def _solver(
     sparse.setdiag(diagonal + added)
     factors = splu(sparse, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
     return lambda right_side: np.asarray(factors.solve(right_side)), added
+
+
+def closed_rates(factor: Factor, rates: Floats) -> Floats:
+    """Return the rates nearest to some at which loops stay closed, however small a singular value is: float[J].
+
+    With a factor one round takes off a part s^2 / (s^2 + m) of singular vectors, s being their values and m what was
+    added. Conjugate gradients, with the factor as preconditioner, leave only the few to be found for which that is
+    little, one in each round (A. Bjorck, Numerical Methods for Least Squares Problems, 1996, chapter 7).
+    """
+    nearest, parted = rates, factor.image(rates)
+    most, step, last = _LEFT * largest_of(rates), np.zeros_like(rates), 1.0
+    for _ in range(_ROUNDS):
+        if largest_of(parted) <= most:
+            break
+        least = factor.least(parted)
+        size = inner(factor.sum_of_rows(parted), least)
+        step = least + size / last * step
+        moved = factor.image(step)
+        share = size / inner(moved, moved)
+        nearest, parted, last = nearest - share * step, parted - share * moved, size
+    return nearest
+
+
+def inner(one: Floats, other: Floats) -> float:
+    """Return the inner product of two vectors, not by BLAS: its threads take longer to start than the sum."""
+    return float(np.einsum("i,i->", one, other))
 
 
 def largest_of(residual: Floats) -> float:

@@ -21,7 +21,6 @@ from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import PosedLinkage
 from synth.motion.singular.sampling import rates_towards
 from synth.motion.singular.second_order import Quadric, RateSpace, equations_by_size, quadrics_of, rates_at, rates_near
-from synth.motion.tangent import TangentSpace
 from synth.motion.walk.step import STRAY
 
 _SCALES, _WEIGHTS = (0.4, 0.2, 0.6), (1.0, 0.7, 1.4)
@@ -85,7 +84,7 @@ def _closed(closure: ClosureEquations, start: Floats) -> Floats | None:
     """Return a closed folded configuration near angles, by Newton's method with all its derivatives; or None."""
     angles, least, idle = start, np.inf, 0
     for _ in range(_STEPS):
-        residual, jacobian = closure.at(angles)
+        residual, entries = closure.evaluated(angles)
         error = float(np.abs(residual).max(initial=0.0))
         if error <= DOUBLE.closed:
             largest = float(np.abs(angles).max(initial=0.0))
@@ -94,7 +93,7 @@ def _closed(closure: ClosureEquations, start: Floats) -> Floats | None:
         least = min(error, least)
         if idle == _PATIENCE or np.abs(angles).max() > 2.0 * pi:
             return None
-        angles = angles + TangentSpace(jacobian).step(residual)
+        angles = angles + closure.space(entries).step(residual)
     return None
 
 

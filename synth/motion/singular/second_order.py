@@ -270,9 +270,10 @@ def rates_near(
     equations; None where none were found. Where two solutions cross, Newton's method comes near by halves and
     stays 1e-5 away, which squares of rates hardly show: of exact coordinates `zero` is far below other zeros.
     """
-    _, jacobian = closure.at(angles)
+    _, entries = closure.evaluated(angles)
+    jacobian = closure.matrix(entries)
     size = float(np.linalg.norm(wanted))
-    rates = TangentSpace(jacobian).projected(wanted)
+    rates = closure.space(entries).projected(wanted)
     groups = equations_by_size(quadrics)
     empty = np.zeros(0, dtype=np.int64)
     rows = np.concatenate([empty, *(np.repeat(numbers, joints.shape[1]) for numbers, joints, _ in groups)])

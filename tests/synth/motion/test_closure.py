@@ -8,11 +8,13 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import Tolerances
+from synth.folding.configuration import configuration_of_sheet
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import linkage_of_axes, linkage_of_sheet
 from synth.motion.path import driven_path
 from synth.motion.singular.sampling import freedoms_at
-from synth.motion.tangent import TangentSpace
+from synth.motion.tangent import SparseFactor, TangentSpace, closed_rates
+from synth.patterns import generate
 from synth.patterns.creases import fan, miura
 from synth.patterns.hinged_rings import bennett
 
@@ -122,3 +124,16 @@ def test_flat_sheets_close(rng):
         linkage = linkage_of_sheet(sheet)
         assert ClosureEquations(linkage).error(linkage.angles) == 0.0
         assert not linkage.angles.any()
+
+
+@pytest.mark.parametrize("regular", [1e-9, 1e-6, 1e-3])
+def test_rates_are_freed_of_what_regularisation_leaves(regular):
+    """Nearly flat, a sheet has singular values far below the rest; the second method is a full decomposition."""
+    at = configuration_of_sheet(generate("miura", rows=10, columns=10, fold=0.05).mechanism)
+    jacobian = at.closure.at(at.linkage.angles)[1]
+    _, values, vectors = np.linalg.svd(jacobian.toarray())
+    freedoms = vectors[values < 1e-12]
+    factor, rates = SparseFactor(jacobian, regular), np.random.default_rng(1).normal(size=at.closure.joints)
+    once = factor.projected(rates)
+    np.testing.assert_allclose(closed_rates(factor, once), freedoms.T @ (freedoms @ rates), atol=1e-9)
+    assert (np.abs(jacobian @ once).max() > 1e-7) == (regular > 1e-9)
