@@ -5,6 +5,7 @@ Slow imports happen inside the function that handles signals.
 
 from __future__ import annotations
 
+import os
 import sys
 from typing import TYPE_CHECKING
 
@@ -15,7 +16,12 @@ if TYPE_CHECKING:
 
 
 def run() -> None:
-    """Run the command; print one line if code has to be compiled, or cannot be: both take longer than most answers."""
+    """Run the command; print one line if code has to be compiled, or cannot be: both take longer than most answers.
+
+    Matrices are small, and many: threads of BLAS wait for each other longer than they work. Who sets their number
+    keeps it.
+    """
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
         with interruptible(ending=True):
             _run_command()

@@ -71,7 +71,7 @@ FACTORS = {
     factor.name: factor
     for factor in (
         *map(_kernel, ("SkylakeX", "Haswell", "Sandybridge", "Nehalem", "Prescott")),
-        Factor("one-thread", {"OPENBLAS_NUM_THREADS": "1"}),
+        Factor("two-threads", {"OPENBLAS_NUM_THREADS": "2"}),
         Factor("hash-seed", {"PYTHONHASHSEED": "20212020"}),
         Factor("not-compiled", {"SYNTHEDRA_COMPILED": "never"}),
         Factor("no-avx2", {"NPY_DISABLE_CPU_FEATURES": "X86_V3"}, "X86_V3 False"),

@@ -154,3 +154,15 @@ def test_angles_that_look_like_radians_are_told():
     assert "looks like" not in run("cone", "map", "--angles", "120,95,45,85").output
     with pytest.raises(InvariantError, match="120 looks like degrees"):
         synth.map_to_cones([120, 95, 45, 85])
+
+
+@pytest.mark.parametrize(("given", "threads"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3")])
+def test_a_command_has_one_thread_of_blas_unless_the_user_says_otherwise(given, threads):
+    code = (
+        "import os, sys; sys.argv = ['synth', '--version']; from synth.cli.__main__ import run\n"
+        "try: run()\n"
+        "except SystemExit: print(os.environ['OPENBLAS_NUM_THREADS'])\n"
+    )
+    environment = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"} | given
+    shown = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    assert shown.stdout.splitlines()[-1] == threads
