@@ -263,14 +263,14 @@ def atlas() -> Figures:
     return {"runs": taken, "types": rows}
 
 
-def verdict(n: int, *words: str) -> Callable[[], Figures]:
-    """Return what measures `synth mobility` of a Miura sheet of n x n panels, reading and start included."""
+def of_sheet(n: int, command: str, *words: str) -> Callable[[], Figures]:
+    """Return what measures a command on a Miura sheet of n x n panels, reading and start included."""
 
     def measure() -> Figures:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "miura.fold"
             write(miura(n, n, SECTOR), path)
-            return {"runs": synth("mobility", str(path), *words, runs=1)}
+            return {"runs": synth(command, str(path), *words, runs=1)}
 
     return measure
 
@@ -316,8 +316,13 @@ ROWS = {
     "scd-8": Row("an SCD type of 8 links realised", "ms", 20, realised("scd", 8, 13)),
     "sc-8": Row("an SC type of 8 links realised", "ms", 200, realised("sc", 8, 1)),
     "atlas": Row("an atlas to 6 links, each type", "ms", 25, atlas),
-    "verdict-1024": Row("verdict on 1 024 panels", "s", 1, verdict(32)),
-    "rank-10000": Row("exact mobility of 10 000 panels", "s", 5, verdict(100, "--no-motion"), long=True),
+    "verdict-1024": Row("verdict on 1 024 panels", "s", 1, of_sheet(32, "mobility")),
+    "rank-10000": Row(
+        "exact mobility of 10 000 panels", "s", 5, of_sheet(100, "mobility", "--no-motion"), long=True
+    ),
+    "rank-100000": Row("the same of 100 000 panels", "s", 20, of_sheet(316, "mobility", "--no-motion"), long=True),
+    "fold-10000": Row("four frames of 10 000 panels", "s", 10, of_sheet(100, "fold", "--frames", "4"), long=True),
+    "fold-100000": Row("the same of 100 000 panels", "s", 60, of_sheet(316, "fold", "--frames", "4"), long=True),
 }  # fmt: skip
 
 
