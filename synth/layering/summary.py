@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, numbered
 from graphs.mechanism.sheet import Sheet
 from synth.layering.counting.problem import LayerProblem
 from synth.layering.counting.settling import counted
-from synth.layering.orders import flat_folding
+from synth.layering.orders import FlatFolding, flat_folding
 
 _PANELS, _PAIRS, _VARIABLES = 300, 20_000, 60
 """Panels, pairs of panels over cells, and variables of a problem up to which orders are counted in a moment."""
@@ -32,6 +32,8 @@ class FlatFoldability:
         Their number; None where it was not counted.
     fault : str
         Why it does not fold flat; empty where it does, or that is not known.
+    folding : FlatFolding or None
+        All of the answer; None where the orders were not counted.
 
     Examples
     --------
@@ -42,6 +44,7 @@ class FlatFoldability:
     foldable: bool | None
     orders: int | None
     fault: str
+    folding: FlatFolding | None = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
         """Return the line that is printed."""
@@ -56,13 +59,15 @@ class FlatFoldability:
         return {"foldable": self.foldable, "orders": self.orders, "fault": self.fault or None}
 
 
-def flat_foldability(sheet: Sheet) -> FlatFoldability | None:
+def flat_foldability(sheet: Sheet, *, variables: int = _VARIABLES) -> FlatFoldability | None:
     """Return whether a sheet folds flat; None where that is no question, or the sheet is large.
 
     Parameters
     ----------
     sheet : Sheet
         Without faces or creases, in space or in several parts it is no question.
+    variables : int, optional
+        Variables of a problem up to which orders are counted.
 
     Examples
     --------
@@ -72,7 +77,7 @@ def flat_foldability(sheet: Sheet) -> FlatFoldability | None:
     """
 
     def count(problems: Sequence[LayerProblem]) -> Sequence[int]:
-        if max((problem.variables for problem in problems), default=0) > _VARIABLES:
+        if max((problem.variables for problem in problems), default=0) > variables:
             raise _TooLargeError
         return list(map(counted, problems))
 
@@ -90,4 +95,4 @@ def flat_foldability(sheet: Sheet) -> FlatFoldability | None:
         return None
     if not answer.mechanism.hinges:
         return None
-    return FlatFoldability(answer.foldable, answer.orders, answer.fault)
+    return FlatFoldability(answer.foldable, answer.orders, answer.fault, answer)

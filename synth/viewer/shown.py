@@ -23,6 +23,7 @@ from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.writing import svg_text
 from synth.folding.configuration import SheetConfiguration
 from synth.folding.derivatives import largest_panel
+from synth.layering.summary import FlatFoldability, flat_foldability
 from synth.motion.branches import Branch
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
@@ -32,6 +33,7 @@ from synth.motion.singular.sampling import walked
 from synth.motion.walk.events import free_rates, independent_joints
 from synth.moving.made import configuration_of
 from synth.verdict.judged import mobility, on_request, verdict_of_type
+from synth.viewer.flat import ShownFlat, flat_shown
 from synth.viewer.linkage import (
     Bodies,
     ShownCentre,
@@ -51,6 +53,8 @@ _STEPS = 4
 """Number of steps that are reported; the last is that the page shows the mechanism."""
 _MOST_PANELS = 1200
 """Larger sheets are shown as they are; their motion is looked for on request only."""
+_LAYER_VARIABLES = 120
+"""Pairs of panels that depend on each other up to which layer orders are counted: all pairs of a map of 4 x 4."""
 _MOST_DRIVERS = 40
 """Joints with a slider of their own, at most; others can be dragged."""
 
@@ -205,6 +209,8 @@ class Shown:
         For a crease pattern that lies in a plane.
     on_request : bool
         Whether the mechanism is so large that its motion is looked for on request only.
+    flat : ShownFlat or None
+        For a crease pattern that folds flat, its layer orders.
     """
 
     name: str
@@ -219,6 +225,7 @@ class Shown:
     clusters: tuple[tuple[str, ...], ...]
     drawn: DrawnCreases | None = None
     on_request: bool = False
+    flat: ShownFlat | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data: `ShownData` of web/src/page/types.js."""
@@ -292,7 +299,15 @@ def shown_of(
         tuple(tuple(map(plain, cluster)) for cluster in verdict.clusters),
         drawn,
         still,
+        _flat(answer.flat_folding, at),
     )
+
+
+def _flat(known: FlatFoldability | None, at: Configuration | None) -> ShownFlat | None:
+    """Return a sheet folded flat, from the answer on its mobility unless that left its orders uncounted."""
+    if known is not None and known.foldable is None and isinstance(at, SheetConfiguration):
+        known = flat_foldability(at.drawn, variables=_LAYER_VARIABLES)
+    return flat_shown(known.folding) if known is not None and known.foldable and known.folding is not None else None
 
 
 def _moving(

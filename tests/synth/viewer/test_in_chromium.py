@@ -5,6 +5,7 @@ import shutil
 
 import numpy as np
 import pytest
+from folded_sheets import unassigned_map
 
 import synth
 from graphs.files.formats import read
@@ -283,6 +284,35 @@ def test_ways_and_mechanisms_are_chosen(opened, data):
     assert not window.tab.get_by_label("Way to move").is_visible()
 
 
+def test_orders_of_the_folded_sheet_are_gone_through(opened, data):
+    window = opened(unassigned_map(2, 2), PANELS["bird base"](data), OTHERS["Bennett"](data))
+    flat = window.tab.locator(".flat")
+    assert flat.locator(".flat-told").text_content() == "Folds flat, in 8 layer orders."
+    orders = set()
+    for number in range(1, 9):
+        assert flat.locator(".order").text_content() == f"order {number} of 8"
+        orders.add(flat.locator(".stack").text_content())
+        window.tab.get_by_role("button", name="Next order").click()
+    assert flat.locator(".order").text_content() == "order 1 of 8"
+    assert orders == {
+        f"Layers there, from below: {', '.join(map(str, order.stacks[0]))}"
+        for order in synth.layers(unassigned_map(2, 2)).orders_of(0)
+    }
+    window.tab.get_by_label("Mechanism").select_option("1")
+    shapes = []
+    for view in ("front", "back", "x-ray", "light", "exploded"):
+        window.tab.get_by_label("View of the folded sheet").select_option(label=view)
+        shapes.append(flat.locator("path[data-panel]").count())
+        assert flat.get_by_label("Height of the layers").is_visible() == (view == "exploded")
+    assert shapes[:4] == [len(synth.layers(PANELS["bird base"](data)).order().stacks)] * 4
+    assert shapes[4] == sum(map(len, synth.layers(PANELS["bird base"](data)).order().stacks))
+    flat.locator("path[data-panel]").last.click()
+    assert window.tab.locator(".part").text_content().startswith("Link ")
+    assert flat.locator(".stack").text_content().startswith("Layers there, from below: ")
+    window.tab.get_by_label("Mechanism").select_option("2")
+    assert not flat.is_visible()
+
+
 def test_panels_on_each_other_stop_it(opened, data):
     window = opened(PANELS["square twist"](data))
     window.to(180)
@@ -303,7 +333,6 @@ def test_what_is_rigid_and_what_has_no_pose_is_said(opened, data):
 @pytest.mark.parametrize("name", [*PANELS, *OTHERS])
 def test_what_is_dragged_moves(opened, data, name):
     window = opened((PANELS | OTHERS)[name](data))
-    window.tab.locator(".model canvas").scroll_into_view_if_needed()
     window.to(window.angle() + 10)
     before = np.array(window.pose()["vertices_coords"])
     x, y = somewhere_on_it(window)
@@ -319,6 +348,7 @@ def test_what_is_dragged_moves(opened, data, name):
 
 def somewhere_on_it(window):
     """A place of the page at which a click hits a link or a joint."""
+    window.tab.locator(".model canvas").scroll_into_view_if_needed()
     box = window.tab.locator(".model canvas").bounding_box()
     for part in (0.5, 0.45, 0.55, 0.4, 0.6, 0.35, 0.65):
         for other in (0.5, 0.4, 0.6):

@@ -5,7 +5,9 @@ import re
 
 import numpy as np
 import pytest
+from folded_sheets import unassigned_map
 
+import synth
 from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
 from synth.motion.linkage import linkage_of_sheet
@@ -126,3 +128,34 @@ def test_joints_that_carry_links_come_after_those_that_carry_them(bird_base):
         assert pair == ((near, far) if sign == 1 else (far, near))
         carried.add(far)
     assert carried == set(range(told["links"]))
+
+
+def test_a_pattern_that_folds_flat_has_its_orders(data):
+    """Each listed order has all panels over each cell once, the first changes nothing, and no two are alike."""
+    bird = read(data / "patterns" / "bird-base.fold")
+    flat = shown_of(bird).to_json()["flat"]
+    order = synth.layers(bird).order()
+    assert flat["told"] == "Folds flat, in 2 layer orders."
+    assert flat["stacks"] == [list(stack) for stack in order.stacks]
+    assert np.ptp(flat["nodes"], axis=0).max() == pytest.approx(1.0)
+    [component] = flat["components"]
+    assert component["orders"] == "2"
+    first, second = component["listed"]
+    assert first == {}
+    assert second != {}
+    for cell, stack in second.items():
+        assert sorted(stack) == sorted(flat["stacks"][int(cell)])
+        assert stack != flat["stacks"][int(cell)]
+
+
+def test_of_many_orders_some_are_listed():
+    flat = shown_of(unassigned_map(4, 4)).flat
+    assert [component.orders for component in flat.components] == ["300608"]
+    assert len(flat.components[0].listed) == 24
+    assert shown_of(unassigned_map(5, 5)).flat is None
+
+
+def test_what_does_not_fold_flat_has_no_layers(data):
+    assert shown_of(read(data / "linkages" / "bennett.json")).flat is None
+    corners = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (-1.0, -1.0))
+    assert shown_of(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 1)), corners)).flat is None

@@ -49,6 +49,7 @@ export function layout(root) {
     panes: element("div", { class: "panes" }),
     details: element("details", {}, element("summary", {}, "Freedoms and equations")),
     bench: element("div", { class: "bench" }),
+    flat: element("section", { class: "flat", "aria-label": "Folded flat" }),
   };
   const choose = element("div", { class: "row" },
     made.play, made.reset, made.fit,
@@ -63,7 +64,7 @@ export function layout(root) {
   made.panes.append(made.pattern, made.model);
   made.details.append(made.report);
   const header = element("header", {}, made.bench, made.list, made.verdict);
-  root.append(header, made.panes, controls, made.part, made.notes, made.details, told);
+  root.append(header, made.panes, controls, made.part, made.flat, made.notes, made.details, told);
   return { ...made, controls, told };
 }
 
@@ -73,7 +74,7 @@ export function layout(root) {
  * @param {string} text
  * @param {HTMLElement} field
  */
-function labelled(text, field) {
+export function labelled(text, field) {
   return element("label", {}, element("span", {}, text), field);
 }
 

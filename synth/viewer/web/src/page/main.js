@@ -4,6 +4,7 @@
 /** @import { Held } from "./dragging.js" */
 import { Dragging } from "./dragging.js";
 import { forgetColours } from "./colours.js";
+import { FlatFolded } from "./flat.js";
 import { filled, layout } from "./layout.js";
 import { Mechanism } from "./mechanism.js";
 import { Model } from "./model.js";
@@ -30,7 +31,7 @@ const NO_WEBGL = "This browser shows no WebGL, so there is no view in space; the
 
 /** @type {ShownData} */
 const NOTHING = {
-  name: "", verdict: "", report: "", notes: [], pictures: {}, moving: null, stiff: [], clusters: [], drawn: null,
+  name: "", verdict: "", report: "", notes: [], pictures: {}, moving: null, stiff: [], clusters: [], drawn: null, flat: null,
   on_request: false, answer: "", configuration: null,
 };
 
@@ -53,6 +54,7 @@ class Page {
     this.shown = shown[0] ?? NOTHING;
     this.parts = layout(root);
     this.pattern = new Pattern(this.parts.pattern, (id) => this.#chooseId(id));
+    this.flat = new FlatFolded(this.parts.flat, (id) => this.#chooseId(id));
     const mechanism = () => this.#mechanism;
     this.playing = new Playing({
       mechanism,
@@ -149,6 +151,7 @@ class Page {
     parts.part.textContent = "Click a link or a joint for its number.";
     parts.crossed.textContent = "";
     this.pattern.show(shown);
+    this.flat.show(shown.flat);
     this.bench?.changed();
     parts.panes.hidden = parts.part.hidden = parts.details.hidden = parts.told.hidden = this.all.length === 0;
     this.#mechanism = shown.moving ? new Mechanism(shown, shown.moving) : null;

@@ -45,6 +45,19 @@
  * @property {[number, number][]} edges
  * @property {[number, number][]} places - Of the vertices in the picture, in its unit.
  *
+ * @typedef {object} FlatComponentData
+ * @property {number[]} panels
+ * @property {string} orders - How many there are.
+ * @property {Record<string, number[]>[]} listed - Of each order that is listed the cells in which it is another than in the first.
+ *
+ * @typedef {object} FlatData
+ * @property {string} told
+ * @property {[number, number][]} nodes - Of the folded image, in units of the extent, seen from the front.
+ * @property {number[][]} cells - The nodes round each.
+ * @property {boolean[]} flipped - Whether each panel shows its back.
+ * @property {number[][]} stacks - The panels over each cell, from the lowest up, in the first order.
+ * @property {FlatComponentData[]} components - Those with several orders.
+ *
  * @typedef {object} ShownData
  * @property {string} name
  * @property {string} verdict
@@ -56,6 +69,7 @@
  * @property {string[]} stiff
  * @property {string[][]} clusters
  * @property {DrawnData | null} drawn - Of a crease pattern in a plane.
+ * @property {FlatData | null} flat - Of a crease pattern that folds flat.
  * @property {boolean} on_request - Whether it is so large that its motion is looked for on request only.
  * @property {string} answer - JSON: what `synth mobility --json` prints.
  *
