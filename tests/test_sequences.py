@@ -6,24 +6,33 @@ from pathlib import Path
 
 import pytest
 from commands import run
+from folded_sheets import unassigned_map
 from sizes import slow
+
+import synth
+from synth.layering.sweep import count_by_cells
 
 PAGE = Path(__file__).parent.parent / "docs" / "sequences.md"
 ROW = re.compile(
     r"\| (?P<name>[^|]+) \| [LN] = (?P<first>\d+)(, (?P<second>\d+))? \| (?P<terms>[\d, ]+) \| `synth (?P<command>.+)` \|"
 )
+MAPS = re.compile(r"\| (?P<name>[^|]+) \| N = 1 \| (?P<terms>[\d, ]+) \| `orders\((?P<rows>\w), N\)` \|")
 FIRST = 2
 """Terms of each row that are always counted; of the others those up to `MOST`, in a slow test."""
 
 MOST = 60_000
+FEW = 2_000
+"""Foldings of maps up to which a term is always counted; the others are slow."""
+ALL_PANELS = 16
+"""Panels of a map up to which the second method counts the orders of all, whichever is the lowest."""
 HEAVY = {f"Chains with or without cuts, M = {dof}" for dof in (4, 5, 6)}
 """Rows whose first terms take seconds."""
 MINUTES = {("SCD graphs, M = 1, D = 3", 5)}
 """Terms, by the row and their place in it, that are small and take minutes all the same."""
 
 
-def rows():
-    return [match for match in map(ROW.fullmatch, PAGE.read_text(encoding="utf-8").splitlines()) if match]
+def rows(pattern=ROW):
+    return [match for match in map(pattern.fullmatch, PAGE.read_text(encoding="utf-8").splitlines()) if match]
 
 
 def words(command, index):
@@ -55,7 +64,7 @@ def numbered(terms):
 def test_every_row_of_the_page_is_a_sequence():
     tables = [line for line in PAGE.read_text(encoding="utf-8").splitlines() if line.startswith("|")]
     heads = sum(line.startswith(("| sequence", "|---")) for line in tables)
-    assert len(tables) - heads == len(rows()) > 40
+    assert len(tables) - heads == len(rows()) + len(rows(MAPS)) > 40
 
 
 @pytest.mark.parametrize(
@@ -69,3 +78,31 @@ def test_terms(row):
 @pytest.mark.parametrize("row", rows(), ids=lambda row: row["name"])
 def test_larger_terms(row):
     check(row, range(FIRST, 100))
+
+
+def map_terms():
+    """Rows of maps with each of their terms; those that are not small are slow."""
+    for row in rows(MAPS):
+        for place, term in numbered(row["terms"]):
+            case = (row["name"], int(row["rows"]) if row["rows"] != "N" else place + 1, place + 1, term)
+            yield case if term < FEW else slow(*case)
+
+
+@pytest.mark.parametrize(("name", "rows", "columns", "term"), list(map_terms()), ids=str)
+def test_maps(name, rows, columns, term):
+    """By the code of the page, and by the second method.
+
+    Layers of a map can be shifted cyclically, so that each panel is the lowest of equally many orders: of larger maps
+    the second method counts those of one panel.
+    """
+    code = re.search(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+    page = {}
+    exec(code[1], page)
+    assert page["orders"](rows, columns) == term, name
+    image = synth.layers(unassigned_map(rows, columns), explain=False).image
+    panels = rows * columns
+    if panels <= ALL_PANELS:
+        assert count_by_cells(image, {}) == term, name
+    else:
+        lowest = {(0, 0, panel): False for panel in range(1, panels)}
+        assert panels * count_by_cells(image, {}, lowest) == term, name

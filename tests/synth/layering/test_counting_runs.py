@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from clusters import cluster
 from commands import run as command
 from folded_sheets import unassigned_map
 
@@ -57,6 +58,33 @@ def test_a_stopped_count_is_continued(tmp_path, monkeypatch):
 
 def test_workers_count_the_same():
     assert synth.layers(unassigned_map(2, 6), workers=2).orders == 10512
+
+
+@pytest.mark.slow
+def test_a_cluster_that_loses_a_worker_counts_the_same(tmp_path):
+    pytest.importorskip("distributed", reason="needs Dask: pip install 'synthedra[dask]'")
+    job, store = job_of(2, 6), tmp_path / "counts.sqlite"
+    write(unassigned_map(2, 5), tmp_path / "map.fold")
+    with cluster(tmp_path, 2) as (address, processes):
+
+        def kill(progress):
+            if progress.done == 3:
+                processes[2].kill()
+
+        run(job, SqliteSink(store), scheduler=address, report=kill)
+        words = (
+            "layers",
+            tmp_path / "map.fold",
+            "--counts",
+            tmp_path / "more.sqlite",
+            "--scheduler",
+            address,
+            "--json",
+        )
+        assert json.loads(command(*words).stdout)["orders"] == 1980
+    rows = list(read_rows(store))
+    assert len(rows) == len(job.units())
+    assert numbers_of(job, rows) == [10512]
 
 
 def test_numbers_of_any_size():

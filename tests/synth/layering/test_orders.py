@@ -1,4 +1,4 @@
-"""Layer orders: published numbers, stamps and maps, folded sheets, by two methods; witnesses; refusals."""
+"""Layer orders: published numbers, folded sheets, by two methods; witnesses; refusals. Maps: tests/test_sequences.py."""
 
 from collections import Counter
 from math import prod
@@ -19,34 +19,10 @@ from synth.layering.orders import flat_pattern
 from synth.layering.reduction import reduced
 from synth.layering.sweep import count_by_cells
 
-STAMPS = (1, 2, 6, 16, 50, 144, 462, 1392, 4536, 14060, 46310, 146376, 485914, 1557892)
-"""OEIS A000136."""
-TWO_ROWS = (2, 8, 60, 320, 1980, 10512, 60788, 320896, 1787904, 9381840)
-"""OEIS A001415."""
-THREE_ROWS = (6, 60, 1368, 15552, 201240)
-"""OEIS A001416."""
-MAPS = [
-    *((1, n, term) for n, term in enumerate(STAMPS, start=1)),
-    *((2, n, term) for n, term in enumerate(TWO_ROWS, start=1)),
-    *((3, n, term) for n, term in enumerate(THREE_ROWS, start=1)),
-    (4, 4, 300608),
-]
-
-QUICK = 15_000
-
 
 def both(answer):
     """The number by the cells, which has to be that of the answer."""
     return count_by_cells(answer.image, answer.valleys)
-
-
-@pytest.mark.parametrize(
-    ("rows", "columns", "term"), [case if case[2] < QUICK else slow(*case) for case in MAPS], ids=str
-)
-def test_stamps_and_maps(rows, columns, term):
-    answer = synth.layers(unassigned_map(rows, columns))
-    assert answer.orders == term
-    assert both(answer) == term
 
 
 @pytest.mark.parametrize(("rows", "columns"), [(3, 4), slow(5, 5)])
