@@ -85,44 +85,54 @@ def test_all_published_states():
     assert checked == 21
 
 
-@pytest.mark.parametrize("seed", [*range(16), *(slow(seed) for seed in range(16, 5000))])
-def test_folded_sheets(seed):
+def blocks(quick, number):
+    """Return ranges of seeds: the first ones by themselves, the others, by hundreds, in slow cases."""
+    first = [range(seed, seed + 1) for seed in range(quick)]
+    return [*first, *(slow(range(max(begin, quick), begin + 100)) for begin in range(0, number, 100))]
+
+
+@pytest.mark.parametrize("seeds", blocks(16, 9600), ids=str)
+def test_folded_sheets(seeds):
     """Both methods agree, and the folding that made a sheet is among its orders."""
-    rng = np.random.default_rng(seed)
-    sheet, stack = folded_sheet(rng, int(rng.integers(1, 6)), 60)
-    answer = synth.layers(sheet)
-    stacks = [[panel for panel in stack if panel in set(panels.tolist())] for panels in answer.image.above]
-    assert fault_of(answer.image, stacks, answer.valleys) == ""
-    assert answer.orders >= 1
-    assert both(answer) == answer.orders
-    assert len(answer.sample(seed).stacks) == len(answer.image.cells)
+    for seed in seeds:
+        rng = np.random.default_rng(seed)
+        sheet, stack = folded_sheet(rng, int(rng.integers(1, 6)), 60)
+        answer = synth.layers(sheet)
+        stacks = [[panel for panel in stack if panel in set(panels.tolist())] for panels in answer.image.above]
+        assert fault_of(answer.image, stacks, answer.valleys) == "", seed
+        assert answer.orders >= 1, seed
+        assert both(answer) == answer.orders, seed
+        assert len(answer.sample(seed).stacks) == len(answer.image.cells), seed
 
 
-@pytest.mark.parametrize("seed", [*range(8), *(slow(seed) for seed in range(8, 1000))])
-def test_one_crease_turned(seed):
+@pytest.mark.parametrize("seeds", blocks(8, 1000), ids=str)
+def test_one_crease_turned(seeds):
     """What one crease folded the other way leaves is the same by both methods, mostly nothing."""
-    rng = np.random.default_rng(seed)
-    sheet, _ = folded_sheet(rng, int(rng.integers(2, 5)), 40)
-    creases = [place for place, letter in enumerate(sheet.assignments) if letter in "MV"]
-    place = int(rng.choice(creases))
-    turned = "M" if sheet.assignments[place] == "V" else "V"
-    letters = sheet.assignments[:place] + turned + sheet.assignments[place + 1 :]
-    answer = synth.layers(Sheet(sheet.vertices, sheet.edges, letters, sheet.faces, sheet.coordinates))
-    assert both(answer) == answer.orders
+    for seed in seeds:
+        rng = np.random.default_rng(seed)
+        sheet, _ = folded_sheet(rng, int(rng.integers(2, 5)), 40)
+        creases = [place for place, letter in enumerate(sheet.assignments) if letter in "MV"]
+        place = int(rng.choice(creases))
+        turned = "M" if sheet.assignments[place] == "V" else "V"
+        letters = sheet.assignments[:place] + turned + sheet.assignments[place + 1 :]
+        answer = synth.layers(Sheet(sheet.vertices, sheet.edges, letters, sheet.faces, sheet.coordinates))
+        assert both(answer) == answer.orders, seed
 
 
-@pytest.mark.parametrize("seed", [*range(6), *(slow(seed) for seed in range(6, 400))])
-def test_tessellations_of_degree_four(seed):
+@pytest.mark.parametrize("seeds", blocks(6, 400), ids=str)
+def test_tessellations_of_degree_four(seeds):
     """Miura sheets of random angles, some creases unassigned, by both methods; with their assignment they fold flat."""
-    rng = np.random.default_rng(seed)
-    rows, columns = (int(number) for number in rng.integers(2, 5, 2))
-    sheet = synth.generate("miura", rows=rows, columns=columns, sector=float(rng.uniform(0.7, 1.4))).mechanism
-    assert synth.layers(sheet).foldable
-    letters = "".join("U" if letter in "MV" and rng.random() < 0.5 else letter for letter in sheet.assignments)
-    answer = synth.layers(Sheet(sheet.vertices, sheet.edges, letters, sheet.faces, sheet.coordinates))
-    assert answer.orders >= 1
-    assert both(answer) == answer.orders
-    answer.sample(seed)
+    for seed in seeds:
+        rng = np.random.default_rng(seed)
+        rows, columns = (int(number) for number in rng.integers(2, 5, 2))
+        sector = float(rng.uniform(0.7, 1.4))
+        sheet = synth.generate("miura", rows=rows, columns=columns, sector=sector).mechanism
+        assert synth.layers(sheet).foldable, seed
+        letters = "".join("U" if letter in "MV" and rng.random() < 0.5 else letter for letter in sheet.assignments)
+        answer = synth.layers(Sheet(sheet.vertices, sheet.edges, letters, sheet.faces, sheet.coordinates))
+        assert answer.orders >= 1, seed
+        assert both(answer) == answer.orders, seed
+        answer.sample(seed)
 
 
 def test_every_order_of_a_component_is_another(data):
