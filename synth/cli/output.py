@@ -20,18 +20,16 @@ from graphs.printing import UNWRAPPED, console_for, plain, rich_table as table
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from graphs.files.formats import Entry
     from graphs.printing import Block, Printed
 
 __all__ = [
-    "OutputError", "ReaderGoneError", "about", "check_output", "check_picture", "console", "entries",
-    "guard_output", "plain", "print_answer", "print_json", "print_result", "progress_line", "shortened", "table",
-    "tell_lost", "tell_written",
+    "OutputError", "ReaderGoneError", "about", "check_output", "check_picture", "console", "guard_output", "plain",
+    "print_answer", "print_json", "print_result", "progress_line", "shortened", "table", "tell_lost", "tell_written",
 ]  # fmt: skip
 
 _FIGURES = 12
 """Significant figures of numbers in JSON; rows of enumerations have no more."""
-_PATIENCE = 2.0
+PATIENCE = 2.0
 """Seconds before progress is shown."""
 
 
@@ -135,7 +133,7 @@ def console() -> Console:
 
 
 @contextmanager
-def progress_line(patience: float = _PATIENCE) -> Iterator[Callable[[str], None]]:
+def progress_line(patience: float = PATIENCE) -> Iterator[Callable[[str], None]]:
     """Yield a function that shows progress on one line of a terminal, after some seconds; the line is wiped."""
     start, shown = monotonic(), False
 
@@ -150,20 +148,6 @@ def progress_line(patience: float = _PATIENCE) -> Iterator[Callable[[str], None]
     finally:
         if shown:
             click.echo("\r" + " " * 40 + "\r", nl=False, err=True)
-
-
-def entries(files: Sequence[str], failures: list[str], patience: float = _PATIENCE) -> Iterator[Entry]:
-    """Yield the mechanisms of files, with progress; the error of a file that cannot be read joins the failures."""
-    from graphs.files.formats import read_all
-    from synth.cli.reading import stated
-
-    with progress_line(patience) as show:
-        for number, file in enumerate(files, start=1):
-            try:
-                yield from read_all(file, **stated())
-            except FileError as error:
-                failures.append(str(error))
-            show(f"{number} of {len(files)} files")
 
 
 class OutputError(SynthedraError):

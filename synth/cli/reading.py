@@ -7,22 +7,27 @@ command hands them on.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from graphs.errors import FileError
 from graphs.printing import plain
 from synth.cli import options
+from synth.cli.output import PATIENCE, about, progress_line
 
 if TYPE_CHECKING:
     from enumerate.strings import ChainString
     from graphs.convert import Mechanism
+    from graphs.files.formats import Entry
     from synth.drawing.mechanisms.chains import OrderOnCircle
 
-_LOOKS, _PRECISION = "synthedra.stated", "synth.precision"
+_LOOKS, _PRECISION, _AT = "synthedra.stated", "synth.precision", "synthedra.at"
 """Keys under which the values of options are kept with the context."""
+_MOST_DIGITS = 9
+"""Digits of the number of a frame that are read: no file has more frames."""
 _COMMA = re.compile(r",(?=[A-Za-z-]=)")
 """Between two pairs: colours such as rgb(0, 0, 255) have commas of their own."""
 
@@ -72,6 +77,14 @@ PRECISION = options.value(
 )  # fmt: skip
 """The option of commands that take files with coordinates; `precise` applies it."""
 
+AT = options.repeated(
+    "--at", "FRAME|JOINT=DEGREES",
+    "Take another configuration than that of the file: a frame of a .fold file by its number (0 is the key frame) or "
+    "`last`, or the angle of a joint, which may be repeated; the other joints follow as in `synth fold`.",
+    expose_value=False, callback=lambda ctx, _parameter, words: ctx.meta.update({_AT: words}),
+)  # fmt: skip
+"""The option of commands that answer for a configuration; `read` applies it."""
+
 ROW = options.number("--row", "N", "For a store, a list or a folder: number of the row to take, counted from 1.")
 """The option of commands that take one mechanism of many."""
 
@@ -87,13 +100,36 @@ def stated() -> dict[str, Any]:
 
 
 def read(file: str, *, warn: bool = True) -> Mechanism:
-    """Read a file by the options on drawings; with `warn`, warn on stderr of lines that are left out."""
+    """Read a file by the options on drawings and --at; with `warn`, warn on stderr of lines that are left out."""
     from graphs.files.formats import read as read_file
 
     mechanism = read_file(file, **stated())
     reading = getattr(mechanism, "reading", None)
     if warn and reading is not None and reading.warning:
         click.echo(f"{plain(file, 4096)}: {plain(reading.warning, 1000)}", err=True)
+    return _in_configuration(mechanism, file)
+
+
+def _in_configuration(mechanism: Mechanism, file: str) -> Mechanism:
+    """Return a mechanism in the configuration of --at, if it is there."""
+    context = click.get_current_context(silent=True)
+    words = () if context is None else context.meta.get(_AT, ())
+    if not words:
+        return mechanism
+    from synth.moving import configuration_of, in_configuration
+
+    frames = [word for word in words if "=" not in word]
+    if len(frames) > 1 or not all(word == "last" or (word.isascii() and word.isdigit()) for word in frames):
+        wrong = f"{plain(' '.join(frames))!r} is neither one frame (a number, or last) nor JOINT=DEGREES"
+        raise click.BadParameter(wrong, param_hint="--at")
+    turns = tuple(word for word in words if "=" in word)
+    with about(file):
+        for word in frames:
+            mechanism = in_configuration(mechanism, "last" if word == "last" else int(word[:_MOST_DIGITS]))
+        if turns:
+            graph = configuration_of(mechanism, precision=precision()).linkage.graph
+            angles = options.driven_angles(graph, turns, "--at")
+            mechanism = in_configuration(mechanism, angles=angles, precision=precision())
     return mechanism
 
 
@@ -144,7 +180,8 @@ def read_named(argument: str, row: int | None = None, mode: str | None = None) -
         if row is None:
             raise click.UsageError("a store, a list or a folder requires --row N, the number of one of its rows")
         entry = entry_numbered(argument, row)
-        return NamedMechanism(entry.mechanism, entry.name, mode or entry.mode)
+        mechanism: Any = entry.mechanism
+        return NamedMechanism(_in_configuration(mechanism, entry.name), entry.name, mode or entry.mode)
     if row is not None:
         raise click.UsageError("--row requires a store, a list or a folder")
     if argument and set(argument) <= set("R-"):  # a file so named has no extension, and would not be read
@@ -153,3 +190,16 @@ def read_named(argument: str, row: int | None = None, mode: str | None = None) -
         name = f"{argument} {mode}" if mode else argument
         return NamedMechanism(ChainString.parse(argument), name, mode)
     return NamedMechanism(read(argument), argument, mode)
+
+
+def entries(files: Sequence[str], failures: list[str], patience: float = PATIENCE) -> Iterator[Entry]:
+    """Yield the mechanisms of files, with progress; the error of a file that cannot be read joins the failures."""
+    from graphs.files.formats import read_all
+
+    with progress_line(patience) as show:
+        for number, file in enumerate(files, start=1):
+            try:
+                yield from read_all(file, **stated())
+            except FileError as error:
+                failures.append(str(error))
+            show(f"{number} of {len(files)} files")

@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
 from graphs.printing import Block, Printed, TableBlock
-from graphs.tolerances import DOUBLE, canonical_order
+from graphs.tolerances import DOUBLE, canonical_order, leading
 from graphs.types import Floats, JointId, LinkId
 from synth.compliance.members import Members, State, freedoms_text, number_or_unknown, state_of, states_of_sets
 from synth.compliance.springs import (
@@ -236,6 +236,8 @@ class States(Printed):
             f"at this configuration: {_summary(self.now)}   ({self.now.certainty})",
             f"compliant: {self.compliant}",
         ]
+        if _branches_meet(self.configuration):
+            lines.append(f"the sheet lies flat, where motion branches meet; {_folded(self.configuration)}")
         chosen = _distinctive(self.sets)
         rows = [
             (str(state.active), number_or_unknown(state.freedoms), state.kind, state.certainty)
@@ -348,15 +350,35 @@ def states(
     compliant = Members(tuple(dict.fromkeys((*joints, *stiff))), tuple(dict.fromkeys(links)))
     compliant.check_names(linkage.graph)
     if not len(compliant):
-        raise UnsolvableError("nothing is compliant; expected one or more compliant joints or links")
+        raise UnsolvableError(
+            "nothing is compliant; expected one or more compliant joints or links; try --joint, --link or --stiffness"
+        )
     if springs is None and (drive is not None or masses is not None):
         raise UnsolvableError("a load path and frequencies require springs; expected the stiffness of a joint")
+    if springs is not None and _branches_meet(at):
+        raise UnsolvableError(
+            "springs require a regular configuration, and the sheet lies flat, where motion branches meet; "
+            + _folded(at)
+        )
     sets = tuple(states_of_sets(linkage, compliant))
     analysis = _SpringAnalysis(linkage, compliant, springs or Springs())
     active = analysis.active(linkage.angles)
     now = next(state for state in sets if state.active.within(active) and active.within(state.active))
     elastic = None if springs is None else analysis.elastic(drive, masses)
     return States(at, compliant, now, sets, tuple(_transitions(sets)), elastic)
+
+
+def _branches_meet(at: Configuration) -> bool:
+    """Check whether a sheet lies flat, and not all its motions are one branch."""
+    return at.flat and bool(at.joints) and (at.branches is None or not at.branches.regular)
+
+
+def _folded(at: Configuration) -> str:
+    """Return the option with which a flat sheet is folded first."""
+    branch = at.branch(at.chosen)
+    place = 0 if branch is None else leading(np.abs(branch.rates))
+    sign = "-" if branch is not None and branch.rates[place] < 0.0 else ""
+    return f"try --at {shown(at.joints[place])}={sign}30, which folds a crease first"
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,8 +11,10 @@ from math import ceil, radians
 
 import numpy as np
 
+from graphs.convert.duality import SheetMechanism
 from graphs.geometry import area_vector, frame_about, unit
 from graphs.mechanism.precision import extent_of
+from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Flags, Floats, Ints
 from synth.motion.closure import ClosureEquations, corrected
@@ -108,6 +110,12 @@ class PanelShapes:
         high = np.maximum(np.where(passes, at, -np.inf), np.where(in_plane, along, -np.inf)).max(axis=1)
         both = (heights.max(axis=1) > self._touching) & (heights.min(axis=1) < -self._touching)
         return np.where(both, low, np.inf), np.where(both, high, -np.inf)
+
+
+def shapes_of_panels(sheet: Sheet, mechanism: SheetMechanism, flat: Floats, tolerances: Tolerances) -> PanelShapes:
+    """Return the panels of a sheet as shapes; faces of one panel do not cross each other."""
+    panel_of = {face: panel for panel, faces in enumerate(mechanism.panels) for face in faces}
+    return PanelShapes(sheet.faces, [panel_of[face] for face in range(len(sheet.faces))], flat, tolerances)
 
 
 class Collision(Event):

@@ -19,7 +19,7 @@ from graphs.mechanism.precision import keeping, precision_of_sheet, stated
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId
-from synth.folding.collisions import Collision, PanelShapes
+from synth.folding.collisions import Collision, shapes_of_panels
 from synth.folding.derivatives import vertex_places
 from synth.folding.lying import layers_on_path
 from synth.folding.mending.nearest import (
@@ -194,14 +194,12 @@ class SheetConfiguration(Configuration):
 
     def collision(self) -> Collision:
         """Return what ends a walk before panels pass through each other."""
-        panel_of = {face: panel for panel, faces in enumerate(self.mechanism.panels) for face in faces}
-        numbers = [panel_of[face] for face in range(len(self.sheet.faces))]
 
         def places(angles: Floats) -> Floats:
             return self.placed(angles).points
 
         here = places(self.linkage.angles[None])[0]
-        return Collision(PanelShapes(self.sheet.faces, numbers, here, self.tolerances), places)
+        return Collision(shapes_of_panels(self.sheet, self.mechanism, here, self.tolerances), places)
 
 
 def _marks_of(sheet: Sheet, linkage: PosedLinkage) -> Floats:

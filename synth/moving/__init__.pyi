@@ -1,10 +1,16 @@
 from synth.motion.path import circuit_through as circuit_through
+from synth.moving.configured import in_configuration as in_configuration
 from synth.moving.made import (
     configuration_of as configuration_of,
     linkage_of_rods as linkage_of_rods,
     posed_on_surface as posed_on_surface,
 )
-from synth.moving.motion import move as move, table_text as table_text
+from synth.moving.motion import (
+    FilePoses as FilePoses,
+    move as move,
+    poses_of_file as poses_of_file,
+    table_text as table_text,
+)
 from synth.moving.on_surface import (
     InstantAxis as InstantAxis,
     LinkPoint as LinkPoint,

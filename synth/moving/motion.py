@@ -10,6 +10,7 @@ from dataclasses import replace
 from io import StringIO
 from math import degrees
 from types import MappingProxyType
+from typing import NamedTuple
 
 import numpy as np
 
@@ -106,7 +107,8 @@ def table_text(mechanism: Mechanism, which: str) -> tuple[str, tuple[str, ...]]:
     if which not in TABLES:
         raise InvariantError("table", f"there is no table {shown(which)}", ", ".join(TABLES))
     columns, rows, lost = TABLES[which]
-    poses, left_out = _poses(mechanism)
+    sheet = sheet_of(mechanism)
+    poses, left_out = ([mechanism], 0) if sheet is None else poses_of_file(sheet)[::2]
     stream = StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(columns)
@@ -115,22 +117,49 @@ def table_text(mechanism: Mechanism, which: str) -> tuple[str, tuple[str, ...]]:
     return stream.getvalue(), (lost, *((numbered(left_out, "other frame"),) if left_out else ()))
 
 
-def _poses(mechanism: Mechanism) -> tuple[list[Mechanism], int]:
-    """Return a mechanism in each frame of its motion, and how many frames show something else."""
-    sheet = sheet_of(mechanism)
-    if sheet is None or sheet.frames is None:
-        return [mechanism], 0
-    first = sheet.frames.first_placed()
+class FilePoses(NamedTuple):
+    """The configurations of a sheet in its file, in the order of their motion.
+
+    `resting` is the place of the key frame among them, `left_out` the number of frames that show other panels.
+    """
+
+    sheets: list[Sheet]
+    resting: int
+    left_out: int
+
+
+def poses_of_file(sheet: Sheet) -> FilePoses:
+    """Return the configurations of a sheet that the frames of its file hold.
+
+    The key frame is often the first of a motion again, or the last, as in files of `synth.fold`: then it is not
+    there twice. Else it comes first.
+
+    Parameters
+    ----------
+    sheet : Sheet
+        As it was read; a sheet without other frames is its only configuration.
+
+    Examples
+    --------
+    >>> square = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), ((0, 0), (2, 0), (2, 2), (0, 2)))
+    >>> len(poses_of_file(square).sheets)
+    1
+    """
+    if sheet.frames is None:
+        return FilePoses([sheet], 0, 0)
+    key = sheet.frames.first_placed()
     others = [sheet.frames.frame(number) for number in range(1, sheet.frames.others + 1)]
-    panels = (first.vertices, first.faces, first.edges)
+    panels = (key.vertices, key.faces, key.edges)
     same = [
-        replace(first, coordinates=other.coordinates, fold_angles=other.fold_angles)
+        replace(key, coordinates=other.coordinates, fold_angles=other.fold_angles)
         for other in others
         if other.coordinates is not None and (other.vertices, other.faces, other.edges) == panels
     ]
-    shown_first = bool(same) and _stand_alike(same[0], first)
-    poses: list[Mechanism] = [*([] if shown_first else [first]), *same]
-    return poses, 1 + len(others) - len(poses) - shown_first
+    left_out = len(others) - len(same)
+    for place in (0, len(same) - 1):
+        if same and _stand_alike(same[place], key):
+            return FilePoses(same, place, left_out)
+    return FilePoses([key, *same], 0, left_out)
 
 
 def _stand_alike(first: Sheet, second: Sheet) -> bool:

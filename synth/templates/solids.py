@@ -17,6 +17,7 @@ from graphs.mechanism.sheet import FLAT, Sheet, with_all_edges
 from graphs.mechanism.surfaces import Surface
 from graphs.types import Floats
 from synth.conformed.linkages import OnSurface
+from synth.moving.motion import FilePoses, poses_of_file
 from synth.templates.on_surface import Dimensions, LayeredLinkage, solids_on_surface
 from synth.templates.pieces import GRID, united
 from synth.templates.template import GREATEST, millimetres, scale_of
@@ -157,20 +158,18 @@ THICKNESS = 1.0
 """Default thickness of panels, millimetres."""
 
 
-def poses_of(sheet: Sheet) -> tuple[Sheet, Floats, int]:
-    """Return a sheet with all edges listed, its poses, and the number of frames of its file that are left out.
+def poses_of(sheet: Sheet) -> tuple[Sheet, Floats, FilePoses]:
+    """Return a sheet with all edges listed, its poses, and what of its file they are.
 
-    Poses are float[poses, vertices, 3] in the unit of the file, the sheet's own first: the frames with the same
-    panels. A frame with other panels, or no coordinates, is another sheet. Raise UnsolvableError if the sheet has
-    no coordinates or no panels.
+    Poses are float[poses, vertices, 3] in the unit of the file, in the order of its motion. Raise
+    UnsolvableError if the sheet has no coordinates or no panels.
     """
     first = sheet if sheet.frames is None else sheet.frames.first_placed()
     if first.coordinates is None or not first.faces:
         raise UnsolvableError("solids require panels with coordinates, and the sheet has none")
-    frames = [] if sheet.frames is None else list(map(sheet.frames.frame, range(1, sheet.frames.others + 1)))
-    same = [frame for frame in frames if frame.coordinates is not None and frame.faces == first.faces]
-    poses = [in_space(pose.coordinates or ()) for pose in (first, *same) if pose.vertices == first.vertices]
-    return with_all_edges(first), np.array(poses), 1 + len(frames) - len(poses)
+    of_file = poses_of_file(sheet)
+    poses = [in_space(pose.coordinates or ()) for pose in of_file.sheets]
+    return with_all_edges(first), np.array(poses), of_file
 
 
 def write_solids(
@@ -222,13 +221,13 @@ def write_solids(
     ('hinges, but for the gaps',)
     """
     check_writable(path, SOLIDS, force=force)
-    whole, poses, left_out = poses_of(sheet)
-    poses = poses * millimetres(poses[0], scale_of(sheet, scale, size), size)
-    plates = Plates(whole, poses[0], thickness=thickness, gap=2 * thickness if gap is None else gap)
+    whole, poses, of_file = poses_of(sheet)
+    poses = poses * millimetres(poses[of_file.resting], scale_of(sheet, scale, size), size)
+    plates = Plates(whole, poses[of_file.resting], thickness=thickness, gap=2 * thickness if gap is None else gap)
     if Path(path).suffix.lower() == ".gltf":
-        solids = Solids(plates.meshes, whole.title, plates.motions(whole, poses), left_out)
+        solids = Solids(plates.meshes, whole.title, plates.motions(whole, poses), of_file.left_out)
     else:
-        solids = Solids(plates_in_space(plates), frames_left_out=left_out + len(poses) - 1)
+        solids = Solids(plates_in_space(plates), frames_left_out=of_file.left_out + len(poses) - 1)
     return write_as(solids, path, SOLIDS, force=force)
 
 

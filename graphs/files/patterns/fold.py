@@ -19,7 +19,7 @@ from graphs.convert.faces import creases_on_no_face, joins_faces, traced_anew, w
 from graphs.errors import FileError, numbered
 from graphs.files.text import Checker, in_degrees, json_text, load_json
 from graphs.limits import most
-from graphs.mechanism.precision import flattened, written_by
+from graphs.mechanism.precision import flattened, lies_flat, written_by
 from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, WrittenPrecision
 
 _OLD_NAMES = {
@@ -381,8 +381,12 @@ def _in_degrees(angles: Iterable[float | None]) -> list[float | None]:
 
 
 def fold_text_of_poses(sheet: Sheet, poses: Sequence[Sheet]) -> str:
-    """Return the text of a FOLD file whose key frame is a sheet, and whose other frames are poses of it."""
-    document = json.loads(fold_text(sheet))
+    """Return the text of a FOLD file with poses of a sheet as frames, the last of them in the key frame too.
+
+    Where the last pose lies flat, the key frame is the sheet: of panels that lie on each other no pattern is read.
+    """
+    folded = bool(poses) and not lies_flat(poses[-1])
+    document = json.loads(fold_text(replace(poses[-1], title=sheet.title) if folded else sheet))
     document["file_classes"] = ["animation"]
     document["file_frames"] = [
         {

@@ -12,6 +12,7 @@ import synth.atlas
 from graphs.errors import UnsolvableError, numbered
 from graphs.printing import TableBlock
 from synth.cli import options, output as out
+from synth.cli.reading import entries
 from synth.cli.runner import RunOptions, run_resumable, run_whole, runner_options
 
 _ATLAS = click.argument("atlas", metavar="ATLAS.sqlite", type=options.FILE_NAME)
@@ -173,7 +174,7 @@ def find(atlas: str, files: tuple[str, ...], as_json: bool) -> None:
     opened = synth.atlas.open_atlas(atlas)
     failures: list[str] = []
     answers = []
-    for entry in out.entries(files, failures):
+    for entry in entries(files, failures):
         with out.about(entry.label):
             answer = synth.atlas.find_type(opened, entry.mechanism)
         answers.append({"file": entry.label, **answer.to_json()})

@@ -11,7 +11,7 @@ import synth
 from graphs.errors import UnsolvableError
 from synth.cli import options
 from synth.cli.output import about, check_output, plain, print_json, print_result, tell_lost
-from synth.cli.reading import DRAWN, MECHANISM, read
+from synth.cli.reading import AT, DRAWN, MECHANISM, read
 
 if TYPE_CHECKING:
     from graphs.convert import Mechanism
@@ -51,6 +51,7 @@ _OF_SOLIDS = {
     type=options.LENGTH,
 )  # fmt: skip
 @options.NUMBER_OF_SURFACE
+@AT
 @options.FORCE
 @options.LOSSY
 @options.flag("--json as_json", "Print the conversion and its notes as JSON.")

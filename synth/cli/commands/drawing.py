@@ -20,7 +20,7 @@ from graphs.errors import InvariantError
 from graphs.files.outputs import check_writable, unknown_extension
 from synth.cli import options, reading
 from synth.cli.output import about, check_output, check_picture, plain, print_json, progress_line, tell_written
-from synth.cli.reading import DRAWN, MECHANISM, MODE, PRECISION, NamedMechanism, precise_sheet, read, read_named
+from synth.cli.reading import AT, DRAWN, MECHANISM, MODE, PRECISION, NamedMechanism, precise_sheet, read, read_named
 
 if TYPE_CHECKING:
     from enumerate.runner import Limits
@@ -65,6 +65,7 @@ def _colouring(ctx: click.Context, _parameter: click.Parameter, words: tuple[str
     "--where", "COLUMN=VALUE",
     "For a catalogue: draw only rows with this number (2, 2..4, 2..) or text in a column; may be repeated."
 )  # fmt: skip
+@AT
 @options.FORCE
 def draw(
     file: str, output: str, kind: str | None, paper: str, where: tuple[str, ...], force: bool, **look: Any
@@ -243,6 +244,7 @@ _SPELLED = {"cone_angle": "--lambda", "number": "--cone", "hinge_kind": "--hinge
     type=options.LENGTH,
 )  # fmt: skip
 @options.flag("--note/--no-note", "Add assembly instructions, with a picture.", default=True)
+@AT
 @options.FORCE
 @options.JSON
 @PRECISION

@@ -12,7 +12,7 @@ import graphs.reduce
 import synth
 from graphs.errors import UnsolvableError, numbered
 from synth.cli import options, output as out
-from synth.cli.reading import MECHANISM, read
+from synth.cli.reading import AT, MECHANISM, read
 
 
 class _EditWords(NamedTuple):
@@ -144,6 +144,7 @@ def _with_edit_options(command: Callable[..., None]) -> Callable[..., None]:
     "For a pattern: assign the mountains and valleys of a folding branch, by its number or signs, as `synth "
     "fold --branches` lists them. Creases that are immobile on it become flat (F).", type=options.BRANCH,
 )  # fmt: skip
+@AT
 @options.output("Write the result to this file.")
 @options.FORCE
 @options.LOSSY

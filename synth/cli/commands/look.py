@@ -9,12 +9,13 @@ import click
 import synth
 from synth.cli import options
 from synth.cli.output import about, check_picture, console, plain, print_json, tell_written
-from synth.cli.reading import DRAWN, PRECISION, precision, read
+from synth.cli.reading import AT, DRAWN, PRECISION, precision, read
 
 
 @click.command()
 @options.FILE
 @DRAWN
+@AT
 @options.output("Picture to write: .svg, .png or .pdf.")
 @options.JSON
 @PRECISION

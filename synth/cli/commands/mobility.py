@@ -12,8 +12,8 @@ import click
 import synth.verdict
 from graphs.errors import FileError, numbered
 from synth.cli import options
-from synth.cli.output import about, console, entries, plain, print_json, table
-from synth.cli.reading import DRAWN, PRECISION, precise
+from synth.cli.output import about, console, plain, print_json, table
+from synth.cli.reading import DRAWN, PRECISION, entries, precise
 
 if TYPE_CHECKING:
     from rich.console import Console

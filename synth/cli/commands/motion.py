@@ -15,7 +15,7 @@ import synth.moving
 from graphs.errors import UnsolvableError
 from synth.cli import options
 from synth.cli.output import about, console, plain, print_json, print_result, progress_line, table, tell_written
-from synth.cli.reading import MECHANISM, PRECISION, precise, read
+from synth.cli.reading import AT, MECHANISM, PRECISION, precise, read
 
 if TYPE_CHECKING:
     from graphs.convert import Mechanism
@@ -40,7 +40,7 @@ def _answering(
             if no(answer):
                 sys.exit(1)
 
-        return options.JSON(PRECISION(run_command))
+        return AT(options.JSON(PRECISION(run_command)))
 
     return decorated
 
@@ -65,6 +65,7 @@ def _answering(
 @options.flag("--branches listed", "List the motion branches from this configuration.")
 @options.number("--frames", "N", "Number of frames after the first.", most=10_000, default=20)
 @options.flag("--collisions", "Stop the motion before panels pass through each other.")
+@AT
 @options.output(
     "Write the motion: .fold with frames, a series of .obj files, a .gif, or a strip of pictures (.png, .svg)."
 )

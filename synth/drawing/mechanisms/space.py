@@ -11,7 +11,6 @@ import numpy as np
 
 from graphs.errors import UnsolvableError, numbered
 from graphs.mechanism.polyhedron import PolyhedronModel
-from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.types import Floats, LinkId
@@ -20,9 +19,19 @@ from synth.drawing.mechanisms.labelling import beside, placed
 from synth.drawing.scene.frame import PLAIN, PictureOptions, captions_of, framed, page_of
 from synth.drawing.scene.shapes import NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Point, Shape
 from synth.drawing.scene.writing import Scene
-from synth.drawing.space.panels import SpatialPanels, bodies_of, panel_shapes, panels_of, view_from_above
+from synth.drawing.space.captions import FoldedStates, camera_line
+from synth.drawing.space.panels import (
+    SpatialPanels,
+    bodies_of,
+    panel_shapes,
+    panels_of,
+    view_from_above,
+    view_of_motion,
+)
+from synth.drawing.space.poses import strip_of_poses
 from synth.folding.configuration import SheetConfiguration
 from synth.moving.made import configuration_of
+from synth.moving.motion import poses_of_file
 
 _MANY = 60
 """Number of visible panels above which links are not numbered."""
@@ -31,16 +40,23 @@ _MANY = 60
 def folded_scene(sheet: Sheet | SheetConfiguration, options: PictureOptions = PLAIN) -> Scene:
     """Return a picture of a folded sheet: panels shaded, creases in the colours of their letters.
 
-    Numbers are those of links, on panels that are not covered. Raise UnsolvableError if the sheet has no
-    coordinates.
+    Numbers are those of links, on panels that are not covered. A file of several frames gives a strip of them. The
+    lines below say which crease is folded most, from where it is seen, and which panels pass through each other.
+    Raise UnsolvableError if the sheet has no coordinates.
     """
-    coordinates = (sheet.drawn if isinstance(sheet, SheetConfiguration) else sheet).coordinates
-    if coordinates is None:
+    drawn = sheet.drawn if isinstance(sheet, SheetConfiguration) else sheet
+    sheets = poses_of_file(drawn).sheets
+    if sheets[0].coordinates is None:
         raise UnsolvableError("a picture in space requires a sheet with coordinates; try `synth realise`")
-    panels = panels_of(sheet)
+    states = FoldedStates(sheets)
+    points = states.places[0]
+    if len(sheets) > 1:
+        lines = captions_of(options.caption, camera_line(view_of_motion(points)))
+        return strip_of_poses(sheets[0], states.places, names=states.names(), said=[*lines, *states.lines()])
+    panels = panels_of(sheet if isinstance(sheet, SheetConfiguration) else sheets[0])
     links, joints = (len(set(names.values())) for names in (panels.link_of, panels.joint_of))
-    said = f"{numbered(links, 'link')}, {numbered(joints, 'joint')}; in space, seen from above"
-    return _spatial_scene(panels, in_space(coordinates), options, said)
+    said = f"{numbered(links, 'link')}, {numbered(joints, 'joint')}; {camera_line(view_from_above(points))}"
+    return _spatial_scene(panels, points, options, said, *(() if options.caption is None else states.lines()))
 
 
 def solids_scene(solids: HingedSolids, options: PictureOptions = PLAIN) -> Scene:
@@ -54,7 +70,7 @@ def solids_scene(solids: HingedSolids, options: PictureOptions = PLAIN) -> Scene
     return _spatial_scene(panels, points, options, f"{links}, {joints}; in space, hinges orange")
 
 
-def _spatial_scene(panels: SpatialPanels, points: Floats, options: PictureOptions, said: str) -> Scene:
+def _spatial_scene(panels: SpatialPanels, points: Floats, options: PictureOptions, *said: str) -> Scene:
     """Return a picture of panels, or of the faces of solids, with corners at points, seen from above."""
     view = view_from_above(points)
     seen = view.places(points)
@@ -67,7 +83,7 @@ def _spatial_scene(panels: SpatialPanels, points: Floats, options: PictureOption
         labels = _numbers(visible, panels.link_of)
         labels += _numbers_of_hinges(panels, page, visible, labels) if panels.solid else []
     layers = [Layer("solids" if panels.solid else "panels", tuple(shapes)), Layer("labels", tuple(labels))]
-    return page_of(frame, layers, captions_of(options.caption, said))
+    return page_of(frame, layers, captions_of(options.caption, *said))
 
 
 def _numbers_of_hinges(

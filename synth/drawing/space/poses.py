@@ -21,7 +21,7 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.types import Floats
 from synth.drawing.scene.frame import PictureFrame, framed, page_of
-from synth.drawing.scene.shapes import SMALL, Label, Layer, moved
+from synth.drawing.scene.shapes import SMALL, Label, Layer, moved, text_width
 from synth.drawing.scene.writing import PICTURES, Pages, Scene, pixels
 from synth.drawing.space.panels import (
     SpatialPanels,
@@ -65,13 +65,19 @@ def pose_scenes(
         yield page_of(frame, [Layer("panels", tuple(shapes))])
 
 
-def strip_of_poses(panels: Sheet | SpatialPanels, places: Floats) -> Scene:
+def strip_of_poses(
+    panels: Sheet | SpatialPanels, places: Floats, *, names: Sequence[str] = (), said: Sequence[str] = ()
+) -> Scene:
     """Return a strip of poses: at most twelve, equally far from each other, numbered.
 
     Parameters
     ----------
     panels : Sheet or SpatialPanels
     places : float[F, vertices, 3]
+    names : sequence of str, optional
+        What is written beside each pose, in place of its number.
+    said : sequence of str, optional
+        Lines below the strip, after the one that explains it.
 
     Examples
     --------
@@ -88,11 +94,13 @@ def strip_of_poses(panels: Sheet | SpatialPanels, places: Floats) -> Scene:
     for place, (number, scene) in enumerate(zip(chosen.tolist(), scenes, strict=True)):
         right, down = place % columns * _SIZE, place // columns * _SIZE
         layers += [moved(layer, right, down) for layer in scene.layers if layer.shapes]
-        numbers.append(Label((right + SMALL, down + SMALL), str(number), SMALL, "grey"))
+        name = names[number] if names else str(number)
+        middle = right + SMALL + text_width(name, SMALL) / 2 - text_width("0", SMALL) / 2
+        numbers.append(Label((middle, down + SMALL), name, SMALL, "grey"))
     frame = PictureFrame(1.0, 0.0, 0.0, 0.0, 0.0, columns * _SIZE, ceil(len(chosen) / columns) * _SIZE)
     solid = isinstance(panels, SpatialPanels) and panels.solid
-    said = "frames by number, seen from one place; " + ("hinges orange" if solid else "front grey, back blue")
-    return page_of(frame, [*layers, Layer("numbers", tuple(numbers))], [said])
+    first = "frames by number, seen from one place; " + ("hinges orange" if solid else "front grey, back blue")
+    return page_of(frame, [*layers, Layer("numbers", tuple(numbers))], [first, *said])
 
 
 class Poses(NamedTuple):

@@ -95,7 +95,7 @@ def test_a_table_is_sorted_with_totals_and_failures_at_the_end(data, tmp_path):
 def test_a_terminal_shows_progress_where_it_takes_long(data, monkeypatch, capsys):
     import io
 
-    from synth.cli import output
+    from synth.cli import reading
 
     class Terminal(io.StringIO):
         def isatty(self):
@@ -104,7 +104,7 @@ def test_a_terminal_shows_progress_where_it_takes_long(data, monkeypatch, capsys
     screen = Terminal()
     monkeypatch.setattr("sys.stderr", screen)
     files = [str(data / "wiener" / name) for name in ("watt.json", "six-bar.json")]
-    assert len(list(output.entries(files, [], patience=-1.0))) == 2
+    assert len(list(reading.entries(files, [], patience=-1.0))) == 2
     assert "1 of 2 files" in screen.getvalue()
     assert screen.getvalue().endswith("\r")
     assert not capsys.readouterr().out

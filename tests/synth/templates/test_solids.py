@@ -148,10 +148,11 @@ def turned(quaternion, corners):
 def test_gltf_moves_every_plate_with_its_panel(motion, tmp_path):
     run("convert", motion, tmp_path / "a.gltf", "--size", 100, "--thickness", 0.8)
     document = json.loads((tmp_path / "a.gltf").read_text(encoding="utf-8"))
-    sheet, poses, left_out = poses_of(read(motion))
-    assert left_out == 0
+    sheet, poses, of_file = poses_of(read(motion))
+    assert of_file.left_out == 0
+    assert of_file.resting == len(poses) - 1  # the key frame is the last of the motion
     assert len(poses) > 4
-    poses = poses * 100 / np.ptp(poses[0], axis=0).max()
+    poses = poses * 100 / np.ptp(poses[-1], axis=0).max()
     (animation,) = document["animations"]
     targets = [(one["target"]["node"], one["target"]["path"]) for one in animation["channels"]]
     assert len(set(targets)) == len(targets) == 2 * len(document["meshes"])
@@ -196,7 +197,7 @@ def test_a_pose_has_no_animation_and_equal_things_give_equal_files(tmp_path):
 
 
 def test_the_command_says_what_is_of_solids_only_and_what_is_not_held(motion, tmp_path):
-    assert "5 other frames" in run("convert", motion, tmp_path / "a.stl", "--size", 90).stdout
+    assert "4 other frames" in run("convert", motion, tmp_path / "a.stl", "--size", 90).stdout
     sheet = run("convert", motion, tmp_path / "a.obj")
     assert "gaps" not in sheet.stdout
     run("convert", motion, tmp_path / "b.obj", "--thickness", 1, "--size", 90)
