@@ -50,6 +50,7 @@ from synth.guidance.order import analyse_order as analyse_order
 from synth.guidance.orientations import Orientations as Orientations
 from synth.layering.answer import layers as layers
 from synth.members.sweeping import sweep as sweep
+from synth.moving.cone_design import design_on_cone as design_on_cone
 from synth.moving.configured import in_configuration as in_configuration
 from synth.moving.motion import move as move
 from synth.notebook import load_ipython_extension as load_ipython_extension

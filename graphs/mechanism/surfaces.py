@@ -76,7 +76,7 @@ class Cone:
     Examples
     --------
     >>> print(Cone(np.pi / 6))
-    lambda 30 degrees
+    lambda 30 degrees (half angle 60 degrees)
     """
 
     angle: float
@@ -88,7 +88,7 @@ class Cone:
         checked_cone_angle(self.angle)
 
     def __str__(self) -> str:
-        return f"lambda {degrees(self.angle):.10g} degrees"
+        return f"lambda {degrees(self.angle):.10g} degrees (half angle {90.0 - degrees(self.angle):.10g} degrees)"
 
     def axes(self, places: npt.ArrayLike) -> tuple[Floats, Floats]:
         """Return points and directions of the ruling lines at azimuths float[J], each float[J, 3]."""
@@ -210,6 +210,7 @@ def surface_json(surface: Surface | None) -> dict[str, Any]:
     """Return the size of a surface as plain data."""
     return {
         "lambda_deg": degrees(surface.angle) if isinstance(surface, Cone) else None,
+        "half_angle_deg": 90.0 - degrees(surface.angle) if isinstance(surface, Cone) else None,
         "radius": surface.radius if isinstance(surface, Cylinder) else None,
     }
 

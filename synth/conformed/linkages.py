@@ -348,8 +348,9 @@ def linkage_on_surfaces(
 
     Examples
     --------
-    >>> [str(loop.surface) for loop in linkage_on_surfaces(SurfaceLinkage.loop(np.radians([120, 95, 45, 85])))]
-    ['lambda 13.99835668 degrees', 'lambda 29.04446943 degrees']
+    >>> loops = linkage_on_surfaces(SurfaceLinkage.loop(np.radians([120, 95, 45, 85])))
+    >>> [round(degrees(loop.cone_angle), 8) for loop in loops]
+    [13.99835668, 29.04446943]
     """
     if linkage.steps is not None:
         return [OnSurface(linkage.chain, linkage.places(), surface or linkage.surface)]

@@ -35,6 +35,7 @@ from synth.drawing.scene.shapes import (
     arc_points,
     colour_of_class,
     moved,
+    text_width,
 )
 from synth.drawing.scene.writing import Scene
 from synth.drawing.space.panels import View, view_from
@@ -102,7 +103,8 @@ def draw_conformed(
     t = np.asarray(places, dtype=float)
     laid = links_in_layers(chain, t, begins)
     seen = "seen along the axis" if isinstance(surface, Cylinder) else "seen from the apex"
-    shapes, entries = _circle(chain, t, laid, grounded, seen)
+    turn = 0.0 if surface is None else _around(t) - pi  # what is at the bottom there is at the bottom here
+    shapes, entries = _circle(chain, t - turn, laid._replace(arcs=laid.arcs - [turn, 0.0]), grounded, seen)
     layers = [Layer("circle", tuple(shapes))]
     if surface is not None:
         layers.append(moved(surface_layer(chain, t, laid, surface, _SIDE), _SIDE, 0.0))
@@ -142,7 +144,8 @@ def _circle(
         corners = [*order, order[0]] if len(order) > 2 else order
         shapes.append(Line([_at(t[joint]) for joint in corners], colour, STRONG, data=data[:1]))
         way = "ground" if number == 0 else _WAYS[Way(int(behaviour.ways[number]))]
-        name = "link " + "".join(str(chain.joints[joint])[:4] for joint in joints)
+        own = ", ".join(str(chain.joints[joint])[:4] for joint in joints)
+        name = f"link {str(chain.links[number])[:8]} (joints {own})"
         entries.append((name + (f": {way}" if grounded else ""), colour))
     for joint, place in zip(chain.joints, t, strict=True):
         mark = (("joint", str(joint)),)
@@ -200,12 +203,13 @@ def _half_plane(p: Point, q: Point, turned: bool) -> object:
 
 def _legend(entries: list[tuple[str, str]], wide: float) -> tuple[list[Shape], float]:
     """Return the names of links with their colours, in rows below the square; and the height of the rows."""
-    columns = max(1, int(wide // 118))
+    widest = max(text_width(text, SMALL) for text, _ in entries) + 24
+    columns = max(1, int((wide - 10) // widest))
     shapes: list[Shape] = []
     for place, (text, colour) in enumerate(entries):
         x, y = 10 + place % columns * (wide - 10) / columns, _SIDE + (place // columns + 0.5) * 1.6 * SMALL
         shapes.append(Line([(x, y), (x + 10, y)], colour, 3.4))
-        shapes.append(Label((x + 16, y), text, SMALL, anchor="start", halo=False, widest=26))
+        shapes.append(Label((x + 16, y), text, SMALL, anchor="start", halo=False, widest=60))
     return shapes, 1.6 * SMALL * -(-len(entries) // columns) + 4
 
 
@@ -241,7 +245,8 @@ def surface_layer(chain: ConformedChain, t: Floats, laid: LinksInLayers, surface
         (near if faces_us else far).append(Line(line, "ink", NORMAL, data=data))
         names.append(Label(page.row(drawn.place(place, name, 0.0)[None])[0], str(joint), SMALL, widest=8, data=data))
     if isinstance(surface, Cone):
-        title = f"cone of λ = {degrees(surface.angle):.4g}°, seen from the apex's side"
+        angle = degrees(surface.angle)
+        title = f"cone of λ = {angle:.4g}°, half angle {90.0 - angle:.4g}°, seen from the apex's side"
     else:
         title = f"cylinder of R = {surface.radius:.4g}"
     names.append(Label((side / 2, SMALL), title, SMALL, "grey"))
@@ -288,12 +293,17 @@ class _SurfacePage:
         return outlines
 
 
+def _around(t: Floats) -> float:
+    """Return the azimuth that faces the eye: the middle of the joints, a little aside."""
+    return float(np.angle(np.exp(1j * t).sum())) + radians(15)
+
+
 def _towards(t: Floats, surface: Surface) -> Floats:
     """Return the direction of the eye: outside the links, a little aside.
 
     It is so high that no part of a cone hides another. Of a cylinder the near wall hides a part of the far one.
     """
-    around = float(np.angle(np.exp(1j * t).sum())) + radians(15)
+    around = _around(t)
     above = radians(min(88.0, max(38.0, degrees(surface.angle) + 8))) if isinstance(surface, Cone) else radians(50)
     return np.array([cos(above) * cos(around), cos(above) * sin(around), sin(above)])
 

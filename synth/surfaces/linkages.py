@@ -133,7 +133,8 @@ class LinkageMap(Printed):
 def _size_json(surface: Surface) -> dict[str, float]:
     if isinstance(surface, Cylinder):
         return {"radius": surface.radius}
-    return {"lambda_deg": degrees(surface.angle), "R": cos(surface.angle)}
+    angle = degrees(surface.angle)
+    return {"lambda_deg": angle, "half_angle_deg": 90.0 - angle, "R": cos(surface.angle)}
 
 
 def _sizes_and_chords(linkage: SurfaceLinkage, common: CommonSurface) -> dict[Pair, tuple[float, ...]]:

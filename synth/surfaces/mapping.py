@@ -76,7 +76,9 @@ class MappedLoop:
         size: dict[str, Any] = {"radius": self.size, "radius_bounds": [None if x == inf else x for x in self.bounds]}
         if angular:
             bounds = [degrees(x) for x in self.bounds]
-            size = {"lambda_deg": degrees(self.size), "lambda_bounds_deg": bounds, "R": cos(self.size)}
+            angle = degrees(self.size)
+            size = {"lambda_deg": angle, "half_angle_deg": 90.0 - angle, "lambda_bounds_deg": bounds}
+            size["R"] = cos(self.size)
         return {
             **size,
             "circuit": self.circuit,
@@ -190,20 +192,23 @@ def circles_table(
             low, high = (degrees(x) if angular else x for x in one.bounds)
             notes.append(f"ill-conditioned, between {low:.6g} and {high:.6g}")
         radius = [f"{cos(one.size):.6g}"] if angular else []  # R of a cone (Hyatt et al. 2021, Eq. 14)
+        half = [f"{90.0 - degrees(one.size):.10g}"] if angular else []
         rows.append((
-            f"{degrees(one.size) if angular else one.size:.10g}", one.circuit, signs_text(one.signs),
+            f"{degrees(one.size) if angular else one.size:.10g}", *half, one.circuit, signs_text(one.signs),
             str(one.turns), *radius, " ".join(f"{degrees(step):.2f}" for step in one.steps),
             "; ".join(notes),
         ))  # fmt: skip
     for family in families:
         low, high = (degrees(x) if angular else x for x in family.interval)
+        half = [f"{90.0 - high:.10g} to {90.0 - low:.10g}"] if angular else []
         rows.append((
-            f"{low:.10g} to {high:.10g}", family.circuit, signs_text(family.signs), str(family.turns),
+            f"{low:.10g} to {high:.10g}", *half, family.circuit, signs_text(family.signs), str(family.turns),
             *([""] if angular else []), "",
             "every one of these" + (", ill-conditioned" if family.caution else ""),
         ))  # fmt: skip
-    heads = (size, "circuit", "signs", "k", *(["R"] if angular else []), "steps (deg)", "note")
-    return [TableBlock(heads, rows, [size, "k", "R"] if angular else [size, "k"])] if rows else []
+    half, radius = (["half angle (deg)"], ["R"]) if angular else ([], [])
+    heads = (size, *half, "circuit", "signs", "k", *radius, "steps (deg)", "note")
+    return [TableBlock(heads, rows, [size, *half, "k", *radius])] if rows else []
 
 
 def mapped_loop(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
@@ -112,6 +113,9 @@ def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _C
         options.value("--steps", "A,B,...", steps, type=options.NUMBERS),
         options.value(f"{size} surface_size", metavar, f"{kind.title()} {measure}, with --steps.", type=float),
     ]
+    if kind == "cone":
+        text = "Half angle of the cone, with --steps: 90 degrees less lambda."
+        every.append(options.value("--half-angle", metavar, text, type=float))
     if arcs:
         text = (
             "For a link that spans half a turn: the joint at which its arc begins, in the direction of "
@@ -122,6 +126,11 @@ def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _C
     def decorated(command: _Command) -> _Command:
         @wraps(command)
         def run_command(**values: Any) -> None:
+            half_angle = values.pop("half_angle", None)
+            if half_angle is not None:
+                if values["surface_size"] is not None:
+                    raise click.UsageError("--lambda and --half-angle exclude each other; try one of them")
+                values["surface_size"] = 90.0 - half_angle
             names = ("file", "sizes", "steps", "surface_size", "arcs")
             chosen = LinkageOptions(kind, *(values.pop(name, None) for name in names))
             command(chosen=chosen, **values)
@@ -372,6 +381,76 @@ def move_command(kind: Kind) -> click.Command:
     return command
 
 
+def _turn(word: str) -> float:
+    """Return an angle in degrees, which may name its unit."""
+    number = word.removesuffix("deg").removesuffix("°").strip()
+    try:
+        return float(number)
+    except ValueError:
+        raise ValueError(f"{plain(word)!r} is not an angle in degrees, such as 60 or 60deg") from None
+
+
+_TURN = options.WordType("angle", _turn)
+
+
+@click.command("design", short_help="Find linkages on a cone that stay outside, or inside, for a turn.")
+@options.value(
+    "--half-angle", "DEGREES", "Half angle of the cone, between its axis and a ruling line.", type=_TURN, required=True
+)
+@options.value("--outside", "DEGREES", "Links stay outside the cone for this turn of the driving joint.", type=_TURN)
+@options.value("--inside", "DEGREES", "Links stay inside the cone for this turn of the driving joint.", type=_TURN)
+@options.value("--size", "MM", "Length of the ruling lines.", type=options.LENGTH, default=120.0)
+@options.choice("--links", ("4", "6"), "Number of links, the fixed one too.", default="4", show_default=True)
+@options.repeated(
+    "--link keeping", "LINK",
+    "Link that has to stay on that side; may be repeated. By default all links that move."
+)  # fmt: skip
+@options.value("--range least_range", "DEGREES", "Least range of the driving joint in all.", type=_TURN)
+@options.number("--count", "N", "Largest number of linkages to list.", most=1000, default=8)
+@options.number("--tries", "N", "Largest number of linkages to move.", most=10_000, default=60)
+@options.seed("Random seed, for linkages of six links.")
+@options.output("Write a linkage (.json), or draw it (.png, .svg, .pdf).")
+@options.number("--row", "K", "With -o: number of the linkage in the table, from 1.", default=1)
+@options.FORCE
+@options.JSON
+def design_command(
+    half_angle: float, outside: float | None, inside: float | None, links: str, least_range: float | None,
+    output: str | None, row: int, force: bool, as_json: bool, **how: Any,
+) -> None:  # fmt: skip
+    """Find linkages on a cone of a half angle whose links stay outside, or inside, for a turn of a joint.
+
+    The table has the azimuths of joints, how far each link goes round the rim in millimetres, the turn that is
+    reached, and margins: what it has to spare, how near two joints are at the rim, and which error of the azimuths
+    leaves the behaviour as it is, to first order. The driving joint turns from the conformed position; links have
+    no thickness. `synth cone move`, `view` and `template` read the .json that -o writes.
+
+    \b
+    Examples:
+      synth cone design --half-angle 25 --outside 60deg
+      synth cone design --half-angle 25 --size 120 --links 6 --outside 60 --row 2 -o six-bar.json
+      synth cone design --half-angle 40 --inside 30 --range 90
+      synth cone design --half-angle 25 --outside 120 --link 3
+
+    Exit status 1: none was found.
+    """
+    if (outside is None) == (inside is None):
+        raise click.UsageError("one of --outside and --inside is required")
+    (out.check_output if _is_linkage(output) else out.check_picture)(output, force=force)
+    turn = outside if outside is not None else inside
+    assert turn is not None, "one of them is there"
+    answer = synth.design_on_cone(
+        radians(half_angle), radians(turn), links=6 if links == "6" else 4,
+        side="outside" if inside is None else "inside", least_range=radians(least_range or 0.0), **how,
+    )  # fmt: skip
+    if output is not None and answer.designs:
+        if row > len(answer.designs):
+            raise click.UsageError(f"--row {row}: there are {len(answer.designs)} linkages in the table")
+        _write(answer.designs[row - 1].linkage, output, force=force)
+    out.print_result(answer, {}, as_json=as_json, written=[output] if answer.designs else [])
+    if not answer.designs:
+        sys.exit(1)
+
+
 def _print_linkages(answers: Sequence[Any], kind: Kind, *, as_json: bool) -> None:
     """Print the answers about a linkage on each of its surfaces."""
     if as_json:
@@ -417,6 +496,8 @@ def _group(kind: Kind) -> click.Group:
     group = click.Group(kind, help=text)
     for command in (map_command, behaviour_command, move_command):
         group.add_command(command(kind))
+    if kind == "cone":
+        group.add_command(design_command)
     return group
 
 

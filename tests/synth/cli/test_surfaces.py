@@ -35,7 +35,7 @@ def test_cones_of_a_loop():
     np.testing.assert_allclose([one["lambda_deg"] for one in found["cones"]], [13.9983566781, 29.0444694333], atol=1e-8)
     assert (found["families"], found["flat"], found["class"], found["grashof"]) == ([], [], "a", "Grashof")
     out = run("cone", "map", "--angles", "120,95,45,85").stdout
-    assert re.search(r"13\.99835668 +open +\+\+\+\+ +1 ", out)
+    assert re.search(r"13\.99835668 +76\.00164332 +open +\+\+\+\+ +1 ", out)
     assert "class a of Hyatt et al. 2020, Fig. 10" in out
 
 
