@@ -115,6 +115,8 @@ EXEMPT = {
     ("synth/templates/solids.py", "_RIGID"): "how far a panel may be out of shape",
     ("synth/templates/solids.py", "_STRAIGHT"): "millimetres of a drawing",
     ("synth/templates/pages.py", "_TINY"): "part of a page",
+    ("synth/templates/laser.py", "_CLOSED"): "millimetres of a drawing",
+    ("synth/templates/laser.py", "_NEAR"): "millimetres of a drawing",
 }
 """Module constants that are small and decide nothing that is zero, with their reasons."""
 

@@ -28,6 +28,8 @@ _SPECK = 1e-3
 _ROWS_APART, _CUT, _BRIDGE = 2.0, 15.0, 2.5
 """Living hinge, in millimetres: distance between rows, and approximate length of a cut and of a bridge."""
 _LETTERS: dict[pieces.Kind, str] = {"MOUNTAIN": "M", "VALLEY": "V"}
+_CLEAR = 1.8
+"""Millimetres from the middle of a letter to the nearest cut."""
 
 
 @dataclass(frozen=True)
@@ -104,7 +106,7 @@ def with_hinges(piece: pieces.Piece, met: Sequence[pieces.TemplateLine], hinges:
     strips = [] if hinges.kind == "gap" else _all_strips(folds, panels, hinges)
     cuts = _cuts(piece, panels, strips)
     more = [line for strip in strips for line in (strip.sides() if hinges.kind == "offset" else _rows(strip))]
-    words = [] if hinges.kind == "offset" else list(_letters(folds))
+    words = [] if hinges.kind == "offset" else list(_letters(folds, strips, [*cuts, *more]))
     marks = [stroke for stroke in piece.strokes if stroke.kind == "MARKS"]
     covered = pieces.united([*panels, *(strip.polygon() for strip in strips)])
     return pieces.Piece((*pieces.cut_once(cuts), *more, *marks), (*piece.texts, *words), covered)
@@ -197,9 +199,26 @@ def _rows(strip: _Strip) -> list[pieces.TemplateLine]:
     return cuts
 
 
-def _letters(folds: Sequence[pieces.TemplateLine]) -> Iterator[pieces.Text]:
-    """Yield the letters of folds that are not lines any more."""
+def _letters(
+    folds: Sequence[pieces.TemplateLine], strips: Sequence[_Strip], cuts: Sequence[pieces.TemplateLine]
+) -> Iterator[pieces.Text]:
+    """Yield the letters of folds that are not lines any more: beside a strip, where no cut crosses them if possible."""
+    lines = shapely.union_all([shapely.LineString([cut.start, cut.end]) for cut in cuts])
+    strip_of = {id(strip.fold): strip for strip in strips}
     for fold in folds:
-        if letter := _LETTERS.get(fold.kind):
-            (ax, ay), (bx, by) = fold.start, fold.end
-            yield pieces.Text(((ax + bx) / 2, (ay + by) / 2), letter)
+        letter = _LETTERS.get(fold.kind)
+        if letter is None:
+            continue
+        (ax, ay), (bx, by) = fold.start, fold.end
+        places = [((ax + bx) / 2, (ay + by) / 2)]
+        if id(fold) in strip_of:
+            strip, size = strip_of[id(fold)], pieces.Text((0.0, 0.0), letter).size
+            off = 1.0 + 1.5 * size / strip.width  # in halves of the width
+            parts = (0.5, 0.35, 0.65, 0.2, 0.8)
+            places = [
+                strip.at(strip.first + part * (strip.last - strip.first), side * off)
+                for part in parts
+                for side in (1, -1)
+            ]
+        clear = [place for place in places if shapely.Point(place).distance(lines) > _CLEAR]
+        yield pieces.Text((clear or places)[0], letter)

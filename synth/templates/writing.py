@@ -1,6 +1,6 @@
 """Templates written to files, whole or not at all: PDF, SVG or DXF, by the extension."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
 from math import inf, sqrt
@@ -12,6 +12,7 @@ from graphs.files.patterns.dxf import DxfLayer, DxfLine, DxfWord, dxf_of
 from graphs.printing import plain
 from synth.drawing.scene.shapes import Label, Line
 from synth.drawing.scene.writing import PICTURES, Pages, Scene
+from synth.templates.laser import LASER_LAYERS, laser_scene, with_kerf
 from synth.templates.pages import Page, Paper, gauge, laid_out, layers_of, pages_of, strokes_and_texts
 from synth.templates.pieces import LOOKS
 from synth.templates.template import Template
@@ -23,8 +24,8 @@ _ROW = 1.5
 _LAYERS = [DxfLayer(kind, look.number) for kind, look in LOOKS.items()]
 
 
-def dxf_bytes(pages: Pages) -> bytes:
-    """Return a template on one page as DXF R12 in millimetres; texts are among the marks, for no machine."""
+def dxf_bytes(pages: Pages, layers: Sequence[DxfLayer] = _LAYERS) -> bytes:
+    """Return a template on one page as DXF R12 in millimetres; texts are on the last layer, of marks or engravings."""
     (scene,) = pages.scenes
     lines: list[DxfLine] = []
     words: list[DxfWord] = []
@@ -35,8 +36,8 @@ def dxf_bytes(pages: Pages) -> bytes:
                 lines.append(DxfLine(layer.name, start, end))
             elif isinstance(shape, Label):
                 at = (shape.at[0], scene.height - shape.at[1])
-                words.append(DxfWord("MARKS", at, shape.text, shape.size, shape.anchor == "middle"))
-    return dxf_of(_LAYERS, lines, words, remark="millimetres").encode("ascii", "replace")
+                words.append(DxfWord(layers[-1].name, at, shape.text, shape.size, shape.anchor == "middle"))
+    return dxf_of(list(layers), lines, words, remark="millimetres").encode("ascii", "replace")
 
 
 def _side_by_side(template: Template) -> Scene:
@@ -54,12 +55,23 @@ TEMPLATES = formats_by_suffix(
     PICTURES[".pdf"], PICTURES[".svg"], Format(".dxf", "DXF R12, without pages and assembly instructions", dxf_bytes)
 )
 """Suffix to the format in which templates are written."""
+_LASER_DXF = [DxfLayer(name, number) for name, (_, number) in LASER_LAYERS.items()]
+LASER_TEMPLATES = formats_by_suffix(
+    PICTURES[".svg"], PICTURES[".pdf"], Format(".dxf", "DXF R12", lambda pages: dxf_bytes(pages, _LASER_DXF))
+)
+"""Suffix to the format in which templates for laser cutters are written: one drawing at full size."""
 _LONGEST_TITLE = 200
 _A4 = Paper(210.0, 297.0)
 
 
 def write_template(
-    template: Template, path: str | Path, *, paper: Paper = _A4, force: bool = False
+    template: Template,
+    path: str | Path,
+    *,
+    paper: Paper = _A4,
+    laser: bool = False,
+    kerf: float = 0.0,
+    force: bool = False,
 ) -> tuple[Path, ...]:
     """Write a template; equal templates give equal files.
 
@@ -71,6 +83,11 @@ def write_template(
         ``t-1.svg``, ``t-2.svg``, ..., and ``t-note.svg``. ``.dxf``: one drawing at full size; no pages, no note.
     paper : Paper, optional
         A4 by default; it is turned if that saves pages.
+    laser : bool, optional
+        Write one drawing at full size, without pages and note, its lines in layers to cut (red), score (blue) and
+        engrave (black).
+    kerf : float, optional
+        Width of the cut, millimetres: outlines move outward, and into holes, by half of it.
     force : bool, optional
         Overwrite existing files.
 
@@ -84,7 +101,9 @@ def write_template(
     FileError
         If the extension is unknown, or a file cannot be written or exists.
     UnsolvableError
-        If there would be too many pages, or reportlab is not installed.
+        If there would be too many pages, reportlab is not installed, or the kerf is wider than a gap.
+    InvariantError
+        If the kerf is out of range.
 
     Examples
     --------
@@ -100,6 +119,10 @@ def write_template(
     place = Path(path)
     check_writable(place, TEMPLATES, force=force)
     suffix = place.suffix.lower()
+    template = with_kerf(template, kerf)
+    if laser:
+        write_as(Pages([laser_scene(template)]), place, LASER_TEMPLATES, force=force)
+        return (place,)
     if suffix == ".dxf":
         files = {place: Pages([_side_by_side(template)])}
     elif suffix == ".pdf":

@@ -243,6 +243,15 @@ _SPELLED = {"cone_angle": "--lambda", "number": "--cone", "hinge_kind": "--hinge
     "--thickness", "MM", "For a linkage on a cone or cylinder: thickness of the material.  [default: 0.3]",
     type=options.LENGTH,
 )  # fmt: skip
+@options.flag(
+    "--laser",
+    "For a laser cutter: one drawing at full size, without pages; cuts red, folds to score blue, marks to engrave "
+    "black, in layers of these names.",
+)  # fmt: skip
+@options.value(
+    "--kerf", "MM", "Width of the cut: outlines move outward, and into holes, by half of it.", default=0.0,
+    type=options.LENGTH_OR_NONE,
+)  # fmt: skip
 @options.flag("--note/--no-note", "Add assembly instructions, with a picture.", default=True)
 @AT
 @options.FORCE
@@ -250,7 +259,7 @@ _SPELLED = {"cone_angle": "--lambda", "number": "--cone", "hinge_kind": "--hinge
 @PRECISION
 def template(
     file: str, output: str, row: int | None, mode: str | None, page: str, note: bool, force: bool, as_json: bool,
-    **look: Any,
+    laser: bool, kerf: float, **look: Any,
 ) -> None:  # fmt: skip
     """Write a template of panels at true scale, to cut out and fold.
 
@@ -262,7 +271,8 @@ def template(
     file; a .dxf is one drawing at full size.
 
     A folded surface is unfolded into nets without overlaps, with tabs: edges with the same number are glued, or
-    joined by slots. In thick material, folds are strips of a stated width.
+    joined by slots. In thick material, folds are strips of a stated width. For a laser cutter, --laser writes one
+    drawing in layers (CUT red, SCORE blue, ENGRAVE black) and --kerf allows for the width of the cut.
 
     For a linkage on a cone or cylinder, or a row of conical candidates, the template is the unrolled surface and
     one piece per link, with slots where joints pass from layer to layer.
@@ -273,6 +283,7 @@ def template(
       synth template data/patterns/bird-base.fold --size 600 --page A3 -o bird-base.pdf
       synth template m1:a-b.ac-.b-d.cd- --size 200 -o four-bar.dxf
       synth template data/patterns/bird-base.fold --size 300 --hinges living --hinge-width 8 -o bird-base.dxf
+      synth template data/patterns/bird-base.fold --size 300 --laser --kerf 0.15 -o bird-base.dxf
       synth template RR-R-RRR --mode D --size 180 -o ups.pdf
       synth template data/surfaces/fig11-stephenson.json --size 120 -o stephenson.pdf
       synth template types.sqlite --row 7 --size 150 -o seventh.svg
@@ -285,7 +296,7 @@ def template(
     except InvariantError as error:
         raise click.BadParameter(str(error), param_hint="--page") from None
     check_writable(output, TEMPLATES, force=force)
-    is_dxf = output.lower().endswith(".dxf")
+    bare = laser or output.lower().endswith(".dxf")
     source = read_named(file, row, mode)
     source = replace(source, mechanism=precise_sheet(source.mechanism))
     on_surface = isinstance(source.mechanism, synth.SurfaceLinkage | OrderOnCircle)
@@ -295,12 +306,13 @@ def template(
         if on_surface:
             pieces = _of_surface(source, **look)
         else:
-            pieces, notes = _of_panels(source, picture=note and not is_dxf, **look)
+            pieces, notes = _of_panels(source, picture=note and not bare, **look)
     if not note:
         pieces = replace(pieces, steps=())
-    elif is_dxf:
-        notes.append("not written: the assembly instructions, with a picture (a .pdf or .svg has them)")
-    places = synth.templates.write_template(pieces, output, paper=paper, force=force)
+    elif bare:
+        notes.append("not written: the assembly instructions, with a picture (a .pdf or .svg of pages has them)")
+    with about(source.name):
+        places = synth.templates.write_template(pieces, output, paper=paper, laser=laser, kerf=kerf, force=force)
     if as_json:
         print_json({"file": file, "output": list(map(str, places)), **pieces.to_json()})
     else:
