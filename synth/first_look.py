@@ -166,7 +166,7 @@ def _named(mechanism: Mechanism, answer: JudgedMobility) -> str:
 
 def _motion(answer: JudgedMobility) -> str:
     """Return the verdict, and for a flat pattern whether it folds flat."""
-    sentences = [] if answer.verdict is None else [answer.verdict.text]
+    sentences = [answer.verdict.text]
     if answer.flat_folding is not None:
         sentences.append(f"{str(answer.flat_folding).capitalize()}.")
     return " ".join(sentences)
@@ -201,7 +201,7 @@ def _questions(mechanism: Mechanism, answer: JudgedMobility) -> list[Question]:
             ("synth draw FILE -o picture.svg", "a picture of the graph"),
             ("synth id FILE", "ids, with which lists and atlases are searched"),
         ]
-    freedoms = None if answer.verdict is None else answer.verdict.freedoms
+    freedoms = answer.verdict.freedoms
     questions = _of_sheet(answer, freedoms) if isinstance(mechanism, Sheet) else []
     if freedoms and answer.mobility is not None and answer.mobility < freedoms:
         questions.append(("synth explain FILE", "why it moves although counts say that it is rigid"))

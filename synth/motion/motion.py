@@ -111,6 +111,26 @@ class Motion(Printed):
         every = zip(self.path.angles, self.places, strict=True)
         return [self.configuration.at(angles, points) for angles, points in every]
 
+    def sheets(self) -> list[Sheet]:
+        """Return the sheet in each frame: `frames` of what has panels, typed so.
+
+        Raises
+        ------
+        UnsolvableError
+            If it has no panels.
+
+        Examples
+        --------
+        >>> import synth
+        >>> [sheet.fold_angles is None for sheet in synth.fold(synth.generate("miura").mechanism, frames=1).sheets()]
+        [False, False]
+        """
+        frames = self.frames()
+        sheets = [frame for frame in frames if isinstance(frame, Sheet)]
+        if len(sheets) < len(frames):
+            raise UnsolvableError("frames are sheets of a crease pattern only, and this mechanism has no panels")
+        return sheets
+
     def path_of(self, link: LinkId, point: Sequence[float]) -> Floats:
         """Return where a point of a link is in each frame, the first link held: a coupler curve, float[F, 3].
 

@@ -172,9 +172,7 @@ def folded_pose(sheet: Sheet) -> tuple[Sheet | None, str]:
     half_way = len(folding.places) // 2
     if not np.abs(folding.path.angles[half_way]).max() > 0:
         return None, "it was not folded: nothing turns"
-    pose = folding.frames()[half_way]
-    assert isinstance(pose, Sheet)
-    return pose, "folded half way"
+    return folding.sheets()[half_way], "folded half way"
 
 
 TABS = 8.0

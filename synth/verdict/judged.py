@@ -4,7 +4,7 @@ Theory: docs/theory/verdict.md.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import networkx as nx
@@ -282,7 +282,7 @@ class JudgedMobility(MobilityAnswer):
         Whether a flat pattern folds flat, panels bending on the way; None for others, and for large ones.
     """
 
-    verdict: Verdict | None = None
+    verdict: Verdict = field(kw_only=True)
     configuration: Configuration | None = None
     flat_folding: FlatFoldability | None = None
 
@@ -290,7 +290,7 @@ class JudgedMobility(MobilityAnswer):
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         at, mended = self.configuration, {"mended": list(self.mended)}
         first = {
-            "verdict": None if self.verdict is None else self.verdict.to_json(),
+            "verdict": self.verdict.to_json(),
             "configuration": None if at is None else at.to_json(at.branch(at.chosen)),
             "assignment": None if at is None else at.nearest_to_json(),
             "flat_folding": None if self.flat_folding is None else self.flat_folding.to_json(),
@@ -313,7 +313,7 @@ class JudgedMobility(MobilityAnswer):
 
     def blocks(self, *, verbose: bool = False) -> list[Block]:
         """Return the lines that are printed, the verdict first; verbose adds the table of all equations."""
-        lines: list[Block] = [] if self.verdict is None else [self.verdict.text]
+        lines: list[Block] = [self.verdict.text]
         if self.configuration is not None and self.configuration.disagreeing:
             lines.append(self.configuration.disagreeing)
         if self.flat_folding is not None:
@@ -322,7 +322,7 @@ class JudgedMobility(MobilityAnswer):
         return [*self.unread(), *lines, *self.evidence(verbose=verbose), *self._precision(), *repaired]
 
     def __repr__(self) -> str:
-        return f"<JudgedMobility: {'no verdict' if self.verdict is None else self.verdict.summary}>"
+        return f"<JudgedMobility: {self.verdict.summary}>"
 
 
 def mobility(

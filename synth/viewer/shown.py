@@ -279,7 +279,6 @@ def shown_of(
     if still and isinstance(placed, Sheet) and motion is None and answer.pose is not None:
         answer = replace(answer, verdict=verdict_of_type(answer, on_request(placed)))
     verdict = answer.verdict
-    assert verdict is not None
     report("drawing", 3, _STEPS)
     pictures = _pictures(placed if at is None else at, notes)
     sheet: Sheet | None = placed if isinstance(placed, Sheet) else None

@@ -109,7 +109,7 @@ def _print_table(out: Console, answers: list[tuple[str, synth.verdict.JudgedMobi
         rows.add_row(
             plain(label, _LONGEST_PATH),
             answer.mechanism_class,
-            plain(None if answer.verdict is None else answer.verdict.freedoms),
+            plain(answer.verdict.freedoms),
             *map(plain, (answer.links, answer.joints, answer.loops, answer.centres, answer.mobility)),
             plain(None if answer.exact is None else answer.exact.mobility),
             plain(None if answer.pose is None else answer.pose.dof),

@@ -238,7 +238,7 @@ def write_motion(motion: Motion, path: str | Path, *, force: bool = False) -> li
     at = motion.configuration
     is_picture = path.suffix.lower() in _PICTURES_OF_POSES
     if isinstance(at, SheetConfiguration):
-        sheets = () if is_picture else [pose for pose in motion.frames() if isinstance(pose, Sheet)]
+        sheets = () if is_picture else motion.sheets()
         poses = Poses(at.sheet, motion.places, sheets)
     elif is_picture and isinstance(at.given, HingedSolids | JointedLinkage):
         poses = Poses(bodies_of(motion.linkage)[0], places_of_hinges(motion.linkage, motion.path.angles))
