@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import sqlite3
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
 from threading import TIMEOUT_MAX, Timer
 from time import monotonic
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
 
 from enumerate.runner.store_units import COMPLAINTS, quoted, reading
 from graphs.edit.named import known
@@ -37,6 +39,8 @@ from synth.atlas.expression import condition_of
 if TYPE_CHECKING:
     import pandas
 
+OwnValue: TypeAlias = bool | int | float | str | None
+"""What a function for a column of one's own returns."""
 _READABLE = {"type", "types", "relations", "atlas", "json_each", "json_tree"}
 _ALLOWED = {sqlite3.SQLITE_SELECT, sqlite3.SQLITE_RECURSIVE}
 _REFUSED = {
@@ -291,6 +295,39 @@ class AtlasRows(Printed):
         """Return the rows as plain data."""
         return [{name: _plain_data(value) for name, value in row.items()} for row in self.rows]
 
+    def with_columns(self, functions: Mapping[str, Callable[[Any], OwnValue]]) -> AtlasRows:
+        """Return the rows with columns of one's own, each the value of a function for the mechanism of a row.
+
+        Parameters
+        ----------
+        functions : mapping of str to callable
+            Name of a column to a function, which takes an SC graph, an SCD graph, a string or an order of joints
+            and returns a number, a text, a truth value or None.
+
+        Raises
+        ------
+        InvariantError
+            If a column of the name exists, or the rows have no columns ``kind`` and ``id``.
+        UnsolvableError
+            If a function fails, or returns anything else.
+
+        Examples
+        --------
+        >>> rows = AtlasRows(("id", "kind"), [{"id": "k1:Cr", "kind": "chain"}], False)
+        >>> rows.with_columns({"edges": lambda chain: len(chain.joints)}).rows
+        [{'id': 'k1:Cr', 'kind': 'chain', 'edges': 4}]
+        """
+        if not {"id", "kind"} <= set(self.columns):
+            raise InvariantError("query", "rows without id and kind", "both columns, for columns of one's own")
+        for name in functions:
+            if name in self.columns or name in COLUMNS:
+                raise InvariantError("column", f"there is a column {shown(name)} already", "another name")
+        rows = [
+            {**row, **{name: _own_value(name, function, row) for name, function in functions.items()}}
+            for row in self.rows
+        ]
+        return AtlasRows((*self.columns, *functions), rows, self.more)
+
     def to_frame(self) -> pandas.DataFrame:
         """Return the rows as a data frame; UnsolvableError if pandas is not installed."""
         try:
@@ -312,6 +349,23 @@ class AtlasRows(Printed):
 
     def __repr__(self) -> str:
         return f"<AtlasRows: {len(self.rows)} types{', of more' if self.more else ''}>"
+
+
+def _own_value(name: str, function: Callable[[Any], OwnValue], row: Mapping[str, Any]) -> OwnValue:
+    """Return the value of a function for the mechanism of a row."""
+    from synth.drawing.catalogue import drawable_of_type
+
+    mechanism = drawable_of_type(row["kind"], row["id"])
+    try:
+        value = function(mechanism)
+    except Exception as error:  # any code of a user
+        failed = f"column {shown(name)} failed for {row['id']}: {type(error).__name__}: {plain(error, 300)}"
+        raise UnsolvableError(failed) from error
+    value = value.item() if isinstance(value, np.generic) else value
+    if value is not None and not isinstance(value, bool | int | float | str):
+        got = f"column {shown(name)} of {row['id']} is of type {type(value).__name__}"
+        raise UnsolvableError(f"{got}; expected a number, a text, a truth value or None")
+    return value
 
 
 @dataclass(frozen=True)

@@ -45,7 +45,12 @@ reveal_type(synth.advise(source, 1).locks)
 
 # Motion
 folded = synth.fold(sheet, drive={0: 1.0})
-reveal_type((folded, folded.freedoms, folded.frames()))
+reveal_type((folded, folded.freedoms, folded.frames(), folded.sheets()))
+reveal_type(synth.in_configuration(sheet, "last", angles={0: 1.0}))
+designs = synth.design_on_cone(0.4, 1.0, tries=1)
+reveal_type((designs, designs.designs, designs.rim))
+answer = synth.mobility("k1:Cr")
+reveal_type((answer.verdict.text, answer.verdict.freedoms, answer.mobility))
 reveal_type(synth.move(solids, frames=3).path.angles)
 reveal_type(synth.positions(solids, drive={0: 0.1}).positions)
 springs = synth.Springs({0: 2.0})

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Callable
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -10,12 +13,29 @@ import click
 
 import synth.atlas
 from graphs.errors import UnsolvableError, numbered
-from graphs.printing import TableBlock
+from graphs.printing import TableBlock, plain
 from synth.cli import options, output as out
 from synth.cli.reading import entries
 from synth.cli.runner import RunOptions, run_resumable, run_whole, runner_options
 
 _ATLAS = click.argument("atlas", metavar="ATLAS.sqlite", type=options.FILE_NAME)
+
+
+def _own_column(word: str) -> tuple[str, Callable[[Any], Any]]:
+    """Return the name and the function of a column, ``NAME=MODULE:FUNCTION``."""
+    name, equals, place = word.partition("=")
+    module, colon, function = place.partition(":")
+    if not (equals and colon and name.isidentifier() and function):
+        raise ValueError(f"{plain(word)!r} is not NAME=MODULE:FUNCTION, such as edges=mine:edges")
+    if "" not in sys.path:
+        sys.path.insert(0, "")
+    try:
+        found = getattr(import_module(module), function)
+    except (ImportError, AttributeError, ValueError) as error:
+        raise ValueError(f"{plain(place)!r} cannot be imported: {plain(error, 300)}") from None
+    if not callable(found):
+        raise ValueError(f"{plain(place)!r} is not a function")
+    return name, found
 
 
 @click.group("atlas")
@@ -72,6 +92,11 @@ def build(orders_of: tuple[str, ...], running: RunOptions, **types: Any) -> None
 @click.argument("condition", required=False, default="")
 @options.value("--sql statement", "SELECT", "SQL statement to use instead of a condition.")
 @options.value("--columns", "A,B,...", "Columns to show; `help` lists all of them.")
+@options.repeated(
+    "--column own", "NAME=MODULE:FUNCTION",
+    "Add a column of your own: a Python function of the mechanism of a row; may be repeated. MODULE is found in the "
+    "current folder too.", type=options.WordType("column", _own_column),
+)  # fmt: skip
 @options.value(
     "--sort", "[-]COLUMN", "Sort by a column; a leading - sorts in descending order.",
     default="", show_default=False,
@@ -85,7 +110,7 @@ def build(orders_of: tuple[str, ...], running: RunOptions, **types: Any) -> None
 @options.JSON
 def query(
     atlas: str, condition: str, statement: str | None, columns: str | None, output: str | None, force: bool,
-    as_json: bool, sort: str, limit: int, seconds: float,
+    as_json: bool, sort: str, limit: int, seconds: float, own: tuple[tuple[str, Callable[[Any], Any]], ...],
 ) -> None:  # fmt: skip
     """List the types that fulfil a condition.
 
@@ -96,6 +121,10 @@ def query(
       assortment = (4, 2) or name like '%watt%'
       loop_sizes contains 5 and not (symmetry = 1)
       kind in ('sc', 'scd') and ride_alongs is known
+
+    \b
+    A column of your own, written for LaTeX:
+      synth atlas query ATLAS.sqlite "kind = chain" --columns id,kind,name --column edges=mine:edges -o chains.tex
     """
     if columns == "help":
         meanings = [(name, " ".join(column.kinds), column.says) for name, column in synth.atlas.COLUMNS.items()]
@@ -112,6 +141,8 @@ def query(
     else:
         names = [name.strip() for name in columns.split(",")] if columns else []
         rows = opened.query(condition, columns=names, sort=sort, limit=limit, seconds=seconds)
+    if own:
+        rows = rows.with_columns(dict(own))
     if output is not None:
         from synth.atlas.written import write_rows
 

@@ -66,3 +66,29 @@ def test_what_cannot_be_is_one_line(tmp_path, monkeypatch, words, told):
     output = run("atlas", *words, code=2).output
     assert told in output
     assert list(tmp_path.iterdir()) == []
+
+
+def test_columns_of_ones_own(atlas, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "my_columns.py").write_text(
+        "def edges(mechanism):\n    return len(mechanism.joints)\n"
+        "def fails(mechanism):\n    return 1 // 0\n"
+        "def wrong(mechanism):\n    return [1]\n"
+    )
+    words = ("atlas", "query", atlas, "kind in ('chain', 'sc')", "--columns", "id,kind,joints")
+    rows = json.loads(run(*words, "--column", "edges=my_columns:edges", "--json").output)
+    assert rows
+    assert all(row["edges"] == row["joints"] for row in rows)
+    run(*words, "--column", "edges=my_columns:edges", "-o", tmp_path / "rows.csv")
+    assert (tmp_path / "rows.csv").read_text().splitlines()[0] == "id,kind,joints,edges"
+    run(*words, "--column", "edges=my_columns:edges", "-o", tmp_path / "rows.tex")
+    assert "edges" in (tmp_path / "rows.tex").read_text()
+    for column, said in (
+        ("edges", "is not NAME=MODULE:FUNCTION"),
+        ("edges=nowhere:edges", "cannot be imported"),
+        ("links=my_columns:edges", "already"),
+        ("e=my_columns:fails", "ZeroDivisionError"),
+        ("e=my_columns:wrong", "of type list"),
+        ("e=my_columns:__name__", "is not a function"),
+    ):
+        assert said in run(*words, "--column", column, code=2).output
