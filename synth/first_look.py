@@ -98,7 +98,7 @@ def look(mechanism: MechanismLike, *, precision: float | None = None) -> FirstLo
     Examples
     --------
     >>> print(look("k1:Cr"))
-    An SC graph, a type without coordinates: 4 links, 4 joints, 1 centre; its chain is named four-bar.
+    A kinematic chain, a type without coordinates and centres: 4 links, 4 joints; its chain is named four-bar.
     A generic realisation has 1 degree of freedom (exact rank).
     Nothing had to be repaired.
     Next:
@@ -124,6 +124,9 @@ def _kind(mechanism: Mechanism, answer: JudgedMobility) -> str:
     if isinstance(mechanism, JointedLinkage):
         where = "with the places of its joints" if mechanism.places else "a type without coordinates"
         return f"A linkage of several kinds of joints, {where}: {_parts(answer)}."
+    if getattr(mechanism, "centres_assumed", False):
+        parts = f"{numbered(answer.links or 0, 'link')}, {numbered(answer.joints or 0, 'joint')}"
+        return f"A kinematic chain, a type without coordinates and centres: {parts}{_named(mechanism, answer)}."
     placed = isinstance(mechanism, PolyhedronModel) and bool(mechanism.coordinates)
     where = "with coordinates" if placed else "a type without coordinates"
     kind = kind_in_words(mechanism)

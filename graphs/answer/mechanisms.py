@@ -12,7 +12,7 @@ import networkx as nx
 import numpy as np
 
 from graphs.answer.jointed import chain_with_planar_loops, mobility_of_jointed
-from graphs.answer.report import MobilityAnswer, notes_of_pose
+from graphs.answer.report import CENTRES_ASSUMED, MobilityAnswer, notes_of_pose
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.convert.table import Mechanism, graph_of
 from graphs.count.report import mobility_report
@@ -113,7 +113,6 @@ def _flat_notes(answer: MobilityAnswer, pose: PoseMobility) -> list[str]:
     return [f"{flat}: fewer infinitesimal degrees of freedom once folded"]
 
 
-_ASSUMED = "a link-joint graph without centres: each face of a drawing is assumed to have a finite one, which decides M"
 _ANY_CONE = Cone(pi / 4)
 """Rank at the conformed position does not depend on the cone angle (docs/theory/behaviour.md)."""
 
@@ -181,7 +180,7 @@ def mobility(
         counted = numbered(planar, "loop whose axes are parallel counts", "loops whose axes are parallel count")
         answer = answer.with_notes(warnings=[f"{counted} as planar"])
     if sc.centres_assumed:
-        answer = replace(answer, warnings=(_ASSUMED, *answer.warnings))
+        answer = replace(answer, warnings=(CENTRES_ASSUMED, *answer.warnings))
     if pose is not None and pose is not False:
         answer = answer.with_notes(warnings=["no degrees of freedom at a configuration: a graph has no coordinates"])
     if exact is not False:

@@ -51,6 +51,12 @@ _COUNTS = {
 }
 
 
+CENTRES_ASSUMED = (
+    "a link-joint graph without centres: each face of a drawing is assumed to have a finite one, which decides M"
+)
+"""The note on a link-joint graph that was read without centres."""
+
+
 @dataclass(frozen=True, slots=True, repr=False)
 class MobilityAnswer(MobilityReport, Printed):
     """The mobility of one mechanism, with its evidence; it prints as ``synth mobility`` does.
@@ -115,7 +121,9 @@ class MobilityAnswer(MobilityReport, Printed):
         if self.exact is not None:
             rank = f"exact rank {self.exact.rank} modulo two primes"
             blocks.append(f"generic realisation: mobility {self.exact.mobility}   ({rank})")
-        blocks.append(f"by count: mobility M = {plain(self.mobility)}   ({self.mechanism_class})")
+        assumed = CENTRES_ASSUMED in self.warnings
+        kind = "kinematic chain, with the centres assumed" if assumed else self.mechanism_class
+        blocks.append(f"by count: mobility M = {plain(self.mobility)}   ({kind})")
         blocks.append(_equations_line(self, hint=not verbose))
         if verbose:
             rows = [
@@ -127,11 +135,11 @@ class MobilityAnswer(MobilityReport, Printed):
             ("links N", self.links),
             ("joints J", self.joints),
             ("loops L", self.loops),
-            ("centres", self.centres),
+            ("assumed centres" if assumed else "centres", self.centres),
             *((title, self.counts.get(key)) for key, title in _COUNTS.items()),
         ]
         blocks.append(", ".join(f"{title} {value}" for title, value in known if value is not None))
-        if self.arrangement not in (None, "none", "single"):
+        if self.arrangement not in (None, "none", "single") and not assumed:
             blocks.append(f"arrangement of centres: {self.arrangement} ({ARRANGEMENTS[self.arrangement]})")
         reading = self.reading or Reading()
         blocks += [f"repaired: {reading.with_places(note)}" for note in self.repairs if note != reading.left_out]

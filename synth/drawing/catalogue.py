@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from itertools import chain, count, islice
 from math import pi, radians
 from pathlib import Path
+from textwrap import wrap
 from typing import Any
 
 from enumerate.chains.names import name_of
@@ -42,7 +43,7 @@ _WIDE, _HIGH = 595.0, 842.0
 _EDGE, _HEAD = 30.0, 26.0
 _COLUMNS, _ROWS = 4, 6
 _LETTERS = 5.0
-_LINES = 3
+_LINES = 4
 """Lines of text below a picture: number, id, properties."""
 _AIR = 6.0
 
@@ -248,7 +249,7 @@ def _entry_of_row(place: Path, number: int, row: Row) -> CatalogueEntry:
 
 
 def _said(row: Row) -> str:
-    """Return the degrees of freedom, centres and symmetry of a row, where it has them."""
+    """Return the degrees of freedom, centres, symmetry of a row, and what tells it from others, where it has them."""
     words = []
     if isinstance(row.get("order"), list):  # of the joints round a cone
         words.append("order " + " ".join(map(str, row["order"])))
@@ -261,7 +262,23 @@ def _said(row: Row) -> str:
         words.append(f"symmetry {row['symmetry']}")
     if row.get("joints") and isinstance(row["joints"], str):
         words.append(row["joints"])
+    words += [said.format(_listed_numbers(row[column])) for column, said in _DIFFERING.items() if row.get(column)]
     return ", ".join(words)
+
+
+_DIFFERING = {
+    "assortment": "assortment {}",
+    "loop_sizes": "loops {}",
+    "sides": "sides {}",
+    "open_edges": "{} open edges",
+    "implicit": "{} implicit",
+    "inversions": "{} inversions",
+}
+"""Columns in which types of one kind, size and mobility differ, and how a caption says them."""
+
+
+def _listed_numbers(value: Any) -> str:
+    return " + ".join(map(str, value)) if isinstance(value, list | tuple) else str(value)
 
 
 def catalogue_pages(entries: Iterable[CatalogueEntry], title: str = "", kind: str | None = None) -> Iterator[Scene]:
@@ -296,7 +313,8 @@ def _in_cell(entry: CatalogueEntry, place: int, kind: str | None) -> tuple[list[
     first = top + high - _LINES * 1.4 * _LETTERS
     most = int((wide - _AIR) / text_width("0", _LETTERS))
     labels = []
-    for i, text in enumerate((str(entry.number), entry.name, entry.said)):
+    texts = [str(entry.number), *wrap(entry.name, most), *wrap(entry.said, most)]
+    for i, text in enumerate(texts[:_LINES]):
         at, colour = (left + _AIR, first + i * 1.35 * _LETTERS), "grey" if i else "ink"
         labels.append(Label(at, text, _LETTERS, colour, "start", bold=i == 0, halo=False, widest=most))
     return picture, labels

@@ -19,7 +19,7 @@ MECHANISMS = {
     "data/surfaces/fig11-stephenson.json": "A linkage on a cone: 6 links, 7 joints, 1 centre; its chain is named stephenson.",
     "data/wiener/six-bar.json": "An SCD graph, a type without coordinates: 6 links, 7 joints, 2 centres; its chain is named watt.",
     "data/wampler/crs-platform.json": "A polyhedron model, a type without coordinates: 10 vertices",
-    "k1:Cr": "An SC graph, a type without coordinates: 4 links, 4 joints, 1 centre; its chain is named four-bar.",
+    "k1:Cr": "A kinematic chain, a type without coordinates and centres: 4 links, 4 joints; its chain is named four-bar.",
 }
 
 

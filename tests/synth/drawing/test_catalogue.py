@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 import pytest
 from commands import run
 
+import synth
 from enumerate.chains.jobs import chain_rows
 from graphs.errors import FileError, InvariantError
 from graphs.files.formats import read
@@ -54,7 +55,16 @@ def test_labels_do_not_overlap_on_the_catalogue_of_ten_link_chains(tmp_path):
 def test_a_catalogue_names_what_is_known(six_links):
     (page,) = catalogue_pages(catalogue_entries(six_links), "six links")
     texts = [label.text for label in page.labels()]
-    assert {"1", "2", "k1:E`hW", "stephenson, M = 1, symmetry 4"} <= set(texts) or "watt, M = 1, symmetry 4" in texts
+    said = " ".join(texts)
+    assert {"1", "2", "k1:E`hW"} <= set(texts)
+    assert "watt, M = 1, symmetry 4, assortment 4 + 2, 2 inversions" in said
+    assert "stephenson, M = 1, symmetry 4, assortment 4 + 2, 3 inversions" in said
+
+
+def test_a_chain_without_centres_is_not_called_a_spherical_system():
+    assert "spherical system)" not in str(synth.mobility("k1:E`hW")).replace("spherical system (Wiener", "")
+    assert "kinematic chain" in synth.look("k1:E`hW").kind
+    assert "spherical system)" in str(synth.mobility("m1:ab.ac.bde.cef.dg.fg"))
 
 
 def test_filters_keep_the_numbers(tmp_path):
