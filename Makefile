@@ -29,6 +29,7 @@ help:
 	@echo "make data       write the files under data/ anew, and list those that change"
 	@echo "make pictures   draw the pictures of README.md and docs/ anew, and list those that change"
 	@echo "make docs       build the site of docs/ in docs/_build from the committed files, without a warning"
+	@echo "make site       build the same site in $(SITE)/ as a folder for any static host, all links relative"
 	@echo "make release    build sdist and wheel in dist/, check them, and install them in clean environments"
 	@echo "make examples   write the output of the commands in README.md and docs/ anew, and list the documents that change"
 	@echo "make clean      remove $(VENV) and the caches of tools; machine code stays in ~/.cache/synthedra"
@@ -150,6 +151,17 @@ docs: $(STAMP)
 	$(BIN)/python -m pip install --quiet -e '.[docs,draw]'
 	$(BIN)/python -m sphinx -W --keep-going -q -b html docs docs/_build/html
 	$(BIN)/python docs/links.py
+
+# The site as a folder for any static host, with the pages of examples beside it; all links in it are relative.
+SITE ?= site
+.PHONY: site
+site: docs page
+	rm -rf $(SITE)
+	cp -r docs/_build/html $(SITE)
+	rm -rf $(SITE)/.doctrees $(SITE)/.buildinfo
+	touch $(SITE)/.nojekyll
+	$(BIN)/python docs/relative_links.py $(SITE)
+	@echo "The site is in $(SITE): put this folder on any static host"
 
 # Environments for every Python that is here, without extras and with those of users.
 release: $(STAMP)
