@@ -56,6 +56,12 @@ class ConeDesign:
         Least distance of two joints round the axis, radians.
     holds : float
         Largest error of the azimuths, degrees, at which it still leaves the cone on the side, to first order.
+
+    Examples
+    --------
+    >>> first, *_ = design_on_cone(np.radians(25), np.radians(60), tries=2).designs
+    >>> first.chain, len(first.arcs)
+    ('four-bar', 4)
     """
 
     linkage: OnSurface
@@ -102,6 +108,11 @@ class ConeDesigns(Printed):
         Those with the largest margins first.
     possible, moved : int
         Number of candidates that leave on that side to first order, and of those that were moved.
+
+    Examples
+    --------
+    >>> design_on_cone(np.radians(25), np.radians(60), tries=2).moved
+    2
     """
 
     half_angle: float

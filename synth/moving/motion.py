@@ -120,7 +120,19 @@ def table_text(mechanism: Mechanism, which: str) -> tuple[str, tuple[str, ...]]:
 class FilePoses(NamedTuple):
     """The configurations of a sheet in its file, in the order of their motion.
 
-    `resting` is the place of the key frame among them, `left_out` the number of frames that show other panels.
+    Attributes
+    ----------
+    sheets : list of Sheet
+    resting : int
+        Place of the key frame among them.
+    left_out : int
+        Number of frames that show other panels.
+
+    Examples
+    --------
+    >>> square = Sheet(4, ((0, 2),), "V", ((0, 1, 2), (0, 2, 3)), ((0, 0), (2, 0), (2, 2), (0, 2)))
+    >>> poses_of_file(square).resting
+    0
     """
 
     sheets: list[Sheet]
