@@ -22,6 +22,7 @@ help:
 	@echo "make test-night the slow tests that take more than ten minutes each"
 	@echo "make durations  run all tests except those of the night and the web, and write their durations to tests/durations.json"
 	@echo "make test-web   run a notebook and test its displays, and test the page of synth view in node and in Chromium"
+	@echo "make test-simulators  install MuJoCo, and test models for simulators with it"
 	@echo "make test-machines  check that answers are the same under other BLAS kernels, threads, hash seeds, and without AVX2"
 	@echo "make bench      measure what people wait for, beside other programs where they are at hand: some minutes"
 	@echo "make page       build the script of that page, if its sources have changed"
@@ -122,6 +123,12 @@ test-web: $(STAMP) page browser
 	  npm install --prefix $(VENV)/npm --no-audit --no-fund --silent gltf-validator@2.0.0-dev.3.10; \
 	else echo "The registry of npm is out of reach: the page's own tests are left out, and others that need its packages skip" >&2; fi
 	NODE_PATH="$(CURDIR)/$(VENV)/npm/node_modules" $(BIN)/python -m pytest -m "web and not slow"
+
+# Simulators, which read what we write for them; their tests skip where they are missing.
+.PHONY: test-simulators
+test-simulators: $(STAMP)
+	$(BIN)/python -m pip install --quiet -e '.[simulate]'
+	$(BIN)/python -m pytest $(PARALLEL) -m "not slow" tests/synth/simulation
 
 # Operators and guards of FILE (those changed since SINCE without one) that no test of its room holds.
 .PHONY: mutants

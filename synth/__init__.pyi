@@ -58,6 +58,7 @@ from synth.overconstraint.explanation import explain as explain
 from synth.patterns.generated import generate as generate
 from synth.realisation.on_cone import realise_on_cone as realise_on_cone
 from synth.realisation.realised import realise as realise
+from synth.simulation.writing import write_model as write_model
 from synth.surfaces.linkages import map_linkage as map_linkage
 from synth.surfaces.loop_maps import map_to_cones as map_to_cones, map_to_cylinders as map_to_cylinders
 from synth.surfaces.many_loops import cones_of_loops as cones_of_loops

@@ -24,6 +24,7 @@ _OF_SOLIDS = {
     "thickness": "--thickness", "gap": "--gap", "scale": "--scale", "size": "--size", "number": "--cone",
 }  # fmt: skip
 """Options of files of solids, by their parameters."""
+_OF_MODELS = ("density", "drive", "branch", "stiffness")
 
 
 @click.command()
@@ -52,12 +53,19 @@ _OF_SOLIDS = {
 )  # fmt: skip
 @options.NUMBER_OF_SURFACE
 @AT
+@options.choice("--as model", ("mjcf",), "Write rigid bodies and joints for a simulator.")
+@options.value("--density", "D", "With --as: density of the bodies in kg/m³.  [default: 1000]", type=options.LENGTH)
+@options.repeated(
+    "--drive", "JOINT=DEGREES", "With --as: a joint that gets an actuator, and the end of its motion; may be repeated."
+)
+@options.branch("With --as: motion branch, as for `synth fold`.")
+@options.repeated("--stiffness", "JOINT=K", "With --as: torsion spring at a joint, in N m per radian; may be repeated.")
 @options.FORCE
 @options.LOSSY
 @options.flag("--json as_json", "Print the conversion and its notes as JSON.")
 def convert(
     source: str, target: str, kind: str | None, form: str | None, table: str | None, force: bool, lossy: bool,
-    as_json: bool, **values: Any,
+    as_json: bool, model: str | None, **values: Any,
 ) -> None:  # fmt: skip
     """Convert a mechanism from one file format to another; the extensions name the formats.
 
@@ -81,6 +89,12 @@ def convert(
       .stl .3mf .gltf      panels as thin solids, with gaps at hinges; .obj too, with --thickness;
                            .gltf animates the frames of a .fold file; a linkage on a surface in layers
 
+    \b
+    With --as, rigid bodies for simulators:
+      mjcf (.xml)          MuJoCo: panels of a thickness, or bars between joint axes; exact hinges, a spanning tree,
+                           connections that close the loops, an actuator at the driven joint. Coordinates are
+                           metres unless --scale or --size is given
+
     Notes list what OUT cannot hold, by kind and number. If OUT would read back as another type (its links, joints
     or centres do not correspond), nothing is written, unless --lossy is given.
 
@@ -93,12 +107,16 @@ def convert(
       synth convert watt.json planar-watt.json --form planar
       synth convert stewart.json creases.json --to solids
       synth convert creases.json platform.json --to joints
+      synth convert miura.fold miura.xml --as mjcf --size 300 --thickness 1
     """
     check_output(target, force=force)
-    if (Path(target).suffix.lower() == ".csv") != (table is not None):
+    for_model = {name: values.pop(name) for name in _OF_MODELS}
+    if model is None and (Path(target).suffix.lower() == ".csv") != (table is not None):
         raise click.UsageError("--table and an output .csv require each other")
     solid = {name: values[name] for name in _OF_SOLIDS if values[name] is not None}
-    of_solids = _is_of_solids(target, solid)
+    if model is None:
+        _check_no_model(for_model)
+    of_solids = model is None and _is_of_solids(target, solid)
     original = read(source)
     with about(source):
         mechanism = synth.convert(original, kind, form=form)
@@ -108,6 +126,8 @@ def convert(
 
             text, lost = table_text(mechanism, table)
             write_text(Path(target), text, force=force)
+        elif model is not None:
+            lost = _write_model(mechanism, target, model, force=force, **solid, **for_model)
         elif of_solids:
             lost = _write_solids(mechanism, target, force=force, **solid)
         else:
@@ -131,6 +151,31 @@ def _is_of_solids(target: str, solid: dict[str, Any]) -> bool:
         spelled = ", ".join(_OF_SOLIDS[name] for name in solid)
         raise click.UsageError(f"{spelled}: for solids only ({', '.join(_SOLIDS)} and .obj)")
     return suffix in _SOLIDS or bool(solid)
+
+
+def _check_no_model(values: dict[str, Any]) -> None:
+    """Refuse options of models for simulators for any other file."""
+    given = [f"--{name}" for name, value in values.items() if value not in (None, ())]
+    if given:
+        raise click.UsageError(f"{', '.join(given)}: only with --as")
+
+
+def _write_model(
+    mechanism: Mechanism, target: str, model: str, *, force: bool, drive: tuple[str, ...],
+    stiffness: tuple[str, ...], density: float | None, **values: Any,
+) -> tuple[str, ...]:  # fmt: skip
+    from synth.moving import configuration_of
+    from synth.simulation.assembly import DENSITY
+
+    if "number" in values or "gap" in values:
+        raise click.UsageError("--cone and --gap: not with --as")
+    at = configuration_of(mechanism, slides=True)
+    graph = at.linkage.graph
+    return synth.write_model(
+        at, target, model, force=force, density=density or DENSITY, **values,
+        drive=options.driven_angles(graph, drive),
+        springs=synth.Springs(options.numbers_of_joints(graph, stiffness, "--stiffness", "JOINT=K")),
+    )  # fmt: skip
 
 
 def _write_solids(mechanism: Mechanism, target: str, *, force: bool, **solid: Any) -> tuple[str, ...]:

@@ -1,0 +1,98 @@
+"""Models for simulators written to files: a record for each format, in the table ``MODELS``."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from graphs.errors import FileError, InvariantError, shown
+from graphs.files.atomic import check_place, write_chunks
+from graphs.files.outputs import Format
+from graphs.types import JointId
+from synth.compliance.springs import Springs
+from synth.moving.made import Movable
+from synth.simulation.assembly import DENSITY, Assembly, AssemblyOptions, assembly_of
+from synth.simulation.mjcf import lost_as_mjcf, mjcf_bytes
+
+MODELS: dict[str, Format[Assembly]] = {"mjcf": Format(".xml", "MJCF, for MuJoCo", mjcf_bytes, lost_as_mjcf)}
+"""Name to the format of a model for simulators."""
+
+
+def write_model(
+    mechanism: Movable,
+    path: str | Path,
+    name: str,
+    *,
+    thickness: float | None = None,
+    density: float = DENSITY,
+    scale: float | None = None,
+    size: float | None = None,
+    drive: Mapping[JointId, float] | None = None,
+    branch: int | str | None = None,
+    springs: Springs | None = None,
+    force: bool = False,
+) -> tuple[str, ...]:
+    """Write a mechanism as rigid bodies and joints for a simulator, with what closes its loops.
+
+    Parameters
+    ----------
+    mechanism : anything that `synth.moving.made.configuration_of` takes
+    path : str or Path
+    name : {"mjcf"}
+        The format.
+    thickness : float, optional
+        Of panels, and diameter of bars, millimetres; by default a hundredth of the extent.
+    density : float, optional
+        Kilograms per cubic metre.
+    scale, size : float, optional
+        Millimetres per unit of the coordinates, by default 1000: the unit is a metre; or the longest side.
+    drive : mapping of joint id to float, optional
+        Joints that get actuators, and the angles at which their motion ends, as for `synth.move`. By default the
+        joint that moves most.
+    branch : int or str, optional
+        As for `synth.move`.
+    springs : Springs, optional
+        Newton metres per radian.
+    force : bool, optional
+        Overwrite an existing file.
+
+    Returns
+    -------
+    tuple of str
+        Notes on the motion, and what the file does not hold, by kind and number.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be written, exists already, or has another extension than the format.
+    InvariantError
+        If there is no such format, or a number is out of range.
+    UnsolvableError
+        If the mechanism has no coordinates, joints cannot be driven, or a panel is not planar.
+
+    Examples
+    --------
+    >>> import synth
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     write_model(synth.generate("miura").mechanism, Path(folder, "miura.xml"), "mjcf")
+    ('4 limits of cut hinges',)
+    """
+    options = AssemblyOptions(thickness, density, scale, size, drive or {}, branch, springs or Springs())
+    assembly = write_assembly(mechanism, path, name, options, force=force)
+    return (*assembly.notes, *MODELS[name].lost(assembly))
+
+
+def write_assembly(
+    mechanism: Movable, path: str | Path, name: str, options: AssemblyOptions, *, force: bool = False
+) -> Assembly:
+    """Write a mechanism as `write_model` does, and return its bodies and joints."""
+    if name not in MODELS:
+        raise InvariantError("format", f"there is no format {shown(name)}", ", ".join(MODELS))
+    written = MODELS[name]
+    if Path(path).suffix.lower() != written.suffix:
+        raise FileError(path, "", f"the extension is not that of {written.name}", written.suffix)
+    check_place(Path(path), force=force)
+    assembly = assembly_of(mechanism, options)
+    write_chunks(Path(path), [written.to_bytes(assembly)], force=force)
+    return assembly

@@ -1,0 +1,183 @@
+"""Bodies and trees: mass and inertia by a second method, which hinges are cut, what is refused."""
+
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import networkx as nx
+import numpy as np
+import pytest
+from commands import run
+
+import synth
+from graphs.errors import FileError, InvariantError, UnsolvableError
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.solids import HingedSolids
+from synth.moving.made import configuration_of
+from synth.simulation.assembly import AssemblyOptions, assembly_of, driven_inertia, spanning_tree
+from synth.simulation.bodies import Bar, MassProperties, Plate
+from synth.simulation.mjcf import convex_parts
+from synth.templates.unfolding import Plane
+
+L_SHAPE = np.array([(0, 0, 0), (3, 0, 1), (3, 1, 1), (1, 1, 1 / 3), (1, 2, 1 / 3), (0, 2, 0)], dtype=float)
+
+
+def by_points(points, weights):
+    """Return the properties of masses at points."""
+    mass, centre = weights.sum(), weights @ points / weights.sum()
+    arms = points - centre
+    inertia = np.eye(3) * (weights * (arms**2).sum(axis=1)).sum() - (weights * arms.T) @ arms
+    return MassProperties(mass, centre, inertia)
+
+
+def agree(one, other, part):
+    assert one.mass == pytest.approx(other.mass, rel=part)
+    assert np.abs(one.centre - other.centre).max() < part
+    assert np.abs(one.inertia - other.inertia).max() < part * np.abs(other.inertia).max()
+
+
+def test_a_plate_by_its_convex_parts():
+    """Tetrahedra of prisms, each with four masses (a rule exact to second order), against sums over sides."""
+    plate = Plate(Plane(L_SHAPE, 0), 0.3)
+    points, weights = [], []
+    near, far = (5 - np.sqrt(5)) / 20, (5 + 3 * np.sqrt(5)) / 20
+    parts = convex_parts(plate)
+    assert len(parts) > 1
+    for corners in parts:
+        low, high = corners.reshape(2, -1, 3)
+        (a, b, c), (d, e, f) = low, high
+        for tetrahedron in ((a, b, c, d), (b, c, d, e), (c, d, e, f)):
+            corners_of = np.array(tetrahedron)
+            volume = abs(np.linalg.det(corners_of[1:] - corners_of[0])) / 6
+            points += [near * corners_of.sum(axis=0) + (far - near) * corner for corner in corners_of]
+            weights += [volume * 700.0 / 4] * 4
+    agree(plate.properties(700.0), by_points(np.array(points), np.array(weights)), 1e-12)
+
+
+def test_a_bar_by_slices():
+    bar = Bar(np.array([1.0, 0.0, 2.0]), np.array([2.0, 2.0, 0.0]), 0.4)
+    along = (bar.end - bar.start) / 3.0
+    side = np.cross(along, [1.0, 0.0, 0.0])
+    side /= np.linalg.norm(side)
+    other = np.cross(along, side)
+    nodes, weights = np.polynomial.legendre.leggauss(4)
+    turns = np.arange(8) * np.pi / 4
+    points, masses = [], []
+    for x, w in zip(nodes, weights, strict=True):
+        for r, v in zip(nodes, weights, strict=True):
+            radius = bar.radius * (r + 1) / 2
+            for turn in turns:
+                points.append(
+                    (bar.start + bar.end) / 2 + 1.5 * x * along + radius * (np.cos(turn) * side + np.sin(turn) * other)
+                )
+                masses.append(w / 2 * 3.0 * v / 2 * bar.radius * radius * 2 * np.pi / 8)
+    agree(bar.properties(1.0), by_points(np.array(points), np.array(masses)), 1e-12)
+
+
+@pytest.mark.parametrize("name", ["miura", "goldberg", "scissor-ring", "crash-lock"])
+def test_the_tree_spans(name):
+    assembly = assembly_of(synth.generate(name).mechanism)
+    tree = nx.DiGraph((joint.parent, joint.child) for joint in assembly.tree)
+    assert nx.is_arborescence(tree)
+    assert len(tree) == len(assembly.bodies)
+    within = {joint.hinge for joint in assembly.tree}
+    assert set(assembly.driven) <= within
+    assert {cut.hinge for cut in assembly.cuts} == set(range(len(assembly.hinges))) - within
+
+
+def test_springs_and_driven_joints_are_in_the_tree():
+    mechanism = synth.generate("goldberg").mechanism
+    for joint in mechanism.axes:
+        other = (joint + 2) % 5
+        options = AssemblyOptions(drive={joint: 0.4}, springs=synth.Springs({other: 2.0}, {other: 0.1}))
+        assembly = assembly_of(mechanism, options)
+        within = {assembly.hinges[each.hinge].joint for each in assembly.tree}
+        assert {joint, other} <= within
+
+
+def test_driven_inertia_of_a_pendulum():
+    """A door: the inertia about its hinge."""
+    door = HingedSolids(SCGraph(2, [(0, 1)], ground=0), {0: ((0, 0, 0), (0, 0, 1))})
+    assembly = assembly_of(door, AssemblyOptions(drive={0: 1.0}))
+    part = assembly.bodies[1].properties
+    arm = part.centre - assembly.hinges[0].point
+    about = part.inertia[2, 2] + part.mass * (arm[0] ** 2 + arm[1] ** 2)
+    assert driven_inertia(assembly, 0) == pytest.approx(about, rel=1e-12)
+
+
+def test_the_size():
+    sheet = synth.generate("miura").mechanism
+    small = assembly_of(sheet, AssemblyOptions(size=200.0, thickness=2.0))
+    whole = assembly_of(sheet)
+    factor = small.size / whole.size
+    assert np.allclose([hinge.point for hinge in small.hinges], np.array([h.point for h in whole.hinges]) * factor)
+    corners = np.array(sheet.coordinates)
+    assert np.ptp(corners, axis=0).max() * factor == pytest.approx(0.2)
+    assert small.bodies[0].shapes[0].thickness == 0.002
+
+
+def test_a_file_is_one_document(tmp_path):
+    notes = synth.write_model(
+        synth.generate("kresling").mechanism, tmp_path / "a.xml", "mjcf", springs=synth.Springs({1: 1.0})
+    )
+    root = ET.fromstring((tmp_path / "a.xml").read_bytes())
+    joints = {joint.get("name"): joint for joint in root.iter("joint")}
+    connects = [connect.get("name").rpartition("_")[0] for connect in root.iter("connect")]
+    assert not set(joints) & set(connects)
+    assert joints["joint_1"].get("stiffness") == "1"
+    assert any("of cut hinges" in note for note in notes)
+
+
+def test_names_of_any_kind(tmp_path):
+    names = ('a "b" <c> & --', "d\n\x07", "\u03b1")
+    joints = {"--": names[:2], "]]>": names[1:], 7: (names[2], names[0])}
+    axes = {"--": ((0, 0, 0), (0, 0, 1)), "]]>": ((1, 0, 0), (0, 0, 1)), 7: ((0, 1, 0), (0, 0, 1))}
+    synth.write_model(HingedSolids(SCGraph(names, joints), axes), tmp_path / "a.xml", "mjcf")
+    root = ET.fromstring((tmp_path / "a.xml").read_bytes())
+    assert len({body.get("name") for body in root.iter("body")}) == 3
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"thickness": 0.0}, "thickness 0.0; expected a positive number"),
+        ({"density": float("nan")}, "density nan"),
+        ({"size": 3.0, "scale": 1.0}, "both a scale and a size"),
+    ],
+)
+def test_options_out_of_range(options, message):
+    with pytest.raises(InvariantError, match=message):
+        AssemblyOptions(**options)
+
+
+def test_what_is_refused(tmp_path):
+    bennett = synth.generate("bennett").mechanism
+    with pytest.raises(InvariantError, match="there is no format 'stl'"):
+        synth.write_model(bennett, tmp_path / "a.xml", "stl")
+    with pytest.raises(FileError, match=r"expected \.xml"):
+        synth.write_model(bennett, tmp_path / "a.json", "mjcf")
+    with pytest.raises(UnsolvableError, match="requires coordinates"):
+        synth.write_model("k1:Cr", tmp_path / "a.xml", "mjcf")
+    with pytest.raises(InvariantError, match="no joint"):
+        synth.write_model(bennett, tmp_path / "a.xml", "mjcf", drive={9: 1.0})
+    with pytest.raises(UnsolvableError, match="the driven joints form a loop"):
+        spanning_tree(configuration_of(bennett), assembly_of(bennett).hinges, range(4))
+    assert not list(tmp_path.iterdir())
+
+
+def test_what_does_not_move():
+    """A triangle of three hinges: bodies without actuators, and why."""
+    assembly = assembly_of(Path(__file__).parents[3] / "data" / "linkages" / "wampler-cube-locked.json")
+    assert not assembly.driven
+    assert "no motion begins" in " ".join(assembly.notes)
+
+
+def test_the_command(tmp_path, data):
+    file, out = data / "patterns" / "four-bar-vertex.fold", tmp_path / "a.xml"
+    told = run("convert", file, out, "--as", "mjcf", "--drive", "2=90", "--stiffness", "4=0.5", "--size", "100")
+    root = ET.fromstring(out.read_bytes())
+    assert [each.get("joint") for each in root.iter("position")] == ["joint_2"]
+    assert "written:" in told.output
+    wrong = run("convert", file, tmp_path / "b.fold", "--density", "3", code=2)
+    assert "only with --as" in wrong.output
+    wrong = run("convert", file, tmp_path / "b.xml", "--as", "mjcf", "--gap", "3", code=2)
+    assert "not with --as" in wrong.output

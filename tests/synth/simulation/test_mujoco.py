@@ -1,0 +1,185 @@
+"""Models that MuJoCo runs: freedoms by the rank of its own Jacobian, and closed loops that hold while they are driven.
+
+The second method is `synth.move`, with closure equations of whole loops; MuJoCo has trees and soft connections.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from simulated import Simulated
+from sizes import slow_but
+
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.solids import HingedSolids
+from synth.patterns.catalogue import GENERATORS
+from synth.patterns.generated import generate
+from synth.simulation.mjcf import mjcf_bytes
+
+LINKAGES = sorted(Path(__file__).parents[3].glob("data/linkages/*.*"))
+QUICK = ("miura", "bennett", "goldberg", "four-bar", "sarrus", "crash-lock")
+ONE_FREEDOM = [name for name in GENERATORS if generate(name).freedoms == 1]
+WIDE = {"beaked-box": 1e-2, "scissor-tetrahedron": 1e-3, "scissor-octahedron": 1e-3}
+"""Errors of angles for mechanisms that are nearly singular over a wide range, or are driven through configurations
+where the rank is lower: for a moment they give way by some 2e-6 of the size there."""
+SHAKY = {"scissor-cube": 3, "scissor-prism": 2}
+"""Mechanisms of one freedom that have more infinitesimal ones all along their motion."""
+KILOHERTZ = 0.001
+RIGID = "wampler-cube-locked.json"
+
+
+@pytest.mark.parametrize("name", slow_but(QUICK, ONE_FREEDOM))
+def test_freedoms_of_generators(name):
+    simulated = Simulated(generate(name).mechanism)
+    assert simulated.freedoms == simulated.freedoms_of_loops == SHAKY.get(name, 1)
+    assert simulated.residual < 1e-12
+
+
+@pytest.mark.parametrize("path", LINKAGES, ids=lambda path: path.name)
+def test_freedoms_of_linkages(path):
+    simulated = Simulated(path)
+    branches = simulated.at.branches
+    freedoms = {branch.freedoms for branch in branches.branches} if branches.branches else {2}
+    assert simulated.freedoms == simulated.freedoms_of_loops
+    assert simulated.freedoms in freedoms
+    assert (path.name == RIGID) == (not branches.branches)  # two infinitesimal ones, and no motion
+    assert simulated.assembly.residual < 1e-12
+
+
+@pytest.mark.parametrize("name", slow_but(QUICK, ONE_FREEDOM))
+def test_generators_driven_over_their_range(name):
+    if name in SHAKY:
+        pytest.skip("more than one freedom where loops are soft")
+    driven = Simulated(generate(name).mechanism).driven()
+    assert driven.residual < (1e-5 if name in WIDE else 1e-6)
+    assert driven.error < WIDE.get(name, 1e-3)
+
+
+@pytest.mark.parametrize("path", slow_but((), LINKAGES), ids=lambda path: getattr(path, "name", None))
+def test_linkages_driven_over_their_range(path):
+    simulated = Simulated(path)
+    if simulated.freedoms != 1 or not simulated.assembly.driven:
+        pytest.skip("several freedoms, or none")
+    driven = simulated.driven()
+    assert driven.residual < 1e-6
+    assert driven.error < 1e-3
+
+
+def planar(links, joints, points):
+    """Return a linkage in the plane by the points of its joints."""
+    axes = {joint: ((*points[joint[0]], 0.0), (0.0, 0.0, 1.0)) for joint in joints}
+    return HingedSolids(SCGraph(links, joints, ground="ground"), axes)
+
+
+def crossing(one, radius, other, other_radius, side):
+    """Return where two circles cross, to the left of the line between their middles for side 1."""
+    apart = np.linalg.norm(other - one)
+    along = (other - one) / apart
+    x = (apart**2 + radius**2 - other_radius**2) / (2 * apart)
+    return one + x * along + side * np.sqrt(radius**2 - x**2) * np.array([-along[1], along[0]])
+
+
+def four_bar():
+    """A crank of 0.1, a coupler of 0.4 and a rocker of 0.3 metres on a base of 0.4: Grashof."""
+    a, d = np.array([0.0, 0.1]), np.array([0.4, 0.0])
+    b = crossing(a, 0.4, d, 0.3, 1)
+    joints = {
+        "O": ("ground", "crank"),
+        "A": ("crank", "coupler"),
+        "B": ("coupler", "rocker"),
+        "D": ("rocker", "ground"),
+    }
+    return planar(("ground", "crank", "coupler", "rocker"), joints, {"O": (0.0, 0.0), "A": a, "B": b, "D": d})
+
+
+@pytest.mark.parametrize(("seconds", "apart"), [(10.0, 1.1e-7), (1.0, 1.1e-5)])
+def test_a_four_bar_stays_together(seconds, apart):
+    simulated = Simulated(four_bar(), drive={"O": 2 * np.pi}, step=KILOHERTZ)
+    driven = simulated.driven(seconds)
+    assert driven.residual * simulated.assembly.size < apart
+    turned = driven.states[:, simulated.places.index(0)]
+    rocker = simulated.assembly.hinges[3]
+    assert rocker.name == "joint_D"
+    assert turned.max() > 0.9 * 2 * np.pi
+    # Freudenstein's equation for the angle between crank and rocker, from the positions of the bodies
+    for state in driven.states:
+        a = 0.1 * np.array([-np.sin(state[simulated.places.index(0)]), np.cos(state[simulated.places.index(0)])])
+        b = crossing(a, 0.4, np.array([0.4, 0.0]), 0.3, 1)
+        was = crossing(np.array([0.0, 0.1]), 0.4, np.array([0.4, 0.0]), 0.3, 1)
+        angles = [np.arctan2(*(point - (0.4, 0.0))[::-1]) for point in (was, b)]
+        if 3 in simulated.places:
+            swung = -(angles[1] - angles[0])  # the base turns against the rocker
+            assert abs(state[simulated.places.index(3)] - swung) < 1e-5
+
+
+LEG = {"a": 38.0, "b": 41.5, "c": 39.3, "d": 40.1, "e": 55.8, "f": 39.4, "g": 36.7, "h": 65.7, "i": 49.0, "j": 50.0,
+       "k": 61.9, "l": 7.8, "m": 15.0}  # fmt: skip
+"""Jansen's numbers, centimetres."""
+
+
+def leg_points(crank):
+    """Return the points of Jansen's leg with the crank at an angle, centimetres, by crossing circles."""
+    n = LEG
+    o, p = np.zeros(2), np.array([-n["a"], -n["l"]])
+    a = n["m"] * np.array([np.cos(crank), np.sin(crank)])
+    b = crossing(a, n["j"], p, n["b"], -1)
+    d = crossing(b, n["e"], p, n["d"], -1)
+    c = crossing(a, n["k"], p, n["c"], 1)
+    e = crossing(d, n["f"], c, n["g"], -1)
+    foot = crossing(e, n["h"], c, n["i"], -1)
+    return {"O": o, "P": p, "A": a, "B": b, "C": c, "D": d, "E": e, "F": foot}
+
+
+def jansens_leg():
+    """Jansen's leg: eight links and ten hinges, two at each of A, P and C."""
+    at, joints = leg_points(0.0), {
+        "O": ("ground", "crank"), "A1": ("crank", "j"), "A2": ("crank", "k"), "B": ("j", "upper"),
+        "P1": ("ground", "upper"), "P2": ("ground", "c"), "C1": ("k", "c"), "C2": ("c", "lower"), "D": ("upper", "f"),
+        "E": ("f", "lower"),
+    }  # fmt: skip
+    return planar(("ground", "crank", "j", "k", "upper", "c", "f", "lower"), joints, at)
+
+
+def test_jansens_leg_walks():
+    simulated = Simulated(jansens_leg(), drive={"O": 2 * np.pi}, scale=10.0, step=KILOHERTZ)
+    assert simulated.freedoms == 1
+    driven = simulated.driven()
+    assert driven.residual * simulated.assembly.size < 1e-6
+    assert driven.error < 1e-5
+
+
+def test_the_foot_of_jansens_leg():
+    """The path of the foot, by the bodies of MuJoCo and by circles that cross."""
+    simulated = Simulated(jansens_leg(), drive={"O": 2 * np.pi}, scale=10.0, step=KILOHERTZ)
+    mujoco, model, data = simulated.mujoco, simulated.model, simulated.data
+    lower = model.body("link_lower").id
+    foot = np.array([*leg_points(0.0)["F"] / 100.0, 0.0]) - data.xpos[lower]
+    for step in range(5000):
+        data.ctrl[0] = 3.0 * (1.0 - np.cos(np.pi * step / 5000)) / 2.0
+        mujoco.mj_step(model, data)
+        if step % 250 == 0:
+            turned = data.qpos[simulated.places.index(0)]
+            here = data.xpos[lower] + data.xmat[lower].reshape(3, 3) @ foot
+            assert np.abs(here[:2] - leg_points(turned)["F"] / 100.0).max() < 1e-6
+
+
+def test_slides():
+    """A slider-crank: the slide is in the tree, and its length is that of the closed form."""
+    simulated = Simulated(Path(__file__).parents[3] / "data" / "joints" / "slider-crank-placed.json")
+    assert simulated.freedoms == 1
+    assert [hinge.slide for hinge in simulated.assembly.hinges].count(True) == 1
+    driven = simulated.driven()
+    assert driven.residual < 1e-6
+    assert driven.error < 1e-4
+
+
+@pytest.mark.parametrize("name", ["miura", "bennett", "square-twist"])
+def test_inertia_is_that_of_the_shapes(name):
+    """MuJoCo integrates over the shapes, with corners as 32-bit numbers, what we have in closed form."""
+    simulated = Simulated(generate(name).mechanism)
+    model = simulated.mujoco.MjSpec.from_string(mjcf_bytes(simulated.assembly).decode())
+    model.compiler.inertiafromgeom = 1
+    again = model.compile()
+    assert np.allclose(again.body_mass, simulated.model.body_mass, rtol=1e-4)
+    assert np.allclose(again.body_ipos, simulated.model.body_ipos, atol=1e-4 * simulated.assembly.size)
+    assert np.allclose(np.sort(again.body_inertia), np.sort(simulated.model.body_inertia), rtol=1e-4)
