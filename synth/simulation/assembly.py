@@ -89,6 +89,9 @@ class Assembly:
 
     Attributes
     ----------
+    configuration : Configuration
+        The mechanism that it was made of, where its motion began.
+    options : AssemblyOptions
     bodies : tuple of Body
     hinges : tuple of Hinge
         In the order of the joints of the mechanism.
@@ -120,6 +123,8 @@ class Assembly:
     (4, 3, 1, 1)
     """
 
+    configuration: Configuration
+    options: AssemblyOptions
     bodies: tuple[Body, ...]
     hinges: tuple[Hinge, ...]
     tree: tuple[TreeJoint, ...]
@@ -212,7 +217,20 @@ def assembly_of(mechanism: Movable, options: AssemblyOptions | None = None) -> A
     if driven is not None and freedoms > len(drivers):
         notes = (*notes, f"{freedoms} degrees of freedom, {len(drivers)} driven: others are free")
     return Assembly(
-        bodies, hinges, tree, bases, cuts, path * lengths, drivers, closing, residual, metre, thickness, notes
+        at,
+        options,
+        bodies,
+        hinges,
+        tree,
+        bases,
+        cuts,
+        path * lengths,
+        drivers,
+        closing,
+        residual,
+        metre,
+        thickness,
+        notes,
     )
 
 

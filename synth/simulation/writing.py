@@ -2,20 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from xml.sax.saxutils import escape
 
 from graphs.errors import FileError, InvariantError, shown
 from graphs.files.atomic import check_place, write_chunks
 from graphs.files.outputs import Format
+from graphs.printing import plain
 from graphs.types import JointId
 from synth.compliance.springs import Springs
 from synth.moving.made import Movable
 from synth.simulation.assembly import DENSITY, Assembly, AssemblyOptions, assembly_of
 from synth.simulation.mjcf import lost_as_mjcf, mjcf_bytes
+from synth.simulation.sdf import lost_as_sdf, sdf_bytes
+from synth.simulation.tables import csv_bytes, header_bytes, lost_as_table
+from synth.simulation.urdf import FILE, lost_as_urdf, urdf_files
 
-MODELS: dict[str, Format[Assembly]] = {"mjcf": Format(".xml", "MJCF, for MuJoCo", mjcf_bytes, lost_as_mjcf)}
-"""Name to the format of a model for simulators."""
+MODELS: dict[str, Format[Assembly]] = {
+    "mjcf": Format(".xml", "MJCF, for MuJoCo", mjcf_bytes, lost_as_mjcf),
+    "urdf": Format(".urdf", "URDF, for ROS", lambda assembly: urdf_files(assembly)[".urdf"], lost_as_urdf),
+    "sdf": Format(".sdf", "SDF, for Gazebo", sdf_bytes, lost_as_sdf),
+    "table": Format(".csv", "table of a motion", csv_bytes, lost_as_table),
+    "header": Format(".h", "table of a motion for C", header_bytes, lost_as_table),
+}
+"""Name to the format of a model for simulators, or of its motion."""
+_BESIDE: dict[str, Callable[[Assembly], Mapping[str, bytes]]] = {"urdf": urdf_files}
+"""Formats of several files: the files by what their names end in, in place of the extension."""
 
 
 def write_model(
@@ -38,8 +51,9 @@ def write_model(
     ----------
     mechanism : anything that `synth.moving.made.configuration_of` takes
     path : str or Path
-    name : {"mjcf"}
-        The format.
+    name : {"mjcf", "urdf", "sdf", "table", "header"}
+        The format: for MuJoCo (``.xml``), ROS (``.urdf``, with the loops in a file of JSON beside it) or Gazebo
+        (``.sdf``); the motion as a table (``.csv``), or for C (``.h``).
     thickness : float, optional
         Of panels, and diameter of bars, millimetres; by default a hundredth of the extent.
     density : float, optional
@@ -94,5 +108,18 @@ def write_assembly(
         raise FileError(path, "", f"the extension is not that of {written.name}", written.suffix)
     check_place(Path(path), force=force)
     assembly = assembly_of(mechanism, options)
-    write_chunks(Path(path), [written.to_bytes(assembly)], force=force)
+    if name not in _BESIDE:
+        write_chunks(Path(path), [written.to_bytes(assembly)], force=force)
+        return assembly
+    stem = Path(path).with_suffix("")
+    files = {stem.with_name(stem.name + ending): data for ending, data in _BESIDE[name](assembly).items()}
+    for place in files:
+        check_place(place, force=force)
+    for place, data in files.items():
+        write_chunks(place, [data.replace(FILE.encode(), _in_xml(stem.name))], force=force)
     return assembly
+
+
+def _in_xml(name: str) -> bytes:
+    """Return the name of a file as a file of XML has it."""
+    return escape(plain(name, 100), {'"': "&quot;"}).encode()

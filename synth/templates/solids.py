@@ -96,6 +96,11 @@ def _without_hinges(panels: Panels, face: int, width: float) -> list[Any]:
     return parts
 
 
+def plate_of(corners: Floats, thickness: float, name: str) -> Mesh:
+    """Return a plate about the plane of a polygon with corners float[n, 2]."""
+    return _plate(shapely.Polygon(corners), thickness, name)
+
+
 def _plate(polygon: Any, thickness: float, name: str) -> Mesh:
     """Return a plate about the plane of a polygon."""
     ring = np.array(shapely.orient_polygons(polygon).exterior.coords)[:-1]

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.solids import HingedSolids
 from graphs.tolerances import DOUBLE
 from synth.motion.closure import corrected, exactly_held
 from synth.moving.made import configuration_of
@@ -105,3 +107,35 @@ class Driven:
             assert pose.closed
             worst = max(worst, float(np.abs(pose.angles[places] - state).max()))
         return worst
+
+
+def crossing(one, radius, other, other_radius, side):
+    """Return where two circles cross, to the left of the line between their middles for side 1."""
+    apart = np.linalg.norm(other - one)
+    along = (other - one) / apart
+    x = (apart**2 + radius**2 - other_radius**2) / (2 * apart)
+    return one + x * along + side * np.sqrt(radius**2 - x**2) * np.array([-along[1], along[0]])
+
+
+def planar(links, joints, points):
+    """Return a linkage in the plane by the points of its joints, which begin the names of these."""
+    axes = {joint: ((*points[joint[0]], 0.0), (0.0, 0.0, 1.0)) for joint in joints}
+    return HingedSolids(SCGraph(links, joints, ground="ground"), axes)
+
+
+def planar_four_bar(a=(0.0, 0.1), coupler=0.4, rocker=0.3, base=0.4):
+    """Return a four-bar; by default a crank of 0.1, a coupler of 0.4, a rocker of 0.3, a base of 0.4: Grashof."""
+    a, d = np.array(a), np.array([base, 0.0])
+    b = crossing(a, coupler, d, rocker, 1)
+    joints = {
+        "O": ("ground", "crank"),
+        "A": ("crank", "coupler"),
+        "B": ("coupler", "rocker"),
+        "D": ("rocker", "ground"),
+    }
+    return planar(("ground", "crank", "coupler", "rocker"), joints, {"O": (0.0, 0.0), "A": a, "B": b, "D": d})
+
+
+def planar_parallelogram():
+    """Return a four-bar whose opposite sides are equal: all angles go in proportion."""
+    return planar_four_bar((0.06, 0.08), 0.3, 0.1, 0.3)

@@ -53,7 +53,11 @@ _OF_MODELS = ("density", "drive", "branch", "stiffness")
 )  # fmt: skip
 @options.NUMBER_OF_SURFACE
 @AT
-@options.choice("--as model", ("mjcf",), "Write rigid bodies and joints for a simulator.")
+@options.choice(
+    "--as model",
+    ("mjcf", "urdf", "sdf", "table", "header"),
+    "Write rigid bodies and joints for a simulator, or a table of the motion.",
+)
 @options.value("--density", "D", "With --as: density of the bodies in kg/m³.  [default: 1000]", type=options.LENGTH)
 @options.repeated(
     "--drive", "JOINT=DEGREES", "With --as: a joint that gets an actuator, and the end of its motion; may be repeated."
@@ -94,6 +98,10 @@ def convert(
       mjcf (.xml)          MuJoCo: panels of a thickness, or bars between joint axes; exact hinges, a spanning tree,
                            connections that close the loops, an actuator at the driven joint. Coordinates are
                            metres unless --scale or --size is given
+      urdf (.urdf)         ROS: the tree; beside it the loops (.loops.json) and panels (.stl)
+      sdf (.sdf)           Gazebo: all joints, those that close loops too
+      table (.csv)         joint angles at steps of the driven joint, and the moment that it needs
+      header (.h)          the same for C, with a function that interpolates, and a bound of its error
 
     Notes list what OUT cannot hold, by kind and number. If OUT would read back as another type (its links, joints
     or centres do not correspond), nothing is written, unless --lossy is given.
@@ -108,6 +116,7 @@ def convert(
       synth convert stewart.json creases.json --to solids
       synth convert creases.json platform.json --to joints
       synth convert miura.fold miura.xml --as mjcf --size 300 --thickness 1
+      synth convert ring.json ring.urdf --as urdf --drive 0=90
     """
     check_output(target, force=force)
     for_model = {name: values.pop(name) for name in _OF_MODELS}

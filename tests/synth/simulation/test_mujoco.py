@@ -7,11 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from simulated import Simulated
+from simulated import Simulated, crossing, planar, planar_four_bar
 from sizes import slow_but
 
-from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.solids import HingedSolids
 from synth.patterns.catalogue import GENERATORS
 from synth.patterns.generated import generate
 from synth.simulation.mjcf import mjcf_bytes
@@ -65,36 +63,9 @@ def test_linkages_driven_over_their_range(path):
     assert driven.error < 1e-3
 
 
-def planar(links, joints, points):
-    """Return a linkage in the plane by the points of its joints."""
-    axes = {joint: ((*points[joint[0]], 0.0), (0.0, 0.0, 1.0)) for joint in joints}
-    return HingedSolids(SCGraph(links, joints, ground="ground"), axes)
-
-
-def crossing(one, radius, other, other_radius, side):
-    """Return where two circles cross, to the left of the line between their middles for side 1."""
-    apart = np.linalg.norm(other - one)
-    along = (other - one) / apart
-    x = (apart**2 + radius**2 - other_radius**2) / (2 * apart)
-    return one + x * along + side * np.sqrt(radius**2 - x**2) * np.array([-along[1], along[0]])
-
-
-def four_bar():
-    """A crank of 0.1, a coupler of 0.4 and a rocker of 0.3 metres on a base of 0.4: Grashof."""
-    a, d = np.array([0.0, 0.1]), np.array([0.4, 0.0])
-    b = crossing(a, 0.4, d, 0.3, 1)
-    joints = {
-        "O": ("ground", "crank"),
-        "A": ("crank", "coupler"),
-        "B": ("coupler", "rocker"),
-        "D": ("rocker", "ground"),
-    }
-    return planar(("ground", "crank", "coupler", "rocker"), joints, {"O": (0.0, 0.0), "A": a, "B": b, "D": d})
-
-
 @pytest.mark.parametrize(("seconds", "apart"), [(10.0, 1.1e-7), (1.0, 1.1e-5)])
 def test_a_four_bar_stays_together(seconds, apart):
-    simulated = Simulated(four_bar(), drive={"O": 2 * np.pi}, step=KILOHERTZ)
+    simulated = Simulated(planar_four_bar(), drive={"O": 2 * np.pi}, step=KILOHERTZ)
     driven = simulated.driven(seconds)
     assert driven.residual * simulated.assembly.size < apart
     turned = driven.states[:, simulated.places.index(0)]

@@ -1,0 +1,89 @@
+"""Tables of motions: angles by closed forms, moments by differences of energy, C by a compiler."""
+
+import csv
+import ctypes
+import shutil
+import subprocess
+from math import radians
+
+import numpy as np
+import pytest
+from simulated import planar_four_bar
+
+import synth
+from graphs.errors import UnsolvableError
+from synth.simulation.assembly import AssemblyOptions, assembly_of
+from synth.simulation.tables import motion_table, placed
+
+
+def energy(assembly, angles):
+    """Weight times height, and what springs hold, at joint angles."""
+    _, centres = placed(assembly, angles)
+    masses = np.array([body.properties.mass for body in assembly.bodies])
+    springs = sum(h.stiffness * (a - h.rest) ** 2 / 2 for h, a in zip(assembly.hinges, angles, strict=True))
+    return 9.81 * masses @ centres[:, 2] + springs
+
+
+@pytest.mark.parametrize("name", ["miura", "bennett", "four-bar", "sarrus"])
+def test_moments_are_slopes_of_energy(name):
+    mechanism = synth.generate(name).mechanism
+    joint = next(iter(assembly_of(mechanism).hinges)).joint
+    assembly = assembly_of(mechanism, AssemblyOptions(size=500.0, springs=synth.Springs({joint: 0.5}, {joint: 0.2})))
+    table = motion_table(assembly)
+    driver = table.angles[:, table.driver]
+    energies = np.array([energy(assembly, row) for row in table.angles])
+    inside = slice(8, -8)
+    slopes = (
+        (energies[:-4] - 8 * energies[1:-3] + 8 * energies[3:-1] - energies[4:]) / (12 * (driver[1] - driver[0]))
+    )[6:-6]
+    scale = np.abs(slopes).max()
+    assert np.abs(slopes - table.torques[inside]).max() < 2e-3 * scale
+
+
+def test_errors_between_rows():
+    """The bound of linear interpolation holds at angles that are solved for anew, and is no wild guess."""
+    assembly = assembly_of(planar_four_bar(), AssemblyOptions(drive={"O": 2 * np.pi}))
+    table = motion_table(assembly)
+    rows = np.arange(0.1, 128.0, 0.7)
+    driver = np.interp(rows, np.arange(129), table.angles[:, table.driver])
+    path = synth.move(planar_four_bar(), drive={"O": 2 * np.pi}, frames=129 * 7 - 7).path.angles
+    worst = 0.0
+    for angles in path[3::5]:
+        line = [np.interp(angles[0], table.angles[:, 0], column) for column in table.angles.T]
+        worst = max(worst, np.abs(line - angles).max())
+    assert 0.3 * table.linear < worst < table.linear
+    assert table.cubic < table.linear / 50
+    assert driver[0] < driver[-1]
+
+
+def test_a_table_as_csv(tmp_path):
+    synth.write_model(synth.generate("bennett").mechanism, tmp_path / "a.csv", "table", drive={0: 2.0})
+    head, *rows = csv.reader((tmp_path / "a.csv").read_text().splitlines())
+    assert head[0] == "joint_0_deg"
+    assert head[-1] == "driver_moment"
+    path = synth.move(synth.generate("bennett").mechanism, drive={0: 2.0}, frames=128).path.angles
+    assert len(rows) == 129
+    for row, angles in zip(rows, path, strict=True):
+        assert np.allclose([radians(float(cell)) for cell in row[:-1]], angles, atol=1e-10)
+
+
+@pytest.mark.skipif(shutil.which("cc") is None, reason="no compiler is here")
+def test_a_table_for_c(tmp_path):
+    synth.write_model(planar_four_bar(), tmp_path / "a.h", "header", drive={"O": 2 * np.pi})
+    source = '#include "a.h"\nint at(double x, double *y) { return mechanism_at(x, y); }\ndouble off(void) { return MECHANISM_ERROR; }\n'
+    (tmp_path / "a.c").write_text(source)
+    command = ["cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-Wno-unused", "-shared", "-fPIC"]
+    subprocess.run([*command, "-o", tmp_path / "a.so", tmp_path / "a.c"], check=True)
+    library = ctypes.CDLL(str(tmp_path / "a.so"))
+    library.off.restype = ctypes.c_double
+    angles = (ctypes.c_double * 4)()
+    for row in synth.move(planar_four_bar(), drive={"O": 2 * np.pi}, frames=101).path.angles:
+        assert library.at(ctypes.c_double(row[0]), angles) == 1
+        assert np.abs(np.array(angles) - row).max() <= library.off()
+    assert library.at(ctypes.c_double(7.0), angles) == 0
+    assert angles[0] == pytest.approx(2 * np.pi)
+
+
+def test_what_has_no_table(tmp_path):
+    with pytest.raises(UnsolvableError, match="1 driven joint and 1 degree of freedom, not 1 and 2"):
+        synth.write_model(synth.generate("five-bar").mechanism, tmp_path / "a.csv", "table")
