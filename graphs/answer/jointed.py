@@ -114,7 +114,7 @@ def mobility_of_jointed(linkage: JointedLinkage) -> MobilityAnswer:
     counted = with_planar_loops(linkage)
     report = report_of_joints(counted)
     passive = passive_freedoms(whole)
-    notes = [*report.warnings, f"joints: {linkage.kinds_in_words}"]
+    notes = [*report.warnings, *linkage.notes, f"joints: {linkage.kinds_in_words}"]
     found = len(counted.chain.centred_loops) - len(linkage.chain.centred_loops)
     if found:
         notes.append(f"{numbered(found, 'loop')} planar at this configuration: 3 equations each")

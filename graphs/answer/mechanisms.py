@@ -179,6 +179,8 @@ def mobility(
     if planar:
         counted = numbered(planar, "loop whose axes are parallel counts", "loops whose axes are parallel count")
         answer = answer.with_notes(warnings=[f"{counted} as planar"])
+    if isinstance(mechanism, HingedSolids):
+        answer = answer.with_notes(warnings=mechanism.notes)
     if sc.centres_assumed:
         answer = replace(answer, warnings=(CENTRES_ASSUMED, *answer.warnings))
     if pose is not None and pose is not False:

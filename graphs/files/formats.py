@@ -33,6 +33,9 @@ from graphs.files.outputs import Format, Lost, format_of, formats_by_suffix, unk
 from graphs.files.patterns.fold import fold_text, read_fold
 from graphs.files.patterns.legend import UNSTATED, Legend, Looks
 from graphs.files.patterns.obj import obj_text, sheet_from_obj
+from graphs.files.robots.mjcf import read_mjcf
+from graphs.files.robots.sdf import read_sdf
+from graphs.files.robots.urdf import read_urdf
 from graphs.files.text import load_json
 from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
@@ -333,6 +336,9 @@ READERS: dict[str, Reader] = {
     ".obj": _one_of(sheet_from_obj),
     ".g6": _read_graph6,
     ".s6": _read_graph6,
+    ".xml": _one_of(read_mjcf),
+    ".urdf": _one_of(read_urdf),
+    ".sdf": _one_of(read_sdf),
     ".graphml": _one_of(lambda path: as_linkage(read_graphml(path), path)),
     ".gml": _one_of(lambda path: as_linkage(read_gml(path), path)),
     **dict.fromkeys((".edges", ".edgelist", ".csv", ".txt"), _one_of(lambda path: as_sc(read_edge_list(path), path))),

@@ -140,6 +140,8 @@ class JointedLinkage:
     places : mapping of joint id to JointPlace, optional
         Of all joints, or of none: then it is a type, and stands for its generic realisations. InvariantError if a
         place does not suit the kind of its joint.
+    notes : tuple of str, optional
+        What a file had that was not read.
 
     Examples
     --------
@@ -151,6 +153,7 @@ class JointedLinkage:
     chain: SCGraph
     kinds: Mapping[JointId, JointKind]
     places: Mapping[JointId, JointPlace] = field(default_factory=dict)
+    notes: tuple[str, ...] = field(default=(), compare=False)
 
     def __post_init__(self) -> None:
         for key in (*self.kinds, *self.places):

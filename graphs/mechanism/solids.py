@@ -4,7 +4,7 @@ How it moves is worked out in ``synth.moving``. Theory: docs/theory/moving.md.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import hypot
 from types import MappingProxyType
 
@@ -29,6 +29,8 @@ class HingedSolids:
     axes : mapping of joint id to (point, direction)
         Three coordinates each, any unit of length. A positive angle of a joint turns its second link against its
         first, right-handed about the direction.
+    notes : tuple of str, optional
+        What a file had that was not read.
 
     Raises
     ------
@@ -43,6 +45,7 @@ class HingedSolids:
 
     chain: SCGraph
     axes: Mapping[JointId, Axis]
+    notes: tuple[str, ...] = field(default=(), compare=False)
 
     def __post_init__(self) -> None:
         checked: dict[JointId, Axis] = {}

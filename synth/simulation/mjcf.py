@@ -53,6 +53,7 @@ def mjcf_bytes(assembly: Assembly) -> bytes:
         equality = root.add("equality")
         for cut in assembly.cuts:
             _add_cut(assembly, cut, equality)
+        _add_cut_hinges(assembly, root)
     if assembly.driven:
         actuator = root.add("actuator")
         for number in assembly.driven:
@@ -154,6 +155,19 @@ def _add_cut(assembly: Assembly, cut: CutHinge, equality: Element) -> None:
     if cut.left_out:
         held = f"{numbered(cut.left_out, 'point')} of {hinge.name} left out: held by the other equations"
         equality.children.append(Element("", comment=held))
+
+
+def _add_cut_hinges(assembly: Assembly, root: Element) -> None:
+    """Name the cut hinges for readers: their bodies, a point and the axis at the configuration of the file."""
+    custom = root.add("custom", comment="hinges that the tree leaves out: point and axis, and the bodies")
+    for cut in assembly.cuts:
+        hinge = assembly.hinges[cut.hinge]
+        custom.add("numeric", name=f"{hinge.name}_axis", data=[*hinge.point, *hinge.direction])
+    for cut in assembly.cuts:
+        hinge = assembly.hinges[cut.hinge]
+        both = custom.add("tuple", name=hinge.name)
+        for body in (hinge.first, hinge.second):
+            both.add("element", objtype="body", objname=assembly.bodies[body].name)
 
 
 def _add_servo(assembly: Assembly, number: int, actuator: Element) -> None:

@@ -14,6 +14,7 @@ from oripa import opx_text
 
 from graphs.convert.table import to_sc, to_vertex_edge
 from graphs.files.formats import READERS, read, write
+from synth.simulation import write_model
 
 EXTREMES = [b"0", b"-1", b"1e308", b"-1e309", b"NaN", b"null", b"99999999999999999999", b"1e-320", b"2000001", b"true", b'""',
             b"[]", b"{}", b"\xff", b"<", b"&", b"\x00", b"0.1", b"3"]  # fmt: skip
@@ -59,6 +60,10 @@ def seeds(data: Path, folder: Path) -> dict[str, list[bytes]]:
     wrote(to_vertex_edge(to_sc(scd)), ".json")
     for suffix in (".g6", ".s6"):
         made[suffix].append(made[suffix][0] * 2)
+    for name, suffix in (("mjcf", ".xml"), ("urdf", ".urdf"), ("sdf", ".sdf")):
+        for file in (data / "linkages" / "bennett.json", data / "joints" / "slider-crank-placed.json"):
+            write_model(file, folder / f"seed{suffix}", name, force=True)
+            made[suffix].append((folder / f"seed{suffix}").read_bytes())
     made[".svg"].append(_SVG)
     made[".dxf"].append(_DXF)
     made[".opx"].append(opx_text(_OPX).encode())

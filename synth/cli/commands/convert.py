@@ -85,6 +85,7 @@ def convert(
     Formats read:
       .gml .edgelist       bare link-joint graphs
       .opx                 crease patterns (ORIPA)
+      .xml .urdf .sdf      robots (MJCF, ROS, Gazebo): solids by their axes, or joints of all kinds
       .csv                 bare link-joint graphs, as a table of edges
 
     \b

@@ -1,0 +1,213 @@
+"""Robots read: there and back, files as others write them, what is refused and what is told."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from sizes import slow, slow_but
+
+import synth
+from graphs.errors import FileError, SynthedraError
+from graphs.joints.linkage import JointedLinkage, JointKind
+from graphs.mechanism.solids import HingedSolids
+from synth.moving.made import configuration_of
+from synth.patterns.catalogue import GENERATORS
+from synth.simulation.assembly import AssemblyOptions
+from synth.simulation.writing import write_assembly
+
+DATA = Path(__file__).parents[4] / "data"
+FORMATS = {"mjcf": ".xml", "urdf": ".urdf", "sdf": ".sdf"}
+FILES = sorted([*DATA.glob("linkages/*.*"), *DATA.glob("joints/*.json"), *DATA.glob("patterns/*.fold"),
+                *DATA.glob("wiener/*.fold"), *DATA.glob("realised/*.fold")])  # fmt: skip
+QUICK = ("miura", "goldberg", "stewart", "crash-lock")
+
+
+def there_and_back(mechanism, tmp_path):
+    """Each format keeps links, joints, axes, and the rank of the closure equations at its configuration."""
+    for name, suffix in FORMATS.items():
+        path = tmp_path / f"a{suffix}"
+        assembly = write_assembly(mechanism, path, name, AssemblyOptions(), force=True)
+        back = synth.read(path)
+        linkage = assembly.configuration.linkage
+        assert synth.identify(back).chain == synth.identify(linkage.graph).chain
+        lengths = np.where([hinge.slide for hinge in assembly.hinges], assembly.size, 1.0)
+        angles = np.array([hinge.angle for hinge in assembly.hinges]) / lengths
+        ranks = []
+        for at, where in ((assembly.configuration, angles), (configuration_of(back, slides=True), None)):
+            matrix = at.closure.dense(at.linkage.angles if where is None else where)
+            ranks.append(np.linalg.matrix_rank(matrix, tol=1e-6) if matrix.size else 0)
+        assert ranks[0] == ranks[1]
+        for hinge in assembly.hinges:
+            if isinstance(back, HingedSolids):
+                point, axis = (np.array(part) for part in back.axes[hinge.name])
+                assert np.linalg.norm(np.cross(axis, hinge.direction)) < 1e-12
+                assert np.linalg.norm(np.cross(point - hinge.point, hinge.direction)) < 1e-12 * max(1, assembly.size)
+
+
+@pytest.mark.parametrize("name", slow_but(QUICK, GENERATORS))
+def test_generators_there_and_back(name, tmp_path):
+    there_and_back(synth.generate(name).mechanism, tmp_path)
+
+
+@pytest.mark.parametrize("path", [slow(path) for path in FILES], ids=lambda path: path.stem)
+def test_files_there_and_back(path, tmp_path):
+    try:
+        configuration_of(path, slides=True)
+    except SynthedraError:
+        pytest.skip("no coordinates")
+    there_and_back(path, tmp_path)
+
+
+FOUR_BAR = """<mujoco><compiler angle="degree"/>
+<default><joint axis="0 1 0"/><default class="other"><joint axis="0 0 1" pos="0.5 0 0"/></default></default>
+<worldbody>
+  <body name="base" pos="0 0 1" euler="90 0 0">
+    <body name="crank"><joint name="a" axis="0 0 1"/>
+      <frame pos="1 0 0" quat="2 0 0 0"><body name="coupler"><joint name="b" axis="0 0 3"/></body></frame>
+    </body>
+    <body name="rocker" pos="1.5 0 0" childclass="other"><joint name="d"/></body>
+  </body>
+</worldbody>
+<equality>{}</equality></mujoco>"""
+"""A crank of 1 and a base of 2, folded onto each other, as a person writes it: frames, classes, angles in degrees."""
+BOTH = "".join(f'<connect body1="coupler" body2="rocker" anchor="2 0 {z}"/>' for z in (0, 1))
+ONE = '<connect body1="coupler" body2="rocker" anchor="2 0 0"/>'
+
+
+@pytest.mark.parametrize("loops", [BOTH, ONE], ids=["two points", "one point in a plane"])
+def test_a_four_bar_of_mujoco(loops, tmp_path):
+    (tmp_path / "a.xml").write_text(FOUR_BAR.format(loops))
+    solids = synth.read(tmp_path / "a.xml")
+    assert isinstance(solids, HingedSolids)
+    assert solids.chain.ground == "base"
+    expected = {"a": (0, 0, 1), "b": (1, 0, 1), "d": (2, 0, 1), "coupler to rocker": (3, 0, 1)}
+    for joint, (point, axis) in solids.axes.items():
+        assert np.allclose(point, expected[joint], atol=1e-15)
+        assert np.abs(np.abs(axis) - (0, 1, 0)).max() < 1e-15
+    assert synth.mobility(solids).to_json()["mobility"] == 1
+
+
+def test_other_joints_of_mujoco(tmp_path):
+    (tmp_path / "a.xml").write_text(
+        '<mujoco><worldbody><body name="a"><joint type="slide" axis="1 0 0"/><joint type="hinge" axis="1 0 0"/>'
+        '<body name="b" pos="0 0 1"><joint type="ball"/></body></body><body name="c"><freejoint/></body></worldbody>'
+        '<equality><joint joint1="x" polycoef="0 1 0 0 0"/></equality><tendon><fixed name="t"/></tendon></mujoco>'
+    )
+    linkage = synth.read(tmp_path / "a.xml")
+    assert isinstance(linkage, JointedLinkage)
+    assert sorted(kind.value for kind in linkage.kinds.values()) == ["P", "R", "S"]
+    assert linkage.kinds["joint of b"] is JointKind.SPHERICAL
+    notes = " ".join(linkage.notes)
+    assert "1 equality <joint>" in notes
+    assert "1 tendon section" in notes
+    assert "1 body without a joint" in notes
+
+
+@pytest.mark.parametrize("orientation", [
+    'euler="30 20 10"', 'quat="0.9 0.1 -0.2 0.3"', 'axisangle="1 2 3 40"', 'xyaxes="1 1 0 -1 1 0.5"',
+    'zaxis="1 -1 0.5"', 'zaxis="0 0 -1"',
+])  # fmt: skip
+@pytest.mark.parametrize("sequence", ["xyz", "ZXZ"])
+def test_orientations_as_mujoco_reads_them(orientation, sequence, tmp_path):
+    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed; try make test-simulators")
+    text = (f'<mujoco><compiler eulerseq="{sequence}"/><worldbody><body pos="1 2 3" {orientation}>'
+            '<joint name="j" axis="1 2 -1" pos="0.1 0.2 0.3"/><geom size="1"/></body></worldbody></mujoco>')  # fmt: skip
+    (tmp_path / "a.xml").write_text(text)
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    point, axis = synth.read(tmp_path / "a.xml").axes["j"]
+    assert np.allclose(point, data.xanchor[0], atol=1e-12)
+    assert np.allclose(axis, data.xaxis[0], atol=1e-12)
+
+
+def test_a_robot_of_ros(tmp_path):
+    (tmp_path / "a.urdf").write_text(
+        '<robot name="r"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>'
+        '<joint name="s" type="revolute"><parent link="a"/><child link="b"/><origin xyz="1 0 0" rpy="0 0 1.5707963267948966"/></joint>'
+        '<joint name="f" type="fixed"><parent link="b"/><child link="c"/><origin xyz="1 0 0" rpy="1.5707963267948966 0 0"/></joint>'
+        '<joint name="t" type="continuous"><parent link="c"/><child link="d"/><axis xyz="0 0 1"/><mimic joint="s"/></joint></robot>'
+    )
+    solids = synth.read(tmp_path / "a.urdf")
+    assert set(solids.chain.nodes) == {"a", "b", "d"}
+    assert np.allclose(solids.axes["s"], [(1, 0, 0), (0, 1, 0)])
+    assert np.allclose(solids.axes["t"], [(1, 1, 0), (1, 0, 0)])
+    assert solids.notes == ("not read: 1 mimic joint",)
+    assert "not read: 1 mimic joint" in str(synth.mobility(solids))
+
+
+def test_a_model_of_gazebo(tmp_path):
+    (tmp_path / "a.sdf").write_text(
+        '<sdf version="1.9"><world name="w"><model name="m"><frame name="f"><pose>0 0 1 0 0 0</pose></frame>'
+        '<link name="a"><pose relative_to="f">1 0 0 0 0 1.5707963267948966</pose></link>'
+        '<link name="b"><pose relative_to="a">1 0 0 0 0 0</pose></link><link name="c"/>'
+        '<joint name="u" type="universal"><parent>a</parent><child>b</child><axis><xyz>1 0 0</xyz></axis><axis2><xyz>0 1 0</xyz></axis2></joint>'
+        '<joint name="p" type="prismatic"><parent>b</parent><child>c</child><axis><xyz expressed_in="a">1 0 0</xyz></axis></joint>'
+        '<joint name="w" type="fixed"><parent>world</parent><child>a</child></joint></model></world></sdf>'
+    )
+    linkage = synth.read(tmp_path / "a.sdf")
+    assert linkage.chain.ground == "a"
+    assert np.allclose(linkage.places["u"].point, (1, 1, 1))
+    assert np.allclose(linkage.places["u"].axes, [(0, 1, 0), (-1, 0, 0)])
+    assert np.allclose(linkage.places["p"].axes, [(0, 1, 0)])
+
+
+def body(inside, more=""):
+    return f'<mujoco><worldbody><body name="a">{inside}</body></worldbody>{more}</mujoco>'
+
+
+URDF = '<robot name="r"><link name="a"/><link name="b"/>{}</robot>'
+BAD = {
+    "entities": ("a.xml", '<!DOCTYPE a [<!ENTITY b "c">]><mujoco/>', "a document type"),
+    "no XML": ("a.urdf", "<robot", "not XML; expected <robot>"),
+    "other root": ("a.sdf", "<html/>", "the element 'html'; expected <sdf>"),
+    "nothing": ("a.xml", "<mujoco/>", "no joints"),
+    "include": ("a.xml", '<mujoco><include file="/etc/passwd"/></mujoco>', "bodies in another file"),
+    "global": ("a.xml", '<mujoco><compiler coordinate="global"/></mujoco>', "global coordinates"),
+    "axis": ("a.xml", body('<joint axis="0 0 0"/>'), "the axis has no direction"),
+    "words": ("a.xml", body('<joint axis="0 x 0"/>'), "expected 3 numbers"),
+    "infinite": ("a.xml", body('<joint pos="0 1e999 0"/>'), "expected 3 numbers"),
+    "type": ("a.xml", body('<joint type="screw"/>'), "the type 'screw'"),
+    "twice": ("a.xml", body('<body name="a"/>'), "the name occurs twice"),
+    "no body": ("a.xml", body("<joint/>", '<equality><connect body1="a" body2="z" anchor="0 0 0"/></equality>'), "no body 'z'"),
+    "welded": ("a.xml", body("<joint/>", '<equality><weld body1="a"/></equality>'), "both bodies are one link"),
+    "no link": ("a.urdf", URDF.format('<joint name="j" type="fixed"><parent link="a"/></joint>'), "no <child>"),
+    "no tree": ("a.urdf", URDF.format(
+        '<joint name="j" type="revolute"><parent link="a"/><child link="b"/></joint>'
+        '<joint name="k" type="revolute"><parent link="b"/><child link="a"/></joint>'), "a loop of joints"),
+    "kind": ("a.urdf", URDF.format('<joint name="j" type="ball"><parent link="a"/><child link="b"/></joint>'), "the type 'ball'"),
+    "models": ("a.sdf", "<sdf/>", "0 models; expected 1"),
+    "own frame": ("a.sdf", '<sdf><model name="m"><link name="a"><pose relative_to="a">0 0 0 0 0 0</pose></link><link name="b"/>'
+                  '<joint name="j" type="revolute"><parent>b</parent><child>a</child></joint></model></sdf>', "relative to itself"),
+    "screw": ("a.sdf", '<sdf><model name="m"><link name="a"/><joint name="j" type="screw"><parent>world</parent>'
+              '<child>a</child></joint></model></sdf>', "the type 'screw'"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_what_is_refused(case, tmp_path):
+    name, text, message = BAD[case]
+    (tmp_path / name).write_text(text)
+    with pytest.raises(FileError) as error:
+        synth.read(tmp_path / name)
+    assert message in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("loops", [{}, {"loops": 3}, {"loops": [3]}, {"loops": [{"links": ["a", "z"], "joint": "l",
+                         "points": [[0, 0, 0]], "axis": [0, 0, 1]}]}])  # fmt: skip
+def test_bad_loops_beside_a_tree(loops, tmp_path):
+    (tmp_path / "a.urdf").write_text(
+        URDF.format('<joint name="j" type="revolute"><parent link="a"/><child link="b"/></joint>')
+    )
+    (tmp_path / "a.loops.json").write_text(json.dumps({"format": "synthedra/loops", "version": 1} | loops))
+    with pytest.raises(FileError, match=r"a\.loops\.json"):
+        synth.read(tmp_path / "a.urdf")
+
+
+def test_deep_bodies(tmp_path):
+    """A chain of 2000 bodies inside each other is no matter of recursion."""
+    deep = "".join('<body><joint axis="0 0 1"/>' for _ in range(2000)) + "</body>" * 2000
+    (tmp_path / "a.xml").write_text(f"<mujoco><worldbody>{deep}</worldbody></mujoco>")
+    assert len(synth.read(tmp_path / "a.xml").chain.joints) == 2000
