@@ -22,7 +22,7 @@ help:
 	@echo "make test-night the slow tests that take more than ten minutes each"
 	@echo "make durations  run all tests except those of the night and the web, and write their durations to tests/durations.json"
 	@echo "make test-web   run a notebook and test its displays, and test the page of synth view in node and in Chromium"
-	@echo "make test-simulators  install MuJoCo, and test models for simulators with it"
+	@echo "make test-simulators  install MuJoCo, usd-core and gmsh, and test models for simulators with them"
 	@echo "make test-machines  check that answers are the same under other BLAS kernels, threads, hash seeds, and without AVX2"
 	@echo "make bench      measure what people wait for, beside other programs where they are at hand: some minutes"
 	@echo "make page       build the script of that page, if its sources have changed"

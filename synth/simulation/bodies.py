@@ -56,7 +56,7 @@ class Plate:
         second = np.zeros((3, 3))
         second[:2, :2] = moments / (12.0 * area) - np.outer(centre, centre)
         second[2, 2] = self.thickness**2 / 12.0
-        mass = density * area * self.thickness
+        mass = float(density * area * self.thickness)
         axes = self.plane.axes
         inertia = mass * axes @ (np.trace(second) * np.eye(3) - second) @ axes.T
         return MassProperties(mass, self.plane.origin + axes[:, :2] @ centre, inertia)
@@ -74,7 +74,7 @@ class Bar:
         """Return its mass, centre and inertia."""
         along = self.end - self.start
         length = float(np.linalg.norm(along))
-        mass = density * np.pi * self.radius**2 * length
+        mass = float(density * np.pi * self.radius**2 * length)
         outer = np.outer(unit(along), unit(along))
         across = mass * (3.0 * self.radius**2 + length**2) / 12.0
         inertia = across * (np.eye(3) - outer) + mass * self.radius**2 / 2.0 * outer

@@ -32,7 +32,7 @@ _SOLVER: dict[str, Any] = {
 }
 _STIFF: dict[str, Any] = {"solref": [2.0 * STEP, 1.0], "solimp": [0.9999, 0.9999, 0.001, 0.5, 2.0]}
 """As stiff as the step allows: errors decay in two steps."""
-_SERVO = 50.0
+SERVO = 50.0
 """Driven joints follow their input in 1/50 s."""
 
 
@@ -175,7 +175,7 @@ def _add_servo(assembly: Assembly, number: int, actuator: Element) -> None:
     hinge, values = assembly.hinges[number], assembly.path[:, number]
     inertia = driven_inertia(assembly, number)
     actuator.add(
-        "position", name=f"drive_{hinge.name}", joint=hinge.name, kp=inertia * _SERVO**2, kv=2.0 * inertia * _SERVO,
+        "position", name=f"drive_{hinge.name}", joint=hinge.name, kp=inertia * SERVO**2, kv=2.0 * inertia * SERVO,
         ctrlrange=[values.min(), values.max()],
     )  # fmt: skip
 

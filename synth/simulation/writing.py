@@ -19,11 +19,13 @@ from synth.simulation.sdf import lost_as_sdf, sdf_bytes
 from synth.simulation.step import lost_as_step, step_bytes
 from synth.simulation.tables import csv_bytes, header_bytes, lost_as_table
 from synth.simulation.urdf import FILE, lost_as_urdf, urdf_files
+from synth.simulation.usd import lost_as_usd, usd_bytes
 
 MODELS: dict[str, Format[Assembly]] = {
     "mjcf": Format(".xml", "MJCF, for MuJoCo", mjcf_bytes, lost_as_mjcf),
     "urdf": Format(".urdf", "URDF, for ROS", lambda assembly: urdf_files(assembly)[".urdf"], lost_as_urdf),
     "sdf": Format(".sdf", "SDF, for Gazebo", sdf_bytes, lost_as_sdf),
+    "usd": Format(".usda", "USD with physics", usd_bytes, lost_as_usd),
     "step": Format(".step", "STEP, for CAD", step_bytes, lost_as_step),
     "table": Format(".csv", "table of a motion", csv_bytes, lost_as_table),
     "header": Format(".h", "table of a motion for C", header_bytes, lost_as_table),
@@ -53,9 +55,10 @@ def write_model(
     ----------
     mechanism : anything that `synth.moving.made.configuration_of` takes
     path : str or Path
-    name : {"mjcf", "urdf", "sdf", "step", "table", "header"}
+    name : {"mjcf", "urdf", "sdf", "usd", "step", "table", "header"}
         The format: for MuJoCo (``.xml``), ROS (``.urdf``, with the loops in a file of JSON beside it) or Gazebo
-        (``.sdf``), CAD (``.step``); the motion as a table (``.csv``), or for C (``.h``).
+        (``.sdf``), programs that read USD
+        (``.usda``), CAD (``.step``); the motion as a table (``.csv``), or for C (``.h``).
     thickness : float, optional
         Of panels, and diameter of bars, millimetres; by default a hundredth of the extent.
     density : float, optional

@@ -55,7 +55,7 @@ _OF_MODELS = ("density", "drive", "branch", "stiffness")
 @AT
 @options.choice(
     "--as model",
-    ("mjcf", "urdf", "sdf", "step", "table", "header"),
+    ("mjcf", "urdf", "sdf", "usd", "step", "table", "header"),
     "Write rigid bodies and joints for a simulator, or a table of the motion.",
 )
 @options.value("--density", "D", "With --as: density of the bodies in kg/m³.  [default: 1000]", type=options.LENGTH)
@@ -101,6 +101,7 @@ def convert(
                            metres unless --scale or --size is given
       urdf (.urdf)         ROS: the tree; beside it the loops (.loops.json) and panels (.stl)
       sdf (.sdf)           Gazebo: all joints, those that close loops too
+      usd (.usda)          USD Physics: joints that close loops are excluded from the articulation
       step (.step)         CAD: exact solids, an assembly of them, hinge axes as curves
       table (.csv)         joint angles at steps of the driven joint, and the moment that it needs
       header (.h)          the same for C, with a function that interpolates, and a bound of its error
