@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from graphs.errors import numbered
+from graphs.errors import UnsolvableError, numbered
 from graphs.files.solids.meshes import Mesh, stl_bytes
 from graphs.geometry import frame_about, unit
 from graphs.tolerances import DOUBLE
@@ -37,7 +37,7 @@ _ABOUT = {
 
 def urdf_files(assembly: Assembly) -> Mapping[str, bytes]:
     """Return the files of a model, by what their names end in."""
-    table = motion_table(assembly) if assembly.freedoms == 1 and len(assembly.driven) == 1 else None
+    table = _table(assembly)
     root = Element("robot", {"name": "mechanism"})
     meshes: dict[str, bytes] = {}
     for number, body in enumerate(assembly.bodies):
@@ -51,6 +51,14 @@ def urdf_files(assembly: Assembly) -> Mapping[str, bytes]:
     beside = json.dumps(loops_to_json(assembly, table), indent=1).encode()
     comments = [f"synthedra: {numbered(len(assembly.cuts), 'loop')} closed by the file of JSON beside this one"]
     return {".urdf": document(root, comments), ".loops.json": beside, **meshes}
+
+
+def _table(assembly: Assembly) -> MotionTable | None:
+    """Return the motion of the driven joint; None with several freedoms, or where it cannot be followed."""
+    try:
+        return motion_table(assembly)
+    except UnsolvableError:
+        return None
 
 
 def _add_fixed(name: str, root: Element) -> None:

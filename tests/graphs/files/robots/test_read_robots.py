@@ -30,7 +30,7 @@ def there_and_back(mechanism, tmp_path):
         assembly = write_assembly(mechanism, path, name, AssemblyOptions(), force=True)
         back = synth.read(path)
         linkage = assembly.configuration.linkage
-        assert synth.identify(back).chain == synth.identify(linkage.graph).chain
+        assert synth.identify(back.chain).chain == synth.identify(linkage.graph).chain
         lengths = np.where([hinge.slide for hinge in assembly.hinges], assembly.size, 1.0)
         angles = np.array([hinge.angle for hinge in assembly.hinges]) / lengths
         ranks = []
