@@ -57,7 +57,12 @@ def across(vectors: npt.ArrayLike, axes: npt.ArrayLike) -> Floats:
 def crossing(vectors: npt.ArrayLike) -> Floats:
     """Return the matrices, float[..., 3, 3], of cross products with vectors, float[..., 3]."""
     array = np.asarray(vectors, dtype=float)
-    return np.asarray(np.cross(array[..., None, :], np.eye(3)).swapaxes(-1, -2))
+    x, y, z = array[..., 0], array[..., 1], array[..., 2]
+    matrices = np.zeros((*array.shape, 3))
+    matrices[..., 2, 1], matrices[..., 1, 2] = x, -x
+    matrices[..., 0, 2], matrices[..., 2, 0] = y, -y
+    matrices[..., 1, 0], matrices[..., 0, 1] = z, -z
+    return matrices
 
 
 def frame_about(directions: npt.ArrayLike) -> Floats:

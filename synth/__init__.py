@@ -19,10 +19,10 @@ coordinates: `realise`, `realise_on_cone`. Motion: `fold`, a crease pattern with
 any linkage; `in_configuration`, a frame of a file, or joints at stated angles; `positions`, all assembly modes at
 given inputs; `sweep`, many members of a type, arrays in and out. `explain`: why it moves; `layers`: whether it folds
 flat, in how many layer orders; `advise`: what to lock, which panels to crease; `states`: which members bend, and what
-springs do. Known patterns and linkages: `generate`, by parameters. All types up to a size in a file: `open_atlas`.
-Models for simulators, with closed loops: `write_model`. Pictures: `draw`, of any mechanism, and their `save`;
-templates to cut and fold: `template`, `write_template`; pages that fold: `view`. In a notebook mechanisms show
-themselves.
+springs do. Known patterns and linkages: `generate`, by parameters. Dimensions with which a mechanism moves as wished:
+`design`. All types up to a size in a file: `open_atlas`. Models for simulators, with closed loops: `write_model`.
+Pictures: `draw`, of any mechanism, and their `save`; templates to cut and fold: `template`, `write_template`; pages
+that fold: `view`. In a notebook mechanisms show themselves.
 
 Where a function takes a mechanism it takes what `read` returns, the path of a file, or an id (`MechanismLike`).
 Angles are radians. Every answer prints as the command line does, has ``to_json()``, and says how it is known. An

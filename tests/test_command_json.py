@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGE = (ROOT / "docs" / "command-json.md").read_text(encoding="utf-8")
 NAMED = set(re.findall(r"`\"?([A-Za-z]\w*)\"?`", PAGE))
 BY_NAME = {"parameters", "equations", "counts", "driven", "driven_deg", "angles_deg", "joint_angles_deg", "azimuths_deg",
-           "turns", "by_size"}  # fmt: skip
+           "turns", "by_size", "sensitivity", "configurations"}  # fmt: skip
 """Keys of objects whose own keys are names: of parameters, equations, joints."""
 
 COMMANDS = [
@@ -52,6 +52,7 @@ COMMANDS = [
     "cone move data/surfaces/fig11-stephenson.json",
     "order --orientations data/orientations/tipparthi.json --axis 1,2,3",
     "convert data/wiener/watt.json made.graphml --lossy",
+    "design four-bar data/wishes/crank-and-follower.json --starts 1",
 ]
 
 

@@ -38,6 +38,7 @@ _SECTIONS: dict[str, dict[str, str]] = {
         "template": "Write a template at true scale, to cut out and fold.",
         "generate": "Make known patterns and linkages from their parameters.",
         "realise": "Give a type coordinates: as a flat sheet, as panels in space, or on a cone.",
+        "design": "Find dimensions with which a mechanism moves as wished.",
     },
     "Edit, convert and identify": {
         "reduce": "Remove ride-alongs and adjunct addenda.",

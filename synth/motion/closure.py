@@ -21,13 +21,16 @@ import numpy as np
 import scipy
 
 from graphs.errors import UnsolvableError
-from graphs.geometry import common_direction, frame_about, rotations
+from graphs.geometry import common_direction, crossing, frame_about, rotations
 from graphs.loops.loop import Centre
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints
 from synth.motion.kernel import KernelEquations, KernelFactor, kernel
 from synth.motion.linkage import PosedLinkage, PosedLoop
 from synth.motion.tangent import REGULAR, TangentSpace, largest_of
+
+_SMALL = 0.01
+"""Radians, below which a series is taken."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +73,22 @@ class _LoopGroup:
         if self.centre is Centre.FINITE:
             return twists[:, :3]
         return self._in_plane(twists) if self.centre is Centre.INFINITE else twists
+
+    def opened(self, off: Floats) -> Floats:
+        """Return the derivatives of residuals float[L, e] by twists of the last link: float[L, e, e]."""
+        matrices = np.broadcast_to(np.eye(self.equations), (len(off), self.equations, self.equations)).copy()
+        if self.centre is Centre.INFINITE:
+            matrices[:, 1, 0], matrices[:, 2, 0] = -off[:, 2], off[:, 1]
+            return matrices
+        angle = np.linalg.norm(off[:, :3], axis=1)
+        small = angle < _SMALL  # the series 1 / 12 + angle^2 / 720 has all digits
+        half = np.where(small, 1.0, angle / 2.0)
+        factor = np.where(small, 1.0 / 12.0 + angle**2 / 720.0, (1.0 - half / np.tan(half)) / (4.0 * half**2))
+        cross = crossing(off[:, :3])
+        matrices[:, :3, :3] += -cross / 2.0 + factor[:, None, None] * (cross @ cross)
+        if self.centre is Centre.NONE:
+            matrices[:, 3:, :3] = -crossing(off[:, 3:])
+        return matrices
 
     def evaluated(self, angles: Floats) -> tuple[Floats, Floats]:
         """Return residuals float[L, e] and derivatives float[L, e, k]."""
@@ -175,6 +194,20 @@ class ClosureEquations:
         places = (np.concatenate(rows), np.concatenate(columns))
         return scipy.sparse.csr_matrix((np.concatenate(values), places), shape=(self.rows, 6 * self.joints))
 
+    def opened(self, residual: Floats) -> scipy.sparse.csr_matrix:
+        """Return by what derivatives are multiplied where loops are open by a residual: sparse float[rows, rows].
+
+        Derivatives are twists of the last link against the first; these turn the residual, a rotation vector and a
+        shift, as they do at closed loops only to first order.
+        """
+        blocks, start = [], 0
+        for group in self._groups:
+            size = len(group.joints) * group.equations
+            blocks.append(group.opened(residual[start : start + size].reshape(-1, group.equations)))
+            start += size
+        data = [block for group in blocks for block in group]
+        return scipy.sparse.block_diag(data, format="csr") if data else scipy.sparse.csr_matrix((0, 0))
+
     @cached_property
     def _pattern(self) -> tuple[Ints, Ints, Ints]:
         """Where in a row-by-row matrix each derivative of the groups goes, its columns and the starts of its rows."""
@@ -259,7 +292,7 @@ def carried(rotations: Floats, shifts: Floats) -> Floats:
     """Return the adjoint matrices of rigid motions, for twists (w, v): rotation about the origin and shift."""
     adjoints = np.zeros((len(rotations), 6, 6))
     adjoints[:, :3, :3] = adjoints[:, 3:, 3:] = rotations
-    adjoints[:, 3:, :3] = np.cross(shifts[:, None, :], rotations.transpose(0, 2, 1)).transpose(0, 2, 1)
+    adjoints[:, 3:, :3] = crossing(shifts) @ rotations
     return adjoints
 
 

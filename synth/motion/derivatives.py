@@ -196,7 +196,7 @@ class Sensitivity:
         return self._bent(self._along(change.angles - axes.zeros) @ flex + (ahead - back) / (2.0 * _NUDGE))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class AxisDependence:
     """How the axes of a linkage at its pose change with the numbers it is made of.
 
@@ -219,6 +219,11 @@ class AxisDependence:
 
     twists: scipy.sparse.csr_matrix
     zeros: scipy.sparse.csr_matrix
+
+    @cached_property
+    def arrays(self) -> tuple[Floats, Floats]:
+        """Twists and zeros as full matrices."""
+        return self.twists.toarray(), self.zeros.toarray()
 
     def forward(self, change: Floats) -> AxisChange:
         """Return the change of the axes with one of the numbers, float[n]."""
@@ -442,6 +447,23 @@ class BodyPoses:
         for level in tree.levels:
             twists[tree.far[level]] = twists[tree.near[level]] + steps[level]
         return twists
+
+    def derivatives(self, dependence: AxisDependence) -> tuple[Floats, Floats]:
+        """Return the derivatives of all twists: by joint angles, float[L, 6, J], and by numbers, float[L, 6, n].
+
+        These numbers are those on which the axes depend; the joint angles are held.
+        """
+        tree, screws = self.tree, self._screws()
+        axes, zeros = dependence.arrays
+        joints, numbers = zeros.shape
+        own = axes.reshape(joints, 6, numbers)[tree.joints]
+        steps = self._by_axes() @ own - screws[:, :, None] * zeros[tree.joints][:, None, :]
+        by_angles, by_numbers = np.zeros((len(self.shifts), 6, joints)), np.zeros((len(self.shifts), 6, numbers))
+        for level in tree.levels:
+            near, far = tree.near[level], tree.far[level]
+            by_angles[far], by_numbers[far] = by_angles[near], by_numbers[near] + steps[level]
+            by_angles[far, :, tree.joints[level]] += screws[level]
+        return by_angles, by_numbers
 
     def adjoint(self, wrenches: Floats) -> tuple[Floats, AxisChange]:
         """Return the gradients by joint angles, and by axes with these held, from that by twists, float[L, 6]."""

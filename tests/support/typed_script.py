@@ -94,6 +94,9 @@ dyads = synth.guiding_dyads(orientations)
 reveal_type(synth.guiding_dyads(np.zeros((0, 5, 3, 3))).count)
 reveal_type((dyads, synth.analyse_order(orientations, (0.0, 0.0, 1.0)), synth.four_bars(orientations, dyads.dyads)))
 
+designs = synth.design(linkage, "wishes.json", starts=2)
+reveal_type((designs, designs.best, designs.pareto))
+
 # Pictures, templates, pages, the atlas
 picture = synth.draw(sheet, colour="none")
 reveal_type((picture, picture.width))

@@ -1,0 +1,139 @@
+"""``synth design``: dimensions of a mechanism from wishes about its motion."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+import synth.designing
+from graphs.errors import FileError
+from synth.cli import options
+from synth.cli.output import about, check_output, print_json, print_result, progress_line, tell_written
+from synth.cli.runner import RunOptions, run_resumable
+
+if TYPE_CHECKING:
+    from synth.designing import Design, Designs
+    from synth.designing.job import DesignJob
+
+
+@click.command()
+@click.argument("mechanism", type=options.FILE_NAME)
+@click.argument("wishes", type=options.FILE_NAME)
+@options.number("--starts", "N", "Number of searches, each from other dimensions.", 1, most=100_000, default=8)
+@options.value(
+    "--spread", "PART", "How far the starts differ from the mechanism: radians of an axis, parts of a length.",
+    type=click.FloatRange(0.0, 10.0), default=0.1, show_default=True,
+)  # fmt: skip
+@options.seed("Random seed; another seed gives other starts.")
+@options.output("Keep all designs in this .sqlite store, from which a stopped run is continued.", "STORE", "--store")
+@options.flag("--resume", "Continue a stopped run from the store of --store.")
+@options.number("--workers", "N", "With --store: number of processes. By default one per core.")
+@options.output("Write the best design: .json, or .fold and other formats for a sheet.")
+@options.output("Draw the best design to this file (.svg, .png or .pdf).", "OUT", "--picture")
+@options.FORCE
+@options.JSON
+def design(
+    mechanism: str, wishes: str, starts: int, spread: float, seed: int, store: str | None, resume: bool,
+    workers: int | None, output: str | None, picture: str | None, force: bool, as_json: bool,
+) -> None:  # fmt: skip
+    """Find dimensions of a mechanism with which its motion is as wished.
+
+    MECHANISM is a file with coordinates (hinged solids, a linkage on a cone, a crease pattern) or the name of a
+    generator; WISHES is a JSON file (docs/native-json.md). Axes, vertices or parameters change by least squares with
+    exact derivatives, all configurations at once. A design counts only if its loops close to 1e-12, the verdict says
+    that it moves, and its driven joint passes the configurations in order without turning back. The answer lists, for
+    each wish, by how much it is missed and on which dimensions it depends most. Ctrl-C prints the designs found so
+    far.
+
+    \b
+    Examples:
+      synth design data/hyatt/spherical-four-bar.json wishes.json
+      synth design bennett wishes.json --starts 20 -o bennett.json
+      synth design six-bar.json wishes.json --starts 200 --store designs.sqlite
+
+    Exit status 1: no design.
+    """
+    from synth.cli.output import check_picture
+    from synth.designing.job import DesignJob
+
+    if (resume or workers is not None) and store is None:
+        raise click.UsageError("--resume and --workers require --store STORE")
+    check_output(output, force=force)
+    check_picture(picture, force=force)
+    if not Path(wishes).exists():
+        raise FileError(wishes, "", "no such file", "a file of wishes")
+    job = DesignJob(mechanism, wishes, starts, spread, seed)
+    synth.designing.read_wishes(wishes)
+    with about(mechanism):
+        job.search  # noqa: B018  # files are read, and names checked, before anything is computed
+        if store is None:
+            designs = _found(job)
+        else:
+            running = RunOptions(store, workers, resume=resume, quiet=as_json, force=force)
+            designs = _from_store(job, running)
+    _print(designs, mechanism, output, picture, force=force, as_json=as_json)
+
+
+def _found(job: DesignJob) -> Designs:
+    """Return the designs of all starts; those that there are when the user stops it."""
+    from synth.designing.designs import compared
+
+    found: list[Design] = []
+    with progress_line() as show:
+        try:
+            for start in range(job.starts):
+                one = job.search.design(start)
+                if one is not None:
+                    found.append(one)
+                best = min((one.miss for one in found if one.success), default=None)
+                show(f"start {start + 1} of {job.starts}" + ("" if best is None else f", best miss {best:.1e}"))
+        except KeyboardInterrupt:
+            click.echo(f"stopped after {len(found)} of {job.starts} starts", err=True)
+            return compared(found, len(found))
+    return compared(found, job.starts)
+
+
+def _from_store(job: DesignJob, running: RunOptions) -> Designs:
+    """Run the starts into a store, and return the designs in it."""
+    from enumerate.runner.job import row_as_dict
+    from enumerate.runner.store import SqliteSink, read_rows
+    from synth.designing.designs import compared
+    from synth.designing.job import COLUMNS
+
+    path = Path(str(running.output))
+    if path.suffix != ".sqlite":
+        raise FileError(path, "", "no store", "a name that ends in .sqlite")
+    check_output(None if running.resume else str(path), force=running.force)
+    if running.force and not running.resume:
+        path.unlink(missing_ok=True)
+
+    def sink_of(**how: Any) -> SqliteSink:
+        return SqliteSink(path, resume=running.resume, **how)
+
+    run_resumable(job, sink_of, running)
+    rows = [row_as_dict(COLUMNS, row) for row in read_rows(path)]
+    return compared(job.designs(rows), job.starts)
+
+
+def _print(
+    designs: Designs, mechanism: str, output: str | None, picture: str | None, *, force: bool, as_json: bool
+) -> None:
+    """Print the designs, and write the best."""
+    best = designs.best
+    written = []
+    if best is not None and output is not None:
+        synth.write(best.mechanism, output, force=force)
+        written.append(output)
+    if best is not None and picture is not None:
+        synth.draw(best.mechanism).save(picture, force=force)
+        written.append(picture)
+    if as_json:
+        print_json({"file": mechanism, **designs.to_json(), "written": written})
+    else:
+        print_result(designs, {}, as_json=False)
+        tell_written(*written)
+    if best is None:
+        sys.exit(1)

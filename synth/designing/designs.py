@@ -1,0 +1,443 @@
+"""Designs: found from wishes, judged, and compared; `design` is what `synth design` calls.
+
+A design is a success if its configurations are closed, its rules hold, the verdict says that it moves, and a motion
+passes its configurations on one branch in their order. Theory: docs/theory/design.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from math import degrees
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from graphs.convert.table import Mechanism
+from graphs.errors import SynthedraError, numbered
+from graphs.printing import Block, Printed, TableBlock
+from graphs.tolerances import DOUBLE
+from graphs.types import Floats
+from synth.designing.dimensions import Designable, Dimensions, dimensions_of
+from synth.designing.problem import DesignProblem
+from synth.designing.search import FoundDesign, found_from, seeded, start_of
+from synth.designing.tracing import DesignDefects, traced
+from synth.designing.wish_files import read_wishes
+from synth.designing.wishes import POSE, Unit, Wishes
+from synth.moving.made import configuration_of
+from synth.patterns.catalogue import GENERATORS
+from synth.verdict.judged import verdict_of_motion
+
+STARTS = 8
+SPREAD = 0.1
+"""How far starts are off the mechanism: radians of axes, parts of edges and parameters."""
+_MET = 1e-9
+"""A wish that misses by less, in radians or parts of the extent, is met."""
+
+
+@dataclass(frozen=True, slots=True)
+class WishFigure:
+    """By how much a design misses a wish, in radians or the unit of the file, and how that depends on dimensions.
+
+    `sensitivity` holds the largest change of the measured numbers for a unit change of each dimension (a radian of an
+    axis, a length of a vertex, a unit of a parameter), inputs held: which cuts must be exact.
+    """
+
+    wish: str
+    unit: Unit
+    miss: float
+    part: float
+    sensitivity: Mapping[str, float]
+
+    @property
+    def met(self) -> bool:
+        """Whether the wish is met to rounding."""
+        return self.part <= _MET
+
+    @property
+    def text(self) -> str:
+        """The miss in words."""
+        if self.met:
+            return "met"
+        return f"{degrees(self.miss):.3g}°" if self.unit == "angle" else f"{self.miss:.3g}"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data, angles in degrees."""
+        miss = degrees(self.miss) if self.unit == "angle" else self.miss
+        return {
+            "wish": self.wish,
+            "unit": self.unit,
+            "miss": miss,
+            "met": self.met,
+            "sensitivity": dict(self.sensitivity),
+        }
+
+
+@dataclass(frozen=True, repr=False)
+class Design(Printed):
+    """A mechanism with new dimensions, with its figures against each wish.
+
+    Attributes
+    ----------
+    start : int
+        Number of the start that led to it.
+    numbers : float[n]
+        Those of its `Dimensions`.
+    mechanism : Mechanism
+    figures : tuple of WishFigure
+    error : float
+        Largest loop-closure residual of its configurations, and miss of a rule.
+    freedoms : int or None
+        By the verdict; None if it has none.
+    verdict : str
+        Its sentence, or why there is none.
+    defects : DesignDefects
+    angles : mapping of str to mapping of str to float
+        Joint angles at each configuration, radians.
+
+    Examples
+    --------
+    >>> from synth.designing.wishes import Goal, LinkArc
+    >>> from synth.patterns import generate
+    >>> wish = LinkArc(joints=("0", "1"), goal=Goal(equals=1.0))
+    >>> best = design(generate("four-bar").mechanism, Wishes((wish,)), starts=1).best
+    >>> best.success, best.freedoms, best.figures[0].text
+    (True, 1, 'met')
+    """
+
+    start: int
+    numbers: Floats
+    mechanism: Mechanism
+    figures: tuple[WishFigure, ...]
+    error: float
+    freedoms: int | None
+    verdict: str
+    defects: DesignDefects
+    angles: Mapping[str, Mapping[str, float]]
+
+    @property
+    def closed(self) -> bool:
+        """Whether all configurations are closed, and rules hold."""
+        return self.error <= DOUBLE.closed
+
+    @property
+    def moves(self) -> bool:
+        """Whether the verdict says that it moves."""
+        return bool(self.freedoms)
+
+    @property
+    def success(self) -> bool:
+        """Whether it is closed, moves, and has no defects."""
+        return self.closed and self.moves and not self.defects.defects
+
+    @property
+    def miss(self) -> float:
+        """The largest miss of a wish, in radians or parts of the extent."""
+        return max((figure.part for figure in self.figures), default=0.0)
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """Why it is no success."""
+        opened = () if self.closed else (f"loop-closure residual {self.error:.1e}",)
+        still = () if self.moves else (self.verdict,)
+        return (*opened, *still, *self.defects.defects)
+
+    def __repr__(self) -> str:
+        return f"<Design: largest miss {self.miss:.1e}, {'success' if self.success else '; '.join(self.faults)}>"
+
+    def blocks(self) -> list[Block]:
+        """Return the lines that are printed."""
+        lines: list[Block] = [f"design from start {self.start}: {'; '.join(self.faults) or 'success'}"]
+        lines += [self.verdict] if self.moves else []
+        lines.append(f"loop-closure residual {self.error:.1e}")
+        rows = []
+        for figure in self.figures:
+            ranked = sorted(figure.sensitivity.items(), key=lambda item: (-round(item[1], 6), item[0]))
+            rows.append((figure.wish, figure.text, ", ".join(f"{name} {value:.3g}" for name, value in ranked[:3])))
+        return [*lines, TableBlock(("wish", "miss", "most sensitive to"), rows)]
+
+    def record(self) -> dict[str, Any]:
+        """Return what a row of a store holds, radians: `DesignSearch.of_record` makes the design of it again."""
+        figures = [[one.wish, one.unit, one.miss, one.part, dict(one.sensitivity)] for one in self.figures]
+        return {
+            "numbers": self.numbers.tolist(),
+            "figures": figures,
+            "error": self.error,
+            "freedoms": self.freedoms,
+            "verdict": self.verdict,
+            "defects": [list(self.defects.defects), self.defects.traced, list(self.defects.inputs)],
+            "angles": {name: dict(angles) for name, angles in self.angles.items()},
+        }
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on (docs/command-json.md)."""
+        return {
+            "start": self.start,
+            "success": self.success,
+            "faults": list(self.faults),
+            "miss": self.miss,
+            "residual": self.error,
+            "freedoms": self.freedoms,
+            "verdict": self.verdict,
+            "figures": [figure.to_json() for figure in self.figures],
+            "configurations": {
+                name: {joint: degrees(angle) for joint, angle in angles.items()} for name, angles in self.angles.items()
+            },
+        }
+
+
+@dataclass(frozen=True, repr=False)
+class Designs(Printed):
+    """All designs of a search: successes that no other one beats in every wish, best first; then the rest.
+
+    Attributes
+    ----------
+    pareto : tuple of Design
+    others : tuple of Design
+        Other successes.
+    failures : tuple of Design
+        What is no success, nearest to the wishes first.
+    starts : int
+        How many starts were made.
+
+    Examples
+    --------
+    >>> from synth.designing.wishes import Goal, JointAngle, WishedConfiguration
+    >>> from synth.patterns import generate
+    >>> wish = JointAngle(at="open", joint="2", goal=Goal(equals=0.4))
+    >>> wishes = Wishes((wish,), (WishedConfiguration("open", {"0": 0.3}),))
+    >>> found = design(generate("four-bar").mechanism, wishes, starts=1)
+    >>> found, found.pareto[0].success
+    (<Designs: 1 success from 1 start>, True)
+    """
+
+    pareto: tuple[Design, ...]
+    others: tuple[Design, ...]
+    failures: tuple[Design, ...]
+    starts: int
+
+    @property
+    def best(self) -> Design | None:
+        """The first of the Pareto list; None without a success."""
+        return self.pareto[0] if self.pareto else None
+
+    def __repr__(self) -> str:
+        successes = len(self.pareto) + len(self.others)
+        return f"<Designs: {numbered(successes, 'success', 'successes')} from {numbered(self.starts, 'start')}>"
+
+    def blocks(self) -> list[Block]:
+        """Return the lines that are printed."""
+        successes = len(self.pareto) + len(self.others)
+        first = f"{numbered(successes, 'design')} from {numbered(self.starts, 'start')}"
+        if not successes:
+            first = f"no design from {numbered(self.starts, 'start')}"
+            lines: list[Block] = [first]
+            if self.failures:
+                nearest = self.failures[0]
+                lines.append(f"nearest: largest miss {nearest.miss:.2e}; {'; '.join(nearest.faults)}")
+            return lines
+        best = self.pareto[0]
+        first += ", all wishes met" if best.miss <= _MET else f"; largest miss of the first {best.miss:.2e}"
+        rows = [(str(one.start), f"{one.miss:.1e}", f"{one.error:.0e}") for one in self.pareto]
+        table = TableBlock(("start", "largest miss", "residual"), rows, ("start",))
+        return [first, *best.blocks(), *([table] if len(rows) > 1 else [])]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on (docs/command-json.md)."""
+        return {
+            "starts": self.starts,
+            "designs": [one.to_json() for one in self.pareto],
+            "others": [one.to_json() for one in self.others],
+            "failures": [one.to_json() for one in self.failures],
+        }
+
+
+def design(
+    mechanism: Designable,
+    wishes: Wishes | str | Path,
+    *,
+    starts: int = STARTS,
+    spread: float = SPREAD,
+    seed: int = 0,
+    report: Callable[[Design], None] | None = None,
+) -> Designs:
+    """Find dimensions of a mechanism with which its motion is as wished.
+
+    Parameters
+    ----------
+    mechanism : Mechanism, str, Path or Generator
+        With coordinates: hinged solids, a linkage on a cone, a crease pattern; or a generator, or its name.
+    wishes : Wishes, str or Path
+        Or their file (docs/native-json.md).
+    starts : int, optional
+        How many searches are made; the first begins with the mechanism as it is, the others beside it, at random.
+    spread : float, optional
+        How far beside: radians of directions, parts of lengths and parameters.
+    seed : int, optional
+    report : callable, optional
+        Called with each design as it is found.
+
+    Returns
+    -------
+    Designs
+
+    Raises
+    ------
+    UnsolvableError
+        If the mechanism has no coordinates, or nothing of it may change.
+    InvariantError
+        If wishes name what is not there, or contradict each other.
+
+    Examples
+    --------
+    A spherical four-bar whose follower is to turn by 50 degrees while the crank turns by 40:
+
+    >>> from math import radians
+    >>> from synth.designing import Goal, JointAngle, WishedConfiguration
+    >>> from synth.patterns import generate
+    >>> wish = JointAngle(at="open", joint="3", goal=Goal(equals=radians(50)))
+    >>> wishes = Wishes((wish,), (WishedConfiguration("open", {"0": radians(40)}),))
+    >>> best = design(generate("four-bar").mechanism, wishes, starts=1).best
+    >>> best.figures[0].met, best.moves
+    (True, True)
+    """
+    wished = read_wishes(wishes) if isinstance(wishes, str | Path) else wishes
+    search = DesignSearch(mechanism, wished, spread, seed)
+    found: list[Design] = []
+    for start in range(starts):
+        one = search.design(start)
+        if one is not None:
+            found.append(one)
+            if report is not None:
+                report(one)
+    return compared(found, starts)
+
+
+class DesignSearch:
+    """A search for designs, start by start; what a start gives depends on the mechanism, wishes and its number.
+
+    Parameters
+    ----------
+    mechanism, wishes, spread, seed
+        As of `design`.
+
+    Attributes
+    ----------
+    family : Dimensions
+    problem : DesignProblem
+
+    Examples
+    --------
+    >>> from synth.designing.wishes import Goal, LinkArc
+    >>> from synth.patterns import generate
+    >>> wish = LinkArc(joints=("0", "1"), goal=Goal(equals=1.0))
+    >>> DesignSearch(generate("four-bar").mechanism, Wishes((wish,))).design(0)
+    <Design: largest miss 0.0e+00, success>
+    """
+
+    def __init__(self, mechanism: Designable, wishes: Wishes, spread: float = SPREAD, seed: int = 0) -> None:
+        generator = GENERATORS.get(mechanism) if isinstance(mechanism, str) else None
+        self.family: Dimensions = dimensions_of(
+            generator or mechanism, fixed=wishes.fixed, parameters=wishes.parameters
+        )
+        self.problem = DesignProblem(self.family, wishes)
+        self.spread, self.seed = spread, seed
+
+    def design(self, start: int) -> Design | None:
+        """Return the design of a start, judged; None where numbers of a start make no mechanism."""
+        rng = seeded(f"{self.seed} {len(self.problem.start)}", start)
+        numbers = start_of(self.problem, start, self.spread, rng)
+        found = found_from(self.problem, numbers, rng)
+        return None if found is None else judged(self.problem, found, start)
+
+    def of_record(self, start: int, record: Mapping[str, Any]) -> Design:
+        """Return the design of a record that `Design.record` made."""
+        numbers = np.array(record["numbers"], dtype=float)
+        defects, passed, inputs = record["defects"]
+        return Design(
+            start,
+            numbers,
+            self.family.mechanism(numbers),
+            tuple(WishFigure(*figure) for figure in record["figures"]),
+            record["error"],
+            record["freedoms"],
+            record["verdict"],
+            DesignDefects(tuple(defects), passed, tuple(inputs)),
+            record["angles"],
+        )
+
+
+def judged(problem: DesignProblem, found: FoundDesign, start: int) -> Design:
+    """Return what was found as a design: with its verdict, defects, and figures."""
+    mechanism = problem.family.mechanism(found.numbers)
+    try:
+        verdict = verdict_of_motion(configuration_of(mechanism))
+        freedoms, sentence = verdict.freedoms, verdict.text
+    except SynthedraError as error:
+        freedoms, sentence = None, str(error)
+    names = problem.frame.joints
+    angles = {
+        one.name: {str(joint): float(angle) for joint, angle in zip(names, at, strict=True)}
+        for one, at in zip(problem.wishes.configurations, found.angles, strict=True)
+    }
+    figures, defects = _figures(problem, found), _defects(problem, found, freedoms)
+    return Design(start, found.numbers, mechanism, figures, found.error, freedoms, sentence, defects, angles)
+
+
+def _defects(problem: DesignProblem, found: FoundDesign, freedoms: int | None) -> DesignDefects:
+    """Return the defects of the motion through all configurations; of several freedoms none are looked for."""
+    wishes = problem.wishes
+    at_pose = any(POSE in wish.configurations for wish in wishes.wishes)
+    closure = problem.frame.closure(found.step.design)
+    zero = found.step.design.linkage.angles
+    if problem.family.sheet is not None and not zero.any():
+        at_pose = False  # a flat sheet is singular: many branches meet there
+    names = [*([POSE] if at_pose else []), *(one.name for one in wishes.configurations)]
+    angles = [*([zero] if at_pose else []), *found.angles]
+    if len(angles) < 2 or freedoms != 1 or problem.driver is None or max(found.errors) > DOUBLE.closed:
+        return DesignDefects((), False)
+    return traced(closure, names, angles, problem.driver, in_order=wishes.in_order)
+
+
+def _figures(problem: DesignProblem, found: FoundDesign) -> tuple[WishFigure, ...]:
+    step, start, figures = found.step, 0, []
+    slopes = reduced(problem, found)
+    for wish, rows in zip(problem.wishes.wishes, step.rows, strict=True):
+        here = slice(start, start + rows)
+        start += rows
+        miss = wish.size(step.wishes[here])
+        by = np.sqrt((slopes[here] ** 2).sum(axis=0))
+        sensitivity = {
+            name: float(np.sqrt((by[problem.family.of == place] ** 2).sum()))
+            for place, name in enumerate(problem.family.names)
+        }
+        part = miss / wish.scale(problem.frame.extent)
+        figures.append(WishFigure(str(wish), wish.unit, miss, part, sensitivity))
+    return tuple(figures)
+
+
+def reduced(problem: DesignProblem, found: FoundDesign) -> Floats:
+    """Return the derivatives of all misses by the numbers, configurations closed, inputs held: float[rows, n]."""
+    step, numbers = found.step, problem.numbers
+    if problem.size == numbers:
+        return step.by_wishes
+    follows = np.linalg.lstsq(step.by_closure[:, numbers:], step.by_closure[:, :numbers], rcond=DOUBLE.zero)[0]
+    return np.asarray(step.by_wishes[:, :numbers] - step.by_wishes[:, numbers:] @ follows)
+
+
+def compared(found: Sequence[Design], starts: int) -> Designs:
+    """Return designs in order: the Pareto list of successes, others, failures."""
+    ranked = sorted(found, key=lambda one: (round(one.miss, 9), one.start))
+    successes = [one for one in ranked if one.success]
+    parts = [np.array([max(figure.part, _MET) for figure in one.figures]) for one in successes]
+    pareto: list[Design] = []
+    others: list[Design] = []
+    for place, one in enumerate(successes):
+        beaten = any(
+            (parts[other] <= parts[place] + _MET).all() and (parts[other] < parts[place] - _MET).any()
+            for other in range(len(successes))
+        )
+        (others if beaten else pareto).append(one)
+    failures = tuple(one for one in ranked if not one.success)
+    return Designs(tuple(pareto), tuple(others), failures, starts)

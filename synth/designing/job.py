@@ -1,0 +1,80 @@
+"""The starts of a search for designs as units of the runner: so a run can be stopped, kept in a store, continued.
+
+A row holds what a start gave; designs are made of rows again when they are compared.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, fields
+from functools import cached_property
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from enumerate.runner.job import Column, Row, Unit
+from synth.designing.designs import SPREAD, STARTS, Design, DesignSearch
+from synth.designing.wish_files import read_wishes
+
+_WEIGHT = 40_000
+"""Weight of a start: about a second of a list of chains."""
+
+COLUMNS: dict[str, Column] = {
+    "start": int, "success": bool, "miss": float, "residual": float, "freedoms": int, "faults": str, "record": str,
+}  # fmt: skip
+"""Values of a row; `record` is the rest of the design as JSON."""
+
+
+@dataclass(frozen=True)
+class DesignJob:
+    """A search for designs: a file of a mechanism or the name of a generator, a file of wishes, and the starts.
+
+    Examples
+    --------
+    >>> job = DesignJob("bennett", "wishes.json", starts=3)
+    >>> [unit.payload for unit in job.units()]
+    [0, 1, 2]
+    """
+
+    mechanism: str
+    wishes: str
+    starts: int = STARTS
+    spread: float = SPREAD
+    seed: int = 0
+    columns = COLUMNS
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return the state for a worker: without the search, which each makes itself."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """The identity of the job: digests of both files, and the options but the number of starts."""
+        digests = {}
+        for name in ("mechanism", "wishes"):
+            path = Path(getattr(self, name))
+            content = path.read_bytes() if path.is_file() else getattr(self, name).encode()
+            digests[name] = sha256(content).hexdigest()
+        return {"design": digests, "starts": self.starts, "spread": self.spread, "seed": self.seed}
+
+    @cached_property
+    def search(self) -> DesignSearch:
+        """The search, its files read."""
+        return DesignSearch(self.mechanism, read_wishes(self.wishes), self.spread, self.seed)
+
+    def units(self) -> list[Unit]:
+        """One unit for each start."""
+        return [Unit(start, _WEIGHT) for start in range(self.starts)]
+
+    def work(self, payload: int) -> list[Row]:
+        """Return the row of a start; none where its numbers make no mechanism."""
+        one = self.search.design(payload)
+        if one is None:
+            return []
+        record = json.dumps(one.record(), separators=(",", ":"))
+        return [(one.start, one.success, one.miss, one.error, one.freedoms, "; ".join(one.faults), record)]
+
+    def designs(self, rows: Iterable[Mapping[str, Any]]) -> list[Design]:
+        """Return the designs of rows."""
+        return [self.search.of_record(row["start"], json.loads(row["record"])) for row in rows]

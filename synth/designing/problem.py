@@ -1,0 +1,230 @@
+"""Wishes as equations: the numbers of a design and the joint angles of all its configurations are the unknowns.
+
+Closure equations of each configuration and rules are to be zero, misses of wishes small, with exact derivatives.
+Theory: docs/theory/design.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Protocol
+
+import numpy as np
+
+from graphs.errors import InvariantError, SynthedraError
+from graphs.types import Floats, Ints
+from synth.designing.dimensions import DesignedLinkage, Dimensions
+from synth.designing.poses import Derived, DesignFrame, PosedDesign
+from synth.designing.wishes import POSE, Wish, Wishes, check_wishes
+
+
+class NumberRule(Protocol):
+    """A condition on the numbers of a design alone: residuals float[m] to be zero, derivatives float[m, n]."""
+
+    def __call__(self, design: DesignedLinkage) -> tuple[Floats, Floats]:
+        """Return residuals and derivatives."""
+
+
+@dataclass(frozen=True, slots=True)
+class DesignStep:
+    """All equations at one place: the parts by which they miss, and their derivatives by all unknowns.
+
+    `closure` and `rules` are to be zero, `wishes` small; these are in radians and units of the file, and `weights` make
+    parts of the extent of them; `rows` is the number of residuals of each wish.
+    """
+
+    design: DesignedLinkage
+    closure: Floats
+    rules: Floats
+    wishes: Floats
+    by_closure: Floats
+    by_rules: Floats
+    by_wishes: Floats
+    weights: Floats
+    rows: tuple[int, ...]
+
+    def residual(self, weight: float) -> Floats:
+        """Return all residuals, closure and rules times a weight, wishes times theirs."""
+        return np.concatenate([weight * self.closure, weight * self.rules, self.weights * self.wishes])
+
+    def jacobian(self, weight: float) -> Floats:
+        """Return their derivatives."""
+        weighed = self.weights[:, None] * self.by_wishes
+        return np.vstack([weight * self.by_closure, weight * self.by_rules, weighed])
+
+
+class DesignProblem:
+    """Wishes about a family of mechanisms, as equations.
+
+    Parameters
+    ----------
+    family : Dimensions
+    wishes : Wishes
+    number_rules : sequence of NumberRule
+        Conditions on numbers that keep a type mobile.
+
+    Examples
+    --------
+    >>> from synth.designing.dimensions import dimensions_of
+    >>> from synth.designing.wishes import Goal, JointAngle, WishedConfiguration
+    >>> from synth.patterns import generate
+    >>> wish = JointAngle(at="open", joint="2", goal=Goal(equals=0.4))
+    >>> family = dimensions_of(generate("four-bar").mechanism)
+    >>> problem = DesignProblem(family, Wishes((wish,), (WishedConfiguration("open", {"0": 0.3}),)))
+    >>> len(problem.start), problem.evaluated(problem.start).closure.shape
+    (15, (3,))
+    """
+
+    def __init__(self, family: Dimensions, wishes: Wishes, number_rules: Sequence[NumberRule] = ()) -> None:
+        self.family, self.wishes, self.number_rules = family, wishes, number_rules
+        first = family.linkage(family.start)
+        self.frame = frame = DesignFrame(family, first)
+        check_wishes(wishes, frame)
+        self.zero = first.linkage.angles
+        self.numbers, self.joints = len(family.start), len(frame.joints)
+        self.inputs = [
+            {frame.joint(name): angle for name, angle in one.inputs.items()} for one in wishes.configurations
+        ]
+        self.free: list[Ints] = [
+            np.array([joint for joint in range(self.joints) if joint not in given], dtype=np.int64)
+            for given in self.inputs
+        ]
+        starts = self.numbers + np.cumsum([0, *(len(free) for free in self.free)])
+        self.columns = [slice(int(a), int(b)) for a, b in pairwise(starts)]
+        self.size = int(starts[-1])
+        self.driver = self._driver()
+        self.start = self.joined(family.start, [self.held(k, self.zero) for k in range(len(self.inputs))])
+        self._contradictions()
+
+    def _driver(self) -> int | None:
+        """Return the driven joint: as stated, of the first input, else a joint of the fixed link."""
+        frame, wishes = self.frame, self.wishes
+        if wishes.driver is not None:
+            return frame.joint(wishes.driver)
+        given = next((joint for inputs in self.inputs for joint in inputs), None)
+        if given is not None:
+            return given
+        fixed = (place for place, joint in enumerate(frame.joints) if self.family.ground in frame.graph.joints[joint])
+        return next(fixed, None)
+
+    def _contradictions(self) -> None:
+        """Refuse wishes for one thing that exclude each other."""
+        seen: dict[str, Wish] = {}
+        for wish in self.wishes.wishes:
+            before = seen.setdefault(str(wish), wish)
+            if before is not wish and before != wish:
+                raise InvariantError("wishes", f"two different wishes for the {wish} contradict each other", "one")
+
+    def held(self, number: int, angles: Floats) -> Floats:
+        """Return joint angles with the inputs of a configuration."""
+        changed = angles.copy()
+        for joint, angle in self.inputs[number].items():
+            changed[joint] = angle
+        return changed
+
+    def joined(self, numbers: Floats, angles: Sequence[Floats]) -> Floats:
+        """Return all unknowns in one row."""
+        return np.concatenate([numbers, *(one[free] for one, free in zip(angles, self.free, strict=True))])
+
+    def parted(self, unknowns: Floats) -> tuple[Floats, list[Floats]]:
+        """Return the numbers, and the joint angles of each configuration."""
+        angles = []
+        for number, (free, columns) in enumerate(zip(self.free, self.columns, strict=True)):
+            one = self.held(number, self.zero)
+            one[free] = unknowns[columns]
+            angles.append(one)
+        return unknowns[: self.numbers], angles
+
+    def evaluated(self, unknowns: Floats) -> DesignStep:
+        """Return all equations at some unknowns."""
+        numbers, angles = self.parted(unknowns)
+        design = self.family.linkage(numbers)
+        parts = [self._closed(design, angles)] if angles else []
+        poses = {POSE: PosedDesign(self.frame, design, design.linkage.angles)}
+        poses |= {
+            one.name: PosedDesign(self.frame, design, at)
+            for one, at in zip(self.wishes.configurations, angles, strict=True)
+        }
+        on_numbers = [rule(design) for rule in self.number_rules]
+        rules = [self._missed(wish, poses) for wish in self.wishes.rules]
+        rules += [(off, self._by_numbers(by)) for off, by in on_numbers]
+        wishes = [self._missed(wish, poses) for wish in self.wishes.wishes]
+        extent = self.frame.extent
+        weights = [
+            np.full(len(off), wish.weight / wish.scale(extent))
+            for wish, (off, _) in zip(self.wishes.wishes, wishes, strict=True)
+        ]
+        vectors, matrices = [], []
+        for rows in (parts, rules, wishes):
+            vectors.append(np.concatenate([np.zeros(0), *(off for off, _ in rows)]))
+            matrices.append(np.concatenate([np.zeros((0, self.size)), *(by for _, by in rows)]))
+        (off, ruled, missed), (by_off, by_ruled, by_missed) = vectors, matrices
+        weight = np.concatenate([np.zeros(0), *weights])
+        return DesignStep(design, off, ruled, missed, by_off, by_ruled, by_missed, weight, tuple(map(len, weights)))
+
+    def _by_numbers(self, slopes: Floats) -> Floats:
+        whole = np.zeros((len(slopes), self.size))
+        whole[:, : self.numbers] = slopes
+        return whole
+
+    def _closed(self, design: DesignedLinkage, angles: Sequence[Floats]) -> tuple[Floats, Floats]:
+        """Return the closure residuals of all configurations, and their derivatives."""
+        closure, every = self.frame.closure(design, len(angles)), np.concatenate(angles)
+        off, jacobian = closure.at(every)
+        twists, zeros = (np.tile(part, (len(angles), 1)) for part in design.dependence.arrays)
+        opened = closure.opened(off)
+        whole = self._by_numbers(opened @ (closure.by_axes(every) @ twists - jacobian @ zeros))
+        by_angles = (opened @ jacobian).toarray()
+        for number, (columns, free) in enumerate(zip(self.columns, self.free, strict=True)):
+            whole[:, columns] = by_angles[:, number * self.joints + free]
+        return off, whole
+
+    def _missed(self, wish: Wish, poses: dict[str, PosedDesign]) -> tuple[Floats, Floats]:
+        """Return by how much a wish misses, and its derivatives by all unknowns."""
+        off, whole = np.zeros(0), np.zeros((0, self.size))
+        for name, part in wish.misses(poses).items():
+            if not len(whole):
+                off, whole = part.values, np.zeros((len(part.values), self.size))
+            self._add(whole, name, part, poses[name].design)
+        return off, whole
+
+    def _add(self, whole: Floats, name: str, part: Derived, design: DesignedLinkage) -> None:
+        whole[:, : self.numbers] += part.by_numbers
+        if name == POSE:  # its angles are those of the design
+            whole[:, : self.numbers] += part.by_angles @ design.dependence.zeros
+            return
+        number = self.wishes.names.index(name) - 1
+        whole[:, self.columns[number]] += part.by_angles[:, self.free[number]]
+
+    def alone(self, number: int, numbers: Floats) -> Callable[[Floats], tuple[Floats, Floats]]:
+        """Return the equations of one configuration with numbers held, as a function of its joint angles float[J].
+
+        Residuals, and derivatives by the angles: of its closure equations, and wishes for it alone.
+        """
+        design = self.family.linkage(numbers)
+        closure, frame = self.frame.closure(design), self.frame
+        name = self.wishes.names[number + 1]
+        own = [wish for wish in self.wishes.wishes if wish.configurations == (name,)]
+
+        def equations(angles: Floats) -> tuple[Floats, Floats]:
+            off, jacobian = closure.at(angles)
+            values, slopes = [off], [(closure.opened(off) @ jacobian).toarray()]
+            pose = PosedDesign(frame, design, angles)
+            for wish in own:
+                part, factor = wish.missed(pose), wish.weight / wish.scale(frame.extent)
+                values.append(factor * part.values)
+                slopes.append(factor * part.by_angles)
+            return np.concatenate(values), np.concatenate(slopes)
+
+        return equations
+
+    def tried(self, unknowns: Floats) -> DesignStep | None:
+        """Return all equations, None where the numbers make no mechanism."""
+        try:
+            step = self.evaluated(unknowns)
+        except SynthedraError:
+            return None
+        finite = all(np.isfinite(part).all() for part in (step.closure, step.rules, step.wishes))
+        return step if finite else None

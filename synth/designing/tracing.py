@@ -1,0 +1,114 @@
+"""Defects of designs: whether a motion passes the configurations, on one circuit and branch, in their order.
+
+The driven joint is taken from one configuration to the next, by the walk of `synth.motion`; what the search found is
+only compared with where that arrives. Theory: docs/theory/design.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import tau
+
+import numpy as np
+
+from graphs.errors import SynthedraError
+from graphs.types import Floats
+from synth.motion.closure import ClosureEquations
+from synth.motion.path import Path, circuit_through, driven_path
+
+_SAME = 1e-6
+"""Radians by which a traced configuration may differ from one that was found; what leads there is solved to 1e-12."""
+
+
+@dataclass(frozen=True, slots=True)
+class DesignDefects:
+    """What is wrong with the motion of a design through its configurations.
+
+    Attributes
+    ----------
+    defects : tuple of str
+        In words, none of a sound design.
+    traced : bool
+        Whether the configurations could be traced: designs of one degree of freedom are.
+    inputs : tuple of float
+        Angles of the driven joint at the configurations as they are passed, radians, not wrapped.
+    """
+
+    defects: tuple[str, ...]
+    traced: bool
+    inputs: tuple[float, ...] = ()
+
+
+def off_by_turns(one: Floats, other: Floats) -> float:
+    """Return the largest difference of joint angles, whole turns aside, radians."""
+    return float(np.abs(np.remainder(one - other + np.pi, tau) - np.pi).max(initial=0.0))
+
+
+def traced(
+    closure: ClosureEquations, names: Sequence[str], angles: Sequence[Floats], driver: int, *, in_order: bool
+) -> DesignDefects:
+    """Return the defects of a linkage of one freedom that is to pass configurations float[J] in their order.
+
+    Both senses of the driven joint are tried, up to one turn. If neither passes all, configurations are taken one by
+    one: off the branch of the first (the driven joint would have to turn back), on another circuit, or out of order.
+    """
+    start = angles[0]
+    values = np.array([one[driver] for one in angles])
+    shortest = _traced_to(closure, start, driver, values[0] + np.cumsum(_steps(values, 0)))
+    others = [_traced_to(closure, start, driver, values[0] + np.cumsum(_steps(values, sense))) for sense in (1, -1)]
+    for path, goals in [*others, *([] if in_order else [shortest])]:
+        if _passed(path, angles) is None:
+            return DesignDefects((), True, tuple(goals.tolist()))
+    missed = _passed(shortest[0], angles)
+    if missed is None:
+        return DesignDefects(("the driven joint passes the configurations out of order",), True)
+    circuit = _on_circuit(closure, angles, driver)
+    if circuit is None:
+        return DesignDefects(("the configurations could not be traced",), False)
+    apart = [names[place] for place, on in enumerate(circuit) if not on]
+    if apart:
+        return DesignDefects((f"on another circuit than {names[0]}: {', '.join(apart)}",), True)
+    return DesignDefects((f"the driven joint turns back between {names[missed - 1]} and {names[missed]}",), True)
+
+
+def _steps(values: Floats, sense: int) -> Floats:
+    """Return the turns from each value to the next, the first 0: the shortest, or all in one sense."""
+    turns = np.diff(values, prepend=values[0])
+    if not sense:
+        return np.asarray(np.remainder(turns + np.pi, tau) - np.pi)
+    return np.asarray(sense * np.remainder(sense * turns, tau))
+
+
+def _traced_to(closure: ClosureEquations, start: Floats, driver: int, goals: Floats) -> tuple[Path | None, Floats]:
+    if abs(goals[-1] - goals[0]) > tau:
+        return None, goals
+    return driven_path(closure, start, [driver], goals[1:, None]), goals
+
+
+def _passed(path: Path | None, angles: Sequence[Floats]) -> int | None:
+    """Return the first configuration that a path does not pass on one branch; None if it passes all."""
+    if path is None:
+        return 1
+    turning = path.turning
+    for place in range(1, len(angles)):
+        reached = place < len(path.angles) and off_by_turns(path.angles[place], angles[place]) <= _SAME
+        if not reached or any(frame <= place for frame in turning):
+            return place
+    return None
+
+
+def _on_circuit(closure: ClosureEquations, angles: Sequence[Floats], driver: int) -> list[bool] | None:
+    """Return which configurations are on the circuit of the first; None if it cannot be followed."""
+    try:
+        circuit = circuit_through(closure, angles[0])
+    except SynthedraError:
+        return None
+    frames = circuit.angles
+    on = []
+    for one in angles:
+        begin = int(np.abs(np.remainder(frames - one + np.pi, tau) - np.pi).max(axis=1).argmin())
+        goal = frames[begin, driver] + (np.remainder(one[driver] - frames[begin, driver] + np.pi, tau) - np.pi)
+        reached = driven_path(closure, frames[begin], [driver], [[goal]])
+        on.append(off_by_turns(reached.angles[-1], one) <= _SAME)
+    return on

@@ -1,0 +1,817 @@
+"""Wishes about a mechanism: what is measured at which configurations, and what it should be.
+
+A wish measures numbers at one or two named configurations (`pose` is that of the file), with derivatives. They are to
+be equal to goals, or at most or at least so large; a miss is counted in radians, or in parts of the extent. Angles are
+radians, lengths in the unit of the file. Theory: docs/theory/design.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import asin, inf, sqrt
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from graphs.errors import InvariantError, UnsolvableError
+from graphs.geometry import crossing, unit
+from graphs.tolerances import DOUBLE
+from graphs.types import Floats
+from synth.designing.poses import Derived, DesignFrame, DesignPoint, PosedDesign, stacked
+from synth.designing.targets import Target
+
+POSE = "pose"
+"""Name of the configuration of the file."""
+
+Unit = Literal["angle", "length", "area", "number"]
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """What numbers should be: equal to a value, or within limits.
+
+    Attributes
+    ----------
+    equals, at_least, at_most : float or None
+        `InvariantError` if all are None, or the limits contradict each other.
+
+    Examples
+    --------
+    >>> Goal(at_least=1.0).misses(np.array([0.25, 3.0])).tolist()
+    [-0.75, 0.0]
+    """
+
+    equals: float | None = None
+    at_least: float | None = None
+    at_most: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.equals is None and self.at_least is None and self.at_most is None:
+            raise InvariantError("goal", "a wish without a goal", "equals, at_least or at_most")
+        if (self.at_least if self.at_least is not None else -inf) > (self.at_most if self.at_most is not None else inf):
+            wrong = f"at least {self.at_least:g} and at most {self.at_most:g} contradict each other"
+            raise InvariantError("goal", wrong, "the smaller one first")
+
+    def misses(self, values: Floats) -> Floats:
+        """Return by how much numbers miss the goal: 0 within limits."""
+        if self.equals is not None:
+            return values - self.equals
+        low = values - (-inf if self.at_least is None else self.at_least)
+        high = values - (inf if self.at_most is None else self.at_most)
+        return np.asarray(np.minimum(low, 0.0) + np.maximum(high, 0.0))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wish:
+    """What wishes have in common.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    weight : float
+        Misses are multiplied by it in the search, not in reports.
+    """
+
+    at: str = POSE
+    weight: float = 1.0
+    unit: ClassVar[Unit] = "number"
+
+    @property
+    def configurations(self) -> tuple[str, ...]:
+        """Names of the configurations that it measures."""
+        return (self.at,)
+
+    def check(self, frame: DesignFrame) -> None:
+        """Raise `InvariantError` if it names a joint, link or vertex that is not there."""
+
+    def misses(self, poses: Mapping[str, PosedDesign]) -> dict[str, Derived]:
+        """Return by how much it misses, at one configuration, or the parts by each of several.
+
+        Values are the same for all; derivatives by numbers stand with the first.
+        """
+        return {self.at: self.missed(poses[self.at])}
+
+    def missed(self, pose: PosedDesign) -> Derived:
+        """Return by how much it misses at its configuration."""
+        raise NotImplementedError
+
+    def size(self, values: Floats) -> float:
+        """Return the largest miss of values, radians or in the unit of the file."""
+        return float(np.abs(values).max(initial=0.0))
+
+    def scale(self, extent: float) -> float:
+        """Return what its misses are divided by in the search."""
+        return {"length": extent, "area": extent**2}.get(self.unit, 1.0)
+
+    def __str__(self) -> str:
+        return type(self).__name__
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinkOrientation(Wish):
+    """The orientation of a link, from where it is in the file: a unit quaternion, scalar first.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    link : str
+    quaternion : (float, float, float, float)
+        Of any norm but 0.
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> print(LinkOrientation(at="open", link="2", quaternion=(1, 0, 0, 0)))
+    orientation of link 2 at open
+    """
+
+    link: str
+    quaternion: tuple[float, float, float, float]
+    unit: ClassVar[Unit] = "angle"
+
+    def check(self, frame: DesignFrame) -> None:
+        """Check the link and the quaternion."""
+        frame.row(self.link)
+        if not np.linalg.norm(self.quaternion) > 0.0:
+            raise InvariantError("quaternion", "a quaternion of norm 0", "a unit quaternion")
+
+    @property
+    def matrix(self) -> Floats:
+        """The rotation, float[3, 3]."""
+        w, x, y, z = np.array(self.quaternion, dtype=float) / np.linalg.norm(self.quaternion)
+        cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+        return np.asarray(np.eye(3) + 2.0 * w * cross + 2.0 * cross @ cross)
+
+    def missed(self, pose: PosedDesign) -> Derived:
+        """Return the difference of rotation matrices: its norm is 2 sin(angle / 2) of the rotation between them."""
+        off = pose.rotation(pose.frame.row(self.link))
+        return off.through((off.values - self.matrix.ravel()) / sqrt(2.0), np.eye(9) / sqrt(2.0))
+
+    def size(self, values: Floats) -> float:
+        """Return the angle of the rotation between the orientations."""
+        return 2.0 * asin(min(1.0, float(np.linalg.norm(values)) / 2.0))
+
+    def __str__(self) -> str:
+        return f"orientation of link {self.link} at {self.at}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinkDirection(Wish):
+    """Where a direction of a link, by its place in the file, points.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    link : str
+    vector : (float, float, float)
+        The direction in the file.
+    equals : (float, float, float)
+        Where it is to point.
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> print(LinkDirection(at="open", link="2", vector=(1, 0, 0), equals=(0, 0, 1)))
+    direction of link 2 at open
+    """
+
+    link: str
+    vector: tuple[float, float, float]
+    equals: tuple[float, float, float]
+    unit: ClassVar[Unit] = "angle"
+
+    def check(self, frame: DesignFrame) -> None:
+        """Check the link and both vectors."""
+        frame.row(self.link)
+        if not (np.any(self.vector) and np.any(self.equals)):
+            raise InvariantError("direction", "a direction of length 0", "a vector that is not zero")
+
+    def missed(self, pose: PosedDesign) -> Derived:
+        """Return the difference of unit vectors."""
+        numbers = pose.design.dependence.twists.shape[1]
+        there = pose.direction(pose.frame.row(self.link), unit(self.vector), np.zeros((3, numbers)))
+        return there.through(there.values - unit(self.equals), np.eye(3))
+
+    def size(self, values: Floats) -> float:
+        """Return the angle between the directions."""
+        return 2.0 * asin(min(1.0, float(np.linalg.norm(values)) / 2.0))
+
+    def __str__(self) -> str:
+        return f"direction of link {self.link} at {self.at}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class JointAngle(Wish):
+    """The angle of a joint, radians: of a crease from flat, of others from the configuration of the file.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    joint : str
+    goal : Goal
+        Radians.
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> print(JointAngle(at="open", joint="3", goal=Goal(at_least=0.5)))
+    angle of joint 3 at open
+    """
+
+    joint: str
+    goal: Goal
+    unit: ClassVar[Unit] = "angle"
+
+    def check(self, frame: DesignFrame) -> None:
+        """Check the joint."""
+        frame.joint(self.joint)
+
+    def missed(self, pose: PosedDesign) -> Derived:
+        """Return how far the angle is off; an equal one is off by its nearest turn."""
+        angle = pose.angle(pose.frame.joint(self.joint))
+        off = self.goal.misses(angle.values)
+        if self.goal.equals is not None:
+            off = np.remainder(off + np.pi, 2.0 * np.pi) - np.pi
+        return angle.through(off, np.diag((off != 0.0) | (self.goal.equals is not None)).astype(float))
+
+    def __str__(self) -> str:
+        return f"angle of joint {self.joint} at {self.at}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointPlace(Wish):
+    """Where a point is; coordinates that are None may be anything.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    point : DesignPoint
+    equals : (float or None, float or None, float or None)
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> print(PointPlace(at="open", point=DesignPoint(vertex=4), equals=(1.0, None, 0.0)))
+    place of vertex 4 at open
+    """
+
+    point: DesignPoint
+    equals: tuple[float | None, float | None, float | None]
+    unit: ClassVar[Unit] = "length"
+
+    def check(self, frame: DesignFrame) -> None:
+        """Check the link or vertex."""
+        frame.check_point(self.point)
+
+    def missed(self, pose: PosedDesign) -> Derived:
+        """Return the difference of the coordinates that are given."""
+        there = pose.places([self.point])
+        given = [axis for axis in range(3) if self.equals[axis] is not None]
+        wanted = np.array([self.equals[axis] for axis in given], dtype=float)
+        return there.through(there.values[given] - wanted, np.eye(3)[given])
+
+    def __str__(self) -> str:
+        return f"place of {self.point} at {self.at}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointDistance(Wish):
+    """The distance between two points.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    points : (DesignPoint, DesignPoint)
+    goal : Goal
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> print(PointDistance(points=(DesignPoint(vertex=0), DesignPoint(vertex=4)), goal=Goal(equals=1.0)))
+    distance of vertex 0 and vertex 4 at pose
+    """
+
+    points: tuple[DesignPoint, DesignPoint]
+    goal: Goal
+    unit: ClassVar[Unit] = "length"
+
+    def check(self, frame: DesignFrame) -> None:
+        """Check links and vertices."""
+        for point in self.points:
+            frame.check_point(point)
+
+    def missed(self, pose: PosedDesign) -> Derived:
+        """Return how far the distance is off."""
+        return _within(self.goal, _distance(pose.places(self.points)))
+
+    def __str__(self) -> str:
+        return f"distance of {self.points[0]} and {self.points[1]} at {self.at}"
+
+
+def _distance(both: Derived) -> Derived:
+    """Return the distance of two points; of points in one place its derivative is zero."""
+    along = both.values[3:] - both.values[:3]
+    size = float(np.linalg.norm(along))
+    direction = along / size if size > 0.0 else along
+    return both.through(np.array([size]), np.concatenate([-direction, direction])[None])
+
+
+def _within(goal: Goal, measured: Derived) -> Derived:
+    """Return by how much numbers miss a goal; within limits they have no derivatives."""
+    off = goal.misses(measured.values)
+    slopes = np.ones(len(off)) if goal.equals is not None else (off != 0.0).astype(float)
+    return measured.through(off, np.diag(slopes))
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointsOn(Wish):
+    """Points that lie on a surface or path (`synth.designing.targets`); by default all vertices.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    target : Target
+    points : tuple of DesignPoint
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> from synth.designing.targets import Formula
+    >>> print(PointsOn(at="open", target=Formula("x**2 + y**2 + z**2 - 1")))
+    vertices on x**2 + y**2 + z**2 - 1 at open
+    """
+
+    target: Target
+    points: tuple[DesignPoint, ...] = ()
+    unit: ClassVar[Unit] = "length"
+
+    def check(self, frame: DesignFrame) -> None:
+        """Check links and vertices."""
+        for point in self.points or frame.all_vertices():
+            frame.check_point(point)
+
+    def missed(self, pose: PosedDesign) -> Derived:
+        """Return how far each point is from the target, to first order."""
+        points = self.points or pose.frame.all_vertices()
+        there = pose.places(points)
+        off, slopes = self.target.missed(there.values.reshape(-1, 3))
+        rows = off.shape[1]
+        by = np.zeros((len(points) * rows, len(there.values)))
+        for place in range(len(points)):
+            by[place * rows : (place + 1) * rows, 3 * place : 3 * place + 3] = slopes[place]
+        return there.through(off.ravel(), by)
+
+    def __str__(self) -> str:
+        which = ", ".join(map(str, self.points)) if self.points else "vertices"
+        return f"{which} on {self.target} at {self.at}"
+
+
+Size = Literal["longest", "area", "radius"]
+"""The longest edge of the box along principal axes, the product of its two longest, or the largest distance from the
+middle."""
+
+
+def _measured_size(which: Size, places: Derived, thickness: float) -> Derived:
+    """Return the size of points, where the outermost ones are unique; edges are at least so long as the thickness."""
+    points = places.values.reshape(-1, 3)
+    count = len(points)
+    centred = points - points.mean(axis=0)
+    centring = (np.eye(count) - 1.0 / count)[:, None, :, None] * np.eye(3)[:, None, :]
+    middle = centring.reshape(3 * count, 3 * count)
+    if which == "radius":
+        distances = np.linalg.norm(centred, axis=1)
+        far = int(distances.argmax())
+        along = centred[far] / distances[far]
+        return places.through(np.array([distances[far]]), along[None] @ middle[3 * far : 3 * far + 3])
+    values, axes = np.linalg.eigh(centred.T @ centred)
+    edges, slopes = np.zeros(3), np.zeros((3, 3 * count))
+    for place in range(3):
+        along = centred @ axes[:, place]
+        ends = (int(along.argmax()), int(along.argmin()))
+        edges[place] = along[ends[0]] - along[ends[1]]
+        slopes[place, 3 * ends[0] : 3 * ends[0] + 3] += axes[:, place]
+        slopes[place, 3 * ends[1] : 3 * ends[1] + 3] -= axes[:, place]
+        span = centred[ends[0]] - centred[ends[1]]
+        for other in range(3):  # how the principal axis turns
+            if other != place and abs(values[place] - values[other]) > DOUBLE.zero * values[2]:
+                both = np.outer(axes[:, other], axes[:, place])
+                turn = (centred @ (both + both.T)).ravel() / (values[place] - values[other])
+                slopes[place] += (span @ axes[:, other]) * turn
+        if edges[place] < thickness:
+            edges[place], slopes[place] = thickness, 0.0
+    slopes = slopes @ middle
+    order = np.argsort(edges)[::-1]
+    if which == "longest":
+        return places.through(edges[order[:1]], slopes[order[:1]])
+    first, second = order[:2]
+    product = edges[second] * slopes[first] + edges[first] * slopes[second]
+    return places.through(np.array([edges[first] * edges[second]]), product[None])
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoxSize(Wish):
+    """How large a configuration is: `longest`, `area` or `radius` of some points, by default all vertices.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    size_of : {"longest", "area", "radius"}
+    goal : Goal
+    points : tuple of DesignPoint
+    thickness : float
+        Edges of the box are at least so long.
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> print(BoxSize(at="stowed", size_of="radius", goal=Goal(at_most=1.0)))
+    radius at stowed
+    """
+
+    size_of: Size
+    goal: Goal
+    points: tuple[DesignPoint, ...] = ()
+    thickness: float = 0.0
+
+    def check(self, frame: DesignFrame) -> None:
+        """Check links and vertices."""
+        for point in self.points or frame.all_vertices():
+            frame.check_point(point)
+
+    def scale(self, extent: float) -> float:
+        """Return the unit of its misses."""
+        return extent**2 if self.size_of == "area" else extent
+
+    def missed(self, pose: PosedDesign) -> Derived:
+        """Return how far the size is off."""
+        points = self.points or pose.frame.all_vertices()
+        return _within(self.goal, _measured_size(self.size_of, pose.places(points), self.thickness))
+
+    def __str__(self) -> str:
+        return f"{self.size_of} at {self.at}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class SizeRatio(Wish):
+    """The size at one configuration over that at another: stowed over deployed.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    over : str
+        Name of the other configuration.
+    size_of : {"longest", "area", "radius"}
+    goal : Goal
+    points : tuple of DesignPoint
+    thickness : float
+        Edges of the box are at least so long.
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> print(SizeRatio(at="stowed", over="deployed", size_of="area", goal=Goal(at_most=0.2)))
+    area at stowed over deployed
+    """
+
+    over: str
+    size_of: Size
+    goal: Goal
+    points: tuple[DesignPoint, ...] = ()
+    thickness: float = 0.0
+
+    @property
+    def configurations(self) -> tuple[str, ...]:
+        """Both configurations."""
+        return (self.at, self.over)
+
+    def check(self, frame: DesignFrame) -> None:
+        """Check links and vertices."""
+        for point in self.points or frame.all_vertices():
+            frame.check_point(point)
+
+    def misses(self, poses: Mapping[str, PosedDesign]) -> dict[str, Derived]:
+        """Return how far the ratio is off, by both configurations."""
+        points = self.points or poses[self.at].frame.all_vertices()
+        one, other = (
+            _measured_size(self.size_of, poses[name].places(points), self.thickness) for name in self.configurations
+        )
+        ratio = one.values / other.values
+        off = self.goal.misses(ratio)
+        on = 1.0 if self.goal.equals is not None else (off != 0.0).astype(float)
+        by = (on / other.values)[:, None]
+        less = -by * ratio[:, None]
+        numbers = by * one.by_numbers + less * other.by_numbers
+        return {
+            self.at: Derived(off, by * one.by_angles, numbers),
+            self.over: Derived(off, less * other.by_angles, np.zeros_like(numbers)),
+        }
+
+    def __str__(self) -> str:
+        return f"{self.size_of} at {self.at} over {self.over}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class TransmissionAngle(Wish):
+    """The angle between the arcs of two links at their joint, 0 to pi/2 from its nearest dead position, radians.
+
+    The joints `near` and `far` are on the two links; the angle is that between the planes through their axes and that
+    of the joint. Of a four-bar with a driven crank it is the transmission angle at the joint of coupler and follower.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    near, joint, far : str
+    at_least : float
+        Radians.
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> print(TransmissionAngle(at="open", near="1", joint="2", far="3", at_least=0.7))
+    transmission angle at joint 2 at open
+    """
+
+    near: str
+    joint: str
+    far: str
+    at_least: float
+    unit: ClassVar[Unit] = "angle"
+
+    def check(self, frame: DesignFrame) -> None:
+        """Check the joints."""
+        for name in (self.near, self.joint, self.far):
+            frame.joint(name)
+
+    def missed(self, pose: PosedDesign) -> Derived:
+        """Return how far the angle is below its least value."""
+        frame = pose.frame
+        near, axis, far = (pose.axis(frame.joint(name)) for name in (self.near, self.joint, self.far))
+        both = stacked([near, axis, far])
+        angle, slope = _dihedral(near.values, axis.values, far.values)
+        folded = angle if angle <= np.pi / 2 else np.pi - angle
+        sign = 1.0 if angle <= np.pi / 2 else -1.0
+        return _within(Goal(at_least=self.at_least), both.through(np.array([folded]), sign * slope[None]))
+
+    def __str__(self) -> str:
+        return f"transmission angle at joint {self.joint} at {self.at}"
+
+
+def _dihedral(a: Floats, k: Floats, b: Floats) -> tuple[float, Floats]:
+    """Return the angle, 0 to pi, between planes (a, k) and (k, b), k a unit vector, and its gradient by all three."""
+    m, n = np.cross(a, k), np.cross(k, b)
+    sine_vector = np.cross(m, n)
+    sine, cosine = float(sine_vector @ k), float(m @ n)
+    angle = np.arctan2(sine, cosine)
+    square = sine**2 + cosine**2
+    # sine = k . (m x n), cosine = m . n
+    by_m = (cosine * np.cross(n, k) - sine * n) / square
+    by_n = (cosine * np.cross(k, m) - sine * m) / square
+    by_k = cosine * sine_vector / square
+    by_a = np.cross(k, by_m)
+    by_b = np.cross(by_n, k)
+    by_k = by_k + np.cross(by_m, a) + np.cross(b, by_n)
+    sign = 1.0 if angle >= 0.0 else -1.0
+    return float(abs(angle)), sign * np.concatenate([by_a, by_k, by_b])
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinkArc(Wish):
+    """The angle between two axes of a link, radians.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    joints : (str, str)
+    goal : Goal
+        Radians.
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> print(LinkArc(joints=("0", "1"), goal=Goal(equals=1.0)))
+    arc between joints 0 and 1
+    """
+
+    joints: tuple[str, str]
+    goal: Goal
+    unit: ClassVar[Unit] = "angle"
+
+    def check(self, frame: DesignFrame) -> None:
+        """Check the joints: they must be on one link."""
+        places = [frame.joint(name) for name in self.joints]
+        if not set(frame.graph.joints[frame.joints[places[0]]]) & set(frame.graph.joints[frame.joints[places[1]]]):
+            raise InvariantError("arc", f"joints {' and '.join(self.joints)} are on no one link", "two of one link")
+
+    def measured(self, pose: PosedDesign) -> Derived:
+        """Return the arc."""
+        first, second = (pose.frame.joint(name) for name in self.joints)
+        dependence, directions = pose.design.dependence, pose.design.linkage.directions
+        turns = [
+            -crossing(directions[joint]) @ dependence.arrays[0][6 * joint : 6 * joint + 3] for joint in (first, second)
+        ]
+        a, b = directions[first], directions[second]
+        cross = np.cross(a, b)
+        sine, cosine = float(np.linalg.norm(cross)), float(a @ b)
+        if sine <= DOUBLE.parallel:
+            raise UnsolvableError(
+                f"the axes of joints {' and '.join(self.joints)} are parallel: their arc has no slope"
+            )
+        by_a = (cosine * np.cross(b, cross) / sine - sine * b) / (sine**2 + cosine**2)
+        by_b = (cosine * np.cross(cross, a) / sine - sine * a) / (sine**2 + cosine**2)
+        slope = by_a @ turns[0] + by_b @ turns[1]
+        none = np.zeros((1, len(pose.angles)))
+        return Derived(np.array([np.arctan2(sine, cosine)]), none, slope[None])
+
+    def missed(self, pose: PosedDesign) -> Derived:
+        """Return how far the arc is off."""
+        return _within(self.goal, self.measured(pose))
+
+    def __str__(self) -> str:
+        return f"arc between joints {self.joints[0]} and {self.joints[1]}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class EqualArcs(Wish):
+    """Two arcs that are equal, each between two axes of a link.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    arcs : ((str, str), (str, str))
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> print(EqualArcs(arcs=(("0", "1"), ("2", "3"))))
+    arcs 0-1 and 2-3 equal
+    """
+
+    arcs: tuple[tuple[str, str], tuple[str, str]]
+    unit: ClassVar[Unit] = "angle"
+    _any: Goal = field(default=Goal(at_least=0.0), init=False, repr=False)
+
+    def check(self, frame: DesignFrame) -> None:
+        """Check the joints."""
+        for pair in self.arcs:
+            LinkArc(joints=pair, goal=self._any).check(frame)
+
+    def missed(self, pose: PosedDesign) -> Derived:
+        """Return the difference of the arcs."""
+        one, other = (LinkArc(joints=pair, goal=self._any).measured(pose) for pair in self.arcs)
+        return one - other
+
+    def __str__(self) -> str:
+        return f"arcs {' and '.join('-'.join(pair) for pair in self.arcs)} equal"
+
+
+@dataclass(frozen=True, kw_only=True)
+class SheetArea(Wish):
+    """The area of the panels of a sheet, all together.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    goal : Goal
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> print(SheetArea(goal=Goal(at_most=4.0)))
+    area of material
+    """
+
+    goal: Goal
+    unit: ClassVar[Unit] = "area"
+
+    def check(self, frame: DesignFrame) -> None:
+        """Check that there are panels."""
+        frame.all_vertices()
+
+    def missed(self, pose: PosedDesign) -> Derived:
+        """Return how far the area is off."""
+        sheet = pose.frame.family.sheet
+        assert sheet is not None
+        vertices, extent = pose.design.vertices, pose.frame.extent
+        slope, total = np.zeros((len(vertices), 3)), 0.0
+        for face in sheet.faces:
+            around = list(face)
+            after, before = around[1:] + around[:1], around[-1:] + around[:-1]
+            vector = np.cross(vertices[around], vertices[after]).sum(axis=0) / 2.0
+            size = float(np.linalg.norm(vector))
+            total += size
+            slope[around] += np.cross(vertices[after] - vertices[before], vector / size) / 2.0
+        by = extent**2 * np.einsum("vi,vin->n", slope, pose.design.by_vertices)
+        none = np.zeros((1, len(pose.angles)))
+        return _within(self.goal, Derived(np.array([extent**2 * total]), none, by[None]))
+
+    def __str__(self) -> str:
+        return "area of material"
+
+
+@dataclass(frozen=True)
+class WishedConfiguration:
+    """A configuration that the design is to have.
+
+    Attributes
+    ----------
+    name : str
+    inputs : mapping of str to float
+        Joints whose angles are given, radians.
+
+    Examples
+    --------
+    >>> WishedConfiguration("open", {"0": 1.5}).name
+    'open'
+    """
+
+    name: str
+    inputs: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """All wishes about a mechanism, and what of it may change.
+
+    Attributes
+    ----------
+    wishes : tuple of Wish
+    configurations : tuple of WishedConfiguration
+        In the order in which the driven joint passes them.
+    rules : tuple of Wish
+        What must hold, whatever else is missed.
+    driver : str or None
+        The driven joint; by default that of the first given input, else one of the fixed link.
+    fixed : tuple of str
+        Dimensions that stay.
+    parameters : mapping of str to float
+        Of a generator, to begin with, radians.
+    flat_foldable : bool
+        Keep a flat sheet flat-foldable, and of vertices of four creases let ratios agree round panels.
+    in_order : bool
+        Configurations are passed in their order.
+
+    Examples
+    --------
+    >>> Wishes((JointAngle(at="open", joint="1", goal=Goal(equals=0.3)),), (WishedConfiguration("open"),)).names
+    ('pose', 'open')
+    """
+
+    wishes: tuple[Wish, ...]
+    configurations: tuple[WishedConfiguration, ...] = ()
+    rules: tuple[Wish, ...] = ()
+    driver: str | None = None
+    fixed: tuple[str, ...] = ()
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    flat_foldable: bool = False
+    in_order: bool = True
+
+    def __post_init__(self) -> None:
+        if len(set(self.names)) < len(self.names):
+            raise InvariantError("configurations", "two configurations have one name", "different names")
+        for wish in (*self.wishes, *self.rules):
+            for name in wish.configurations:
+                if name not in self.names:
+                    listed = ", ".join(self.names)
+                    raise InvariantError("wish", f"there is no configuration {name!r} ({wish})", f"one of {listed}")
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the configurations, that of the file first."""
+        return (POSE, *(one.name for one in self.configurations))
+
+
+def check_wishes(wishes: Wishes, frame: DesignFrame) -> None:
+    """Raise `InvariantError` for a joint, link or vertex that is not there."""
+    for wish in (*wishes.wishes, *wishes.rules):
+        wish.check(frame)
+    for one in wishes.configurations:
+        for joint in one.inputs:
+            frame.joint(joint)
+    if wishes.driver is not None:
+        frame.joint(wishes.driver)

@@ -1,0 +1,64 @@
+"""``synth design`` and `synth.design`: the same designs, kept in a store, resumed, written."""
+
+import json
+
+import pytest
+from commands import run
+
+import synth
+from synth.designing import design
+from synth.members import arcs_of
+from synth.patterns import generate
+
+WISHES = {
+    "format": "synthedra/wishes",
+    "version": 1,
+    "configurations": [{"name": "open", "inputs": {"0": 40}}],
+    "wishes": [{"kind": "angle", "at": "open", "joint": 3, "equals": 50}],
+}
+
+
+@pytest.fixture
+def files(tmp_path):
+    synth.write(generate("four-bar").mechanism, tmp_path / "bar.json")
+    (tmp_path / "wishes.json").write_text(json.dumps(WISHES))
+    return tmp_path / "bar.json", tmp_path / "wishes.json"
+
+
+def test_the_command_gives_what_the_function_gives(files):
+    told = json.loads(run("design", *files, "--starts", 2, "--json").stdout)
+    answer = design(*map(str, files), starts=2)
+    assert [one["start"] for one in told["designs"]] == [one.start for one in answer.pareto]
+    assert told["designs"][0]["figures"][0]["met"]
+    printed = [line.rstrip() for line in run("design", *files, "--starts", 2).stdout.rstrip().splitlines()]
+    assert printed == str(answer).splitlines()
+
+
+def test_the_best_design_is_written_and_does_what_was_wished(files, tmp_path):
+    run("design", *files, "--starts", 1, "-o", tmp_path / "new.json", "--picture", tmp_path / "new.svg")
+    motion = synth.move(str(tmp_path / "new.json"), drive={"0": 0.6981317007977318}, frames=1)
+    assert abs(motion.path.angles[-1][3] - 0.8726646259971648) < 1e-9
+    assert arcs_of(str(tmp_path / "new.json")) != arcs_of(str(files[0]))
+    assert (tmp_path / "new.svg").stat().st_size > 500
+
+
+def test_a_store_is_continued_and_gives_the_same_designs(files, tmp_path):
+    whole = run("design", *files, "--starts", 3, "--store", tmp_path / "a.sqlite", "--json", "--workers", 1).stdout
+    again = run("design", *files, "--starts", 3, "--store", tmp_path / "a.sqlite", "--json", "--resume", "--workers", 1)
+    assert json.loads(again.stdout) == json.loads(whole)
+    alone = run("design", *files, "--starts", 3, "--json").stdout
+    assert json.loads(alone) == json.loads(whole)
+
+
+def test_what_cannot_be_met_is_said_with_how_near_it_came(files):
+    files[1].write_text(json.dumps({**WISHES, "wishes": [{"kind": "arc", "joints": [0, 1], "equals": 30}, *[
+        {"kind": "arc", "joints": pair, "equals": angle} for pair, angle in ([[1, 2], 30], [[2, 3], 30], [[3, 0], 170])
+    ]]}))  # fmt: skip
+    result = run("design", *files, "--starts", 1, code=0)
+    assert "largest miss of the first" in result.stdout
+
+
+def test_options_that_need_a_store_and_files_that_are_not_there(files, tmp_path):
+    assert "--store" in run("design", *files, "--resume", code=2).output
+    assert "no such file" in run("design", files[0], tmp_path / "none.json", code=2).output
+    assert "no such file" in run("design", tmp_path / "none.json", files[1], code=2).output
