@@ -1,10 +1,10 @@
 from synth.designing.designs import Design as Design, Designs as Designs, DesignSearch as DesignSearch, design as design
 from synth.designing.dimensions import Dimensions as Dimensions, dimensions_of as dimensions_of
 from synth.designing.poses import DesignPoint as DesignPoint
+from synth.designing.sizes import BoxSize as BoxSize, SheetArea as SheetArea, SizeRatio as SizeRatio
 from synth.designing.targets import Formula as Formula, Mesh as Mesh, Polyline as Polyline, read_mesh as read_mesh
 from synth.designing.wish_files import read_wishes as read_wishes
 from synth.designing.wishes import (
-    BoxSize as BoxSize,
     EqualArcs as EqualArcs,
     Goal as Goal,
     JointAngle as JointAngle,
@@ -14,8 +14,6 @@ from synth.designing.wishes import (
     PointDistance as PointDistance,
     PointPlace as PointPlace,
     PointsOn as PointsOn,
-    SheetArea as SheetArea,
-    SizeRatio as SizeRatio,
     TransmissionAngle as TransmissionAngle,
     Wish as Wish,
     WishedConfiguration as WishedConfiguration,

@@ -6,15 +6,18 @@ configurations are closed to the last digit. Theory: docs/theory/design.md.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from hashlib import sha256
 
 import numpy as np
 
+from graphs.errors import SynthedraError
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.designing.problem import DesignProblem, DesignStep
 from synth.motion.closure import corrected, exactly_held
+from synth.motion.path import driven_path
 
 _WEIGHTS = (1.0, 30.0, 1e3)
 """Of closure and rules, one search after the other until configurations can be closed."""
@@ -86,8 +89,38 @@ def found_from(problem: DesignProblem, numbers: Floats, rng: np.random.Generator
         unknowns = _least(problem, unknowns, weight, steps)
         found = closed(problem, unknowns)
         if found is not None and found.error <= DOUBLE.closed:
-            return _refined(problem, found)
+            return _on_one_branch(problem, _refined(problem, found))
     return found
+
+
+def _on_one_branch(problem: DesignProblem, found: FoundDesign) -> FoundDesign:
+    """Return a design with the configurations to which the driven joint leads, if they meet the wishes as well.
+
+    Where wishes say nothing of some links these may be found in another assembly mode at each input.
+    """
+    driver, given = problem.driver, [driven(inputs, problem.driver) for inputs in problem.inputs]
+    if driver is None or None in given or len(given) < 2:
+        return found
+    closure = problem.frame.closure(found.step.design)
+    start = found.angles[0]
+    try:
+        path = driven_path(closure, start, [driver], np.array(given[1:], dtype=float)[:, None])
+    except SynthedraError:
+        return found
+    if path.stopped or len(path.angles) != len(given):
+        return found
+    angles = [found.angles[0], *path.angles[1:]]
+    step = problem.tried(problem.joined(found.numbers, [problem.held(k, one) for k, one in enumerate(angles)]))
+    if step is None:
+        return found
+    traced = FoundDesign(found.numbers, angles, [closure.error(one) for one in angles], step)
+    good = traced.error <= DOUBLE.closed and traced.cost <= found.cost + DOUBLE.closed
+    return traced if good else found
+
+
+def driven(inputs: Mapping[int, float], driver: int | None) -> float | None:
+    """Return the angle of the driven joint if it is the one input of a configuration."""
+    return inputs.get(driver) if driver is not None and len(inputs) == 1 else None
 
 
 def _refined(problem: DesignProblem, found: FoundDesign) -> FoundDesign:

@@ -14,10 +14,10 @@ from typing import Any
 from graphs.errors import FileError, SynthedraError, shown
 from graphs.files.text import Checker, load_json
 from synth.designing.poses import DesignPoint
+from synth.designing.sizes import BoxSize, SheetArea, SizeRatio
 from synth.designing.targets import Formula, Polyline, Target, read_mesh
 from synth.designing.wishes import (
     POSE,
-    BoxSize,
     EqualArcs,
     Goal,
     JointAngle,
@@ -27,8 +27,6 @@ from synth.designing.wishes import (
     PointDistance,
     PointPlace,
     PointsOn,
-    SheetArea,
-    SizeRatio,
     TransmissionAngle,
     Wish,
     WishedConfiguration,

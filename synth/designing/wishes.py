@@ -72,6 +72,13 @@ class Wish:
         Name of a configuration.
     weight : float
         Misses are multiplied by it in the search, not in reports.
+    unit : {"angle", "length", "area", "number"}
+        What is measured.
+
+    Examples
+    --------
+    >>> Wish(at="open").configurations
+    ('open',)
     """
 
     at: str = POSE
@@ -131,7 +138,7 @@ class LinkOrientation(Wish):
 
     link: str
     quaternion: tuple[float, float, float, float]
-    unit: ClassVar[Unit] = "angle"
+    unit = "angle"
 
     def check(self, frame: DesignFrame) -> None:
         """Check the link and the quaternion."""
@@ -184,7 +191,7 @@ class LinkDirection(Wish):
     link: str
     vector: tuple[float, float, float]
     equals: tuple[float, float, float]
-    unit: ClassVar[Unit] = "angle"
+    unit = "angle"
 
     def check(self, frame: DesignFrame) -> None:
         """Check the link and both vectors."""
@@ -228,7 +235,7 @@ class JointAngle(Wish):
 
     joint: str
     goal: Goal
-    unit: ClassVar[Unit] = "angle"
+    unit = "angle"
 
     def check(self, frame: DesignFrame) -> None:
         """Check the joint."""
@@ -267,7 +274,7 @@ class PointPlace(Wish):
 
     point: DesignPoint
     equals: tuple[float | None, float | None, float | None]
-    unit: ClassVar[Unit] = "length"
+    unit = "length"
 
     def check(self, frame: DesignFrame) -> None:
         """Check the link or vertex."""
@@ -305,7 +312,7 @@ class PointDistance(Wish):
 
     points: tuple[DesignPoint, DesignPoint]
     goal: Goal
-    unit: ClassVar[Unit] = "length"
+    unit = "length"
 
     def check(self, frame: DesignFrame) -> None:
         """Check links and vertices."""
@@ -314,7 +321,7 @@ class PointDistance(Wish):
 
     def missed(self, pose: PosedDesign) -> Derived:
         """Return how far the distance is off."""
-        return _within(self.goal, _distance(pose.places(self.points)))
+        return within_goal(self.goal, _distance(pose.places(self.points)))
 
     def __str__(self) -> str:
         return f"distance of {self.points[0]} and {self.points[1]} at {self.at}"
@@ -328,7 +335,7 @@ def _distance(both: Derived) -> Derived:
     return both.through(np.array([size]), np.concatenate([-direction, direction])[None])
 
 
-def _within(goal: Goal, measured: Derived) -> Derived:
+def within_goal(goal: Goal, measured: Derived) -> Derived:
     """Return by how much numbers miss a goal; within limits they have no derivatives."""
     off = goal.misses(measured.values)
     slopes = np.ones(len(off)) if goal.equals is not None else (off != 0.0).astype(float)
@@ -357,7 +364,7 @@ class PointsOn(Wish):
 
     target: Target
     points: tuple[DesignPoint, ...] = ()
-    unit: ClassVar[Unit] = "length"
+    unit = "length"
 
     def check(self, frame: DesignFrame) -> None:
         """Check links and vertices."""
@@ -378,154 +385,6 @@ class PointsOn(Wish):
     def __str__(self) -> str:
         which = ", ".join(map(str, self.points)) if self.points else "vertices"
         return f"{which} on {self.target} at {self.at}"
-
-
-Size = Literal["longest", "area", "radius"]
-"""The longest edge of the box along principal axes, the product of its two longest, or the largest distance from the
-middle."""
-
-
-def _measured_size(which: Size, places: Derived, thickness: float) -> Derived:
-    """Return the size of points, where the outermost ones are unique; edges are at least so long as the thickness."""
-    points = places.values.reshape(-1, 3)
-    count = len(points)
-    centred = points - points.mean(axis=0)
-    centring = (np.eye(count) - 1.0 / count)[:, None, :, None] * np.eye(3)[:, None, :]
-    middle = centring.reshape(3 * count, 3 * count)
-    if which == "radius":
-        distances = np.linalg.norm(centred, axis=1)
-        far = int(distances.argmax())
-        along = centred[far] / distances[far]
-        return places.through(np.array([distances[far]]), along[None] @ middle[3 * far : 3 * far + 3])
-    values, axes = np.linalg.eigh(centred.T @ centred)
-    edges, slopes = np.zeros(3), np.zeros((3, 3 * count))
-    for place in range(3):
-        along = centred @ axes[:, place]
-        ends = (int(along.argmax()), int(along.argmin()))
-        edges[place] = along[ends[0]] - along[ends[1]]
-        slopes[place, 3 * ends[0] : 3 * ends[0] + 3] += axes[:, place]
-        slopes[place, 3 * ends[1] : 3 * ends[1] + 3] -= axes[:, place]
-        span = centred[ends[0]] - centred[ends[1]]
-        for other in range(3):  # how the principal axis turns
-            if other != place and abs(values[place] - values[other]) > DOUBLE.zero * values[2]:
-                both = np.outer(axes[:, other], axes[:, place])
-                turn = (centred @ (both + both.T)).ravel() / (values[place] - values[other])
-                slopes[place] += (span @ axes[:, other]) * turn
-        if edges[place] < thickness:
-            edges[place], slopes[place] = thickness, 0.0
-    slopes = slopes @ middle
-    order = np.argsort(edges)[::-1]
-    if which == "longest":
-        return places.through(edges[order[:1]], slopes[order[:1]])
-    first, second = order[:2]
-    product = edges[second] * slopes[first] + edges[first] * slopes[second]
-    return places.through(np.array([edges[first] * edges[second]]), product[None])
-
-
-@dataclass(frozen=True, kw_only=True)
-class BoxSize(Wish):
-    """How large a configuration is: `longest`, `area` or `radius` of some points, by default all vertices.
-
-    Attributes
-    ----------
-    at : str
-        Name of a configuration.
-    size_of : {"longest", "area", "radius"}
-    goal : Goal
-    points : tuple of DesignPoint
-    thickness : float
-        Edges of the box are at least so long.
-    weight : float
-        As of `Wish`.
-
-    Examples
-    --------
-    >>> print(BoxSize(at="stowed", size_of="radius", goal=Goal(at_most=1.0)))
-    radius at stowed
-    """
-
-    size_of: Size
-    goal: Goal
-    points: tuple[DesignPoint, ...] = ()
-    thickness: float = 0.0
-
-    def check(self, frame: DesignFrame) -> None:
-        """Check links and vertices."""
-        for point in self.points or frame.all_vertices():
-            frame.check_point(point)
-
-    def scale(self, extent: float) -> float:
-        """Return the unit of its misses."""
-        return extent**2 if self.size_of == "area" else extent
-
-    def missed(self, pose: PosedDesign) -> Derived:
-        """Return how far the size is off."""
-        points = self.points or pose.frame.all_vertices()
-        return _within(self.goal, _measured_size(self.size_of, pose.places(points), self.thickness))
-
-    def __str__(self) -> str:
-        return f"{self.size_of} at {self.at}"
-
-
-@dataclass(frozen=True, kw_only=True)
-class SizeRatio(Wish):
-    """The size at one configuration over that at another: stowed over deployed.
-
-    Attributes
-    ----------
-    at : str
-        Name of a configuration.
-    over : str
-        Name of the other configuration.
-    size_of : {"longest", "area", "radius"}
-    goal : Goal
-    points : tuple of DesignPoint
-    thickness : float
-        Edges of the box are at least so long.
-    weight : float
-        As of `Wish`.
-
-    Examples
-    --------
-    >>> print(SizeRatio(at="stowed", over="deployed", size_of="area", goal=Goal(at_most=0.2)))
-    area at stowed over deployed
-    """
-
-    over: str
-    size_of: Size
-    goal: Goal
-    points: tuple[DesignPoint, ...] = ()
-    thickness: float = 0.0
-
-    @property
-    def configurations(self) -> tuple[str, ...]:
-        """Both configurations."""
-        return (self.at, self.over)
-
-    def check(self, frame: DesignFrame) -> None:
-        """Check links and vertices."""
-        for point in self.points or frame.all_vertices():
-            frame.check_point(point)
-
-    def misses(self, poses: Mapping[str, PosedDesign]) -> dict[str, Derived]:
-        """Return how far the ratio is off, by both configurations."""
-        points = self.points or poses[self.at].frame.all_vertices()
-        one, other = (
-            _measured_size(self.size_of, poses[name].places(points), self.thickness) for name in self.configurations
-        )
-        ratio = one.values / other.values
-        off = self.goal.misses(ratio)
-        on = 1.0 if self.goal.equals is not None else (off != 0.0).astype(float)
-        by = (on / other.values)[:, None]
-        less = -by * ratio[:, None]
-        numbers = by * one.by_numbers + less * other.by_numbers
-        return {
-            self.at: Derived(off, by * one.by_angles, numbers),
-            self.over: Derived(off, less * other.by_angles, np.zeros_like(numbers)),
-        }
-
-    def __str__(self) -> str:
-        return f"{self.size_of} at {self.at} over {self.over}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -555,7 +414,7 @@ class TransmissionAngle(Wish):
     joint: str
     far: str
     at_least: float
-    unit: ClassVar[Unit] = "angle"
+    unit = "angle"
 
     def check(self, frame: DesignFrame) -> None:
         """Check the joints."""
@@ -570,7 +429,7 @@ class TransmissionAngle(Wish):
         angle, slope = _dihedral(near.values, axis.values, far.values)
         folded = angle if angle <= np.pi / 2 else np.pi - angle
         sign = 1.0 if angle <= np.pi / 2 else -1.0
-        return _within(Goal(at_least=self.at_least), both.through(np.array([folded]), sign * slope[None]))
+        return within_goal(Goal(at_least=self.at_least), both.through(np.array([folded]), sign * slope[None]))
 
     def __str__(self) -> str:
         return f"transmission angle at joint {self.joint} at {self.at}"
@@ -616,7 +475,12 @@ class LinkArc(Wish):
 
     joints: tuple[str, str]
     goal: Goal
-    unit: ClassVar[Unit] = "angle"
+    unit = "angle"
+
+    @property
+    def configurations(self) -> tuple[str, ...]:
+        """None: it is the same at all."""
+        return ()
 
     def check(self, frame: DesignFrame) -> None:
         """Check the joints: they must be on one link."""
@@ -646,7 +510,7 @@ class LinkArc(Wish):
 
     def missed(self, pose: PosedDesign) -> Derived:
         """Return how far the arc is off."""
-        return _within(self.goal, self.measured(pose))
+        return within_goal(self.goal, self.measured(pose))
 
     def __str__(self) -> str:
         return f"arc between joints {self.joints[0]} and {self.joints[1]}"
@@ -671,8 +535,13 @@ class EqualArcs(Wish):
     """
 
     arcs: tuple[tuple[str, str], tuple[str, str]]
-    unit: ClassVar[Unit] = "angle"
+    unit = "angle"
     _any: Goal = field(default=Goal(at_least=0.0), init=False, repr=False)
+
+    @property
+    def configurations(self) -> tuple[str, ...]:
+        """None: it is the same at all."""
+        return ()
 
     def check(self, frame: DesignFrame) -> None:
         """Check the joints."""
@@ -686,52 +555,6 @@ class EqualArcs(Wish):
 
     def __str__(self) -> str:
         return f"arcs {' and '.join('-'.join(pair) for pair in self.arcs)} equal"
-
-
-@dataclass(frozen=True, kw_only=True)
-class SheetArea(Wish):
-    """The area of the panels of a sheet, all together.
-
-    Attributes
-    ----------
-    at : str
-        Name of a configuration.
-    goal : Goal
-    weight : float
-        As of `Wish`.
-
-    Examples
-    --------
-    >>> print(SheetArea(goal=Goal(at_most=4.0)))
-    area of material
-    """
-
-    goal: Goal
-    unit: ClassVar[Unit] = "area"
-
-    def check(self, frame: DesignFrame) -> None:
-        """Check that there are panels."""
-        frame.all_vertices()
-
-    def missed(self, pose: PosedDesign) -> Derived:
-        """Return how far the area is off."""
-        sheet = pose.frame.family.sheet
-        assert sheet is not None
-        vertices, extent = pose.design.vertices, pose.frame.extent
-        slope, total = np.zeros((len(vertices), 3)), 0.0
-        for face in sheet.faces:
-            around = list(face)
-            after, before = around[1:] + around[:1], around[-1:] + around[:-1]
-            vector = np.cross(vertices[around], vertices[after]).sum(axis=0) / 2.0
-            size = float(np.linalg.norm(vector))
-            total += size
-            slope[around] += np.cross(vertices[after] - vertices[before], vector / size) / 2.0
-        by = extent**2 * np.einsum("vi,vin->n", slope, pose.design.by_vertices)
-        none = np.zeros((1, len(pose.angles)))
-        return _within(self.goal, Derived(np.array([extent**2 * total]), none, by[None]))
-
-    def __str__(self) -> str:
-        return "area of material"
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ from synth.conformed.linkages import loop_on_cones
 from synth.designing.dimensions import ConeDimensions, dimensions_of
 from synth.designing.poses import DesignPoint
 from synth.designing.problem import DesignProblem
+from synth.designing.sizes import BoxSize, SheetArea, SizeRatio
 from synth.designing.targets import Formula, Mesh, Polyline
 from synth.designing.wishes import (
-    BoxSize,
     EqualArcs,
     Goal,
     JointAngle,
@@ -20,8 +20,6 @@ from synth.designing.wishes import (
     PointDistance,
     PointPlace,
     PointsOn,
-    SheetArea,
-    SizeRatio,
     TransmissionAngle,
     WishedConfiguration,
     Wishes,

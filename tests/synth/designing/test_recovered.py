@@ -28,7 +28,7 @@ def recovered(kind, seed):
     return None, STARTS, process_time() - begun
 
 
-@pytest.mark.parametrize("kind", ["four-bar", "Stephenson", "on a cone", "bennett"])
+@pytest.mark.parametrize("kind", ["four-bar", "Watt", "on a cone", "bennett"])
 def test_a_mechanism_is_found_again(kind):
     one, _, _ = recovered(kind, 0)
     assert one is not None
