@@ -343,13 +343,14 @@ class DesignSearch:
         )
         self.problem = DesignProblem(self.family, wishes)
         self.spread, self.seed = spread, seed
+        self.freedoms = _judgement(self.family.mechanism(self.family.start))[0]
 
     def design(self, start: int) -> Design | None:
         """Return the design of a start, judged; None where numbers of a start make no mechanism."""
         rng = seeded(f"{self.seed} {len(self.problem.start)}", start)
         numbers = start_of(self.problem, start, self.spread, rng)
         found = found_from(self.problem, numbers, rng)
-        return None if found is None else judged(self.problem, found, start)
+        return None if found is None else judged(self.problem, found, start, self.freedoms)
 
     def of_record(self, start: int, record: Mapping[str, Any]) -> Design:
         """Return the design of a record that `Design.record` made."""
@@ -368,20 +369,28 @@ class DesignSearch:
         )
 
 
-def judged(problem: DesignProblem, found: FoundDesign, start: int) -> Design:
-    """Return what was found as a design: with its verdict, defects, and figures."""
-    mechanism = problem.family.mechanism(found.numbers)
+def _judgement(mechanism: Mechanism) -> tuple[int | None, str]:
+    """Return the degrees of freedom of a mechanism by the verdict, None without one, and its sentence."""
     try:
         verdict = verdict_of_motion(configuration_of(mechanism))
-        freedoms, sentence = verdict.freedoms, verdict.text
     except SynthedraError as error:
-        freedoms, sentence = None, str(error)
+        return None, str(error)
+    return verdict.freedoms, verdict.text
+
+
+def judged(problem: DesignProblem, found: FoundDesign, start: int, wanted: int | None = None) -> Design:
+    """Return what was found as a design: with its verdict, defects, and figures; `wanted` are degrees of freedom."""
+    mechanism = problem.family.mechanism(found.numbers)
+    freedoms, sentence = _judgement(mechanism)
     names = problem.frame.joints
     angles = {
         one.name: {str(joint): float(angle) for joint, angle in zip(names, at, strict=True)}
         for one, at in zip(problem.wishes.configurations, found.angles, strict=True)
     }
     figures, defects = _figures(problem, found), _defects(problem, found, freedoms)
+    if wanted and freedoms and freedoms != wanted:
+        has = numbered(freedoms, "degree of freedom", "degrees of freedom")
+        defects = DesignDefects((f"{has} at the pose, and {wanted} before",), False)
     return Design(start, found.numbers, mechanism, figures, found.error, freedoms, sentence, defects, angles)
 
 
@@ -393,11 +402,30 @@ def _defects(problem: DesignProblem, found: FoundDesign, freedoms: int | None) -
     zero = found.step.design.linkage.angles
     if problem.family.sheet is not None and not zero.any():
         at_pose = False  # a flat sheet is singular: many branches meet there
+    against = _against_assignment(problem, found)
+    if against:
+        return DesignDefects((against,), False)
     names = [*([POSE] if at_pose else []), *(one.name for one in wishes.configurations)]
     angles = [*([zero] if at_pose else []), *found.angles]
     if len(angles) < 2 or freedoms != 1 or problem.driver is None or max(found.errors) > DOUBLE.closed:
         return DesignDefects((), False)
     return traced(closure, names, angles, problem.driver, in_order=wishes.in_order)
+
+
+_SIGN = {"M": -1.0, "V": 1.0}
+
+
+def _against_assignment(problem: DesignProblem, found: FoundDesign) -> str:
+    """Return which creases of a sheet fold against their assignment at a configuration; empty if none does."""
+    sheet = problem.family.sheet
+    if sheet is None or not found.angles:
+        return ""
+    letters = [sheet.assignments[int(str(joint))] for joint in problem.frame.joints]
+    signs = np.array([_SIGN.get(letter, 0.0) for letter in letters])
+    wrong = (np.array(found.angles) * signs < -DOUBLE.immobile).any(axis=0)
+    names = [str(joint) for joint, off in zip(problem.frame.joints, wrong, strict=True) if off]
+    which = numbered(len(names), "crease") + (" folds" if len(names) == 1 else " fold")
+    return f"{which} against the assignment: {', '.join(names[:6])}" if names else ""
 
 
 def _figures(problem: DesignProblem, found: FoundDesign) -> tuple[WishFigure, ...]:
@@ -418,12 +446,19 @@ def _figures(problem: DesignProblem, found: FoundDesign) -> tuple[WishFigure, ..
 
 
 def reduced(problem: DesignProblem, found: FoundDesign) -> Floats:
-    """Return the derivatives of all misses by the numbers, configurations closed, inputs held: float[rows, n]."""
+    """Return the derivatives of all misses by the numbers, configurations closed, inputs held: float[rows, n].
+
+    With rules other numbers follow, as little as that needs: their part across the rules is left out.
+    """
     step, numbers = found.step, problem.numbers
-    if problem.size == numbers:
-        return step.by_wishes
     follows = np.linalg.lstsq(step.by_closure[:, numbers:], step.by_closure[:, :numbers], rcond=DOUBLE.zero)[0]
-    return np.asarray(step.by_wishes[:, :numbers] - step.by_wishes[:, numbers:] @ follows)
+    slopes = step.by_wishes[:, :numbers] - step.by_wishes[:, numbers:] @ follows
+    return np.asarray(slopes - (slopes @ _inverse(step.by_rules[:, :numbers])) @ step.by_rules[:, :numbers])
+
+
+def _inverse(matrix: Floats) -> Floats:
+    """Return the pseudoinverse of a matrix float[m, n]: float[n, m]."""
+    return np.asarray(np.linalg.lstsq(matrix, np.eye(len(matrix)), rcond=DOUBLE.zero)[0])
 
 
 def compared(found: Sequence[Design], starts: int) -> Designs:

@@ -7,17 +7,19 @@ Theory: docs/theory/design.md.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
 
-from graphs.errors import InvariantError, SynthedraError
+from graphs.errors import InvariantError, SynthedraError, UnsolvableError
 from graphs.types import Floats, Ints
 from synth.designing.dimensions import DesignedLinkage, Dimensions
 from synth.designing.poses import Derived, DesignFrame, PosedDesign
-from synth.designing.wishes import POSE, Wish, Wishes, check_wishes
+from synth.designing.sheet_rules import flat_rules, folded_frames
+from synth.designing.wishes import POSE, Wish, WishedConfiguration, Wishes, check_wishes
 
 
 class NumberRule(Protocol):
@@ -32,7 +34,8 @@ class DesignStep:
     """All equations at one place: the parts by which they miss, and their derivatives by all unknowns.
 
     `closure` and `rules` are to be zero, `wishes` small; these are in radians and units of the file, and `weights` make
-    parts of the extent of them; `rows` is the number of residuals of each wish.
+    parts of the extent of them; `rows` is the number of residuals of each wish. `turns` are those of
+    joints from each configuration to the next.
     """
 
     design: DesignedLinkage
@@ -44,15 +47,29 @@ class DesignStep:
     by_wishes: Floats
     weights: Floats
     rows: tuple[int, ...]
+    turns: Floats
+    by_turns: Floats
 
-    def residual(self, weight: float) -> Floats:
-        """Return all residuals, closure and rules times a weight, wishes times theirs."""
-        return np.concatenate([weight * self.closure, weight * self.rules, self.weights * self.wishes])
+    def residual(self, weight: float, smooth: float = 0.0) -> Floats:
+        """Return all residuals: closure and rules times a weight, wishes times theirs, turns if they count."""
+        turns = [smooth * self.turns] if smooth else []
+        return np.concatenate([weight * self.closure, weight * self.rules, self.weights * self.wishes, *turns])
 
-    def jacobian(self, weight: float) -> Floats:
+    def jacobian(self, weight: float, smooth: float = 0.0) -> Floats:
         """Return their derivatives."""
         weighed = self.weights[:, None] * self.by_wishes
-        return np.vstack([weight * self.by_closure, weight * self.by_rules, weighed])
+        turns = [smooth * self.by_turns] if smooth else []
+        return np.vstack([weight * self.by_closure, weight * self.by_rules, weighed, *turns])
+
+
+def with_between(wishes: Wishes) -> Wishes:
+    """Return wishes with further configurations between each and the next, without inputs; the pose comes first."""
+    configurations: list[WishedConfiguration] = []
+    for one in wishes.configurations:
+        before = configurations[-1].name if configurations else POSE
+        names = [f"{before} to {one.name}, {number}" for number in range(1, wishes.between + 1)]
+        configurations += [*map(WishedConfiguration, names), one]
+    return replace(wishes, configurations=tuple(configurations))
 
 
 class DesignProblem:
@@ -78,7 +95,12 @@ class DesignProblem:
     """
 
     def __init__(self, family: Dimensions, wishes: Wishes, number_rules: Sequence[NumberRule] = ()) -> None:
-        self.family, self.wishes, self.number_rules = family, wishes, number_rules
+        self.family, self.wishes, self.number_rules = family, with_between(wishes), number_rules
+        wishes = self.wishes
+        if wishes.flat_foldable:
+            if family.sheet is None:
+                raise UnsolvableError("flat_foldable is for flat sheets, and the mechanism is none")
+            self.number_rules = [*number_rules, *flat_rules(family.sheet)]
         first = family.linkage(family.start)
         self.frame = frame = DesignFrame(family, first)
         check_wishes(wishes, frame)
@@ -116,6 +138,20 @@ class DesignProblem:
             before = seen.setdefault(str(wish), wish)
             if before is not wish and before != wish:
                 raise InvariantError("wishes", f"two different wishes for the {wish} contradict each other", "one")
+
+    @cached_property
+    def _frames(self) -> Floats:
+        """Folded states of a flat sheet, which is singular itself: float[F, J], none of others."""
+        sheet = self.family.sheet
+        return np.zeros((0, self.joints)) if sheet is None or self.zero.any() else folded_frames(sheet)
+
+    def folded(self, number: int) -> list[Floats]:
+        """Return the folded state of a flat sheet whose driven joint is nearest to its input, where it has one."""
+        if not len(self._frames):
+            return []
+        given = [(joint, angle) for joint, angle in self.inputs[number].items() if self._frames[:, joint].any()]
+        off = sum((np.abs(self._frames[:, joint] - angle) for joint, angle in given), np.zeros(len(self._frames)))
+        return [self._frames[int(off.argmin()) if given else len(self._frames) // 2]]
 
     def held(self, number: int, angles: Floats) -> Floats:
         """Return joint angles with the inputs of a configuration."""
@@ -162,7 +198,23 @@ class DesignProblem:
             matrices.append(np.concatenate([np.zeros((0, self.size)), *(by for _, by in rows)]))
         (off, ruled, missed), (by_off, by_ruled, by_missed) = vectors, matrices
         weight = np.concatenate([np.zeros(0), *weights])
-        return DesignStep(design, off, ruled, missed, by_off, by_ruled, by_missed, weight, tuple(map(len, weights)))
+        counts = tuple(map(len, weights))
+        turns = self._turns(angles)
+        return DesignStep(design, off, ruled, missed, by_off, by_ruled, by_missed, weight, counts, *turns)
+
+    def _turns(self, angles: Sequence[Floats]) -> tuple[Floats, Floats]:
+        """Return how far joints turn from each configuration to the next, the pose first, and the derivatives."""
+        if not self.wishes.between:
+            return np.zeros(0), np.zeros((0, self.size))
+        count, joints = len(angles), self.joints
+        turns = np.diff(np.array([self.zero, *angles]), axis=0)
+        by = np.zeros((count, joints, self.size))
+        for number, (columns, free) in enumerate(zip(self.columns, self.free, strict=True)):
+            places = np.arange(columns.start, columns.stop)
+            by[number, free, places] = 1.0
+            if number + 1 < count:
+                by[number + 1, free, places] = -1.0
+        return turns.ravel(), by.reshape(count * joints, self.size)
 
     def _by_numbers(self, slopes: Floats) -> Floats:
         whole = np.zeros((len(slopes), self.size))

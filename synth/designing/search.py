@@ -23,6 +23,8 @@ _WEIGHTS = (1.0, 30.0, 1e3)
 """Of closure and rules, one search after the other until configurations can be closed."""
 _STEPS = (40, 30, 30)
 _STIFF = 1e5
+_SMOOTH = (0.1, 0.01)
+"""Weights of turns between configurations, one search after the other, where they are to be near to each other."""
 _DAMPING, _MORE, _LESS, _MOST_DAMPING = 1e-3, 4.0, 8.0, 1e3
 _REFINED, _GAIN = 80, 1e-9
 """Most steps along closed designs, and the part of the sum of squares that a step must take away to be followed."""
@@ -85,6 +87,8 @@ def found_from(problem: DesignProblem, numbers: Floats, rng: np.random.Generator
     if problem.tried(problem.joined(numbers, [problem.zero] * len(problem.inputs))) is None:
         return None
     unknowns = problem.joined(numbers, fitted_angles(problem, numbers, rng))
+    for smooth in _SMOOTH if problem.wishes.between else ():
+        unknowns = _least(problem, unknowns, 1.0, _STEPS[0], smooth)
     for weight, steps in zip(_WEIGHTS, _STEPS, strict=True):
         unknowns = _least(problem, unknowns, weight, steps)
         found = closed(problem, unknowns)
@@ -151,8 +155,8 @@ def _refined(problem: DesignProblem, found: FoundDesign) -> FoundDesign:
     return found
 
 
-def _least(problem: DesignProblem, unknowns: Floats, weight: float, steps: int) -> Floats:
-    """Return unknowns of least squares: closure and rules with a weight."""
+def _least(problem: DesignProblem, unknowns: Floats, weight: float, steps: int, smooth: float = 0.0) -> Floats:
+    """Return unknowns of least squares: closure and rules with a weight, turns between configurations with another."""
     from scipy.optimize import least_squares
 
     last: dict[bytes, DesignStep | None] = {}
@@ -166,15 +170,15 @@ def _least(problem: DesignProblem, unknowns: Floats, weight: float, steps: int) 
 
     first = at(unknowns)
     assert first is not None
-    size = len(first.residual(weight))
+    size = len(first.residual(weight, smooth))
 
     def residual(x: Floats) -> Floats:
         step = at(x)
-        return np.full(size, _UNMET) if step is None else step.residual(weight)
+        return np.full(size, _UNMET) if step is None else step.residual(weight, smooth)
 
     def jacobian(x: Floats) -> Floats:
         step = at(x)
-        return np.zeros((size, len(x))) if step is None else step.jacobian(weight)
+        return np.zeros((size, len(x))) if step is None else step.jacobian(weight, smooth)
 
     low, high = np.full(len(unknowns), -np.inf), np.full(len(unknowns), np.inf)
     low[: problem.numbers], high[: problem.numbers] = problem.family.bounds
@@ -196,7 +200,7 @@ def fitted_angles(problem: DesignProblem, numbers: Floats, rng: np.random.Genera
     while len(fitted) <= count:
         pairs = ((_apart(problem, number, done, zero), number, done) for number in range(count) for done in fitted)
         _, number, nearest = min(pair for pair in pairs if pair[1] not in fitted)
-        guesses = [fitted[nearest], zero, zero + rng.normal(size=len(zero))]
+        guesses = [*problem.folded(number), fitted[nearest], zero, zero + rng.normal(size=len(zero))]
         tried = [_fitted(problem, numbers, number, problem.held(number, guess)) for guess in guesses]
         best = min(tried, key=lambda one: one[0])
         first = tried[0]
@@ -236,8 +240,7 @@ def _fitted(problem: DesignProblem, numbers: Floats, number: int, guess: Floats)
 
 def closed(problem: DesignProblem, unknowns: Floats) -> FoundDesign | None:
     """Return a design whose rules hold, and whose configurations are closed, to the last digit where that can be."""
-    numbers, angles = problem.parted(unknowns)
-    numbers = _ruled(problem, numbers, angles)
+    numbers, angles = problem.parted(_ruled(problem, unknowns))
     design = problem.family.linkage(numbers)
     closure = problem.frame.closure(design)
     errors = []
@@ -252,12 +255,13 @@ def closed(problem: DesignProblem, unknowns: Floats) -> FoundDesign | None:
     return None if step is None else FoundDesign(numbers, angles, errors, step)
 
 
-def _ruled(problem: DesignProblem, numbers: Floats, angles: list[Floats]) -> Floats:
-    """Return the nearest numbers at which rules hold: Newton's method, least steps within bounds."""
+def _ruled(problem: DesignProblem, unknowns: Floats) -> Floats:
+    """Return the nearest unknowns at which rules hold and loops close: Newton's method, least steps within bounds."""
     for _ in range(_ROUNDS):
-        step = problem.tried(problem.joined(numbers, angles))
+        step = problem.tried(unknowns)
         if step is None or float(np.abs(step.rules).max(initial=0.0)) <= DOUBLE.closed / 100:
             break
-        change = np.linalg.lstsq(step.by_rules[:, : problem.numbers], -step.rules, rcond=DOUBLE.zero)[0]
-        numbers = np.clip(numbers + change, *problem.family.bounds)
-    return numbers
+        matrix, off = np.vstack([step.by_closure, step.by_rules]), np.concatenate([step.closure, step.rules])
+        unknowns = unknowns - np.linalg.lstsq(matrix, off, rcond=DOUBLE.zero)[0]
+        unknowns[: problem.numbers] = np.clip(unknowns[: problem.numbers], *problem.family.bounds)
+    return unknowns

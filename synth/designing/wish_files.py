@@ -186,7 +186,7 @@ _KINDS: Mapping[str, _Kind] = {
     "area": _Kind(SheetArea, {}, {}, _LENGTH, at=False),
 }  # fmt: skip
 _RENAMED = {"of": "size_of"}
-_TOP = ("driver", "fixed", "flat_foldable", "in_order", "parameters", "configurations", "ranges", "rules")
+_TOP = ("between", "driver", "fixed", "flat_foldable", "in_order", "parameters", "configurations", "ranges", "rules")
 
 
 def read_wishes(path: str | Path) -> Wishes:
@@ -249,6 +249,7 @@ def wishes_of_document(value: Any, path: Path) -> Wishes:
             {name: check.number(number, f"parameters.{name}") for name, number in parameters.items()},
             _flag(check, value, "flat_foldable", default=False),
             _flag(check, value, "in_order", default=True),
+            check.integer(value.get("between", 0), "between", 0, _MOST_BETWEEN),
         ),
         place="wishes",
     )
@@ -274,7 +275,7 @@ def _configuration(check: Checker, place: str, item: Any) -> WishedConfiguration
     )
 
 
-_MOST_OF_RANGE = 100
+_MOST_OF_RANGE, _MOST_BETWEEN = 100, 10
 
 
 def _range(check: Checker, place: str, item: Any) -> list[WishedConfiguration]:
@@ -354,6 +355,7 @@ def wishes_schema() -> dict[str, Any]:
                 "parameters": angles,
                 "flat_foldable": {"type": "boolean"},
                 "in_order": {"type": "boolean"},
+                "between": {"type": "integer", "minimum": 0, "maximum": _MOST_BETWEEN},
             },
         ),
         "$defs": definitions,

@@ -598,6 +598,9 @@ class Wishes:
         Keep a flat sheet flat-foldable, and of vertices of four creases let ratios agree round panels.
     in_order : bool
         Configurations are passed in their order.
+    between : int
+        Closed configurations that are put between each and the next, and at first kept near to each other: so that a
+        motion leads from one to the next.
 
     Examples
     --------
@@ -613,6 +616,7 @@ class Wishes:
     parameters: Mapping[str, float] = field(default_factory=dict)
     flat_foldable: bool = False
     in_order: bool = True
+    between: int = 0
 
     def __post_init__(self) -> None:
         if len(set(self.names)) < len(self.names):
