@@ -349,7 +349,7 @@ class DesignSearch:
         """Return the design of a start, judged; None where numbers of a start make no mechanism."""
         rng = seeded(f"{self.seed} {len(self.problem.start)}", start)
         numbers = start_of(self.problem, start, self.spread, rng)
-        found = found_from(self.problem, numbers, rng)
+        found = found_from(self.problem, numbers, rng, follow=start % 2 == 0)
         return None if found is None else judged(self.problem, found, start, self.freedoms)
 
     def of_record(self, start: int, record: Mapping[str, Any]) -> Design:
@@ -407,9 +407,10 @@ def _defects(problem: DesignProblem, found: FoundDesign, freedoms: int | None) -
         return DesignDefects((against,), False)
     names = [*([POSE] if at_pose else []), *(one.name for one in wishes.configurations)]
     angles = [*([zero] if at_pose else []), *found.angles]
-    if len(angles) < 2 or freedoms != 1 or problem.driver is None or max(found.errors) > DOUBLE.closed:
+    if len(angles) < 2 or freedoms != 1 or max(found.errors) > DOUBLE.closed:
         return DesignDefects((), False)
-    return traced(closure, names, angles, problem.driver, in_order=wishes.in_order)
+    every = [traced(closure, names, angles, driver, in_order=wishes.in_order) for driver in problem.drivers]
+    return next((one for one in every if not one.defects), every[0]) if every else DesignDefects((), False)
 
 
 _SIGN = {"M": -1.0, "V": 1.0}

@@ -95,7 +95,7 @@ class DesignProblem:
     """
 
     def __init__(self, family: Dimensions, wishes: Wishes, number_rules: Sequence[NumberRule] = ()) -> None:
-        self.family, self.wishes, self.number_rules = family, with_between(wishes), number_rules
+        self.family, self.wishes, self.number_rules = family, with_between(wishes), list(number_rules)
         wishes = self.wishes
         if wishes.flat_foldable:
             if family.sheet is None:
@@ -116,20 +116,19 @@ class DesignProblem:
         starts = self.numbers + np.cumsum([0, *(len(free) for free in self.free)])
         self.columns = [slice(int(a), int(b)) for a, b in pairwise(starts)]
         self.size = int(starts[-1])
-        self.driver = self._driver()
+        self.drivers = self._drivers()
         self.start = self.joined(family.start, [self.held(k, self.zero) for k in range(len(self.inputs))])
         self._contradictions()
 
-    def _driver(self) -> int | None:
-        """Return the driven joint: as stated, of the first input, else a joint of the fixed link."""
+    def _drivers(self) -> list[int]:
+        """Return the joints that may be driven: as stated, of the first input, else any of the fixed link."""
         frame, wishes = self.frame, self.wishes
         if wishes.driver is not None:
-            return frame.joint(wishes.driver)
+            return [frame.joint(wishes.driver)]
         given = next((joint for inputs in self.inputs for joint in inputs), None)
         if given is not None:
-            return given
-        fixed = (place for place, joint in enumerate(frame.joints) if self.family.ground in frame.graph.joints[joint])
-        return next(fixed, None)
+            return [given]
+        return [place for place, joint in enumerate(frame.joints) if self.family.ground in frame.graph.joints[joint]]
 
     def _contradictions(self) -> None:
         """Refuse wishes for one thing that exclude each other."""

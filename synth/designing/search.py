@@ -82,11 +82,16 @@ def start_of(problem: DesignProblem, start: int, spread: float, rng: np.random.G
     return np.asarray(np.clip(numbers, *family.bounds))
 
 
-def found_from(problem: DesignProblem, numbers: Floats, rng: np.random.Generator) -> FoundDesign | None:
-    """Return the design to which least squares lead from some numbers; None if they make no mechanism."""
+def found_from(
+    problem: DesignProblem, numbers: Floats, rng: np.random.Generator, *, follow: bool = True
+) -> FoundDesign | None:
+    """Return the design to which least squares lead from some numbers; None if they make no mechanism.
+
+    With `follow` configurations begin where the driven joint leads from the pose, else where they fit wishes best.
+    """
     if problem.tried(problem.joined(numbers, [problem.zero] * len(problem.inputs))) is None:
         return None
-    unknowns = problem.joined(numbers, fitted_angles(problem, numbers, rng))
+    unknowns = problem.joined(numbers, fitted_angles(problem, numbers, rng, follow=follow))
     for smooth in _SMOOTH if problem.wishes.between else ():
         unknowns = _least(problem, unknowns, 1.0, _STEPS[0], smooth)
     for weight, steps in zip(_WEIGHTS, _STEPS, strict=True):
@@ -102,7 +107,8 @@ def _on_one_branch(problem: DesignProblem, found: FoundDesign) -> FoundDesign:
 
     Where wishes say nothing of some links these may be found in another assembly mode at each input.
     """
-    driver, given = problem.driver, [driven(inputs, problem.driver) for inputs in problem.inputs]
+    driver = problem.drivers[0] if problem.drivers else None
+    given = [driven(inputs, driver) for inputs in problem.inputs]
     if driver is None or None in given or len(given) < 2:
         return found
     closure = problem.frame.closure(found.step.design)
@@ -188,7 +194,9 @@ def _least(problem: DesignProblem, unknowns: Floats, weight: float, steps: int, 
     return np.asarray(found.x)
 
 
-def fitted_angles(problem: DesignProblem, numbers: Floats, rng: np.random.Generator) -> list[Floats]:
+def fitted_angles(
+    problem: DesignProblem, numbers: Floats, rng: np.random.Generator, *, follow: bool = True
+) -> list[Floats]:
     """Return joint angles of each configuration at which it nearly closes and nearly meets its wishes.
 
     They are found outwards from the pose, each from the fitted configuration whose inputs are nearest; another guess
@@ -197,15 +205,40 @@ def fitted_angles(problem: DesignProblem, numbers: Floats, rng: np.random.Genera
     count = len(problem.inputs)
     zero = problem.family.linkage(numbers).linkage.angles
     fitted: dict[int, Floats] = {-1: zero}  # the pose comes first
+    reached = _followed(problem, numbers, zero) if follow else {}
     while len(fitted) <= count:
         pairs = ((_apart(problem, number, done, zero), number, done) for number in range(count) for done in fitted)
         _, number, nearest = min(pair for pair in pairs if pair[1] not in fitted)
+        if number in reached:
+            fitted[number] = _fitted(problem, numbers, number, reached[number])[1]
+            continue
         guesses = [*problem.folded(number), fitted[nearest], zero, zero + rng.normal(size=len(zero))]
         tried = [_fitted(problem, numbers, number, problem.held(number, guess)) for guess in guesses]
         best = min(tried, key=lambda one: one[0])
         first = tried[0]
         fitted[number] = first[1] if first[0] <= _BETTER * best[0] + DOUBLE.zero else best[1]
     return [fitted[number] for number in range(count)]
+
+
+def _followed(problem: DesignProblem, numbers: Floats, zero: Floats) -> dict[int, Floats]:
+    """Return the configurations to which the driven joint leads from the pose, both ways; none of a flat sheet."""
+    driver = problem.drivers[0] if problem.drivers else None
+    turns = {number: driven(inputs, driver) for number, inputs in enumerate(problem.inputs)}
+    given = sorted((angle, number) for number, angle in turns.items() if angle is not None)
+    if driver is None or (problem.family.sheet is not None and not zero.any()):
+        return {}
+    closure = problem.frame.closure(problem.family.linkage(numbers))
+    reached: dict[int, Floats] = {}
+    upwards = [pair for pair in given if pair[0] > zero[driver]]
+    downwards = [pair for pair in reversed(given) if pair[0] <= zero[driver]]
+    for ahead in filter(None, (upwards, downwards)):
+        try:
+            path = driven_path(closure, zero, [driver], np.array([[angle] for angle, _ in ahead]))
+        except SynthedraError:
+            continue
+        frames = path.angles[1 : len(path.angles) - bool(path.stopped)]
+        reached |= {number: frame for (_, number), frame in zip(ahead, frames, strict=False)}
+    return reached
 
 
 def _apart(problem: DesignProblem, number: int, done: int, zero: Floats) -> float:

@@ -48,7 +48,7 @@ def pattern_of_sheet(sheet: Sheet) -> Pattern:
         rings.append(tuple(ring))
     outer = max(rings, key=lambda ring: float(signed_area(places[list(ring), :2])))
     holes = tuple(ring[::-1] for ring in rings if ring is not outer)
-    creases = tuple(mechanism.hinges[joint] for joint in mechanism.sc.joints)
+    creases = tuple(mechanism.hinges[int(str(joint))] for joint in mechanism.sc.joints)
     return Pattern(
         tuple(mechanism.sc.nodes), tuple(mechanism.sc.joints), panels, sheet.vertices, creases, outer, holes, ()
     )
