@@ -10,7 +10,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from typing import Protocol
 
 import numpy as np
 
@@ -21,12 +20,8 @@ from synth.designing.poses import Derived, DesignFrame, PosedDesign
 from synth.designing.sheet_rules import flat_rules, folded_frames
 from synth.designing.wishes import POSE, Wish, WishedConfiguration, Wishes, check_wishes
 
-
-class NumberRule(Protocol):
-    """A condition on the numbers of a design alone: residuals float[m] to be zero, derivatives float[m, n]."""
-
-    def __call__(self, design: DesignedLinkage) -> tuple[Floats, Floats]:
-        """Return residuals and derivatives."""
+NumberRule = Callable[[DesignedLinkage], tuple[Floats, Floats]]
+"""A condition on the numbers of a design alone: residuals float[m] to be zero, and derivatives float[m, n]."""
 
 
 @dataclass(frozen=True, slots=True)
