@@ -405,8 +405,9 @@ def _defects(problem: DesignProblem, found: FoundDesign, freedoms: int | None) -
     against = _against_assignment(problem, found)
     if against:
         return DesignDefects((against,), False)
-    names = [*([POSE] if at_pose else []), *(one.name for one in wishes.configurations)]
-    angles = [*([zero] if at_pose else []), *found.angles]
+    passed = {one.name: at for one, at in zip(wishes.configurations, found.angles, strict=True)}
+    names = [*([POSE] if at_pose else []), *problem.asked]
+    angles = [*([zero] if at_pose else []), *(passed[name] for name in problem.asked)]
     if len(angles) < 2 or freedoms != 1 or max(found.errors) > DOUBLE.closed:
         return DesignDefects((), False)
     every = [traced(closure, names, angles, driver, in_order=wishes.in_order) for driver in problem.drivers]

@@ -90,6 +90,7 @@ class DesignProblem:
     """
 
     def __init__(self, family: Dimensions, wishes: Wishes, number_rules: Sequence[NumberRule] = ()) -> None:
+        self.asked = [one.name for one in wishes.configurations]
         self.family, self.wishes, self.number_rules = family, with_between(wishes), list(number_rules)
         wishes = self.wishes
         if wishes.flat_foldable:
