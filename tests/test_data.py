@@ -25,7 +25,7 @@ def test_the_data_are_what_the_script_makes(tmp_path, data):
     make.main(tmp_path)
     made = {path.relative_to(tmp_path): path.read_text() for path in tmp_path.rglob("*.*") if path.is_file()}
     kept = {path.relative_to(data): path.read_text() for sub in data.iterdir() if sub.is_dir()
-            and sub.name not in ("realised", "__pycache__") for path in sub.iterdir()}  # fmt: skip
+            and sub.name not in ("realised", "wishes", "__pycache__") for path in sub.iterdir()}  # fmt: skip
     kept[Path("index.json")] = (data / "index.json").read_text()
     assert made == kept
 
@@ -36,7 +36,7 @@ def test_the_index_names_every_mechanism(data):
         str(p.relative_to(data))
         for p in data.glob("*/*.*")
         if p.parent.name
-        not in ("patterns", "surfaces", "orientations", "linkages", "joints", "realised", "__pycache__")
+        not in ("patterns", "surfaces", "orientations", "linkages", "joints", "realised", "wishes", "__pycache__")
     )
 
 

@@ -95,7 +95,7 @@ def test_maps(name, rows, columns, term):
     Layers of a map can be shifted cyclically, so that each panel is the lowest of equally many orders: of larger maps
     the second method counts those of one panel.
     """
-    code = re.search(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+    code = re.search(r"```py\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
     page = {}
     exec(code[1], page)
     assert page["orders"](rows, columns) == term, name

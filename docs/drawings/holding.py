@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from math import degrees, radians
+from pathlib import Path
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from drawings.examples import generated_sheet, generated_solids
 from drawings.patterned import Patterned
 from drawings.together import above, beside, said
 from graphs.errors import numbered
+from graphs.files.accepted import MechanismLike
 from graphs.mechanism.sheet import Sheet
 from graphs.types import Floats
 from synth.compliance.joint_limits import limits
@@ -34,6 +36,7 @@ from synth.drawing.scene.shapes import (
 )
 from synth.drawing.space.poses import pose_scenes
 from synth.moving.made import configuration_of
+from synth.patterns import generate
 
 __all__ = ["DRAWINGS"]
 
@@ -125,7 +128,32 @@ def _least_left(cylinder: Sheet) -> float:
     return min(abs(angle - end) for angle, end in ends)
 
 
+WISHES = Path(__file__).resolve().parent.parent.parent / "data" / "wishes" / "crank-and-follower.json"
+
+
+def design() -> Scene:
+    """A four-bar before and after its design: the turn of its follower against that of its crank, and two wishes."""
+    found = synth.design("four-bar", WISHES, starts=1).best
+    assert found is not None
+    plot = Plot(40.0, 14.0, 280.0, 110.0, (0.0, 45.0), (0.0, 60.0))
+    shapes: list[Shape] = [*plot.below((0, 15, 30, 45), "turn of the crank, degrees")]
+    shapes += plot.beside((0, 20, 40, 60), "turn of the follower")
+    shapes.append(Line(_follower(plot, generate("four-bar").mechanism), "grey", STRONG, DASH))
+    shapes.append(Line(_follower(plot, found.mechanism), "class0", STRONG))
+    shapes += [Disc(plot.at(*wish), 3.4, "paper", "ink", STRONG) for wish in ((20.0, 24.0), (40.0, 50.0))]
+    curve = Scene(plot.left + plot.width + 14.0, plot.top + plot.height + 26.0, (Layer("curve", tuple(shapes)),))
+    return said(curve, "dashed: before; full: the design, through both wishes (discs)")
+
+
+def _follower(plot: Plot, mechanism: MechanismLike) -> list[Point]:
+    """Return the curve of the turn of joint 3 against that of joint 0."""
+    path = synth.move(mechanism, drive={0: radians(45.0)}, frames=31).path
+    turned = np.abs(np.degrees(path.angles - path.angles[0]))
+    return plot.row(turned[:, 0], turned[:, 3])
+
+
 DRAWINGS: dict[str, Callable[[], Scene]] = {
+    "design": design,
     "overconstraint": overconstraint,
     "compliance": compliance,
     "activating-constraints": activating_constraints,

@@ -31,6 +31,8 @@ OUTSIDE = -1
 """The cell beyond the silhouette."""
 _HALVINGS, _ALIKE = 30, 3
 """Welding distances are halved so often at most, until so many in a row give one image."""
+_COARSE = 64.0
+"""The first of them is so many times the least, so that creases which the coordinates tell apart stay apart."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -229,15 +231,27 @@ class SegmentStrands:
 
 
 def image_of(panels: FoldedPanels, least: float, more: Sequence[tuple[int, int]] = ()) -> FoldedImage:
-    """Return the image of folded panels, welded by the coarsest distance that holds.
+    """Return the image of folded panels, welded by the coarsest distance near the `least` that holds.
 
     `more` are lines between vertices that join parts of the image that would not touch each other.
 
-    Distances are halved, from an eighth of the shortest edge on and down to `least`, until three in a row give as
-    many nodes and segments, and each panel lies over cells of its own area. Raises `NumericalError` if none does.
+    Distances are halved, from 64 times the `least` on and down to it, until three in a row give as many nodes and
+    segments, and each panel lies over cells of its own area; where none does, from an eighth of the shortest edge on.
+    Raises `NumericalError` if none of these does.
     """
     edges, lengths = _distinct_edges(panels, more)
-    distance = float(lengths.min()) / 8.0
+    coarsest = float(lengths.min()) / 8.0
+    for start in sorted({min(coarsest, _COARSE * least), coarsest}):
+        image = _welded_alike(panels, edges, start, least)
+        if image is not None:
+            return image
+    raise NumericalError("no welding distance gives a consistent folded image; try --precision")
+
+
+def _welded_alike(
+    panels: FoldedPanels, edges: Sequence[tuple[int, int]], distance: float, least: float
+) -> FoldedImage | None:
+    """Return the image for the first of halved distances at which it stays as it is, else for the last that holds."""
     before: list[FoldedImage] = []
     for _ in range(_HALVINGS):
         image = _welded_image(panels, edges, distance)
@@ -253,9 +267,7 @@ def image_of(panels: FoldedPanels, least: float, more: Sequence[tuple[int, int]]
         distance /= 2.0
         if distance < least:
             break
-    if before:
-        return before[-1]
-    raise NumericalError("no welding distance gives a consistent folded image; try --precision")
+    return before[-1] if before else None
 
 
 def _distinct_edges(panels: FoldedPanels, more: Sequence[tuple[int, int]]) -> tuple[list[tuple[int, int]], Floats]:

@@ -64,6 +64,11 @@ class AssemblyOptions:
         Motion branch, as for `synth.move`.
     springs : Springs, optional
         Newton metres per radian.
+
+    Examples
+    --------
+    >>> AssemblyOptions(thickness=2.0, size=300.0).density
+    1000.0
     """
 
     thickness: float | None = None

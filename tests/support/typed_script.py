@@ -24,7 +24,7 @@ linkage = synth.SurfaceLinkage(chain, steps={(0, 1): 1.5, (1, 2): 1.5, (2, 3): 1
 reveal_type(mechanism)
 reveal_type((chain, drawn, sheet, model, vertices, solids, jointed, linkage))
 reveal_type((loop.centre, sheet.fold_angles, sheet.coordinates, chain.joints, chain.loops, jointed.kinds))
-reveal_type(synth.write(mechanism, "out.json"))
+reveal_type((synth.write(mechanism, "out.json"), synth.write_model(mechanism, "model.xml", "mjcf")))
 
 # Answers
 seen: synth.FirstLook = synth.look(source)
@@ -40,7 +40,7 @@ reveal_type(synth.convert(sheet, "sc"))
 edited = synth.edit(chain, lock=[0], add_ride_along=[(0, 1)])
 reveal_type((edited, edited.mechanism, edited.edits[0].predicted))
 reveal_type(synth.explain(source).idle)
-reveal_type((synth.layers(source), synth.layers(source).orders))
+reveal_type((synth.layers(source), synth.layers(source).orders, synth.layers_at("half.fold").orders))
 reveal_type(synth.advise(source, 1).locks)
 
 # Motion
@@ -94,8 +94,8 @@ dyads = synth.guiding_dyads(orientations)
 reveal_type(synth.guiding_dyads(np.zeros((0, 5, 3, 3))).count)
 reveal_type((dyads, synth.analyse_order(orientations, (0.0, 0.0, 1.0)), synth.four_bars(orientations, dyads.dyads)))
 
-designs = synth.design(linkage, "wishes.json", starts=2)
-reveal_type((designs, designs.best, designs.pareto))
+wished = synth.design(linkage, "wishes.json", starts=2)
+reveal_type((wished, wished.best, wished.pareto))
 
 # Pictures, templates, pages, the atlas
 picture = synth.draw(sheet, colour="none")

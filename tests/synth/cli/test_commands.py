@@ -108,6 +108,7 @@ def test_shell_completion_knows_the_commands():
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=env)
     assert set(re.findall(r"plain,(\w+)", done.stdout)) == {
         "look",
+        "design",
         "mobility",
         "fold",
         "layers",

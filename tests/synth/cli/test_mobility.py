@@ -26,7 +26,7 @@ def test_mobility_of_several_files(data):
 
 
 def test_mobility_json_has_the_promised_keys(data):
-    files = sorted(data.glob("w*/*.json")) + sorted(data.glob("patterns/*.fold"))
+    files = sorted([*data.glob("wampler/*.json"), *data.glob("wiener/*.json")]) + sorted(data.glob("patterns/*.fold"))
     reports = json.loads(run("mobility", "--json", *files).stdout)
     assert [report["file"] for report in reports] == list(map(str, files))
     for report in reports:

@@ -76,7 +76,7 @@ def test_the_pose_is_the_one_that_stands_or_a_frame_or_the_sheet_folded_as_its_l
     run("fold", tmp_path / "miura.fold", "--frames", 3, "-o", tmp_path / "frames.fold")
     framed = read(tmp_path / "frames.fold")
     pose, seen = folded_pose(framed)
-    assert seen == "in a frame of its file"
+    assert seen == "as it stands"  # it rests folded
     assert pose.coordinates in [frame.coordinates for frame in fold(flat, frames=3).frames()]
 
 
