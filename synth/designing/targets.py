@@ -48,7 +48,7 @@ class Formula:
     Attributes
     ----------
     text : str
-        f of x, y, z, numbers, pi, + - * / **, and sin, cos, tan, sqrt, exp, log, sinh, cosh, tanh, arctan.
+        f of x, y, z, numbers, pi, ``+ - * / **``, and sin, cos, tan, sqrt, exp, log, sinh, cosh, tanh, arctan.
         `InvariantError` for anything else.
 
     Examples
