@@ -116,6 +116,11 @@ class Wish:
         return type(self).__name__
 
 
+def _angle_of(chord: Floats) -> float:
+    """Return the angle, radians, of which a vector of the length 2 sin(angle / 2) is the chord."""
+    return 2.0 * asin(min(1.0, float(np.linalg.norm(chord)) / 2.0))
+
+
 @dataclass(frozen=True, kw_only=True)
 class LinkOrientation(Wish):
     """The orientation of a link, from where it is in the file: a unit quaternion, scalar first.
@@ -160,7 +165,7 @@ class LinkOrientation(Wish):
 
     def size(self, values: Floats) -> float:
         """Return the angle of the rotation between the orientations."""
-        return 2.0 * asin(min(1.0, float(np.linalg.norm(values)) / 2.0))
+        return _angle_of(values)
 
     def __str__(self) -> str:
         return f"orientation of link {self.link} at {self.at}"
@@ -207,7 +212,7 @@ class LinkDirection(Wish):
 
     def size(self, values: Floats) -> float:
         """Return the angle between the directions."""
-        return 2.0 * asin(min(1.0, float(np.linalg.norm(values)) / 2.0))
+        return _angle_of(values)
 
     def __str__(self) -> str:
         return f"direction of link {self.link} at {self.at}"
