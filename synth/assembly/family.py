@@ -208,9 +208,9 @@ class _Axes:
 
 
 _STARTS, _STEPS = 64, 25
-_QUIET = 6
-"""Curves in a row that bring nothing new, before the positions are taken for all."""
-_MOST_CURVES = 60
+_QUIET = 20
+"""Curves in a row that bring nothing new, before the positions are taken for all: see `general_positions`."""
+_MOST_CURVES = 120
 _WIDE = 0.7
 """Imaginary parts of the angles of a general member's axes, at most, radians."""
 
@@ -230,8 +230,9 @@ def general_positions(family: Family, seed: int = 0) -> GeneralPositions:
     to bring new positions.
     """
     # A curve of members that comes back to where it began takes each position to a position, perhaps a new one.
-    # Curves are walked until many in a row bring nothing new: with one position missing, each curve would bring it
-    # unless it takes all known ones to known ones.
+    # Curves are walked until many in a row bring nothing new. If positions are missing, a curve takes all known ones
+    # to known ones with a chance of one half at most: the permutations that do are a proper subgroup of all. (Half of
+    # them do where one loop has two modes whatever the others have, so that 6 curves in a row were too few.)
     random = np.random.default_rng(seed)
     number, inputs = len(family.axes), len(family.joints) - family.unknowns
     here = np.concatenate([_random_axes(random, number), np.zeros(inputs, dtype=complex)])

@@ -83,7 +83,14 @@ def tell_written(*places: str | Path | None) -> None:
     """Print the name of each file that was written; None is no file."""
     for place in places:
         if place is not None:
-            click.echo(f"written: {plain(str(place), 4096)}")
+            print_note(f"written: {plain(str(place), 4096)}")
+
+
+def print_note(line: str) -> None:
+    """Print a line about files that were written; where standard output is closed nobody waits for it."""
+    raw = getattr(getattr(sys.stdout, "buffer", None), "raw", None)
+    if not (isinstance(raw, _Guarded) and raw.missing):
+        click.echo(line)
 
 
 def print_answer(answer: Printed | _Answer) -> None:
@@ -169,7 +176,7 @@ class _Guarded(io.FileIO):
 
     def __init__(self, descriptor: int, *, missing: bool) -> None:
         super().__init__(descriptor, "w", closefd=False)
-        self._missing, self._failed = missing, False
+        self.missing, self._failed = missing, False
 
     def write(self, data: Any) -> int:
         """Write; what is left after a failure is dropped.
@@ -179,7 +186,7 @@ class _Guarded(io.FileIO):
         if self._failed:
             return len(data)
         try:
-            if self._missing:
+            if self.missing:
                 raise OSError(0, "it is closed")
             return os.write(self.fileno(), data)
         except OSError as error:

@@ -15,7 +15,7 @@ import click
 from graphs.errors import numbered
 from graphs.printing import LONGEST_CELL
 from synth.cli import options
-from synth.cli.output import console, plain, print_json, table, tell_written
+from synth.cli.output import console, plain, print_json, print_note, table, tell_written
 
 if TYPE_CHECKING:
     from enumerate.runner.job import Column, Job, Progress, Row, Sink
@@ -127,7 +127,7 @@ def run_rows(job: Job, running: RunOptions, wrapped: Callable[[Sink], Sink] = la
     if running.output is not None:
         progress = _run(job, wrapped(_output_of(running, meter)), running, meter)
         if not running.quiet:
-            click.echo(numbered(progress.rows, "new row" if running.resume else "row"))
+            print_note(numbered(progress.rows, "new row" if running.resume else "row"))
             tell_written(running.output)
         return
     if running.as_json:

@@ -99,7 +99,21 @@ def found_from(
         found = closed(problem, unknowns)
         if found is not None and found.error <= DOUBLE.closed:
             return _on_one_branch(problem, _refined(problem, found))
-    return found
+    begun = _folded_start(problem, numbers) if problem.wishes.flat_foldable else None
+    return found if begun is None else _on_one_branch(problem, _refined(problem, begun))
+
+
+def _folded_start(problem: DesignProblem, numbers: Floats) -> FoundDesign | None:
+    """Return a flat sheet as it is, closed where it is folded; None where it is not.
+
+    It fits wishes worse than open designs near them, but where those cannot be closed a way along closed ones begins.
+    """
+    folded = [problem.folded(number) for number in range(len(problem.inputs))]
+    if not all(folded):
+        return None
+    angles = [problem.held(number, one) for number, (one, *_) in enumerate(folded)]
+    found = closed(problem, problem.joined(numbers, angles))
+    return found if found is not None and found.error <= DOUBLE.closed else None
 
 
 def _on_one_branch(problem: DesignProblem, found: FoundDesign) -> FoundDesign:

@@ -25,6 +25,8 @@ from synth.realisation.measures import opened_angles
 from synth.realisation.pattern import Pattern
 
 _FRAMES = 6
+_LEFT = 0.25
+"""The part of the way of a corner to 0 or a straight angle that a design leaves."""
 
 
 def pattern_of_sheet(sheet: Sheet) -> Pattern:
@@ -60,10 +62,27 @@ def flat_rules(sheet: Sheet) -> list[Callable[[DesignedLinkage], tuple[Floats, F
     Raises `UnsolvableError` if it cannot be flat-foldable, or does not fold as it is.
     """
     pattern = pattern_of_sheet(sheet)
-    rules = [flat_folding(pattern)]
+    rules = [flat_folding(pattern), _corners_kept(pattern, in_space(sheet.coordinates or ())[:, :2])]
     if panels_between_vertices(pattern):
         rules.append(_agreeing(pattern, _terms(sheet, pattern)))
     return [_by_numbers(rule) for rule in rules]
+
+
+def _corners_kept(pattern: Pattern, places: Floats) -> Condition:
+    """Return that no corner of a panel comes near to 0 or a straight angle, where it was neither: else panels flip.
+
+    The part of an angle beyond what is left of its way to either; a panel that has flipped is another mechanism.
+    """
+    first, _ = opened_angles(pattern, places)
+    straight = np.where(first < np.pi, np.pi, 2.0 * np.pi)
+    low, high = straight - np.pi + _LEFT * (first - straight + np.pi), straight - _LEFT * (straight - first)
+
+    def condition(unknowns: Floats) -> tuple[Floats, Floats]:
+        angles, by_places = opened_angles(pattern, unknowns)
+        below, above = np.minimum(angles - low, 0.0), np.maximum(angles - high, 0.0)
+        return below + above, by_places * ((below < 0.0) | (above > 0.0))[:, None]
+
+    return condition
 
 
 def _by_numbers(condition: Condition) -> Callable[[DesignedLinkage], tuple[Floats, Floats]]:

@@ -370,7 +370,7 @@ def simplest_drawn(mechanism: Mechanism) -> tuple[SCDGraph, tuple[str, ...]]:
         return to_scd(mechanism), ()
     if not nx.check_planarity(nx.Graph(mechanism))[0]:
         raise UnsolvableError("the chain is not planar: its panels cannot be drawn without crossings")
-    widest = max(dict(mechanism.degree).values())
+    widest = max(dict(mechanism.degree).values(), default=0)
     for most in range(max(3, widest), widest + _MORE_SIDES + 1):
         scd = simplest_scd_graph(mechanism, most)
         if scd is not None:

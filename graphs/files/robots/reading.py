@@ -22,6 +22,8 @@ from graphs.mechanism.solids import Axis, HingedSolids
 from graphs.types import Floats, JointId
 
 WORLD = "world"
+_LARGEST = 1e100
+"""Numbers of a file are no larger, so that squares of lengths along a chain of bodies are numbers."""
 IDENTITY = (np.eye(3), np.zeros(3))
 Frame = tuple[Floats, Floats]
 """Rotation float[3, 3] and origin float[3]."""
@@ -72,6 +74,8 @@ class Robot:
             values = np.full(count, np.inf)
         if len(values) != count or not np.isfinite(values).all():
             self.fail(place, shown(text), numbered(count, "number"))
+        if float(np.abs(values).max(initial=0.0)) > _LARGEST:
+            self.fail(place, "a number that is too large", f"numbers up to {_LARGEST:.0e}")
         return values
 
     def add_body(self, name: str) -> str:

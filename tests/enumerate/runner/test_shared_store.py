@@ -122,12 +122,13 @@ def test_two_runs_and_a_reader_on_one_store(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("later", [False, True])
-def test_two_runs_of_chains_and_a_reader_in_processes_of_their_own(tmp_path, later):
-    job, store = ChainJob(ChainQuery(14, 1)), tmp_path / "chains.sqlite"
+@pytest.mark.parametrize(("later", "links", "dof"), [(False, 14, 1), (True, 15, 2)])
+def test_two_runs_of_chains_and_a_reader_in_processes_of_their_own(tmp_path, later, links, dof):
+    """The later run comes to a list so long that it begins while the first still writes."""
+    job, store = ChainJob(ChainQuery(links, dof)), tmp_path / "chains.sqlite"
     run(job, SqliteSink(tmp_path / "whole.sqlite"), workers=2)
     whole = list(read_rows(tmp_path / "whole.sqlite"))
-    words = enumerating("chains", "--links", 14, "--dof", 1, "--workers", 1, "-o", store, "--resume")
+    words = enumerating("chains", "--links", links, "--dof", dof, "--workers", 1, "-o", store, "--resume")
     runs = [subprocess.Popen(words, stderr=subprocess.PIPE, text=True)]
     wait_for(lambda: units_in(store) >= 2 * later)
     runs.append(subprocess.Popen(words, stderr=subprocess.PIPE, text=True))

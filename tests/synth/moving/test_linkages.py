@@ -164,7 +164,7 @@ def test_by_default_what_moves_most_turns_once_round(data):
     motion = move(read(data / "linkages" / "bennett.json"), frames=2)
     assert motion.path.stopped == ""
     assert np.abs(list(motion.driven.values())) == pytest.approx([2 * np.pi])
-    assert "360 degrees" in str(motion)
+    assert "drove joint 0 to 360°" in str(motion)
 
 
 @pytest.mark.parametrize("turn", [-3.0, 3.0])
