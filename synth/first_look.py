@@ -116,7 +116,8 @@ def look(mechanism: MechanismLike, *, precision: float | None = None) -> FirstLo
 def _kind(mechanism: Mechanism, answer: JudgedMobility) -> str:
     """Return the sentence that says what it is."""
     if isinstance(mechanism, Sheet):
-        return _kind_of_sheet(sheet_in_frame(mechanism, None))
+        others = mechanism.frames.others if mechanism.frames is not None else 0
+        return _kind_of_sheet(sheet_in_frame(mechanism, None), others)
     if isinstance(mechanism, SurfaceLinkage):
         return f"A linkage on a {mechanism.kind}: {_parts(answer)}{_named(mechanism, answer)}."
     if isinstance(mechanism, HingedSolids):
@@ -134,8 +135,8 @@ def _kind(mechanism: Mechanism, answer: JudgedMobility) -> str:
     return f"{article} {kind}, {where}: {_parts(answer)}{_named(mechanism, answer)}."
 
 
-def _kind_of_sheet(sheet: Sheet) -> str:
-    """Return the sentence on a crease pattern: panels, creases by assignment, state and extent."""
+def _kind_of_sheet(sheet: Sheet, others: int) -> str:
+    """Return the sentence on a crease pattern: panels, creases by assignment, state, extent, other frames."""
     letters = Counter(sheet.assignments)
     creases = [f"{letters[letter]} {word}" for letter, word in _LETTERS.items() if letters[letter]]
     lines = ", ".join(creases) or "no creases listed"
@@ -146,7 +147,8 @@ def _kind_of_sheet(sheet: Sheet) -> str:
     unit = sheet.frames.unit if sheet.frames is not None else None
     extent = " x ".join(f"{span:.4g}" for span in (spans[:2] if flat else spans)) + (f" {unit}" if unit else "")
     state = "A flat crease pattern" if flat else "A crease pattern folded in space"
-    return f"{state}: {numbered(len(sheet.faces), 'panel')}; lines: {lines}; extent {extent}."
+    more = f"; {numbered(others, 'more frame')} in the file (--at FRAME)" if others else ""
+    return f"{state}: {numbered(len(sheet.faces), 'panel')}; lines: {lines}; extent {extent}{more}."
 
 
 def _parts(answer: JudgedMobility) -> str:

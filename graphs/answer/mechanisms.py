@@ -161,7 +161,10 @@ def mobility(
     if isinstance(mechanism, Sheet):
         drawn = sheet_in_frame(mechanism, None if pose is False else pose)
         dual = dual or mechanism_of_sheet(drawn, hinge_flat=hinge_flat, geometry=geometry)
-        return _of_sheet(drawn, dual, exact, pose, hinged=(hinge_flat, geometry))
+        answer = _of_sheet(drawn, dual, exact, pose, hinged=(hinge_flat, geometry))
+        others = mechanism.frames.others if mechanism.frames is not None and not pose else 0
+        more = (f"not read: {numbered(others, 'more frame')} of the file (--at FRAME)",) if others else ()
+        return answer.with_notes((), more)
     if isinstance(mechanism, PolyhedronModel):
         answer = MobilityAnswer.of(mobility_report(mechanism))
         if exact is not False:

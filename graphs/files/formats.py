@@ -250,7 +250,7 @@ def write_converted(
 ) -> tuple[str, ...]:
     """Write a mechanism that was made of another, if any, whose type must then be kept too; else as `write`."""
     path = Path(path)
-    written = format_of(path, WRITERS)
+    written = format_of(path, WRITERS, _ELSEWHERE)
     data, lost = written.to_bytes(mechanism), written.lost(mechanism)
     beside = Beside(path, force=force)
     try:
@@ -380,3 +380,8 @@ WRITERS = formats_by_suffix(
     _text_format(".txt", "list of edges", lambda m: edge_list_text(to_sc(m)), losses.lost_as_bare_graph),
 )
 """Suffix to the format in which mechanisms are written."""
+_ELSEWHERE = (
+    "; with panels .stl .3mf .gltf (synth convert), with a motion .csv (synth convert --table), "
+    "for simulators and CAD .xml .urdf .sdf .usda .step .h (synth convert --as)"
+)
+"""Suffixes that commands write by other tables: `synth.templates.solids.SOLIDS`, `synth.simulation.writing`."""

@@ -58,11 +58,11 @@ def unknown_extension(path: str | Path, known: Iterable[str], rest: str = "") ->
     return FileError(path, "", wrong, expected + rest)
 
 
-def format_of(path: str | Path, formats: Formats[Content]) -> Format[Content]:
-    """Return the format that the suffix of a path names; FileError if there is none."""
+def format_of(path: str | Path, formats: Formats[Content], rest: str = "") -> Format[Content]:
+    """Return the format that the suffix of a path names; FileError if there is none, which adds `rest` to the known."""
     suffix = Path(path).suffix.lower()
     if suffix not in formats:
-        raise unknown_extension(path, formats)
+        raise unknown_extension(path, formats, rest)
     return formats[suffix]
 
 

@@ -53,8 +53,6 @@ def _frame(document: Any, check: Checker, frame: int | None = None) -> tuple[dic
     chosen = _inherited(frames, which, check, notes)
     if which:
         notes.append(f"the key frame is empty; frame {which} of {len(frames) - 1} was read")
-    elif len(frames) > 1:
-        notes.append(f"{numbered(len(frames) - 1, 'more frame')} not read")
     return chosen, list(dict.fromkeys(notes))
 
 
