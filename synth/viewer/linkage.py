@@ -1,14 +1,16 @@
 """A linkage as the page shows and moves it: what is seen of it, its spherical centres, and the data of the solver.
 
 A crease pattern shows its panels. Other linkages have axes only: each joint shows a piece of its axis, each link
-the hull of the pieces of its joints, the least body that carries them. Theory: docs/theory/viewer.md,
+the hull of the pieces of its joints, the least body that carries them. Links on a cone or a cylinder are curved
+shells that lie over their arcs of it. Theory: docs/theory/viewer.md,
 docs/theory/centre-classes.md.
 """
 
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields, is_dataclass
-from itertools import chain, pairwise
+from itertools import chain as chained, pairwise
+from math import ceil
 from typing import Any, Literal
 
 import numpy as np
@@ -22,8 +24,12 @@ from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre
 from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet, sides_of_face
+from graphs.mechanism.surfaces import Cylinder, Surface
 from graphs.tolerances import DOUBLE, EPSILON, Tolerances
 from graphs.types import Floats, Ints, LinkId
+from synth.conformed.behaviours import link_arcs
+from synth.conformed.linkages import OnSurface
+from synth.conformed.rates import ConformedChain
 from synth.drawing.space.panels import joints_of_links
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.closure import frames_of
@@ -34,6 +40,10 @@ _HALF = 0.2
 """Half the length of the piece of an axis that is shown, in mean distances between the joints of a link."""
 _FROM_APEX = (0.35, 1.0)
 """Distances from the common point of all axes between which each is shown."""
+_FACET = np.pi / 60
+"""Widest facet of a curved shell, radians of azimuth."""
+_LAYER = 0.012
+"""Distance between layers of links, in lengths of the ruling lines."""
 _AXIS, _BODY = "-", "|"
 """Letters of lines that are not edges of a crease pattern: pieces of axes, sides of bodies."""
 
@@ -57,13 +67,15 @@ class Bodies:
     """Corners, float[V, 3], faces and lines at the configuration, in units of the extent, about the middle.
 
     Links and joints are indices, -1 for none: the owner of a corner is the link that carries it, a face is (link,
-    vertices), and an edge (vertex, vertex, letter of the crease pattern's edge, joint).
+    vertices), and an edge (vertex, vertex, letter of the crease pattern's edge, joint). `surface` has the corners of
+    triangles of the cone or cylinder on which the linkage lies, float[T, 3, 3]; None if it lies on none.
     """
 
     vertices: Floats
     owners: list[int]
     faces: list[tuple[int, list[int]]]
     edges: list[tuple[int, int, str, int]]
+    surface: Floats | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data: `BodyData` of web/src/page/types.js."""
@@ -72,6 +84,7 @@ class Bodies:
             "owners": self.owners,
             "faces": [{"link": link, "vertices": around} for link, around in self.faces],
             "edges": [{"ends": [a, b], "letter": letter, "joint": joint} for a, b, letter, joint in self.edges],
+            "surface": page_data(self.surface),
         }
 
 
@@ -119,6 +132,65 @@ def bodies_of_linkage(linkage: PosedLinkage) -> Bodies:
         sides -= {(first + 2 * place, first + 2 * place + 1) for place in range(len(joints))}  # those are axes
         edges += [(a, b, _BODY, -1) for a, b in sorted(sides)]
     return Bodies(np.concatenate([np.zeros((0, 3)), *vertices]), owners, faces, edges)
+
+
+def bodies_on_surface(on_surface: OnSurface, linkage: PosedLinkage) -> Bodies:
+    """Return links as shells that lie over their arcs of a cone or a cylinder, in layers, and that surface."""
+    surface = on_surface.surface
+    assert surface is not None, "a linkage at a configuration lies on one surface"
+    chain = ConformedChain.of(on_surface.chain)
+    number = {link: place for place, link in enumerate(linkage.graph.nodes)}
+    azimuths = np.remainder(np.asarray(on_surface.places, dtype=float), 2 * np.pi)
+    arcs = link_arcs(chain, azimuths, on_surface.begins(chain))
+    near, far = surface.spans
+    vertices: list[Floats] = []
+    owners: list[int] = []
+    faces: list[tuple[int, list[int]]] = []
+    edges: list[tuple[int, int, str, int]] = []
+    shown: set[int] = set()
+    for link, joints, (begin, length), layer in zip(chain.links, chain.joints_of, arcs, _layers(arcs), strict=True):
+        first, owner = len(owners), number[link]
+        inside = np.remainder(azimuths[list(joints)] - begin, 2 * np.pi)
+        inside[inside > length + DOUBLE.same_configuration] = 0.0  # a full turn less rounding
+        around = np.unique(np.concatenate([np.linspace(0.0, length, 1 + max(1, ceil(length / _FACET))), inside]))
+        height = _LAYER * (layer + 1) * (far - near)
+        vertices.append(surface.place(begin + around[:, None], np.array([[near, far]]), height).reshape(-1, 3))
+        owners += [owner] * (2 * len(around))
+        corner = range(first, first + 2 * len(around), 2)
+        for a, b in pairwise(corner):
+            faces.append((owner, [a, b, b + 1, a + 1]))
+            edges += [(a, b, _BODY, -1), (a + 1, b + 1, _BODY, -1)]
+        for joint, at in zip(joints, inside, strict=True):
+            if joint not in shown:
+                a = corner[int(np.abs(around - at).argmin())]
+                edges.append((a, a + 1, _AXIS, joint))
+                shown.add(joint)
+    local = (np.concatenate(vertices) - linkage.middle) / linkage.extent
+    return Bodies(local, owners, faces, edges, (_surface_triangles(surface) - linkage.middle) / linkage.extent)
+
+
+def _layers(arcs: Floats) -> list[int]:
+    """Return the layer of each link, the lowest in which its arc, float[N, 2], overlaps no arc before it."""
+    layers: list[int] = []
+    for place, (begin, length) in enumerate(arcs):
+        taken = {
+            layers[other]
+            for other, (start, width) in enumerate(arcs[:place])
+            if np.remainder(start - begin, 2 * np.pi) < length - DOUBLE.same_configuration
+            or np.remainder(begin - start, 2 * np.pi) < width - DOUBLE.same_configuration
+        }
+        layers.append(next(layer for layer in range(place + 1) if layer not in taken))
+    return layers
+
+
+def _surface_triangles(surface: Surface) -> Floats:
+    """Return triangles of a cone from its apex on, or of a cylinder, all round: float[T, 3, 3]."""
+    near, far = surface.spans
+    turns = np.linspace(0.0, 2 * np.pi, 1 + ceil(2 * np.pi / _FACET))
+    low, high = (surface.place(turns, along, 0.0) for along in (near if isinstance(surface, Cylinder) else 0.0, far))
+    one = np.stack([low[:-1], high[:-1], high[1:]], axis=1)
+    other = np.stack([low[:-1], high[1:], low[1:]], axis=1)
+    return np.concatenate([one, other])
 
 
 def hull_faces(corners: Floats) -> list[list[int]]:
@@ -237,7 +309,7 @@ def factor_order(joints: int, loops: Sequence[Sequence[int]]) -> Ints:
     """
     if not joints:
         return np.zeros(0, dtype=np.int64)
-    columns = np.fromiter(chain.from_iterable(loops), dtype=np.int64)
+    columns = np.fromiter(chained.from_iterable(loops), dtype=np.int64)
     rows = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
     seen = scipy.sparse.csr_matrix((np.ones(len(columns)), (rows, columns)), shape=(len(loops), joints))
     pattern = (seen.T @ seen + scipy.sparse.identity(joints)).tocsc()

@@ -15,9 +15,11 @@ from graphs.convert.table import Mechanism
 from graphs.errors import SynthedraError, UnsolvableError
 from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.mechanism.surfaces import SurfaceLinkage
 from graphs.printing import plain
 from graphs.tolerances import DOUBLE, leading
 from graphs.types import Floats, Ints
+from synth.conformed.linkages import linkage_on_surfaces
 from synth.drawing.mechanisms.creases import places_on_page
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.writing import svg_text
@@ -39,6 +41,7 @@ from synth.viewer.linkage import (
     ShownCentre,
     bodies_of_linkage,
     bodies_of_sheet,
+    bodies_on_surface,
     centres_of,
     page_data,
     solver_data,
@@ -327,9 +330,17 @@ def _moving(
             notes.append(str(error))
     centres = () if still else centres_of(at)
     if not isinstance(at, SheetConfiguration):
-        return at, MovingLinkage(at.linkage, bodies_of_linkage(at.linkage), ways, centres, ground=0, limited=False)
+        return at, MovingLinkage(at.linkage, _bodies(mechanism, at), ways, centres, ground=0, limited=False)
     bodies = bodies_of_sheet(at.sheet, at.mechanism, at.linkage)
     return at, MovingLinkage(at.linkage, bodies, ways, centres, largest_panel(at.mechanism.panels), limited=True)
+
+
+def _bodies(mechanism: Mechanism, at: Configuration) -> Bodies:
+    """Return the bodies of a linkage by its axes: curved shells if it lies on a cone or a cylinder."""
+    if not isinstance(mechanism, SurfaceLinkage):
+        return bodies_of_linkage(at.linkage)
+    (on_surface,) = linkage_on_surfaces(mechanism)
+    return bodies_on_surface(on_surface, at.linkage)
 
 
 def _pictures(mechanism: Mechanism | Configuration, notes: list[str]) -> dict[str, str]:

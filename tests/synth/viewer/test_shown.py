@@ -10,6 +10,7 @@ from folded_sheets import unassigned_map
 import synth
 from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet
+from synth.conformed.linkages import loop_on_cones, loop_on_cylinders
 from synth.motion.linkage import linkage_of_sheet
 from synth.patterns.creases import miura
 from synth.viewer.linkage import factor_order, hull_faces, solver_data
@@ -159,3 +160,28 @@ def test_what_does_not_fold_flat_has_no_layers(data):
     assert shown_of(read(data / "linkages" / "bennett.json")).flat is None
     corners = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (-1.0, -1.0))
     assert shown_of(Sheet(4, (), "", ((0, 1, 2), (0, 2, 3), (0, 3, 1)), corners)).flat is None
+
+
+@pytest.mark.parametrize("kind", ["cone", "cylinder"])
+def test_links_on_a_surface_are_curved_shells_over_it(kind):
+    if kind == "cone":
+        linkage = loop_on_cones(np.radians([120, 95, 45, 85]))[0].linkage()
+    else:
+        linkage = loop_on_cylinders([4.0, 3.0, 5.0, 1.0])[0].linkage()
+    moving = shown_of(linkage).moving
+    bodies, posed, surface = moving.bodies, moving.linkage, linkage.surface
+    places = posed.middle + posed.extent * bodies.vertices
+    across = np.hypot(places[:, 0], places[:, 2])  # from the axis, y
+    if kind == "cone":  # outside of the cone, by at most four layers
+        off = across * np.sin(surface.angle) + places[:, 1] * np.cos(surface.angle)
+    else:
+        off = across - surface.radius
+    size = np.ptp(surface.spans)
+    assert off.min() > 0
+    assert off.max() < 0.05 * size
+    for a, b, letter, joint in bodies.edges:
+        if letter == "-":  # axes are ruling lines: parallel to those of the linkage
+            along = bodies.vertices[b] - bodies.vertices[a]
+            assert np.linalg.norm(np.cross(along, posed.directions[joint])) < 1e-9
+    assert {owner for owner, _ in bodies.faces} == set(range(4))
+    assert len(bodies.faces) > 100  # shells are curved

@@ -18,6 +18,10 @@ const FROM = new three.Vector3(0.45, -1.15, 1.05).normalize();
 /** Of what is shown, in units of the extent, at least. */
 const LEAST = 0.2;
 const TURN = 0.1, ZOOM = 1.1;
+/** The axis of a cone or a cylinder is y in its data, and upwards on the page. */
+const UPRIGHT = new three.Quaternion().setFromAxisAngle(EAST, Math.PI / 2);
+const LYING = new three.Quaternion();
+const SEEN_THROUGH = 0.22;
 
 export class Model {
   /** The request to draw that is not yet answered; 0: none. */
@@ -45,6 +49,7 @@ export class Model {
     /** @type {number[]} - A quaternion. */
     this.turn = [0, 0, 0, 1];
     this.scene.add(this.group);
+    this.upright = LYING;
     this.chosen = { joint: -1, link: -1 };
     /** @type {Set<number>} - Links that pass through others. */
     this.crossed = new Set();
@@ -81,6 +86,8 @@ export class Model {
     this.lines = new LineSegments2(new LineSegmentsGeometry(), pen);
     this.mark = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: CHOSEN }));
     this.group.clear();
+    this.upright = bodies.surface ? UPRIGHT : LYING;
+    if (bodies.surface) this.group.add(surfaceMesh(bodies.surface));
     this.centres.show(mechanism.data.centres);
     this.group.add(this.mesh, new three.Mesh(panels, back), this.lines, this.mark, this.centres.group);
     this.crossed = new Set();
@@ -111,10 +118,11 @@ export class Model {
     gathered(mechanism.places, ends, row);
     lines.geometry.setPositions(row);
     this.centres.moved(mechanism);
-    this.turn = turnBack(mechanism.places, first, turn);
+    const fixed = Boolean(mechanism.data.bodies.surface); // links move on a surface that stays
+    this.turn = fixed ? turn : turnBack(mechanism.places, first, turn);
     const [x, y, z, w] = this.turn;
-    this.group.quaternion.set(x, y, z, w);
-    const [a, b, c] = middleOf(mechanism.places);
+    this.group.quaternion.set(x, y, z, w).premultiply(this.upright);
+    const [a, b, c] = middleOf(fixed ? first : mechanism.places);
     this.group.position.copy(new three.Vector3(a, b, c).applyQuaternion(this.group.quaternion).negate());
     this.group.updateMatrixWorld();
     this.#marked();
@@ -247,6 +255,7 @@ export class Model {
   #faceColour(link) {
     if (link === this.chosen.link) return colour("chosen-panel");
     if (this.crossed.has(link)) return colour("crossed");
+    if (this.mechanism?.data.bodies.surface) return clusterColour(link);
     const cluster = this.mechanism?.clusterOf.get(link);
     return cluster === undefined ? colour("panel") : clusterColour(cluster);
   }
@@ -290,4 +299,17 @@ export class Model {
     this.controls.update();
     this.render();
   }
+}
+
+/**
+ * Return a surface through which links behind it are seen.
+ *
+ * @param {number[][][]} triangles - Corners.
+ */
+function surfaceMesh(triangles) {
+  const geometry = new three.BufferGeometry();
+  geometry.setAttribute("position", new three.BufferAttribute(Float32Array.from(triangles.flat(2)), 3));
+  geometry.computeVertexNormals();
+  const look = { color: 0x888888, transparent: true, opacity: SEEN_THROUGH, depthWrite: false };
+  return new three.Mesh(geometry, new three.MeshLambertMaterial({ ...look, side: three.DoubleSide }));
 }

@@ -8,6 +8,7 @@
  * @property {number[]} owners - The link that carries each; -1 for none.
  * @property {{link: number, vertices: number[]}[]} faces
  * @property {{ends: [number, number], letter: string, joint: number}[]} edges - Joint -1: none.
+ * @property {number[][][] | null} [surface] - Corners of triangles of the cone or cylinder that a linkage lies on.
  *
  * @typedef {object} WayData
  * @property {string} told
