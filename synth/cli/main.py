@@ -114,6 +114,7 @@ class _LazyGroup(NamedGroup):
         values = vars(import_module(f"synth.cli.commands.{file}")).values()
         command = next(value for value in values if isinstance(value, click.Command) and value.name == cmd_name)
         command.short_help = _SHORT_HELP[cmd_name]
+        _let_cite(command, cmd_name)
         return command
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
@@ -145,6 +146,29 @@ class _LazyGroup(NamedGroup):
             if isinstance(error, SynthedraError | click.ClickException | click.exceptions.Exit | click.Abort):
                 raise
             _end_with_fault(error, debug=ctx.params["debug"])
+
+
+def _let_cite(command: click.Command, name: str) -> None:
+    """Give a command, or those of a group, the option --cite, if its answers rest on sources."""
+    from synth.citing import bibtex, sources_of
+
+    if isinstance(command, click.Group):
+        for inner, each in command.commands.items():
+            _let_cite(each, f"{name} {inner}")
+        return
+    sources = sources_of(name)
+    if not sources or any(option.name == "cite" for option in command.params):
+        return
+
+    def cite(ctx: click.Context, _parameter: click.Parameter, requested: bool) -> None:
+        if requested and not ctx.resilient_parsing:
+            click.echo(bibtex(sources))
+            ctx.exit()
+
+    help_text = "Print the sources on which the answer rests as BibTeX, and exit."
+    command.params.append(
+        click.Option(["--cite"], is_flag=True, is_eager=True, expose_value=False, callback=cite, help=help_text)
+    )
 
 
 def _end_with_fault(error: Exception, *, debug: bool) -> NoReturn:
