@@ -143,7 +143,8 @@ class CandidateChain:
             columns |= {"full_rank": bool} if self.single else {}
         if placed and surface is not None:
             size, sizes = ("lambda_deg", "link_angles_deg") if isinstance(surface, Cone) else ("radius", "link_lengths")
-            columns |= {size: float, sizes: ListColumn(" ", "-", ":", None)}
+            columns |= {size: float} | ({"half_angle_deg": float} if isinstance(surface, Cone) else {})
+            columns |= {sizes: ListColumn(" ", "-", ":", None)}
         if self.grounded and (placed or self.single):
             columns |= {"ways": ListColumn(" ", ":", kind=str), "linkage": str}
             if not (placed or opposites):
@@ -266,12 +267,20 @@ def placed_rows(
         row += [int(rank[i]), int(motion.freedoms[i]), bool(singular[i]), float(f"{least[i]:.9g}")]
         row += [of_loops, of_loops.count("Grashof")]
         if surface is not None and sizes is not None:
-            row += [round(float(np.degrees(surface.angle)), 10) if isinstance(surface, Cone) else surface.radius]
+            row += _size_of(surface)
             row += [tuple((*pair, float(f"{x:.10g}")) for pair, x in zip(joined, sizes[i], strict=True))]
         if ways is not None:
             row += ways[i]
         rows.append(tuple(row))
     return rows
+
+
+def _size_of(surface: Surface) -> list[float]:
+    """Return lambda and the half angle of a cone, degrees, or the radius of a cylinder."""
+    if isinstance(surface, Cone):
+        angle = round(float(np.degrees(surface.angle)), 10)
+        return [angle, round(90.0 - angle, 10)]
+    return [surface.radius]
 
 
 def _link_sizes(places: Floats, pairs: Sequence[tuple[int, int]], surface: Surface) -> list[list[float]]:

@@ -196,6 +196,32 @@ def in_radians(values: Sequence[float]) -> list[float]:
     return [radians(value) for value in values]
 
 
+_HALF_ANGLE = "synth.half_angle"
+"""Key of ``ctx.meta`` under which --half-angle is kept for --lambda."""
+
+
+def cone_angle(text: str) -> Callable[[_Command], _Command]:
+    """Return the options --lambda, with its help, and --half-angle: 90 degrees less lambda; they exclude each other."""
+
+    def keep(ctx: click.Context, _parameter: click.Parameter, half_angle: float | None) -> None:
+        ctx.meta[_HALF_ANGLE] = half_angle
+
+    def read(ctx: click.Context, _parameter: click.Parameter, angle: float | None) -> float | None:
+        half_angle = ctx.meta.get(_HALF_ANGLE)
+        if angle is not None and half_angle is not None:
+            raise click.UsageError("--lambda and --half-angle exclude each other; try one of them")
+        return angle if half_angle is None else 90.0 - half_angle
+
+    def both(command: _Command) -> _Command:
+        command = value(
+            "--half-angle", "DEGREES", "Half angle of the cone: 90 degrees less lambda.", type=float, is_eager=True,
+            expose_value=False, callback=keep,
+        )(command)  # fmt: skip
+        return value("--lambda cone_angle", "DEGREES", text, type=float, callback=read)(command)
+
+    return both
+
+
 def surface_from_options(cone_angle: float | None, radius: float | None) -> Surface | None:
     """Return the cone of --lambda, in degrees, or the cylinder of --radius; None without either."""
     from graphs.mechanism.surfaces import Cone, Cylinder

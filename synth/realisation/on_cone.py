@@ -97,6 +97,7 @@ class ConeRealisation(Printed):
             "kind": "cone",
             "configuration": configuration_of(self.linkage).to_json(other_question=_OTHER_QUESTION),
             "lambda_deg": degrees(self.cone_angle),
+            "half_angle_deg": 90.0 - degrees(self.cone_angle),
             "steps_deg": [[a, b, degrees(x)] for (a, b), x in (self.linkage.steps or {}).items()],
             "link_angles_deg": [[a, b, degrees(x)] for (a, b), x in self.arcs.items()],
             "loops": [list(loop.joints) for loop in chain.loops],
@@ -120,7 +121,8 @@ class ConeRealisation(Printed):
             for pair, arc in self.arcs.items()
         ]
         return [
-            f"linkage on a cone of lambda {degrees(self.cone_angle):.6g}°: {kind_in_words(chain)}{sizes}",
+            f"linkage on a cone of lambda {degrees(self.cone_angle):.6g}° (half angle "
+            f"{90.0 - degrees(self.cone_angle):.6g}°): {kind_in_words(chain)}{sizes}",
             "azimuths (deg)  " + ", ".join(f"{plain(joint)} {degrees(t):.6g}" for joint, t in azimuths),
             TableBlock(("link", "joints", "arc (deg)"), rows, numbers=["arc (deg)"]),
             "circuits " + ", ".join(self.circuits) + f"; all steps of links at least "

@@ -546,7 +546,7 @@ class SupplementaryLinkages(Printed):
             )
             for turned, one in zip(self.turned, self.maps, strict=True)
         ]
-        heads = ("joints turned", "link angles (deg)", "T4 (deg)", "cones: lambda (deg)")
+        heads = ("joints turned", "link angles (deg)", "T4 (deg)", "cones: lambda (half angle) (deg)")
         return [
             f"{len(self.maps)} linkages on the same joint lines, {self.distinct} with different link angles",
             TableBlock(heads, rows, ["T4 (deg)"]),
@@ -577,9 +577,10 @@ def _fourth(cone_map: loop_maps.ConeMap) -> float:
 
 
 def _cones(cone_map: loop_maps.ConeMap) -> str:
-    surfaces = [f"{degrees(cone.size):.8g} {cone.circuit}" for cone in cone_map.cones]
+    surfaces = [f"{degrees(cone.size):.8g} ({90.0 - degrees(cone.size):.8g}) {cone.circuit}" for cone in cone_map.cones]
     surfaces += [
-        f"{degrees(low):.6g} to {degrees(high):.6g} {family.circuit}"
+        f"{degrees(low):.6g} to {degrees(high):.6g} "
+        f"({90.0 - degrees(high):.6g} to {90.0 - degrees(low):.6g}) {family.circuit}"
         for family in cone_map.families
         for low, high in [family.interval]
     ]

@@ -33,7 +33,7 @@ _LINKAGE = ("one-way", "both-ways", "by-angles", "not-known")
 @options.flag("--opposites", "Tell apart the orders of the joints and of the points opposite to them.")
 @options.number("--sample samples", "N", "Number of random sets of angles per order.")
 @options.seed("Random seed for --sample.")
-@options.value("--lambda cone_angle", "DEGREES", "Cone angle, for link angles and Grashof classes.", type=float)
+@options.cone_angle("Cone angle, for link angles and Grashof classes.")
 @options.value(
     "--radius", "R", "Radius of a cylinder instead of a cone, for link lengths and Grashof classes.", type=float
 )

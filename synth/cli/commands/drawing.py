@@ -236,7 +236,7 @@ _SPELLED = {"cone_angle": "--lambda", "number": "--cone", "hinge_kind": "--hinge
     "requires --hinge-width.", default="fold",
 )  # fmt: skip
 @options.value("--hinge-width", "MM", "Width of offset, living or gap hinges.", type=options.LENGTH)
-@options.value("--lambda cone_angle", "DEGREES", "For a linkage on a cone: cone angle.", type=float)
+@options.cone_angle("For a linkage on a cone: cone angle.")
 @options.NUMBER_OF_SURFACE
 @options.value("--radius", "MM", "Radius of the cylinder.  [default: that of the linkage, in mm]", type=options.LENGTH)
 @options.value(

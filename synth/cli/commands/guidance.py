@@ -197,12 +197,16 @@ def _cones_json(four_bar: synth.guidance.GuidedFourBar) -> dict[str, Any]:
     }
 
 
+def _with_half_angle(angle: float) -> str:
+    return f"{angle:.4f} ({90.0 - angle:.4f})"
+
+
 def _table_of_cones(listed: Sequence[synth.guidance.GuidedFourBar]) -> Any:
-    rows = table("row", "ground driver coupler follower", "cone angle", "circuit", numbers=["row", "cone angle"])
+    rows = table("row", "ground driver coupler follower", "lambda (half angle)", "circuit", numbers=["row"])
     for number, four_bar in enumerate(listed, start=1):
         forms = _cones_json(four_bar)
-        sizes = [(cone, f"{cone['lambda_deg']:.4f}") for cone in forms["cones"]]
-        sizes += [(family, "{:.4f} to {:.4f}".format(*family["interval_deg"])) for family in forms["families"]]
+        sizes = [(cone, _with_half_angle(cone["lambda_deg"])) for cone in forms["cones"]]
+        sizes += [(family, " to ".join(map(_with_half_angle, family["interval_deg"]))) for family in forms["families"]]
         if not sizes:
             rows.add_row(str(number), "on no cone", "", "")
         for cone, size in sizes:

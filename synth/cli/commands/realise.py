@@ -150,10 +150,7 @@ _FIGURES = 12
     "--size", None, "Longer side of the bounding box of the panels, in any unit.  [default: 1]",
     type=options.LENGTH,
 )  # fmt: skip
-@options.value(
-    "--lambda cone_angle", "DEGREES", "For --as cone: cone angle, from the plane across its axis.  [default: 30]",
-    type=float,
-)  # fmt: skip
+@options.cone_angle("For --as cone: cone angle, from the plane across its axis.  [default: 30]")
 @options.seed("Random seed; another seed gives other coordinates.")
 @options.number("--tries", "N", "Largest number of drawings to try.", most=10_000, default=12)
 @options.flag(

@@ -128,7 +128,7 @@ def test_four_bars_on_cones(data):
         assert one["cones"][0].keys() == {"link_angles_deg", "lambda_deg", "circuit", "signs", "k"}
         assert one["cones"][0]["link_angles_deg"] == pytest.approx(one["link_angles_deg"])
     out = run("fourbar", "--orientations", given, "--usable", "--best", 1, "--cones").stdout
-    assert re.search(r"1 +60\.00 +20\.00 +55\.00 +50\.00 +55\.0986 +open", out)
+    assert re.search(r"1 +60\.00 +20\.00 +55\.00 +50\.00 +55\.0986 \(34\.9014\) +open", out)
 
 
 def test_without_a_usable_four_bar_there_is_no_motion(corrected, tmp_path):
