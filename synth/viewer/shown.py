@@ -58,6 +58,8 @@ _MOST_PANELS = 1200
 """Larger sheets are shown as they are; their motion is looked for on request only."""
 _LAYER_VARIABLES = 120
 """Pairs of panels that depend on each other up to which layer orders are counted: all pairs of a map of 4 x 4."""
+_MOST_FRAMES = 200
+"""Frames of a file up to which the flat one is looked for."""
 _MOST_DRIVERS = 40
 """Joints with a slider of their own, at most; others can be dragged."""
 
@@ -283,7 +285,7 @@ def shown_of(
         answer = replace(answer, verdict=verdict_of_type(answer, on_request(placed)))
     verdict = answer.verdict
     report("drawing", 3, _STEPS)
-    pictures = _pictures(placed if at is None else at, notes)
+    pictures = _pictures(_flat_pattern(mechanism) or (placed if at is None else at), notes)
     sheet: Sheet | None = placed if isinstance(placed, Sheet) else None
     drawn = None
     if sheet is not None and sheet.coordinates is not None and lies_flat(sheet):
@@ -333,6 +335,17 @@ def _moving(
         return at, MovingLinkage(at.linkage, _bodies(mechanism, at), ways, centres, ground=0, limited=False)
     bodies = bodies_of_sheet(at.sheet, at.mechanism, at.linkage)
     return at, MovingLinkage(at.linkage, bodies, ways, centres, largest_panel(at.mechanism.panels), limited=True)
+
+
+def _flat_pattern(mechanism: Mechanism) -> Sheet | None:
+    """Return the frame of a folded sheet's file that lies flat; None if it lies flat itself, or the file has none."""
+    if not isinstance(mechanism, Sheet) or mechanism.frames is None or mechanism.frames.others > _MOST_FRAMES:
+        return None
+    frames = [mechanism.frames.frame(number) for number in range(mechanism.frames.others + 1)]
+    placed = [sheet for sheet in frames if sheet.coordinates is not None]
+    if not placed or lies_flat(placed[0]):
+        return None
+    return next((sheet for sheet in placed if lies_flat(sheet) and len(sheet.faces) == len(placed[0].faces)), None)
 
 
 def _bodies(mechanism: Mechanism, at: Configuration) -> Bodies:

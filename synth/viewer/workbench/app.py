@@ -15,17 +15,20 @@ from math import isfinite
 
 import uvicorn
 from starlette.applications import Starlette
+from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
-from starlette.responses import HTMLResponse, PlainTextResponse, Response, StreamingResponse
+from starlette.responses import HTMLResponse, JSONResponse, PlainTextResponse, Response, StreamingResponse
 from starlette.routing import Route
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from enumerate.runner.stopping import interruptible
+from graphs.files.formats import READERS
 from synth.viewer.pages import page
 from synth.viewer.shown import Shown
 from synth.viewer.workbench.asking import Engine, file_name
 from synth.viewer.workbench.reading import KINDS, MOTION, REFUSED, are_edits
+from synth.viewer.workbench.samples import SAMPLES, sample_bytes
 
 MOST_BYTES = 50_000_000
 """Largest size of a file."""
@@ -180,6 +183,17 @@ def application(place: Place, text: str, presence: Presence, sources: Sequence[b
             return _error("no such file", 404)
         return Response(content, media_type="application/octet-stream", headers=_HEADERS)
 
+    async def samples(_: Request) -> Response:
+        listed = [{"name": name, "title": title} for name, title, _ in SAMPLES]
+        return JSONResponse({"samples": listed, "formats": sorted(READERS)}, headers=_HEADERS)
+
+    async def sample(request: Request) -> Response:
+        number = request.query_params.get("number", "")
+        if not (number.isascii() and number.isdigit() and len(number) < 3 and int(number) < len(SAMPLES)):
+            return _error("no such sample", 404)
+        content = await run_in_threadpool(sample_bytes, int(number))
+        return Response(content, media_type="application/octet-stream", headers=_HEADERS)
+
     async def line(_: Request) -> Response:
         return StreamingResponse(presence.line(), media_type="text/plain", headers=_HEADERS)
 
@@ -188,6 +202,8 @@ def application(place: Place, text: str, presence: Presence, sources: Sequence[b
         Route("/shown", shown, methods=["POST"]),
         Route("/template", template, methods=["POST"]),
         Route("/given", source, methods=["GET"]),
+        Route("/samples", samples, methods=["GET"]),
+        Route("/sample", sample, methods=["GET"]),
         Route("/open", line, methods=["GET"]),
     ]
     app = Starlette(routes=routes)

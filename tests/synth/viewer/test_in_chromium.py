@@ -258,6 +258,8 @@ def test_a_limit_is_told_in_words(opened):
 
 def test_a_centre_that_is_clicked_tells_what_it_is(opened, data):
     window = opened(PANELS["bird base"](data))
+    assert not window.tab.get_by_label("centres").is_checked()  # on a sheet they hide creases
+    window.tab.get_by_label("centres").check()
     window.tab.locator(".model canvas").click()
     told = window.tab.locator(".part").text_content()
     assert told.startswith("Centre 0, explicit: a vertex of panels; of joints ")

@@ -1,6 +1,7 @@
 """Who asks the workbench, and what is answered: its own page gets in, nobody else does."""
 
 import asyncio
+import json
 import random
 
 import pytest
@@ -11,6 +12,7 @@ from starlette.responses import PlainTextResponse
 
 from synth.viewer.workbench.app import MOST_BYTES, Guard, Place, Presence, application
 from synth.viewer.workbench.asking import file_name
+from synth.viewer.workbench.reading import answered as answer_of
 
 PLACE = Place(8123, "T0ken-of-this_one")
 OWN = [(b"host", b"127.0.0.1:8123")]
@@ -162,3 +164,16 @@ def test_it_ends_some_time_after_the_last_page_was_closed_and_not_at_a_reload():
         return before, ended
 
     assert asyncio.run(story()) == ([], [True])
+
+
+def test_samples_are_listed_and_made_and_each_can_be_shown():
+    app = application(PLACE, "page", Presence(lambda: None))
+    status, text = asyncio.run(answered(app, f"/{PLACE.token}/samples", "GET", OWN))
+    listed = json.loads(text)
+    assert status == 200
+    assert ".fold" in listed["formats"]
+    for number, sample in enumerate(listed["samples"]):
+        status, text = asyncio.run(answered(app, f"/{PLACE.token}/sample", "GET", OWN, f"number={number}"))
+        assert status == 200
+        assert answer_of(sample["name"], text.encode())["shown"]["moving"]["ways"]
+    assert asyncio.run(answered(app, f"/{PLACE.token}/sample", "GET", OWN, "number=99"))[0] == 404

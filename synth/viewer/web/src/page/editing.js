@@ -57,12 +57,13 @@ export class Editing {
    * Tell what can be done with what is seen now.
    *
    * @param {Source | null} source
+   * @param {boolean} undoable - Whether there is a change to take back.
    */
-  changed(source) {
+  changed(source, undoable) {
     const seen = this.page.seen();
     this.group.hidden = !source;
     this.lock.disabled = this.remove.disabled = this.page.joint() === null;
-    this.undo.disabled = !source?.edits.length;
+    this.undo.disabled = !undoable;
     this.motion.hidden = !seen.on_request;
     if (!source) this.#open(false);
     if (this.drawn !== seen.drawn) this.#clear();

@@ -86,6 +86,7 @@ class Page {
       shown: this.all,
       add: (shown) => { this.all.push(shown); this.#listed(this.all.length - 1); },
       put: (shown, number) => { this.all[number] = shown; this.#listed(number); },
+      drop: (number) => { this.all.splice(number, 1); this.#listed(Math.max(0, number - 1)); },
       number: () => this.all.indexOf(this.shown),
       seen: () => this.shown,
       joint: () => this.pattern.marked?.joint ?? null,
@@ -159,6 +160,8 @@ class Page {
     parts.model.hidden = !this.#mechanism;
     parts.controls.hidden = !this.#mechanism;
     parts.svg.disabled = !shown.pictures.light;
+    parts.centres.checked = !shown.moving?.solver.limited; // on a sheet they hide creases
+    this.#model?.showCentres(parts.centres.checked);
     if (parts.centres.parentElement) parts.centres.parentElement.hidden = !shown.moving?.centres.length;
     const moving = [parts.play, parts.driver, parts.way, parts.reset];
     for (const one of moving) one.disabled = !moves;

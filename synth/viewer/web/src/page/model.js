@@ -22,6 +22,8 @@ const TURN = 0.1, ZOOM = 1.1;
 const UPRIGHT = new three.Quaternion().setFromAxisAngle(EAST, Math.PI / 2);
 const LYING = new three.Quaternion();
 const SEEN_THROUGH = 0.22;
+/** How bright the back of a marked panel is, of its front. */
+const BACK = 0.6;
 
 export class Model {
   /** The request to draw that is not yet answered; 0: none. */
@@ -77,10 +79,12 @@ export class Model {
       panels.setAttribute(name, new three.BufferAttribute(new Float32Array(3 * this.triangles.corners.length), 3));
     }
     this.panels = panels;
+    this.backs = new three.BufferGeometry();
+    this.backs.setAttribute("position", panels.attributes.position);
+    this.backs.setAttribute("color", panels.attributes.color.clone());
     const look = { vertexColors: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 2 };
-    const solid = !mechanism.data.solver.limited;
     const front = new three.MeshLambertMaterial({ ...look, side: three.FrontSide });
-    const back = new three.MeshLambertMaterial({ ...look, side: three.BackSide, color: solid ? 0xffffff : 0xb8b8b8 });
+    const back = new three.MeshLambertMaterial({ ...look, side: three.BackSide });
     this.mesh = new three.Mesh(panels, front);
     const pen = new LineMaterial({ linewidth: LINE, vertexColors: true });
     this.lines = new LineSegments2(new LineSegmentsGeometry(), pen);
@@ -89,7 +93,7 @@ export class Model {
     this.upright = bodies.surface ? UPRIGHT : LYING;
     if (bodies.surface) this.group.add(surfaceMesh(bodies.surface));
     this.centres.show(mechanism.data.centres);
-    this.group.add(this.mesh, new three.Mesh(panels, back), this.lines, this.mark, this.centres.group);
+    this.group.add(this.mesh, new three.Mesh(this.backs, back), this.lines, this.mark, this.centres.group);
     this.crossed = new Set();
     this.coloured();
     this.fit();
@@ -114,6 +118,8 @@ export class Model {
     panels.attributes.position.needsUpdate = true;
     panels.computeVertexNormals();
     panels.computeBoundingSphere();
+    this.backs?.setAttribute("normal", panels.attributes.normal);
+    if (this.backs) this.backs.boundingSphere = panels.boundingSphere;
     const row = new Float32Array(3 * ends.length);
     gathered(mechanism.places, ends, row);
     lines.geometry.setPositions(row);
@@ -135,12 +141,14 @@ export class Model {
     const { mechanism, panels, triangles, lines, drawn } = this;
     if (!mechanism || !panels || !triangles || !lines || !drawn) return;
     this.scene.background = new three.Color(colour("pane"));
-    const colours = panels.attributes.color;
-    triangles.faces.forEach((face, n) => {
-      const shade = new three.Color(this.#faceColour(mechanism.data.bodies.faces[face].link));
-      for (let corner = 3 * n; corner < 3 * n + 3; corner++) colours.setXYZ(corner, shade.r, shade.g, shade.b);
-    });
-    colours.needsUpdate = true;
+    for (const side of /** @type {const} */ (["front", "back"])) {
+      const colours = (side === "front" ? panels : this.backs ?? panels).attributes.color;
+      triangles.faces.forEach((face, n) => {
+        const shade = this.#faceColour(mechanism.data.bodies.faces[face].link, side);
+        for (let corner = 3 * n; corner < 3 * n + 3; corner++) colours.setXYZ(corner, shade.r, shade.g, shade.b);
+      });
+      colours.needsUpdate = true;
+    }
     const row = drawn.flatMap(({ letter, joint }) => {
       const shade = new three.Color(mechanism.stiff.has(joint) ? colour("stiff") : letterColour(letter));
       return [shade.r, shade.g, shade.b, shade.r, shade.g, shade.b];
@@ -212,7 +220,7 @@ export class Model {
     const pointer = new three.Vector2(((x - left) / width) * 2 - 1, 1 - ((y - top) / height) * 2);
     const caster = new three.Raycaster();
     caster.setFromCamera(pointer, this.camera);
-    const sides = this.group.children.filter((one) => one instanceof three.Mesh && one.geometry === this.panels);
+    const sides = this.group.children.filter((one) => one instanceof three.Mesh && [this.panels, this.backs].includes(one.geometry));
     const [hit] = caster.intersectObjects(sides, false);
     if (!hit || hit.faceIndex == null) return null;
     const face = mechanism.data.bodies.faces[triangles.faces[hit.faceIndex]];
@@ -251,13 +259,26 @@ export class Model {
     mark.geometry.setPositions(row);
   }
 
+  /**
+   * Return the colour of a side of a link: of panels as in pictures, unless they are marked.
+   *
+   * @param {number} link
+   * @param {"front" | "back"} side
+   */
+  #faceColour(link, side) {
+    const { mechanism } = this, sheet = mechanism?.data.solver.limited ?? false;
+    const marked = this.#markColour(link);
+    if (marked === null) return new three.Color(colour(sheet ? `paper-${side}` : "panel"));
+    return new three.Color(marked).multiplyScalar(sheet && side === "back" ? BACK : 1);
+  }
+
   /** @param {number} link */
-  #faceColour(link) {
+  #markColour(link) {
     if (link === this.chosen.link) return colour("chosen-panel");
     if (this.crossed.has(link)) return colour("crossed");
     if (this.mechanism?.data.bodies.surface) return clusterColour(link);
     const cluster = this.mechanism?.clusterOf.get(link);
-    return cluster === undefined ? colour("panel") : clusterColour(cluster);
+    return cluster === undefined ? null : clusterColour(cluster);
   }
 
   /** Go farther off where a mechanism grows beyond what was fitted. */

@@ -29,6 +29,7 @@ const NO_ANSWER = "the workbench does not answer";
  * @property {ShownData[]} shown - Those that are there when it is begun.
  * @property {(shown: ShownData) => void} add
  * @property {(shown: ShownData, number: number) => void} put
+ * @property {(number: number) => void} drop - Show one no longer.
  * @property {() => number} number - Of the one that is seen.
  * @property {() => ShownData} seen
  * @property {() => string | null} joint - That was clicked last.
@@ -46,6 +47,8 @@ export class Workbench {
   /** How many things wait for their turn. */
   #waiting = 0;
   #said = INVITED;
+  /** @type {{number: number, before: {source: Source, shown: ShownData} | null}[]} - What was there before each change. */
+  #history = [];
 
   /**
    * @param {HTMLElement} root - Where files may be dropped.
@@ -61,22 +64,40 @@ export class Workbench {
     this.stop = element("button", { type: "button", hidden: "" }, "Stop");
     this.editing = new Editing(page, {
       edit: (edit) => this.#changedBy((source) => ({ ...source, edits: [...source.edits, edit] })),
-      undo: () => this.#changedBy((source) => ({ ...source, edits: source.edits.slice(0, -1) })),
+      undo: () => this.#undone(),
       motion: () => this.#changedBy((source) => ({ ...source, motion: true })),
       template: (kind, size) => this.#print(kind, size),
     });
     const chosen = element("input", { type: "file", multiple: "", "aria-label": "Files to open" });
-    bench.append(chosen, this.status, this.progress, this.stop, ...this.editing.parts);
+    this.samples = element("div", { class: "samples", hidden: "" });
+    bench.append(chosen, this.status, this.progress, this.stop, this.samples, ...this.editing.parts);
     chosen.addEventListener("change", () => this.#read([...(chosen.files ?? [])]));
     this.stop.addEventListener("click", () => { this.#stops += 1; this.#asked?.abort(); });
     this.#droppable(root);
     this.#present();
     this.changed();
+    this.#offered().catch(reportError);
+  }
+
+  /** Offer samples to click, and say which formats are read, while nothing is shown. */
+  async #offered() {
+    const answer = await fetch("samples");
+    if (!answer.ok) return;
+    const { samples, formats } = /** @type {{samples: {name: string, title: string}[], formats: string[]}} */ (await answer.json());
+    const buttons = samples.map(({ name, title }, number) => {
+      const made = element("button", { type: "button" }, title);
+      made.addEventListener("click", async () => this.#read([new File([await (await fetch(`sample?number=${number}`)).blob()], name)]));
+      return made;
+    });
+    this.samples.replaceChildren(element("p", {}, `Formats: ${formats.join(" ")}. Or begin with a sample:`),
+      element("div", { class: "row" }, ...buttons));
+    this.changed();
   }
 
   /** Tell what can be done with what is chosen now. */
   changed() {
-    this.editing.changed(this.sources[this.page.number()] ?? null);
+    this.editing.changed(this.sources[this.page.number()] ?? null, this.#history.length > 0);
+    this.samples.hidden = this.sources.length > 0;
   }
 
   /** @param {HTMLElement} root */
@@ -145,6 +166,7 @@ export class Workbench {
         const source = { name: file.name, file, edits: [], motion: false };
         const { shown, error } = await this.#judged(source);
         if (shown) {
+          this.#history.push({ number: this.sources.length, before: null });
           this.sources.push(source);
           this.page.add(shown);
         } else told.push(error ?? NO_ANSWER);
@@ -161,8 +183,26 @@ export class Workbench {
       const { shown, error } = await this.#judged(source);
       this.#say(error ?? (source.edits.join(", ") || INVITED));
       if (!shown) return;
+      this.#history.push({ number, before: { source: this.sources[number], shown: this.page.shown[number] } });
       this.sources[number] = source;
       this.page.put(shown, number);
+    });
+  }
+
+  /** Take back the last change: an edit, a search for motion, or a file that was opened. */
+  #undone() {
+    this.#inTurn(async () => {
+      const last = this.#history.pop();
+      if (!last) return;
+      const { number, before } = last;
+      if (before) {
+        this.sources[number] = before.source;
+        this.page.put(before.shown, number);
+      } else {
+        this.sources.splice(number, 1);
+        this.page.drop(number);
+      }
+      this.#say(before?.source.edits.join(", ") || INVITED);
     });
   }
 
