@@ -16,7 +16,7 @@ Content = TypeVar("Content")
 Lost: TypeAlias = tuple[str, ...]
 """Parts that a file does not hold, each with its number."""
 
-_EXTRAS = {"matplotlib": "draw", "reportlab": "draw", "pyarrow": "parquet"}
+_EXTRAS = {"matplotlib": "draw", "reportlab": "draw", "pyarrow": "parquet", "anywidget": "notebook"}
 """Package to the extra that installs it."""
 
 

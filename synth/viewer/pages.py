@@ -16,6 +16,7 @@ from typing import Any
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.accepted import MechanismLike, mechanism_for, with_stated_precision
 from graphs.files.atomic import write_text
+from graphs.files.outputs import check_installed
 from graphs.printing import plain
 from synth.viewer.building import BUILT
 from synth.viewer.shown import Shown, shown_of
@@ -114,6 +115,8 @@ class ViewPage:
     -------
     save(path, force=False)
         Write the page.
+    widget(height=600)
+        Return the page as a widget of a notebook.
 
     Examples
     --------
@@ -138,6 +141,20 @@ class ViewPage:
 
     def __repr__(self) -> str:
         return f"<ViewPage: {', '.join(mechanism.name or 'mechanism' for mechanism in self.mechanisms)}>"
+
+    def widget(self, height: int = 600) -> Any:
+        """Return the page as a widget of a notebook, `height` pixels high; UnsolvableError without anywidget."""
+        check_installed("anywidget", "a widget")
+        from synth.viewer.widget import PageWidget
+
+        return PageWidget(html=self.html, height=height)
+
+    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, object]:
+        """Return the page in a frame, and a still picture for readers that show no frames."""
+        del include, exclude
+        bundle: dict[str, object] = {"text/plain": repr(self), "text/html": self._repr_html_()}
+        picture = next((shown.pictures["light"] for shown in self.mechanisms if shown.pictures), None)
+        return bundle if picture is None else {**bundle, "image/svg+xml": picture}
 
     def _repr_html_(self) -> str:
         return f'<iframe srcdoc="{escape(self.html)}" width="100%" height="600"></iframe>'
