@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar, overload
 
 import networkx as nx
 
@@ -40,9 +40,13 @@ from graphs.files.text import load_json
 from graphs.identity.chains import chain_from_id
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.joints.linkage import JointedLinkage
+from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import SurfaceLinkage
+from graphs.mechanism.vertex_edge import VertexEdgeGraph
 
 _IDS = ("k1:", "m1:")
 
@@ -146,7 +150,30 @@ def read_all(path: str | Path, *, colours: Looks | None = None, layers: Looks | 
         raise FileError(path, f"line {line}", "no mechanism", f"one of {numbered(len(mechanisms), 'line')}")
 
 
-def read(path: str | Path | nx.Graph, *, colours: Looks | None = None, layers: Looks | None = None) -> Mechanism:
+_Kind = TypeVar(
+    "_Kind", SCGraph, SCDGraph, PolyhedronModel, VertexEdgeGraph, Sheet, HingedSolids, SurfaceLinkage, JointedLinkage
+)
+
+
+@overload
+def read(
+    path: str | Path | nx.Graph, *, colours: Looks | None = None, layers: Looks | None = None, kind: None = None
+) -> Mechanism: ...
+
+
+@overload
+def read(
+    path: str | Path | nx.Graph, *, colours: Looks | None = None, layers: Looks | None = None, kind: type[_Kind]
+) -> _Kind: ...
+
+
+def read(
+    path: str | Path | nx.Graph,
+    *,
+    colours: Looks | None = None,
+    layers: Looks | None = None,
+    kind: type[Any] | None = None,
+) -> Mechanism:
     """Return the one mechanism of a file, of an id, or of a graph of networkx.
 
     Parameters
@@ -161,12 +188,14 @@ def read(path: str | Path | nx.Graph, *, colours: Looks | None = None, layers: L
         ``dotted``, ``solid``), or both, ``"dashed #000000"``. Other lines are read as they are by themselves.
     layers : mapping of str to str or sequence of str, optional
         Assignment to names of layers or groups; they count before colours.
+    kind : class, optional
+        The kind that the mechanism must have, such as `Sheet` or `SCGraph`, which type checkers know it to be then.
 
     Raises
     ------
     FileError
-        If the file cannot be read, or holds several mechanisms; if more than half of the lines of a drawing have
-        strokes that are not understood; if colours or layers are stated for a file that is no drawing.
+        If the file cannot be read, holds several mechanisms, or one of another kind; if more than
+        half of the lines of a drawing have strokes that are not understood; if colours or layers are stated for a file that is no drawing.
     InvariantError
         If a colour or an assignment is not valid.
 
@@ -177,6 +206,14 @@ def read(path: str | Path | nx.Graph, *, colours: Looks | None = None, layers: L
     ...
     graphs.errors.OpenError: no such file.json: no such file; expected a file
     """
+    mechanism = _read_one(path, colours, layers)
+    if kind is not None and not isinstance(mechanism, kind):
+        raise FileError(str(path), "", f"a mechanism of the kind {type(mechanism).__name__}", kind.__name__)
+    return mechanism
+
+
+def _read_one(path: str | Path | nx.Graph, colours: Looks | None, layers: Looks | None) -> Mechanism:
+    """Return the one mechanism of a file, an id or a graph, of whatever kind."""
     if isinstance(path, SCGraph):
         return path
     if isinstance(path, nx.Graph):

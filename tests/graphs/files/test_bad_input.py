@@ -9,6 +9,7 @@ import pytest
 from graphs.errors import FileError, shown
 from graphs.files.formats import read, read_all, write
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import Sheet
 
 SC = {"format": "synthedra/sc", "version": 1, "links": 4, "joints": [[0, 1], [1, 2], [2, 3], [3, 0]],
       "loops": [{"joints": [0, 1, 2, 3], "centre": "finite"}]}  # fmt: skip
@@ -243,3 +244,9 @@ def test_messages_are_short_whatever_the_name():
     assert len(shown("x" * 10_000)) == 60
     assert shown("\x1b[31m") == "'\\x1b[31m'"
     assert len(str(FileError("f" * 10, "", shown(list(range(10**4)))))) < 80
+
+
+def test_a_mechanism_of_another_kind_than_stated_is_refused():
+    assert isinstance(read("k1:Cr", kind=SCGraph), SCGraph)
+    with pytest.raises(FileError, match="k1:Cr: a mechanism of the kind SCGraph; expected Sheet"):
+        read("k1:Cr", kind=Sheet)
