@@ -195,7 +195,8 @@ def read(
     ------
     FileError
         If the file cannot be read, holds several mechanisms, or one of another kind; if more than
-        half of the lines of a drawing have strokes that are not understood; if colours or layers are stated for a file that is no drawing.
+        half of the lines of a drawing have strokes that are not understood; if colours or layers are stated for a
+        file that is no drawing.
     InvariantError
         If a colour or an assignment is not valid.
 
