@@ -30,7 +30,7 @@ from graphs.types import Floats, Ints, LinkId
 from synth.conformed.behaviours import link_arcs
 from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain
-from synth.drawing.space.panels import joints_of_links
+from synth.drawing.space.panels import joints_of_links, same_side_up
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.closure import frames_of
 from synth.motion.configuration import Configuration
@@ -95,9 +95,13 @@ def bodies_of_sheet(sheet: Sheet, mechanism: SheetMechanism, linkage: PosedLinka
     joint_at = {frozenset(edge): number[joint] for joint, edges in mechanism.pieces.items() for edge in edges}
     owners = [-1] * sheet.vertices
     faces = []
+    fronts = same_side_up(sheet.faces)
+    places = in_space(sheet.coordinates)
+    if sum(float(np.cross(places[a], places[b])[2]) for face in fronts for a, b in sides_of_face(face)) < 0.0:
+        fronts = [face[::-1] for face in fronts]  # more of the fronts than of the backs is seen from above
     for link, panel in enumerate(mechanism.panels):
         for face in panel:
-            faces.append((link, list(sheet.faces[face])))
+            faces.append((link, list(fronts[face])))
             for vertex in sheet.faces[face]:
                 owners[vertex] = link if owners[vertex] < 0 else owners[vertex]
     edges = [

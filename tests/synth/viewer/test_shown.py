@@ -185,3 +185,10 @@ def test_links_on_a_surface_are_curved_shells_over_it(kind):
             assert np.linalg.norm(np.cross(along, posed.directions[joint])) < 1e-9
     assert {owner for owner, _ in bodies.faces} == set(range(4))
     assert len(bodies.faces) > 100  # shells are curved
+
+
+def test_panels_of_a_flat_pattern_all_show_their_front(bird_base):
+    bodies = bird_base.moving.bodies
+    for _, face in bodies.faces:
+        x, y = bodies.vertices[face, :2].T
+        assert x @ np.roll(y, -1) - y @ np.roll(x, -1) > 0
