@@ -22,7 +22,7 @@ help:
 	@echo "make test-night the slow tests that take more than ten minutes each"
 	@echo "make durations  run all tests except those of the night and the web, and write their durations to tests/durations.json"
 	@echo "make test-web   run a notebook and test its displays, and test the page of synth view in node and in Chromium"
-	@echo "make test-simulators  install MuJoCo, usd-core and gmsh, and test models for simulators with them"
+	@echo "make test-simulators  install MuJoCo, usd-core, gmsh and check_urdf, and test models for simulators with them"
 	@echo "make test-machines  check that answers are the same under other BLAS kernels, threads, hash seeds, and without AVX2"
 	@echo "make bench      measure what people wait for, beside other programs where they are at hand: some minutes"
 	@echo "make page       build the script of that page, if its sources have changed"
@@ -128,6 +128,11 @@ test-web: $(STAMP) page browser
 .PHONY: test-simulators
 test-simulators: $(STAMP)
 	$(BIN)/python -m pip install --quiet -e '.[simulate]'
+	@command -v check_urdf >/dev/null || \
+	  if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
+	    { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq liburdfdom-tools; } || \
+	      echo "check_urdf could not be installed; some tests will skip" >&2; \
+	  else echo "check_urdf is not installed; some tests will skip (sudo apt-get install liburdfdom-tools)" >&2; fi
 	$(BIN)/python -m pytest $(PARALLEL) -m "not slow" tests/synth/simulation
 
 # Operators and guards of FILE (those changed since SINCE without one) that no test of its room holds.

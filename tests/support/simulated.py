@@ -18,11 +18,18 @@ BESIDE = 0.05
 """Part of the range that is left out at its ends: turning points of the driver, flat and folded states."""
 
 
+def mujoco_or_skip():
+    """Return MuJoCo, whose warnings are printed: by default it adds them to MUJOCO_LOG.TXT in the working directory."""
+    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed; try make test-simulators")
+    mujoco.set_mju_user_warning(print)
+    return mujoco
+
+
 class Simulated:
     """A mechanism as a model of MuJoCo; skips without it."""
 
     def __init__(self, mechanism, *, step=STEP, **options):
-        mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed; try make test-simulators")
+        mujoco = mujoco_or_skip()
         self.mujoco = mujoco
         self.at = configuration_of(mechanism, slides=True)
         self.assembly = assembly_of(mechanism, AssemblyOptions(**options))

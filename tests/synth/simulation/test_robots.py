@@ -1,6 +1,9 @@
 """URDF with its loops beside it, and SDF: read by parsers and solvers that know nothing of us."""
 
 import json
+import re
+import shutil
+import subprocess
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
@@ -81,6 +84,22 @@ def test_urdf_is_a_tree_for_another_parser(name, tmp_path):
     assert len(robot.links) == len(robot.joints) + 1
     for link in robot.links:
         assert len(robot.get_chain(robot.get_root(), link.name)) % 2 == 1
+
+
+@pytest.mark.skipif(shutil.which("check_urdf") is None, reason="check_urdf is not installed; try make test-simulators")
+@pytest.mark.parametrize(
+    "name", slow_but(("miura", "bennett"), [name for name in GENERATORS if not name.startswith("scissor")])
+)
+def test_check_urdf_accepts_the_tree(name, tmp_path):
+    """The parser of ROS lists the bodies that hang on each body: all of them, once, below one root."""
+    synth.write_model(synth.generate(name).mechanism, tmp_path / "a.urdf", "urdf")
+    checked = subprocess.run(["check_urdf", tmp_path / "a.urdf"], capture_output=True, text=True, check=False)
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+    assert "Successfully Parsed XML" in checked.stdout
+    below = re.findall(r"child\(\d+\):\s+(\S+)", checked.stdout)
+    links = {link.get("name") for link in ET.parse(tmp_path / "a.urdf").getroot().findall("link")}
+    (root,) = re.findall(r"root Link: (\S+) has", checked.stdout)
+    assert sorted([root, *below]) == sorted(links)
 
 
 def test_joints_in_proportion_mimic_the_driver(tmp_path):

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from simulated import mujoco_or_skip
 from sizes import slow, slow_but
 
 import synth
@@ -110,7 +111,7 @@ def test_other_joints_of_mujoco(tmp_path):
 ])  # fmt: skip
 @pytest.mark.parametrize("sequence", ["xyz", "ZXZ"])
 def test_orientations_as_mujoco_reads_them(orientation, sequence, tmp_path):
-    mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed; try make test-simulators")
+    mujoco = mujoco_or_skip()
     text = (f'<mujoco><compiler eulerseq="{sequence}"/><worldbody><body pos="1 2 3" {orientation}>'
             '<joint name="j" axis="1 2 -1" pos="0.1 0.2 0.3"/><geom size="1"/></body></worldbody></mujoco>')  # fmt: skip
     (tmp_path / "a.xml").write_text(text)
