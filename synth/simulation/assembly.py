@@ -27,8 +27,9 @@ from synth.motion.configuration import Configuration
 from synth.motion.driving import DrivenMotion, MotionOptions, driven_from
 from synth.motion.linkage import PosedLinkage, moved, placed_links
 from synth.moving.made import Movable, configuration_of
-from synth.simulation.bodies import Bar, Body, Hinge, MassProperties, Plate, Shape, TreeJoint
+from synth.simulation.bodies import Bar, Body, Hinge, MassProperties, Plate, Shape, Shell, TreeJoint
 from synth.simulation.connections import CutHinge, Parting, connections
+from synth.simulation.shells import shells_of
 from synth.templates.unfolding import Plane
 
 FRAMES = 40
@@ -212,7 +213,10 @@ def assembly_of(mechanism: Movable, options: AssemblyOptions | None = None) -> A
     thickness = metre * _THIN if options.thickness is None else options.thickness / _METRE
     drivers = () if driven is None else tuple(driven.places)
     hinges = _hinges(at, posed, metre, options, unit_length)
-    bodies = _bodies(at, posed, hinges, angles, metre, options.density, thickness)
+    on_surface = shells_of(
+        at.given if isinstance(mechanism, Configuration) else mechanism, linkage, angles, metre, thickness
+    )
+    bodies = _bodies(at, posed, hinges, angles, metre, options.density, thickness, on_surface)
     lengths = np.where(np.isin(np.arange(len(hinges)), linkage.slides), metre, 1.0)
     tree, bases, cut = spanning_tree(at, hinges, drivers)
     few = path[:: max(1, len(path) // _LOOKED_AT)]
@@ -325,12 +329,14 @@ def _places(at: Configuration, posed: PosedLinkage) -> tuple[Floats, Floats]:
 
 def _bodies(
     at: Configuration, posed: PosedLinkage, hinges: Sequence[Hinge], angles: Floats, metre: float, density: float,
-    thickness: float,
+    thickness: float, shells: Mapping[LinkId, Shell],
 ) -> tuple[Body, ...]:  # fmt: skip
     names = _names("link", posed.graph.nodes)
     bodies = []
     for number, link in enumerate(posed.graph.nodes):
-        if isinstance(at, SheetConfiguration):
+        if link in shells:
+            shapes: list[Shape] = [shells[link]]
+        elif isinstance(at, SheetConfiguration):
             shapes = _plates(at, number, angles, metre, thickness)
         else:
             shapes = _bars([hinge for hinge in hinges if number in (hinge.first, hinge.second)], metre, thickness)

@@ -1,7 +1,7 @@
-"""Rigid bodies made of plates and round bars, and the hinges between them, in metres and kilograms.
+"""Rigid bodies made of plates, shells and round bars, and the hinges between them, in metres and kilograms.
 
-Panels are plates of a thickness about their plane; links that are known by their axes only are bars between their
-hinges. Where shapes of one body overlap, both count.
+Panels are plates of a thickness about their plane; links on a cone or a cylinder are parts of a shell; links that
+are known by their axes only are bars between their hinges. Where shapes of one body overlap, both count.
 """
 
 from __future__ import annotations
@@ -81,7 +81,71 @@ class Bar:
         return MassProperties(mass, (self.start + self.end) / 2.0, inertia)
 
 
-Shape: TypeAlias = Plate | Bar
+@dataclass(frozen=True, eq=False)
+class Shell:
+    """A part of a conical or cylindrical shell: a profile that is swept about an axis.
+
+    The axis is the second column of `axes`, through `origin`; azimuths go from the third to the first. `profile`,
+    float[4, 2], has distances from the axis and heights along it of a parallelogram, counter-clockwise: its first
+    two corners lie on the outer surface.
+    """
+
+    origin: Floats
+    axes: Floats
+    profile: Floats
+    start: float
+    width: float
+
+    def at(self, azimuths: Floats) -> Floats:
+        """Return the corners of the profile at azimuths, float[n, 4, 3]."""
+        outward = np.outer(np.sin(azimuths), self.axes[:, 0]) + np.outer(np.cos(azimuths), self.axes[:, 2])
+        distances, heights = self.profile.T
+        return np.asarray(self.origin + distances[:, None] * outward[:, None] + heights[:, None] * self.axes[:, 1])
+
+    def properties(self, density: float) -> MassProperties:
+        """Return its mass, centre and inertia, exactly.
+
+        Integrals of products of two coordinates over the volume are those over the profile of polynomials of the
+        third degree, for which Gauss's rule with two points a side is exact, times integrals over the azimuth.
+        """
+        nodes = np.array([-1.0, 1.0]) / np.sqrt(12.0) + 0.5
+        corner, sides = self.profile[0], self.profile[[1, 3]] - self.profile[0]
+        area = abs(float(np.linalg.det(sides)))
+        places = [corner + a * sides[0] + b * sides[1] for a in nodes for b in nodes]
+        end, middle = self.start + self.width, self.start + self.width / 2.0
+        chord = 2.0 * np.sin(self.width / 2.0)
+        outward = chord * np.array([np.sin(middle), np.cos(middle)])
+        double = (np.sin(2.0 * end) - np.sin(2.0 * self.start)) / 4.0
+        mixed = (np.cos(2.0 * self.start) - np.cos(2.0 * end)) / 4.0
+        squares = np.array([[self.width / 2.0 - double, mixed], [mixed, self.width / 2.0 + double]])
+        mass, first, second = 0.0, np.zeros(3), np.zeros((3, 3))
+        for distance, height in places:
+            weight = density * area / 4.0 * distance
+            first_here = np.array([distance * outward[0], height * self.width, distance * outward[1]])
+            mass += weight * self.width
+            first += weight * first_here
+            here = np.zeros((3, 3))
+            here[np.ix_([0, 2], [0, 2])] = distance**2 * squares
+            here[1] = here[:, 1] = height * first_here
+            second += weight * here
+        centre = first / mass
+        about = second - mass * np.outer(centre, centre)
+        inertia = self.axes @ (np.trace(about) * np.eye(3) - about) @ self.axes.T
+        return MassProperties(float(mass), self.origin + self.axes @ centre, inertia)
+
+    def plates(self) -> list[Plate]:
+        """Return plates along its middle surface, each a trapezium between two ruling lines, for want of shells."""
+        count = max(1, int(np.ceil(self.width / _FACET)))
+        corners = self.at(self.start + self.width * np.arange(count + 1) / count)
+        outer, inner = corners[:, [0, 3]].mean(axis=1), corners[:, [1, 2]].mean(axis=1)
+        thickness = float(np.linalg.norm(self.profile[3] - self.profile[0]))
+        rings = zip(inner, outer, outer[1:], inner[1:], strict=False)
+        return [Plate(Plane(np.array(ring), number), thickness) for number, ring in enumerate(rings)]
+
+
+_FACET = np.radians(10.0)
+"""Azimuth of a plate in place of a shell, at most."""
+Shape: TypeAlias = Plate | Bar | Shell
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,6 +156,13 @@ class Body:
     link: LinkId
     shapes: tuple[Shape, ...]
     properties: MassProperties
+
+    def flat_shapes(self) -> list[list[Plate] | Bar]:
+        """Return bars, and the plates of each other shape: formats without curved shells have plates for these."""
+        return [
+            shape if isinstance(shape, Bar) else [shape] if isinstance(shape, Plate) else shape.plates()
+            for shape in self.shapes
+        ]
 
 
 @dataclass(frozen=True, eq=False)

@@ -109,13 +109,13 @@ def _add_shapes(body: Body, element: Element, origin: Floats, assets: Element) -
     mass, inertia = body.properties, body.properties.inertia
     full = [*np.diag(inertia), inertia[0, 1], inertia[0, 2], inertia[1, 2]]
     element.add("inertial", pos=mass.centre - origin, mass=mass.mass, fullinertia=full)
-    for number, shape in enumerate(body.shapes):
+    for number, shape in enumerate(body.flat_shapes()):
         name = f"{body.name}_{number}"
         if isinstance(shape, Bar):
             ends = [*(shape.start - origin), *(shape.end - origin)]
             element.add("geom", type="cylinder", fromto=ends, size=shape.radius)
             continue
-        for part, corners in enumerate(convex_parts(shape)):
+        for part, corners in enumerate(part for plate in shape for part in convex_parts(plate)):
             mesh = f"{name}_{part}"
             assets.add("mesh", name=mesh, vertex=(corners - origin).ravel())
             element.add("geom", type="mesh", mesh=mesh)

@@ -46,7 +46,8 @@ def _add_link(assembly: Assembly, number: int, body: Body, model: Element) -> No
     names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
     for name, value in zip(names, properties.inertia[np.triu_indices(3)].tolist(), strict=True):
         inertia.add(name, value)
-    for place, shape in enumerate(body.shapes):
+    flat = [part for shape in body.flat_shapes() for part in ([shape] if isinstance(shape, Bar) else shape)]
+    for place, shape in enumerate(flat):
         for kind in ("visual", "collision"):
             element = link.add(kind, name=f"{kind}_{place}")
             if isinstance(shape, Bar):

@@ -1,7 +1,8 @@
 """STEP for CAD: each body a part of exact solids, an assembly with their placements, hinge axes as curves.
 
 ISO 10303-21 (the file) and AP214 (what is in it): plates are prisms of planes and lines, bars have a cylinder and
-two circles. Millimetres. A part has the axes of the assembly, and its origin at the hinge that carries it.
+two circles, shells have parts of cones and cylinders. Millimetres. A part has the axes of the assembly, and its
+origin at the hinge that carries it.
 """
 
 from __future__ import annotations
@@ -12,9 +13,10 @@ import numpy as np
 
 from graphs.errors import numbered
 from graphs.geometry import frame_about, unit
+from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.simulation.assembly import Assembly
-from synth.simulation.bodies import Bar, Plate
+from synth.simulation.bodies import Bar, Plate, Shape, Shell
 
 _MILLIMETRES = 1000.0
 _HEAD = """ISO-10303-21;
@@ -105,12 +107,12 @@ class _File:
         vector = self.add(f"VECTOR('',{along},1.)")
         return self.add(f"LINE('',{self.point(start)},{vector})")
 
-    def face(self, edges: Sequence[tuple[str, bool]], surface: str) -> str:
-        """Return a face within edges, each with whether it goes along."""
+    def face(self, edges: Sequence[tuple[str, bool]], surface: str, *, outward: bool = True) -> str:
+        """Return a face within edges, each with whether it goes along; a surface's normal goes outward or inward."""
         around = [self.add(f"ORIENTED_EDGE('',*,*,{edge},{'.T.' if along else '.F.'})") for edge, along in edges]
         loop = self.add(f"EDGE_LOOP('',({','.join(around)}))")
         bound = self.add(f"FACE_OUTER_BOUND('',{loop},.T.)")
-        return self.add(f"ADVANCED_FACE('',({bound}),{surface},.T.)")
+        return self.add(f"ADVANCED_FACE('',({bound}),{surface},{'.T.' if outward else '.F.'})")
 
     def solid(self, faces: Sequence[str]) -> str:
         """Return the solid within closed faces."""
@@ -118,7 +120,9 @@ class _File:
         return self.add(f"MANIFOLD_SOLID_BREP('',{shell})")
 
 
-def _solid(file: _File, shape: Plate | Bar, origin: Floats) -> str:
+def _solid(file: _File, shape: Shape, origin: Floats) -> str:
+    if isinstance(shape, Shell):
+        return _shell(file, shape, origin)
     return _bar(file, shape, origin) if isinstance(shape, Bar) else _plate(file, shape, origin)
 
 
@@ -176,6 +180,66 @@ def _bar(file: _File, bar: Bar, origin: Floats) -> str:
     return file.solid([
         file.face([(circles[0], False)], below), file.face([(circles[1], True)], above), file.face(side, round_about),
     ])  # fmt: skip
+
+
+def _shell(file: _File, shell: Shell, origin: Floats) -> str:
+    """Return a profile swept about an axis: two plane ends, and a face of a cone, a cylinder or a plane for each side.
+
+    The axes of the circles are (third, first, second) of the shell, so that azimuths are theirs. The profile goes
+    counter-clockwise in (distance, height), which looks against the azimuth: the first end is passed forwards.
+    """
+    axes = shell.axes[:, [2, 0, 1]]
+    up, profile, middle = axes[:, 2], _MILLIMETRES * shell.profile, _MILLIMETRES * (shell.origin - origin)
+    ends = _MILLIMETRES * (shell.at(shell.start + np.array([0.0, shell.width])) - origin)
+    vertices = [[file.add(f"VERTEX_POINT('',{file.point(corner)})") for corner in corners] for corners in ends]
+    after = [1, 2, 3, 0]
+
+    def side(end: int, corner: int) -> str:
+        line = file.line(ends[end, corner], ends[end, after[corner]])
+        return file.add(f"EDGE_CURVE('',{vertices[end][corner]},{vertices[end][after[corner]]},{line},.T.)")
+
+    def arc(corner: int) -> str:
+        distance, height = profile[corner]
+        circle = file.add(f"CIRCLE('',{file.placement(middle + height * up, axes)},{_real(distance)})")
+        return file.add(f"EDGE_CURVE('',{vertices[0][corner]},{vertices[1][corner]},{circle},.T.)")
+
+    sides = [[side(end, corner) for corner in range(4)] for end in range(2)]
+    arcs = [arc(corner) for corner in range(4)]
+    faces = []
+    for end, way in enumerate((1.0, -1.0)):
+        along = unit(ends[end, 0] - ends[end, 1])
+        normal = unit(way * np.cross(ends[end, 1] - ends[end, 0], ends[end, 2] - ends[end, 1]))
+        plane = file.add(
+            f"PLANE('',{file.placement(ends[end, 0], np.column_stack([along, np.cross(normal, along), normal]))})"
+        )
+        edges = [(edge, not end) for edge in (sides[end] if not end else reversed(sides[end]))]
+        faces.append(file.face(edges, plane))
+    for corner in range(4):
+        other = after[corner]
+        edges = [(sides[0][corner], False), (arcs[corner], True), (sides[1][corner], True), (arcs[other], False)]
+        surface, outward = _swept(file, middle, axes, profile[[corner, other]])
+        faces.append(file.face(edges, surface, outward=outward))
+    return file.solid(faces)
+
+
+def _swept(file: _File, middle: Floats, axes: Floats, side: Floats) -> tuple[str, bool]:
+    """Return the surface of a side of a profile about an axis, and whether its normal leaves the solid.
+
+    Normals of cones and cylinders go away from the axis. A cone opens along its axis, so the axis is turned where
+    it would be pointed at the other end.
+    """
+    (distance, height), (wider, higher) = side
+    turned = axes * np.array([1.0, -1.0, -1.0])
+    place = middle + height * axes[:, 2]
+    if abs(higher - height) <= DOUBLE.parallel * abs(wider - distance):
+        return file.add(f"PLANE('',{file.placement(place, turned if wider > distance else axes)})"), True
+    outward = bool(higher > height)
+    if abs(wider - distance) <= DOUBLE.parallel * abs(higher - height):
+        return file.add(f"CYLINDRICAL_SURFACE('',{file.placement(place, axes)},{_real(distance)})"), outward
+    opens = (wider - distance) * (higher - height) > 0.0
+    angle = _real(float(np.arctan2(abs(wider - distance), abs(higher - height))))
+    frame = file.placement(place, axes if opens else turned)
+    return file.add(f"CONICAL_SURFACE('',{frame},{_real(distance)},{angle})"), outward
 
 
 def _axis(file: _File, name: str, start: Floats, end: Floats) -> str:

@@ -75,7 +75,7 @@ def _add_link(assembly: Assembly, number: int, body: Body, root: Element, meshes
     inertial.add("mass", value=properties.mass)
     names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
     inertial.add("inertia", **dict(zip(names, properties.inertia[np.triu_indices(3)].tolist(), strict=True)))
-    for place, shape in enumerate(body.shapes):
+    for place, shape in enumerate(body.flat_shapes()):
         for kind in ("visual", "collision"):
             element = link.add(kind)
             if isinstance(shape, Bar):
@@ -84,7 +84,7 @@ def _add_link(assembly: Assembly, number: int, body: Body, root: Element, meshes
                 element.add("geometry").add("cylinder", radius=shape.radius, length=length)
             else:
                 ending = f".{body.name}-{place}.stl"
-                meshes[ending] = stl_bytes([_mesh(shape, origin)])
+                meshes[ending] = stl_bytes([_mesh(plate, origin) for plate in shape])
                 element.add("geometry").add("mesh", filename=FILE + ending, scale=[0.001, 0.001, 0.001])
 
 

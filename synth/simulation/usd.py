@@ -86,7 +86,8 @@ def _body(name: str, body: Body, origin: Floats) -> Iterator[str]:
     yield f"        quatf physics:principalAxes = {_quaternion(axes)}"
     yield f"        double3 xformOp:translate = {_tuple(origin)}"
     yield '        uniform token[] xformOpOrder = ["xformOp:translate"]'
-    for number, shape in enumerate(body.shapes):
+    flat = [part for shape in body.flat_shapes() for part in ([shape] if isinstance(shape, Bar) else shape)]
+    for number, shape in enumerate(flat):
         name = f"shape_{number}"
         yield from _bar(name, shape, origin) if isinstance(shape, Bar) else _plate(name, shape, origin)
     yield "    }"
