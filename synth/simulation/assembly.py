@@ -291,10 +291,10 @@ def _hinges(
 
 
 def _names(kind: str, ids: Iterable[object]) -> list[str]:
-    """Return different names for ids, fit for any file."""
+    """Return different names for ids, fit for any file: without spaces, at which MuJoCo splits lists of names."""
     names: list[str] = []
     for one in ids:
-        name = plain(f"{kind}_{one}", _NAME)
+        name = "_".join(plain(f"{kind}_{one}", _NAME).split())
         while name in names:
             name += "_"
         names.append(name)

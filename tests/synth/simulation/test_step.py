@@ -58,7 +58,7 @@ def test_names_of_any_kind(tmp_path):
     graph = synth.SCGraph([names[link] for link in four_bar.chain.nodes],
                           {joint: tuple(names[link] for link in ends) for joint, ends in four_bar.chain.joints.items()})  # fmt: skip
     synth.write_model(synth.HingedSolids(graph, four_bar.axes), tmp_path / "a.step", "step")
-    assert "PRODUCT('link_it''s \\\\ \\X4\\000003B1\\X0\\'" in (tmp_path / "a.step").read_text()
+    assert "PRODUCT('link_it''s_\\\\_\\X4\\000003B1\\X0\\'" in (tmp_path / "a.step").read_text()
 
 
 SURFACES = {
