@@ -333,11 +333,12 @@ def _bodies(
 ) -> tuple[Body, ...]:  # fmt: skip
     names = _names("link", posed.graph.nodes)
     bodies = []
+    turns, shifts = (part[0] for part in placed_links(at.linkage, angles[None]))
     for number, link in enumerate(posed.graph.nodes):
         if link in shells:
             shapes: list[Shape] = [shells[link]]
         elif isinstance(at, SheetConfiguration):
-            shapes = _plates(at, number, angles, metre, thickness)
+            shapes = _plates(at, number, (turns[number], shifts[number]), metre, thickness)
         else:
             shapes = _bars([hinge for hinge in hinges if number in (hinge.first, hinge.second)], metre, thickness)
         parts = [shape.properties(density) for shape in shapes]
@@ -345,10 +346,11 @@ def _bodies(
     return tuple(bodies)
 
 
-def _plates(at: SheetConfiguration, link: int, angles: Floats, metre: float, thickness: float) -> list[Shape]:
-    """Return the panels of a link where they are."""
-    linkage, sheet = at.linkage, at.sheet
-    rotation, shift = (part[0, link] for part in placed_links(linkage, angles[None]))
+def _plates(
+    at: SheetConfiguration, link: int, place: tuple[Floats, Floats], metre: float, thickness: float
+) -> list[Shape]:
+    """Return the panels of a link at a place: its rotation and its shift."""
+    linkage, sheet, (rotation, shift) = at.linkage, at.sheet, place
     corners = (np.array([[*corner, 0.0][:3] for corner in sheet.coordinates or ()]) - linkage.middle) / linkage.extent
     there = (corners @ rotation.T + shift) * metre + linkage.middle * (metre / linkage.extent)
     return [Plate(Plane(there[list(sheet.faces[face])], face), thickness) for face in at.mechanism.panels[link]]

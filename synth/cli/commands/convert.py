@@ -129,7 +129,7 @@ def convert(
     if model is None:
         _check_no_model(for_model)
     of_solids = model is None and _is_of_solids(target, solid)
-    original = read(source)
+    original, notes = read(source), tuple[str, ...]()
     with about(source):
         mechanism = synth.convert(original, kind, form=form)
         if table is not None:
@@ -139,7 +139,7 @@ def convert(
             text, lost = table_text(mechanism, table)
             write_text(Path(target), text, force=force)
         elif model is not None:
-            lost = _write_model(mechanism, target, model, force=force, **solid, **for_model)
+            lost, notes = _write_model(mechanism, target, model, force=force, **solid, **for_model)
         elif of_solids:
             lost = _write_solids(mechanism, target, force=force, **solid)
         else:
@@ -148,12 +148,15 @@ def convert(
             source_sheet = original if kind == "sheet" and form is None else None  # a sheet holds less than others
             lost = write_converted(mechanism, target, source_sheet, lossy=lossy, force=force)
     if as_json:
-        print_json({"input": source, "output": target, "kind": type(mechanism).__name__, "lost": list(lost)})
+        keys = {"input": source, "output": target, "kind": type(mechanism).__name__, "lost": list(lost)}
+        print_json({**keys, **({} if model is None else {"notes": list(notes)})})
         return
     from graphs.convert.table import kind_in_words
 
     click.echo(f"written: {plain(target, 4096)} (from: {kind_in_words(mechanism)})")
     tell_lost(lost)
+    for note in notes:
+        click.echo(f"note: {plain(note, 1000)}")
 
 
 def _is_of_solids(target: str, solid: dict[str, Any]) -> bool:
@@ -175,19 +178,23 @@ def _check_no_model(values: dict[str, Any]) -> None:
 def _write_model(
     mechanism: Mechanism, target: str, model: str, *, force: bool, drive: tuple[str, ...],
     stiffness: tuple[str, ...], density: float | None, **values: Any,
-) -> tuple[str, ...]:  # fmt: skip
+) -> tuple[tuple[str, ...], tuple[str, ...]]:  # fmt: skip
+    """Write a model; return what its format does not hold, and notes on the motion."""
     from synth.moving import configuration_of
-    from synth.simulation.assembly import DENSITY
+    from synth.simulation.assembly import DENSITY, AssemblyOptions
+    from synth.simulation.writing import MODELS, write_assembly
 
     if "number" in values or "gap" in values:
         raise click.UsageError("--cone and --gap: not with --as")
     at = configuration_of(mechanism, slides=True)
     graph = at.linkage.graph
-    return synth.write_model(
-        at, target, model, force=force, density=density or DENSITY, **values,
+    how = AssemblyOptions(
+        density=density or DENSITY, **values,
         drive=options.driven_angles(graph, drive),
         springs=synth.Springs(options.numbers_of_joints(graph, stiffness, "--stiffness", "JOINT=K")),
     )  # fmt: skip
+    assembly = write_assembly(at, target, model, how, force=force)
+    return MODELS[model].lost(assembly), assembly.notes
 
 
 def _write_solids(mechanism: Mechanism, target: str, *, force: bool, **solid: Any) -> tuple[str, ...]:

@@ -173,6 +173,14 @@ def test_what_does_not_move():
     assert "no motion begins" in " ".join(assembly.notes)
 
 
+def test_notes_are_not_among_what_is_lost(tmp_path, data):
+    """A mechanism that does not move: the file holds all there is, and a note says why it has no actuators."""
+    file = data / "linkages" / "wampler-cube-locked.json"
+    lines = run("convert", file, tmp_path / "a.sdf", "--as", "sdf").output.splitlines()
+    assert [line.split(":")[0] for line in lines] == ["written", "note"]
+    assert "no motion begins" in lines[1]
+
+
 def test_the_command(tmp_path, data):
     file, out = data / "patterns" / "four-bar-vertex.fold", tmp_path / "a.xml"
     told = run("convert", file, out, "--as", "mjcf", "--drive", "2=90", "--stiffness", "4=0.5", "--size", "100")
