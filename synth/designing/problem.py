@@ -10,15 +10,17 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
+from math import degrees
 
 import numpy as np
 
 from graphs.errors import InvariantError, SynthedraError, UnsolvableError
+from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints
 from synth.designing.dimensions import DesignedLinkage, Dimensions
 from synth.designing.poses import Derived, DesignFrame, PosedDesign
 from synth.designing.sheet_rules import flat_rules, folded_frames
-from synth.designing.wishes import POSE, Wish, WishedConfiguration, Wishes, check_wishes
+from synth.designing.wishes import POSE, JointAngle, Wish, WishedConfiguration, Wishes, check_wishes
 
 NumberRule = Callable[[DesignedLinkage], tuple[Floats, Floats]]
 """A condition on the numbers of a design alone: residuals float[m] to be zero, and derivatives float[m, n]."""
@@ -127,12 +129,18 @@ class DesignProblem:
         return [place for place, joint in enumerate(frame.joints) if self.family.ground in frame.graph.joints[joint]]
 
     def _contradictions(self) -> None:
-        """Refuse wishes for one thing that exclude each other."""
-        seen: dict[str, Wish] = {}
-        for wish in self.wishes.wishes:
-            before = seen.setdefault(str(wish), wish)
-            if before is not wish and before != wish:
+        """Refuse wishes and rules for the same measure that exclude each other, or the input that is given."""
+        seen: dict[str, list[Wish]] = {}
+        for wish in (*self.wishes.wishes, *self.wishes.rules):
+            before = seen.setdefault(str(wish), [])
+            if any(one.contradicts(wish) for one in before):
                 raise InvariantError("wishes", f"two different wishes for the {wish} contradict each other", "one")
+            before.append(wish)
+            if isinstance(wish, JointAngle) and wish.at != POSE:
+                given = self.inputs[self.wishes.names.index(wish.at) - 1].get(self.frame.joint(wish.joint))
+                if given is not None and abs(wish.off(given)) > DOUBLE.zero:
+                    stated = f"its input there is {degrees(given):g}°"
+                    raise InvariantError("wishes", f"the wish for the {wish} contradicts its input", stated)
 
     @cached_property
     def _frames(self) -> Floats:

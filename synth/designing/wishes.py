@@ -8,7 +8,7 @@ radians, lengths in the unit of the file. Theory: docs/theory/design.md.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import asin, inf, sqrt
 from typing import ClassVar, Literal
 
@@ -53,6 +53,17 @@ class Goal:
             wrong = f"at least {self.at_least:g} and at most {self.at_most:g} contradict each other"
             raise InvariantError("goal", wrong, "the smaller one first")
 
+    @property
+    def limits(self) -> tuple[float, float]:
+        """The least and the largest number that meets it."""
+        if self.equals is not None:
+            return self.equals, self.equals
+        return (-inf if self.at_least is None else self.at_least, inf if self.at_most is None else self.at_most)
+
+    def excludes(self, other: Goal) -> bool:
+        """Whether no number meets both."""
+        return max(self.limits[0], other.limits[0]) > min(self.limits[1], other.limits[1])
+
     def misses(self, values: Floats) -> Floats:
         """Return by how much numbers miss the goal: 0 within limits."""
         if self.equals is not None:
@@ -92,6 +103,14 @@ class Wish:
 
     def check(self, frame: DesignFrame) -> None:
         """Raise `InvariantError` if it names a joint, link or vertex that is not there."""
+
+    def contradicts(self, other: Wish) -> bool:
+        """Whether a wish that is named alike cannot be met together with it."""
+        mine, goal = getattr(self, "goal", None), getattr(other, "goal", None)
+        if mine is None or goal is None:
+            return replace(other, weight=self.weight) != self
+        alike = replace(other, weight=self.weight, goal=mine)  # type: ignore[call-arg]
+        return alike == self and bool(mine.excludes(goal))
 
     def misses(self, poses: Mapping[str, PosedDesign]) -> dict[str, Derived]:
         """Return by how much it misses, at one configuration, or the parts by each of several.
@@ -246,12 +265,15 @@ class JointAngle(Wish):
         """Check the joint."""
         frame.joint(self.joint)
 
+    def off(self, angle: float) -> float:
+        """Return how far an angle is off, radians; an equal one is off by its nearest turn."""
+        off = float(self.goal.misses(np.array([angle]))[0])
+        return float(np.remainder(off + np.pi, 2.0 * np.pi) - np.pi) if self.goal.equals is not None else off
+
     def missed(self, pose: PosedDesign) -> Derived:
-        """Return how far the angle is off; an equal one is off by its nearest turn."""
+        """Return how far the angle is off."""
         angle = pose.angle(pose.frame.joint(self.joint))
-        off = self.goal.misses(angle.values)
-        if self.goal.equals is not None:
-            off = np.remainder(off + np.pi, 2.0 * np.pi) - np.pi
+        off = np.array([self.off(float(angle.values[0]))])
         return angle.through(off, np.diag((off != 0.0) | (self.goal.equals is not None)).astype(float))
 
     def __str__(self) -> str:
@@ -284,6 +306,11 @@ class PointPlace(Wish):
     def check(self, frame: DesignFrame) -> None:
         """Check the link or vertex."""
         frame.check_point(self.point)
+
+    def contradicts(self, other: Wish) -> bool:
+        """Whether a coordinate is given twice, differently."""
+        pairs = zip(self.equals, other.equals, strict=True) if isinstance(other, PointPlace) else ()
+        return any(one is not None and two is not None and one != two for one, two in pairs)
 
     def missed(self, pose: PosedDesign) -> Derived:
         """Return the difference of the coordinates that are given."""
@@ -425,6 +452,10 @@ class TransmissionAngle(Wish):
         """Check the joints."""
         for name in (self.near, self.joint, self.far):
             frame.joint(name)
+
+    def contradicts(self, other: Wish) -> bool:
+        """Never: the larger of two least angles meets both."""
+        return False
 
     def missed(self, pose: PosedDesign) -> Derived:
         """Return how far the angle is below its least value."""

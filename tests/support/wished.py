@@ -61,7 +61,11 @@ def _of_generator(name):
 
 
 def _on_cone(rng):
-    return ConeDimensions(loop_on_cones(np.radians(rng.uniform(40, 130, 4)))[0]), None
+    """A four-bar on a cone; angles about the cone that close on none are drawn again."""
+    linkages = []
+    while not linkages:
+        linkages = loop_on_cones(np.radians(rng.uniform(40, 130, 4)))
+    return ConeDimensions(linkages[0]), None
 
 
 def _of_sheet(name, **counts):

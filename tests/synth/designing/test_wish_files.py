@@ -7,7 +7,7 @@ import jsonschema
 import pytest
 
 from graphs.errors import FileError, InvariantError, UnsolvableError
-from synth.designing import Goal, JointAngle, WishedConfiguration, Wishes, design, read_wishes
+from synth.designing import DesignPoint, Goal, JointAngle, PointPlace, WishedConfiguration, Wishes, design, read_wishes
 from synth.designing.wish_files import wishes_schema
 from synth.patterns import GENERATORS, generate
 
@@ -94,6 +94,31 @@ def test_wishes_that_contradict_each_other_are_named():
     wishes = tuple(JointAngle(at="open", joint="3", goal=Goal(equals=angle)) for angle in (0.4, 0.5))
     with pytest.raises(InvariantError, match="two different wishes for the angle of joint 3 at open contradict"):
         design(FOUR_BAR, Wishes(wishes, (WishedConfiguration("open", {"0": 0.3}),)))
+
+
+OPEN = (WishedConfiguration("open", {"0": 0.3}),)
+
+
+def test_a_wish_against_the_input_of_its_configuration_is_named():
+    wish = JointAngle(at="open", joint="0", goal=Goal(at_least=0.5))
+    with pytest.raises(InvariantError, match=r"joint 0 at open contradicts its input; expected .*17\.1887°"):
+        design(FOUR_BAR, Wishes((wish,), OPEN))
+
+
+def test_limits_of_one_angle_contradict_only_if_no_angle_meets_both():
+    low, high = (JointAngle(at="open", joint="3", goal=goal) for goal in (Goal(at_least=0.2), Goal(at_most=0.9)))
+    assert design(FOUR_BAR, Wishes((low, high), OPEN), starts=1).best.figures[0].met
+    rule = JointAngle(at="open", joint="3", goal=Goal(at_most=0.1))
+    with pytest.raises(InvariantError, match="contradict each other"):
+        design(FOUR_BAR, Wishes((low,), OPEN, rules=(rule,)))
+
+
+def test_coordinates_of_a_point_may_be_wished_apart():
+    point = DesignPoint("2", (0.3, 0.2, 0.1))
+    given = [(1.0, None, None), (None, 0.5, None), (0.5, None, None)]
+    one, other, against = (PointPlace(at="open", point=point, equals=equals) for equals in given)
+    assert not one.contradicts(other)
+    assert one.contradicts(against)
 
 
 def test_what_cannot_change_or_has_no_coordinates_is_refused():
