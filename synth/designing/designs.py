@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from graphs.convert.table import Mechanism
-from graphs.errors import SynthedraError, numbered
+from graphs.errors import InvariantError, SynthedraError, numbered
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
@@ -321,6 +321,8 @@ class DesignSearch:
     ----------
     mechanism, wishes, spread, seed
         As of `design`.
+    beginnings : sequence of float[n], optional
+        Numbers of designs with which the first starts begin, one each.
 
     Attributes
     ----------
@@ -336,19 +338,31 @@ class DesignSearch:
     <Design: largest miss 0.0e+00, success>
     """
 
-    def __init__(self, mechanism: Designable, wishes: Wishes, spread: float = SPREAD, seed: int = 0) -> None:
+    def __init__(
+        self,
+        mechanism: Designable,
+        wishes: Wishes,
+        spread: float = SPREAD,
+        seed: int = 0,
+        beginnings: Sequence[Floats] = (),
+    ) -> None:
         generator = GENERATORS.get(mechanism) if isinstance(mechanism, str) else None
         self.family: Dimensions = dimensions_of(
             generator or mechanism, fixed=wishes.fixed, parameters=wishes.parameters
         )
         self.problem = DesignProblem(self.family, wishes)
         self.spread, self.seed = spread, seed
+        numbers = len(self.family.start)
+        if any(len(one) != numbers for one in beginnings):
+            raise InvariantError("beginnings", "designs of another mechanism", f"{numbers} numbers each")
+        self.beginnings = beginnings
         self.freedoms = _judgement(self.family.mechanism(self.family.start))[0]
 
     def design(self, start: int) -> Design | None:
         """Return the design of a start, judged; None where numbers of a start make no mechanism."""
         rng = seeded(f"{self.seed} {len(self.problem.start)}", start)
-        numbers = start_of(self.problem, start, self.spread, rng)
+        stated = start < len(self.beginnings)
+        numbers = self.beginnings[start] if stated else start_of(self.problem, start, self.spread, rng)
         found = found_from(self.problem, numbers, rng, follow=start % 2 == 0)
         return None if found is None else judged(self.problem, found, start, self.freedoms)
 

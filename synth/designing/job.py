@@ -13,9 +13,12 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from enumerate.runner.job import Column, Row, Unit
 from synth.designing.designs import SPREAD, STARTS, Design, DesignSearch
 from synth.designing.wish_files import read_wishes
+from synth.designing.wishes import reweighed
 
 _WEIGHT = 40_000
 """Weight of a start: about a second of a list of chains."""
@@ -30,6 +33,8 @@ COLUMNS: dict[str, Column] = {
 class DesignJob:
     """A search for designs: a file of a mechanism or the name of a generator, a file of wishes, and the starts.
 
+    `frozen` and `weights` change wishes by their numbers, from 0; `begun` are numbers of designs to begin with.
+
     Examples
     --------
     >>> job = DesignJob("bennett", "wishes.json", starts=3)
@@ -42,6 +47,9 @@ class DesignJob:
     starts: int = STARTS
     spread: float = SPREAD
     seed: int = 0
+    frozen: tuple[int, ...] = ()
+    weights: tuple[tuple[int, float], ...] = ()
+    begun: tuple[tuple[float, ...], ...] = ()
     columns = COLUMNS
 
     def __getstate__(self) -> dict[str, Any]:
@@ -56,12 +64,18 @@ class DesignJob:
             path = Path(getattr(self, name))
             content = path.read_bytes() if path.is_file() else getattr(self, name).encode()
             digests[name] = sha256(content).hexdigest()
-        return {"design": digests, "starts": self.starts, "spread": self.spread, "seed": self.seed}
+        key = {"design": digests, "starts": self.starts, "spread": self.spread, "seed": self.seed}
+        changes = {"frozen": list(self.frozen), "weights": [list(pair) for pair in self.weights]}
+        if self.begun:
+            changes["begun"] = [sha256(json.dumps(self.begun).encode()).hexdigest()]
+        return {**key, **{name: value for name, value in changes.items() if value}}
 
     @cached_property
     def search(self) -> DesignSearch:
         """The search, its files read."""
-        return DesignSearch(self.mechanism, read_wishes(self.wishes), self.spread, self.seed)
+        wishes = reweighed(read_wishes(self.wishes), self.frozen, dict(self.weights))
+        beginnings = [np.array(numbers) for numbers in self.begun]
+        return DesignSearch(self.mechanism, wishes, self.spread, self.seed, beginnings)
 
     def units(self) -> list[Unit]:
         """One unit for each start."""
@@ -74,6 +88,12 @@ class DesignJob:
             return []
         record = json.dumps(one.record(), separators=(",", ":"))
         return [(one.start, one.success, one.miss, one.error, one.freedoms, "; ".join(one.faults), record)]
+
+    @staticmethod
+    def numbers(rows: Iterable[Mapping[str, Any]]) -> tuple[tuple[float, ...], ...]:
+        """Return the numbers of the designs of rows, successes first, nearest to their wishes first."""
+        ranked = sorted(rows, key=lambda row: (not row["success"], round(row["miss"], 9), row["start"]))
+        return tuple(tuple(json.loads(row["record"])["numbers"]) for row in ranked)
 
     def designs(self, rows: Iterable[Mapping[str, Any]]) -> list[Design]:
         """Return the designs of rows."""

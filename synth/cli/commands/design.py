@@ -30,6 +30,16 @@ if TYPE_CHECKING:
 @options.seed("Random seed; another seed gives other starts.")
 @options.output("Keep all designs in this .sqlite store, from which a stopped run is continued.", "STORE", "--store")
 @options.flag("--resume", "Continue a stopped run from the store of --store.")
+@options.repeated("--freeze", "K", "Number of a wish, from 1, that must hold; may be repeated.", type=click.IntRange(1))
+@options.repeated(
+    "--weigh", "K=WEIGHT", "Number of a wish, from 1, and its weight in place of that of WISHES; may be repeated."
+)
+@options.value(
+    "--begin",
+    "STORE",
+    "Begin with the designs in this store, best first, then with other dimensions.",
+    type=options.FILE_NAME,
+)
 @options.number("--workers", "N", "With --store: number of processes. By default one per core.")
 @options.output("Write the best design: .json, or .fold and other formats for a sheet.")
 @options.output("Draw the best design to this file (.svg, .png or .pdf).", "OUT", "--picture")
@@ -37,7 +47,8 @@ if TYPE_CHECKING:
 @options.JSON
 def design(
     mechanism: str, wishes: str, starts: int, spread: float, seed: int, store: str | None, resume: bool,
-    workers: int | None, output: str | None, picture: str | None, force: bool, as_json: bool,
+    freeze: tuple[int, ...], weigh: tuple[str, ...], begin: str | None, workers: int | None, output: str | None,
+    picture: str | None, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Find dimensions of a mechanism with which its motion is as wished.
 
@@ -46,13 +57,15 @@ def design(
     exact derivatives, all configurations at once. A design counts only if its loops close to 1e-12, the verdict says
     that it moves, and its driven joint passes the configurations in order without turning back. The answer lists, for
     each wish, by how much it is missed and on which dimensions it depends most. Ctrl-C prints the designs found so
-    far.
+    far. To go on with other priorities, --begin names the store of an earlier run, and --freeze and --weigh change
+    wishes by their numbers in WISHES.
 
     \b
     Examples:
       synth design data/hyatt/spherical-four-bar.json wishes.json
       synth design bennett wishes.json --starts 20 -o bennett.json
       synth design six-bar.json wishes.json --starts 200 --store designs.sqlite
+      synth design six-bar.json wishes.json --begin designs.sqlite --freeze 1 --weigh 3=10
 
     Exit status 1: no design.
     """
@@ -65,8 +78,10 @@ def design(
     check_picture(picture, force=force)
     if not Path(wishes).exists():
         raise FileError(wishes, "", "no such file", "a file of wishes")
-    job = DesignJob(mechanism, wishes, starts, spread, seed)
     synth.designing.read_wishes(wishes)
+    frozen, weights = tuple(sorted({number - 1 for number in freeze})), _weights(weigh)
+    begun = () if begin is None else _begun(begin)
+    job = DesignJob(mechanism, wishes, starts, spread, seed, frozen, weights, begun)
     with about(mechanism):
         job.search  # noqa: B018  # files are read, and names checked, before anything is computed
         if store is None:
@@ -75,6 +90,31 @@ def design(
             running = RunOptions(store, workers, resume=resume, quiet=as_json, force=force)
             designs = _from_store(job, running)
     _print(designs, mechanism, output, picture, force=force, as_json=as_json)
+
+
+def _weights(words: tuple[str, ...]) -> tuple[tuple[int, float], ...]:
+    """Return the numbers of wishes, from 0, and their weights, of --weigh."""
+    weights = {}
+    for word in words:
+        name, [weight] = options.named_value(word, "--weigh", "K=WEIGHT")
+        if not name.isascii() or not name.isdigit() or int(name) < 1 or weight < 0.0:
+            raise click.UsageError(
+                f"--weigh {word}: expected K=WEIGHT, a wish from 1 and a weight that is not negative"
+            )
+        weights[int(name) - 1] = weight
+    return tuple(sorted(weights.items()))
+
+
+def _begun(store: str) -> tuple[tuple[float, ...], ...]:
+    """Return the numbers of the designs in a store, best first."""
+    from enumerate.runner.job import row_as_dict
+    from enumerate.runner.store import read_rows
+    from synth.designing.job import COLUMNS, DesignJob
+
+    if not Path(store).exists():
+        raise FileError(store, "", "no such file", "a store that --store kept")
+    rows = [row_as_dict(COLUMNS, row) for row in read_rows(Path(store))]
+    return DesignJob.numbers(rows)
 
 
 def _found(job: DesignJob) -> Designs:

@@ -50,6 +50,33 @@ def test_a_store_is_continued_and_gives_the_same_designs(files, tmp_path):
     assert json.loads(alone) == json.loads(whole)
 
 
+TWO = {**WISHES, "wishes": [*WISHES["wishes"], {"kind": "arc", "joints": [0, 1], "equals": 40}]}
+
+
+def test_a_run_goes_on_with_a_wish_frozen_and_another_weighed(files, tmp_path):
+    files[1].write_text(json.dumps(TWO))
+    first = run("design", *files, "--starts", 1, "--store", tmp_path / "a.sqlite", "--json", "--workers", 1).stdout
+    changed = ("--begin", tmp_path / "a.sqlite", "--freeze", 1, "--weigh", "2=10")
+    on = json.loads(run("design", *files, "--starts", 1, *changed, "--json").stdout)["designs"][0]
+    before = json.loads(first)["designs"][0]
+    assert [figure["met"] for figure in on["figures"]] == [True, True]
+    angles = [one["configurations"]["open"] for one in (before, on)]
+    assert angles[0] == pytest.approx(angles[1], abs=1e-6)  # it begins with what was met before, and stays there
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--freeze", 2), "there is no wish 2; expected 1 to 1"),
+        (("--weigh", "1"), "is not K=WEIGHT"),
+        (("--weigh", "x=1"), "expected K=WEIGHT"),
+        (("--begin", "none.sqlite"), "no such file"),
+    ],
+)
+def test_changes_of_wishes_that_are_not_there_are_one_line(files, options, message):
+    assert message in run("design", *files, *options, code=2).output
+
+
 def test_what_cannot_be_met_is_said_with_how_near_it_came(files):
     files[1].write_text(json.dumps({**WISHES, "wishes": [{"kind": "arc", "joints": [0, 1], "equals": 30}, *[
         {"kind": "arc", "joints": pair, "equals": angle} for pair, angle in ([[1, 2], 30], [[2, 3], 30], [[3, 0], 170])
