@@ -17,8 +17,8 @@ import numpy as np
 
 from enumerate.runner.job import Column, Row, Unit
 from synth.designing.designs import SPREAD, STARTS, Design, DesignSearch
+from synth.designing.problem import reweighed
 from synth.designing.wish_files import read_wishes
-from synth.designing.wishes import reweighed
 
 _WEIGHT = 40_000
 """Weight of a start: about a second of a list of chains."""

@@ -7,7 +7,7 @@ radians, lengths in the unit of the file. Theory: docs/theory/design.md.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from math import asin, inf, sqrt
 from typing import ClassVar, Literal
@@ -667,39 +667,6 @@ class Wishes:
     def names(self) -> tuple[str, ...]:
         """Names of the configurations, that of the file first."""
         return (POSE, *(one.name for one in self.configurations))
-
-
-def reweighed(wishes: Wishes, frozen: Collection[int] = (), weights: Mapping[int, float] | None = None) -> Wishes:
-    """Return wishes of which some have other weights, and some must hold.
-
-    Parameters
-    ----------
-    wishes : Wishes
-    frozen : collection of int, optional
-        Numbers of wishes, from 0, that become rules too.
-    weights : mapping of int to float, optional
-        Weights by numbers of wishes.
-
-    Raises
-    ------
-    InvariantError
-        If there is no wish of a number.
-
-    Examples
-    --------
-    >>> wishes = Wishes((JointAngle(joint="1", goal=Goal(equals=0.3)), LinkArc(joints=("0", "1"), goal=Goal(equals=1))))
-    >>> changed = reweighed(wishes, frozen=[1], weights={0: 5.0})
-    >>> changed.wishes[0].weight, str(changed.rules[0])
-    (5.0, 'arc between joints 0 and 1')
-    """
-    every, weights = list(wishes.wishes), weights or {}
-    for number in (*frozen, *weights):
-        if not 0 <= number < len(every):
-            raise InvariantError("wishes", f"there is no wish {number + 1}", f"1 to {len(every)}")
-    held = tuple(every[number] for number in sorted(set(frozen)) if every[number] not in wishes.rules)
-    for number, weight in weights.items():
-        every[number] = replace(every[number], weight=weight)
-    return replace(wishes, wishes=tuple(every), rules=(*wishes.rules, *held))
 
 
 def check_wishes(wishes: Wishes, frame: DesignFrame) -> None:
