@@ -66,5 +66,6 @@ from synth.surfaces.many_loops import cones_of_loops as cones_of_loops
 from synth.templates.hinges import Hinges as Hinges
 from synth.templates.of_mechanism import template as template
 from synth.templates.writing import write_template as write_template
+from synth.thickening.thickened import thicken as thicken
 from synth.verdict.judged import mobility as mobility
 from synth.viewer.pages import view as view

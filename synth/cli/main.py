@@ -39,6 +39,7 @@ _SECTIONS: dict[str, dict[str, str]] = {
         "generate": "Make known patterns and linkages from their parameters.",
         "realise": "Give a type coordinates: as a flat sheet, as panels in space, or on a cone.",
         "design": "Find dimensions with which a mechanism moves as wished.",
+        "thicken": "Give panels a thickness, and move hinges so that the pattern still folds.",
     },
     "Edit, convert and identify": {
         "reduce": "Remove ride-alongs and adjunct addenda.",

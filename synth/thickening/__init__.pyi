@@ -1,0 +1,9 @@
+from synth.thickening.heights import (
+    HingeHeights as HingeHeights,
+    ThickVertex as ThickVertex,
+    bennett_rows as bennett_rows,
+    hinge_heights as hinge_heights,
+    thick_vertices as thick_vertices,
+)
+from synth.thickening.plates import ThickPlates as ThickPlates, thick_plates as thick_plates
+from synth.thickening.thickened import ThickSheet as ThickSheet, thicken as thicken

@@ -1,0 +1,251 @@
+"""Heights of the hinges of thick panels: linear conditions of vertices and panels, one linear programme.
+
+The heights of the hinges round a vertex make its linkage an overconstrained spatial one: of Bennett for four creases,
+of Myard for five, plane-symmetric of Bricard for six. Source: Y. Chen, R. Peng, Z. You, "Origami of thick panels",
+Science 349 (2015), 396-400. Theory: docs/theory/thick-panels.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import pi, sin
+
+import numpy as np
+import scipy.optimize
+import scipy.sparse
+
+from graphs.convert.duality import SheetMechanism
+from graphs.errors import UnsolvableError, numbered
+from graphs.loops.loop import Centre
+from graphs.mechanism.precision import in_space, precision_of
+from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import Tolerances
+from graphs.types import Floats
+
+Row = Mapping[int, float]
+"""Coefficients of the heights of joints, whose sum with them is zero."""
+
+_NAMED = 6
+"""The number of vertices or panels that an error names."""
+
+
+@dataclass(frozen=True, slots=True)
+class ThickVertex:
+    """A vertex whose hinges have heights.
+
+    Attributes
+    ----------
+    vertex : int
+    joints : tuple of int
+        The creases in counterclockwise order; for five and six the first lies in the plane of symmetry.
+    linkage : str
+        ``Bennett``, ``Myard`` or ``Bricard``.
+    rows : tuple of mapping of joint to float
+        Coefficients of linear conditions on the heights.
+    """
+
+    vertex: int
+    joints: tuple[int, ...]
+    linkage: str
+    rows: tuple[Row, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class HingeHeights:
+    """Heights of hinges and panels over the plane of the sheet, in units of the thickness.
+
+    Attributes
+    ----------
+    hinges : mapping of joint to float
+    undersides : tuple of float
+        The underside of each panel.
+    vertices : tuple of ThickVertex
+    residual : float
+        The largest error of a condition.
+    """
+
+    hinges: Mapping[int, float]
+    undersides: tuple[float, ...]
+    vertices: tuple[ThickVertex, ...]
+    residual: float
+
+
+def bennett_rows(joints: Sequence[int], sectors: Sequence[float], same: bool) -> tuple[Row, Row]:
+    """Return the conditions on the heights round a flat-foldable vertex of four creases.
+
+    Parameters
+    ----------
+    joints : sequence of 4 int
+        Creases in order round the vertex.
+    sectors : sequence of 4 float
+        The angle from each crease to the next, radians.
+    same : bool
+        Whether the second and the fourth crease fold to the same side.
+
+    Returns
+    -------
+    tuple of mapping of joint to float
+        Satisfied by the heights 0, 1, 1 + r, r with r = +-sin(second sector) / sin(first sector), + if `same`.
+
+    Examples
+    --------
+    >>> bennett_rows([0, 1, 2, 3], [pi / 2] * 4, True)
+    ({0: 1.0, 1: -1.0, 2: 1.0, 3: -1.0}, {0: 1.0, 1: -2.0, 2: 1.0})
+    """
+    ratio = (1.0 if same else -1.0) * sin(sectors[1]) / sin(sectors[0])
+    a, b, c, d = joints
+    # The lengths of Bennett's linkage are differences of heights: opposite ones are equal with opposite signs.
+    return {a: 1.0, b: -1.0, c: 1.0, d: -1.0}, {a: ratio, b: -1.0 - ratio, c: 1.0}
+
+
+def thick_vertices(sheet: Sheet, mechanism: SheetMechanism, tolerances: Tolerances) -> tuple[ThickVertex, ...]:
+    """Return the conditions of all vertices inside a flat sheet, seen from above.
+
+    Raise UnsolvableError for the first vertex that no overconstrained linkage suits.
+    """
+    corners = in_space(sheet.coordinates or ())
+    ends = {joint: {v for piece in pieces for v in piece} for joint, pieces in mechanism.pieces.items()}
+    vertices = []
+    for loop in (*mechanism.sc.loops, *mechanism.sc.closing):
+        joints = [int(joint) for joint in loop.joints]  # type: ignore[call-overload]
+        common = set.intersection(*(ends[joint] for joint in joints))
+        if loop.centre is not Centre.FINITE or len(common) != 1:
+            raise UnsolvableError(f"the loop of creases {_listed(joints)} is not round a vertex; expected no holes")
+        vertex = common.pop()
+        # Along a crease of several pieces the farther end lies on the same side unless the crease passes the vertex.
+        tips = [max(ends[joint] - common - {vertex}, key=lambda v: float(np.hypot(*(corners[v] - corners[vertex])[:2])))
+                for joint in joints]  # fmt: skip
+        towards = (corners[tips] - corners[vertex])[:, :2]
+        angles = np.arctan2(towards[:, 1], towards[:, 0]) % (2 * pi)
+        order = np.argsort(angles)
+        round_it = [joints[i] for i in order]
+        sectors = np.diff([*angles[order], angles[order[0]] + 2 * pi])
+        within = tolerances.same_configuration + 4 * _error_of_directions(corners, towards)
+        vertices.append(_thick_vertex(vertex, round_it, sectors, sheet.assignments, within))
+    return tuple(sorted(vertices, key=lambda one: one.vertex))
+
+
+def _error_of_directions(corners: Floats, towards: Floats) -> float:
+    """Return the error of the direction of the shortest crease, by that of a coordinate."""
+    return float(precision_of(corners.tolist()).size / np.hypot(*towards.T).min())
+
+
+def _listed(numbers: Sequence[int]) -> str:
+    more = len(numbers) - _NAMED
+    return ", ".join(map(str, numbers[:_NAMED])) + (f" and {more} more" if more > 0 else "")
+
+
+def _thick_vertex(vertex: int, joints: list[int], sectors: Floats, letters: str, within: float) -> ThickVertex:
+    """Return the conditions of a vertex by its creases, counterclockwise, and the sectors after them."""
+    marks = [letters[joint] for joint in joints]
+    degree = len(joints)
+    if degree == 4:
+        if abs(sectors[0] + sectors[2] - pi) > within:
+            wrong = f"opposite sectors add up to {np.degrees(sectors[0] + sectors[2]):.6g} degrees"
+            raise UnsolvableError(f"vertex {vertex}: {wrong}; expected 180, the condition of Bennett's linkage")
+        if abs(marks.count("M") - marks.count("V")) != 2:
+            count = numbered(marks.count("M"), "mountain")
+            raise UnsolvableError(f"vertex {vertex}: {count} of 4 creases; expected 1 or 3")
+        return ThickVertex(
+            vertex, tuple(joints), "Bennett", bennett_rows(joints, sectors.tolist(), marks[1] == marks[3])
+        )
+    if degree in (5, 6):
+        for first in range(degree):
+            turned = np.roll(sectors, -first)
+            here, seen = joints[first:] + joints[:first], marks[first:] + marks[:first]
+            mirrored = np.abs(turned - turned[::-1]).max() <= within and seen[1:] == seen[:0:-1]
+            symmetric = _mirrored_rows(here, turned, seen, within) if mirrored else None
+            if symmetric is not None:
+                return ThickVertex(vertex, tuple(here), "Myard" if degree == 5 else "Bricard", symmetric)
+        rule = "sectors" + (" of Myard's linkage" if degree == 5 else "") + " and assignment symmetric about a crease"
+        raise UnsolvableError(f"vertex {vertex} of {degree} creases: not symmetric so; expected {rule}")
+    raise UnsolvableError(f"vertex {vertex} has {numbered(degree, 'crease')}; expected 4, 5 or 6")
+
+
+def _mirrored_rows(
+    joints: Sequence[int], sectors: Floats, marks: Sequence[str], within: float
+) -> tuple[Row, ...] | None:
+    """Return the conditions of a vertex that is symmetric about its first crease, None if it is not Myard's."""
+    rows: list[Row] = [{joints[1]: 1.0, joints[-1]: -1.0}, {joints[2]: 1.0, joints[-2]: -1.0}]
+    if len(joints) == 6:
+        return tuple(rows)
+    # Myard's linkage is two of Bennett's with a common twist, a right angle. Rates w of the three kinds of creases
+    # satisfy w1 : w3 = -2 : 1 with a positive sign of the second length, 2 : 1 with a negative one.
+    same = marks[1] == marks[2]
+    if abs(sectors[1] - pi / 2) > within or (marks[0] == marks[2]) is same:
+        return None
+    ratio = (1.0 if same else -1.0) / sin(sectors[0])
+    rows.append({joints[0]: ratio, joints[1]: -1.0 - ratio, joints[2]: 1.0})
+    return tuple(rows)
+
+
+def hinge_heights(sheet: Sheet, mechanism: SheetMechanism, tolerances: Tolerances) -> HingeHeights:
+    """Return heights of hinges with the lowest risers: one linear programme over the sheet.
+
+    A valley is at least at the upper side of both its panels, a mountain at most at their underside.
+
+    Raises
+    ------
+    UnsolvableError
+        If a vertex suits no linkage; if conditions exclude each other, with the vertices and panels of a dual
+        certificate (Farkas' lemma).
+    """
+    vertices = thick_vertices(sheet, mechanism, tolerances)
+    columns = {joint: place for place, joint in enumerate(mechanism.sc.joints)}
+    hinges, panels = len(columns), len(mechanism.panels)
+    equal = _matrix([{columns[j]: c for j, c in row.items()} for one in vertices for row in one.rows], hinges + panels)
+    above, least, costs, of_panel = [], [], np.zeros(hinges + panels), []
+    for joint, links in mechanism.sc.joints.items():
+        sign = 1.0 if sheet.assignments[joint] == "V" else -1.0  # type: ignore[index]
+        for panel in (int(str(link)) for link in links):
+            above.append({hinges + panel: sign, columns[joint]: -sign})
+            least.append(-1.0 if sign > 0 else 0.0)
+            of_panel.append(panel)
+            costs[columns[joint]] += sign
+            costs[hinges + panel] -= sign
+    bounds: list[tuple[float | None, float | None]] = [(None, None)] * (hinges + panels)
+    bounds[hinges] = (0.0, 0.0)
+    unequal = _matrix(above, hinges + panels)
+    programme = {"A_eq": equal, "b_eq": np.zeros(equal.shape[0])} if equal.shape[0] else {}
+    best = scipy.optimize.linprog(costs, unequal, np.array(least), bounds=bounds, method="highs", **programme)
+    if best.status:
+        raise UnsolvableError(_contradiction(equal, unequal, np.array(least), vertices, of_panel))
+    levels = best.x
+    residual = max(float(np.abs(equal @ levels).max(initial=0.0)), float((unequal @ levels - least).max(initial=0.0)))
+    return HingeHeights(
+        {joint: float(levels[place]) for joint, place in columns.items()},  # type: ignore[misc]
+        tuple(levels[hinges:].tolist()), vertices, residual,
+    )  # fmt: skip
+
+
+def _contradiction(
+    equal: scipy.sparse.csr_matrix, unequal: scipy.sparse.csr_matrix, least: Floats, vertices: Sequence[ThickVertex],
+    of_panel: Sequence[int],
+) -> str:  # fmt: skip
+    """Return which vertices and panels exclude each other: the support of the dual of the least violation."""
+    rows, size = unequal.shape
+    slack = scipy.sparse.hstack([unequal, -scipy.sparse.eye(rows)]).tocsr()
+    held = scipy.sparse.hstack([equal, scipy.sparse.csr_matrix((equal.shape[0], rows))]).tocsr()
+    bounds = [(None, None)] * size + [(0.0, None)] * rows
+    costs = np.concatenate([np.zeros(size), np.ones(rows)])
+    nearest = scipy.optimize.linprog(costs, slack, least, held, np.zeros(held.shape[0]), bounds, method="highs")
+    # Multipliers are 0 or of the order of 1 / coefficients, so the root of the rounding parts them.
+    weight = np.abs(nearest.ineqlin.marginals)
+    strong = weight > np.sqrt(np.finfo(float).eps) * weight.max()
+    panels = sorted({of_panel[row] for row in np.flatnonzero(strong).tolist()})
+    owners = [one.vertex for one in vertices for _ in one.rows]
+    multipliers = np.abs(nearest.eqlin.marginals)
+    there = np.flatnonzero(multipliers > np.sqrt(np.finfo(float).eps) * multipliers.max(initial=1.0))
+    at = sorted({owners[row] for row in there.tolist()})
+    return (
+        f"no heights of the hinges: the conditions of {'vertex' if len(at) == 1 else 'vertices'} {_listed(at)} and "
+        f"of {'panel' if len(panels) == 1 else 'panels'} {_listed(panels)} (each valley one thickness above each "
+        f"mountain) exclude each other"
+    )
+
+
+def _matrix(rows: Sequence[Mapping[int, float]], columns: int) -> scipy.sparse.csr_matrix:
+    places = [(number, column, value) for number, row in enumerate(rows) for column, value in row.items()]
+    where, which, values = zip(*places, strict=True) if places else ((), (), ())
+    return scipy.sparse.csr_matrix((values, (where, which)), shape=(len(rows), columns))
