@@ -43,6 +43,14 @@ class ThickVertex:
         ``Bennett``, ``Myard`` or ``Bricard``.
     rows : tuple of mapping of joint to float
         Coefficients of linear conditions on the heights.
+
+    Examples
+    --------
+    >>> import synth
+    >>> from synth.moving.made import configuration_of
+    >>> at = configuration_of(synth.generate("miura").mechanism)
+    >>> thick_vertices(at.sheet, at.mechanism, at.tolerances)[0].linkage
+    'Bennett'
     """
 
     vertex: int
@@ -63,6 +71,14 @@ class HingeHeights:
     vertices : tuple of ThickVertex
     residual : float
         The largest error of a condition.
+
+    Examples
+    --------
+    >>> import synth
+    >>> from synth.moving.made import configuration_of
+    >>> at = configuration_of(synth.generate("miura").mechanism)
+    >>> hinge_heights(at.sheet, at.mechanism, at.tolerances).residual < 1e-9
+    True
     """
 
     hinges: Mapping[int, float]
@@ -100,9 +116,29 @@ def bennett_rows(joints: Sequence[int], sectors: Sequence[float], same: bool) ->
 
 
 def thick_vertices(sheet: Sheet, mechanism: SheetMechanism, tolerances: Tolerances) -> tuple[ThickVertex, ...]:
-    """Return the conditions of all vertices inside a flat sheet, seen from above.
+    """Return the conditions of all vertices inside a flat sheet.
 
-    Raise UnsolvableError for the first vertex that no overconstrained linkage suits.
+    Parameters
+    ----------
+    sheet : Sheet
+        Flat, with an assignment.
+    mechanism : SheetMechanism
+        Of the sheet.
+    tolerances : Tolerances
+        Of its coordinates.
+
+    Raises
+    ------
+    UnsolvableError
+        For the first vertex that no overconstrained linkage suits.
+
+    Examples
+    --------
+    >>> import synth
+    >>> from synth.moving.made import configuration_of
+    >>> at = configuration_of(synth.generate("miura").mechanism)
+    >>> [one.vertex for one in thick_vertices(at.sheet, at.mechanism, at.tolerances)]
+    [5, 6, 9, 10]
     """
     corners = in_space(sheet.coordinates or ())
     ends = {joint: {v for piece in pieces for v in piece} for joint, pieces in mechanism.pieces.items()}
@@ -185,11 +221,29 @@ def hinge_heights(sheet: Sheet, mechanism: SheetMechanism, tolerances: Tolerance
 
     A valley is at least at the upper side of both its panels, a mountain at most at their underside.
 
+    Parameters
+    ----------
+    sheet : Sheet
+        Flat, with an assignment.
+    mechanism : SheetMechanism
+        Of the sheet.
+    tolerances : Tolerances
+        Of its coordinates.
+
     Raises
     ------
     UnsolvableError
         If a vertex suits no linkage; if conditions exclude each other, with the vertices and panels of a dual
         certificate (Farkas' lemma).
+
+    Examples
+    --------
+    >>> import synth
+    >>> from synth.moving.made import configuration_of
+    >>> at = configuration_of(synth.generate("miura").mechanism)
+    >>> heights = hinge_heights(at.sheet, at.mechanism, at.tolerances)
+    >>> len(heights.hinges), len(heights.undersides)
+    (12, 9)
     """
     vertices = thick_vertices(sheet, mechanism, tolerances)
     columns = {joint: place for place, joint in enumerate(mechanism.sc.joints)}

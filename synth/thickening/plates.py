@@ -13,17 +13,30 @@ from graphs.errors import UnsolvableError
 from graphs.files.solids.meshes import Mesh
 from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet
+from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.templates.solids import plate_of
 from synth.thickening.heights import HingeHeights
 
-_LEVEL = 1e-6
-"""A hinge that is nearer to the side of a panel, in thicknesses, needs no riser."""
-
 
 @dataclass(frozen=True)
 class ThickPlates:
-    """Solids in the flat state: `meshes` in millimetres, `panels` the panel of each."""
+    """Solids in the flat state.
+
+    Attributes
+    ----------
+    meshes : tuple of Mesh
+        Millimetres.
+    panels : tuple of int
+        The panel of each mesh.
+
+    Examples
+    --------
+    >>> import synth
+    >>> plates = synth.thicken(synth.generate("miura").mechanism, thickness=0.05).plates
+    >>> len(plates.meshes) == len(plates.panels), len(set(plates.panels))
+    (True, 9)
+    """
 
     meshes: tuple[Mesh, ...]
     panels: tuple[int, ...]
@@ -39,9 +52,34 @@ class ThickPlates:
 def thick_plates(
     sheet: Sheet, mechanism: SheetMechanism, heights: HingeHeights, thickness: float, scale: float
 ) -> ThickPlates:
-    """Return the solids of a flat sheet: lengths are multiplied by the scale, millimetres per unit.
+    """Return the solids of a flat sheet; risers are one thickness wide.
 
-    Risers are one thickness wide. Raise UnsolvableError if a panel is not one polygon without holes, or too narrow.
+    Parameters
+    ----------
+    sheet : Sheet
+    mechanism : SheetMechanism
+        Of the sheet.
+    heights : HingeHeights
+        Of the sheet.
+    thickness : float
+        Millimetres.
+    scale : float
+        Millimetres per unit of the coordinates.
+
+    Raises
+    ------
+    UnsolvableError
+        If a panel is not one polygon without holes, or too narrow.
+
+    Examples
+    --------
+    >>> import synth
+    >>> from synth.moving.made import configuration_of
+    >>> at = configuration_of(synth.generate("miura").mechanism)
+    >>> from synth.thickening.heights import hinge_heights
+    >>> heights = hinge_heights(at.sheet, at.mechanism, at.tolerances)
+    >>> thick_plates(at.sheet, at.mechanism, heights, 0.05, 1.0).meshes[0].name
+    'panel 0'
     """
     corners = in_space(sheet.coordinates or ())[:, :2] * scale
     outlines = [_outline(sheet, faces, corners, panel) for panel, faces in enumerate(mechanism.panels)]
@@ -60,7 +98,7 @@ def thick_plates(
         valley = sheet.assignments[int(str(joint))] == "V"
         for panel in (int(str(link)) for link in links):
             side = heights.undersides[panel] + (1.0 if valley else 0.0)
-            if abs(height - side) <= _LEVEL:
+            if abs(height - side) <= DOUBLE.meant:  # in thicknesses: level with the side of the panel
                 continue
             low, high = sorted((side * thickness, height * thickness))
             for number, (a, b) in enumerate(mechanism.pieces[int(str(joint))]):

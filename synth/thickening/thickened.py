@@ -57,6 +57,13 @@ class ThickSheet(Printed):
         Whether the fold angles are those of the thin sheet.
     residual : float
         The largest loop-closure residual of the solids on the motion.
+
+    Examples
+    --------
+    >>> import synth
+    >>> thick = synth.thicken(synth.generate("miura").mechanism, thickness=0.05)
+    >>> thick.solids
+    <HingedSolids: 9 links, 12 joints>
     """
 
     solids: HingedSolids
@@ -93,7 +100,9 @@ class ThickSheet(Printed):
         return {
             "thickness": self.thickness,
             "verdict": self.verdict.to_json(),
-            "heights": {str(joint): height * self.thickness for joint, height in self.heights.hinges.items()},
+            "heights": [
+                {"joint": joint, "height": height * self.thickness} for joint, height in self.heights.hinges.items()
+            ],
             "undersides": [height * self.thickness for height in self.heights.undersides],
             "vertices": [
                 {"vertex": one.vertex, "linkage": one.linkage, "joints": list(one.joints)}

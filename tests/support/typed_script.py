@@ -78,6 +78,7 @@ reveal_type(numbers)
 
 # Realisations, known patterns, cones and cylinders, guidance
 reveal_type(synth.generate("miura", fold=0.5).mechanism)
+reveal_type(synth.thicken(synth.generate("miura").mechanism, thickness=0.05).angles)
 reveal_type(synth.realise(drawn).sheet)
 reveal_type(synth.realise(synth.ChainString((2, 1)), mode="D").mobility)
 reveal_type(synth.realise(chain, freedoms=1).members)
