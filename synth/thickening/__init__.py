@@ -1,7 +1,7 @@
 """Crease patterns of thick panels: hinges moved off the plane of the sheet, solids that are shown to move.
 
 `heights` has the conditions of vertices and the linear programme for the heights of hinges, `plates` the solids of
-panels, `thickened` the answer. Theory: docs/theory/thick-panels.md.
+panels, `thickened` the answer. Theory: docs/guides/thick-panels.md.
 """
 
 from graphs.lazy import offered
