@@ -37,7 +37,7 @@ def test_the_options_are_those_of_every_command_that_reads_a_pattern():
     having = {name for name, one in commands().items() if any("--layer" in option.opts for option in one.params)}
     assert having == {
         "look", "mobility", "fold", "positions", "explain", "advise", "states", "limits", "draw", "view", "template",
-        "reduce", "edit", "convert", "reconstruct", "id", "layers",
+        "reduce", "edit", "convert", "reconstruct", "id", "layers", "thicken",
     }  # fmt: skip
     for name in having:
         assert any("--colour" in option.opts for option in commands()[name].params), name

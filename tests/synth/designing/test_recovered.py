@@ -10,7 +10,7 @@ from wished import KINDS, wished
 from synth.designing.designs import judged
 from synth.designing.search import found_from, seeded
 
-STARTS = 6
+STARTS = 16
 
 
 def recovered(kind, seed):
