@@ -26,7 +26,7 @@ from synth.realisation.pattern import Pattern
 
 _FRAMES = 6
 _LEFT = 0.25
-"""The part of the way of a corner to 0 or a straight angle that a design leaves."""
+"""The part of the way of a corner to the ends of its range that a design leaves."""
 
 
 def pattern_of_sheet(sheet: Sheet) -> Pattern:
@@ -69,18 +69,20 @@ def flat_rules(sheet: Sheet) -> list[Callable[[DesignedLinkage], tuple[Floats, F
 
 
 def _corners_kept(pattern: Pattern, places: Floats) -> Condition:
-    """Return that no corner of a panel comes near to 0 or a straight angle, where it was neither: else panels flip.
+    """Return that corners of panels keep `_LEFT` of their way to the ends of the range in which they lie.
 
-    The part of an angle beyond what is left of its way to either; a panel that has flipped is another mechanism.
+    The range is 0 to a straight angle for convex corners, a straight angle to a whole turn for others: a panel with a
+    corner beyond is turned over, which is another mechanism. Straight corners are left free. Radians.
     """
     first, _ = opened_angles(pattern, places)
-    straight = np.where(first < np.pi, np.pi, 2.0 * np.pi)
-    low, high = straight - np.pi + _LEFT * (first - straight + np.pi), straight - _LEFT * (straight - first)
+    start = np.where(first < np.pi, 0.0, np.pi)
+    low, high = start + _LEFT * (first - start), start + np.pi - _LEFT * (start + np.pi - first)
+    held = np.abs(first - np.pi) > DOUBLE.parallel
 
     def condition(unknowns: Floats) -> tuple[Floats, Floats]:
         angles, by_places = opened_angles(pattern, unknowns)
-        below, above = np.minimum(angles - low, 0.0), np.maximum(angles - high, 0.0)
-        return below + above, by_places * ((below < 0.0) | (above > 0.0))[:, None]
+        off = np.where(held, angles - np.clip(angles, low, high), 0.0)
+        return off, by_places * (off != 0.0)[:, None]
 
     return condition
 

@@ -1,5 +1,7 @@
 """Flat sheets whose vertices move: rules that keep them flat-foldable and rigid-foldable, and sheets that do not fold."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from sizes import slow
@@ -9,6 +11,7 @@ from synth.designing import Formula, Goal, JointAngle, PointsOn, WishedConfigura
 from synth.designing.dimensions import dimensions_of
 from synth.designing.problem import DesignProblem
 from synth.designing.search import closed
+from synth.designing.sheet_rules import _corners_kept
 from synth.folding.motion import fold
 from synth.patterns import generate
 
@@ -47,6 +50,23 @@ def test_rules_have_exact_derivatives(rng):
         for h in (1e-3, 5e-4)
     ]
     np.testing.assert_allclose(problem.evaluated(at).by_rules @ along, (4 * expected[1] - expected[0]) / 3, atol=1e-6)
+
+
+def test_corners_are_kept_from_turning_over_and_straight_ones_are_free():
+    """Places of a square with a vertex on one side; then its upper right corner pulled to the left."""
+    corners = np.array([(4, 0, 1), (0, 1, 2), (1, 2, 3), (2, 3, 4), (3, 4, 0)])
+    pattern = SimpleNamespace(corners=corners, widest=np.full(5, np.pi))
+    places = np.array([(0, 0), (1, 0), (2, 0), (2, 2), (0, 2)], dtype=float)
+    condition = _corners_kept(pattern, places)
+    bulging, narrow = places.copy(), places.copy()
+    bulging[1, 1], narrow[3, 0] = -0.05, 20.0
+    assert not condition(places)[0].any()
+    assert not condition(bulging)[0].any()
+    off, by = condition(narrow)
+    assert np.flatnonzero(off).tolist() == [2, 3]  # the one is too wide, the other too narrow
+    along = np.random.default_rng(1).normal(size=(5, 2))
+    slope = (condition(narrow + 1e-6 * along)[0] - condition(narrow - 1e-6 * along)[0]) / 2e-6
+    np.testing.assert_allclose(by @ along.ravel(), slope, atol=1e-7)
 
 
 def test_without_rules_a_sheet_that_does_not_fold_is_no_success():
