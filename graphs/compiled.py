@@ -8,8 +8,6 @@ This file stands alone, since it runs before anything is installed: as part of t
 command line (``python -m graphs.compiled``), which builds what is not there yet.
 """
 
-from __future__ import annotations
-
 import ctypes
 import os
 import shutil

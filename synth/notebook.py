@@ -4,8 +4,6 @@ Answers print their own tables. Mechanisms are in ``graphs``, which cannot draw,
 are written; so IPython gets the names of classes here, and nothing is imported before it is needed.
 """
 
-from __future__ import annotations
-
 import sys
 from typing import Any
 

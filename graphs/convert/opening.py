@@ -4,8 +4,6 @@ A drawing gives the two sides of a slit one edge, or two that share their ends; 
 what comes apart on folding gets vertices of its own. Theory: docs/theory/folding.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise

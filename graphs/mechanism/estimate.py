@@ -6,8 +6,6 @@ exact. The deviations of relations that were meant are alike, those of relations
 size; so the former are a cluster far below the others. Theory: docs/theory/precision.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property

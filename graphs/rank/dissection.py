@@ -7,8 +7,6 @@ matrix. It is multifrontal QR with delayed pivots (Davis 2011), two-sided; how m
 second time, by the inertia of the normal equations. Theory: docs/theory/pose.md.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 
 import numpy as np

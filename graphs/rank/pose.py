@@ -6,8 +6,6 @@ infinitesimal freedoms than it can use. Lengths are in units of the extent, so t
 coordinates says what each singular value may owe to errors. Theory: docs/theory/pose.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any

@@ -4,8 +4,6 @@ What is kept says itself what it is: its name is a digest of the type and the se
 the files that find it. Where no folder can be written positions are found anew in each process.
 """
 
-from __future__ import annotations
-
 import io
 from functools import cache
 from hashlib import sha256

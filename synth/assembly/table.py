@@ -1,7 +1,5 @@
 """All assembly modes of a linkage at many inputs, as arrays."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

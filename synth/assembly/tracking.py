@@ -3,8 +3,6 @@
 Both do the same; numba, which compiles the latter, is imported only then.
 """
 
-from __future__ import annotations
-
 import ctypes
 from ctypes import c_double, c_int, c_int64, c_void_p
 from pathlib import Path

@@ -1,7 +1,5 @@
 """``python -m synth.cli.ahead``: compile the code of large enumerations on all cores, before their first use."""
 
-from __future__ import annotations
-
 import os
 import signal
 import sys

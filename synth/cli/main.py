@@ -4,8 +4,6 @@ Subcommands are imported when they run, or to show their help, and they import w
 called: ``synth --help`` loads neither networkx nor rich.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 import traceback

@@ -7,8 +7,6 @@ certain where a formula decides, or other signs refute the opposite; else sample
 docs/theory/conical-candidates.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum

@@ -7,8 +7,6 @@ terms differ in sign, chords are compared as sets of gaps (`signs_by_chords`), o
 (`SignRelations`). Theory: docs/theory/conical-candidates.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations

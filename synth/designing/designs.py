@@ -4,8 +4,6 @@ A design is a success if its configurations are closed, its rules hold, the verd
 passes its configurations on one branch in their order. Theory: docs/theory/design.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import degrees

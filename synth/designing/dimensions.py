@@ -6,8 +6,6 @@ one middle, whatever the numbers are, so that closure equations of neighbouring 
 docs/theory/design.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import inf, pi

@@ -3,8 +3,6 @@
 A row holds what a start gave; designs are made of rows again when they are compared.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields

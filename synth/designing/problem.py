@@ -4,8 +4,6 @@ Closure equations of each configuration and rules are to be zero, misses of wish
 Theory: docs/theory/design.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property

@@ -4,8 +4,6 @@ Closure counts as much as wishes at first and ever more after that, so that a de
 configurations are closed to the last digit. Theory: docs/theory/design.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from hashlib import sha256

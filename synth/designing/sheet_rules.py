@@ -5,8 +5,6 @@ of such vertices folds rigidly if the product of the ratios round each panel bet
 branch on which the sheet folds. Theory: docs/theory/design.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -3,8 +3,6 @@
 Theory: docs/theory/design.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal

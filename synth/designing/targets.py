@@ -4,8 +4,6 @@ Each gives for points float[P, 3] by how much they miss, float[P, r], and the de
 docs/theory/design.md.
 """
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ The driven joint is taken from one configuration to the next, by the walk of `sy
 only compared with where that arrives. Theory: docs/theory/design.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import tau

@@ -3,8 +3,6 @@
 Angles are degrees, lengths in the unit of the mechanism. Guide: docs/native-json.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import radians

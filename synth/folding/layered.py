@@ -1,7 +1,5 @@
 """Layer orders at the configuration of a crease pattern. Theory: docs/theory/layer-orders.md."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from graphs.errors import check_argument

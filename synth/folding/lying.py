@@ -5,8 +5,6 @@ that go on lying on each other keep their order. Where no layer order agrees wit
 panels pass through each other. Theory: docs/theory/layer-orders.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ Three with chosen fixed axes, four on curves (`dyads`), five all, more by least 
 five at once (`many`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import degrees

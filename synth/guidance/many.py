@@ -5,8 +5,6 @@ small singular value, solutions near each other or nearly real) are solved one b
 Theory: docs/theory/dyads.md.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What `synth layers` asks: whether a crease pattern folds flat, and in which layer orders."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import overload
 

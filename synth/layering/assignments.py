@@ -1,7 +1,5 @@
 """Layer orders by the mountains and valleys of unassigned creases."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import prod

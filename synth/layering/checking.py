@@ -4,8 +4,6 @@ At each segment of the image the strands are drawn as arcs: those of creases on 
 one side to the other. Two arcs cross exactly if their ends alternate.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 from synth.layering.constraints import decided_at

@@ -6,8 +6,6 @@ on one side of it. A component may fall into independent parts later (`synth.lay
 product of the counts. Source: J. Ku, Flat-Folder. Theory: docs/theory/layer-orders.md.
 """
 
-from __future__ import annotations
-
 from functools import cache
 from itertools import product
 

@@ -11,8 +11,6 @@ class 0 is what is true. Sources: M. Bern and B. Hayes (1996); H. A. Akitaya et 
 Theory: docs/theory/layer-orders.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property

@@ -6,8 +6,6 @@ Sources: U. Junker, QuickXplain (2004); for the conditions `synth.layering.const
 docs/theory/layer-orders.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations

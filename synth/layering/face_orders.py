@@ -1,7 +1,5 @@
 """Layer orders in FOLD: ``faceOrders`` read, and patterns written with a folded frame that has them."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from pathlib import Path

@@ -5,8 +5,6 @@ at fault, farther and farther away until there is an assignment that all vertice
 by one, as long as there still is one.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product

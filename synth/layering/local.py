@@ -6,8 +6,6 @@ mountain and a valley, is folded away. Sources: T. Kawasaki (1989); J. Justin (1
 complexity of flat origami (1996), for crimps. Theory: docs/theory/layer-orders.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import degrees, pi

@@ -1,7 +1,5 @@
 """Whether a crease pattern folds flat, and in which layer orders. Theory: docs/theory/layer-orders.md."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property

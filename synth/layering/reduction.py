@@ -3,8 +3,6 @@
 Theory: docs/theory/layer-orders.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

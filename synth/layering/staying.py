@@ -4,8 +4,6 @@ What stays flat joins its panels, so each choice is a crease pattern of its own.
 is folded round each has to fold flat by itself. Theory: docs/theory/layer-orders.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product

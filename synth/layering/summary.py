@@ -1,7 +1,5 @@
 """Whether a crease pattern folds flat, as far as that takes a moment: a line of `synth mobility`."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any

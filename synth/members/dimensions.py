@@ -4,8 +4,6 @@ Arcs bend the links of a mechanism in its configuration: each turns what comes a
 its two axes, and joints follow until loops close. Axes, points and coordinates are those of closed configurations.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import degrees

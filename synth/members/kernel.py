@@ -7,8 +7,6 @@ far from where it was expected, or the determinant of the derivatives has anothe
 versions do the same, apart from how they halve steps. Theory: docs/theory/members.md.
 """
 
-from __future__ import annotations
-
 import ctypes
 import os
 from collections.abc import Callable

@@ -3,8 +3,6 @@
 It goes along tangents instead of cubics, and so in shorter steps; places, states and turning points are the same.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 

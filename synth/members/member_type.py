@@ -1,7 +1,5 @@
 """A type of linkage with driven joints, its members by arrays, and what becomes of them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 

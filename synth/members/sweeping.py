@@ -1,7 +1,5 @@
 """Sweep: members of one type taken through given inputs, and what becomes of each."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

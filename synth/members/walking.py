@@ -4,8 +4,6 @@ Loops of most crease patterns, and of spatial linkages that move, have redundant
 not decide them; the walk of one member after the other does (`synth.motion.walk`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial

@@ -5,8 +5,6 @@ own. Whatever is here `synth.motion.closure` and `synth.motion.tangent` do with 
 no library.
 """
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Sequence
 from ctypes import byref, c_double, c_int, c_int64, c_void_p

@@ -5,8 +5,6 @@ the sum of rows of the derivatives is kept that it stands for: that has no part 
 docs/theory/folding.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Protocol
 

@@ -4,8 +4,6 @@ Places of joints on a grid are sorted by their first-order behaviour, all at onc
 the wanted side are moved all round their circuits. Theory: docs/theory/behaviour.md, docs/theory/moving.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations, permutations, product

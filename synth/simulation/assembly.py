@@ -5,8 +5,6 @@ slides; each hinge outside it is cut, and `synth.simulation.connections` says wh
 metres, in the axes of the coordinates; the base of the tree stays where it is.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property

@@ -5,8 +5,6 @@ that hinges are written as they are; joint angles there are ours (`ref`). Connec
 by as much as its solver settings say, which are part of the file.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

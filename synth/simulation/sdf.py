@@ -4,8 +4,6 @@
 are zero. Panels are polygons of a height.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from graphs.errors import numbered

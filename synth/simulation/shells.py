@@ -1,7 +1,5 @@
 """Links on a cone or a cylinder as parts of shells, in layers one outside another, so that none lies in another."""
 
-from __future__ import annotations
-
 from math import cos, sin
 
 import numpy as np

@@ -5,8 +5,6 @@ two circles, shells have parts of cones and cylinders. Millimetres. A part has t
 origin at the hinge that carries it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 
 import numpy as np

@@ -5,8 +5,6 @@ measured at three configurations that are solved for too. The moment of the driv
 weight and springs do while it turns.
 """
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

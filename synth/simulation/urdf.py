@@ -5,8 +5,6 @@ all joints are zero; the file beside says which angles of ours these are. A join
 driven one in proportion mimics it; other functions are tables, for a cubic spline. Panels are STL files.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from math import pi

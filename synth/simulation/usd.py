@@ -4,8 +4,6 @@
 kilograms; angles of limits and drives in degrees, from the configuration of the file.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator
 from math import degrees

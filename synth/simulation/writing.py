@@ -1,7 +1,5 @@
 """Models for simulators written to files: a record for each format, in the table ``MODELS``."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from xml.sax.saxutils import escape

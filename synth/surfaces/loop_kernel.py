@@ -1,7 +1,5 @@
 """The library loop_sums.c: roots of loop sums; where there is none, numpy finds them in `synth.surfaces.loop_sums`."""
 
-from __future__ import annotations
-
 from ctypes import c_int64, c_void_p
 from pathlib import Path
 

@@ -9,8 +9,6 @@ compared with its own rounding (`sum_rounding`), nothing absolute. Four links ha
 Eqs. 4, 5, 11 to 14). Theory: docs/theory/loop-sums.md, docs/theory/mapping.md, docs/theory/rounding.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, Literal

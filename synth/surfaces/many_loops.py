@@ -4,8 +4,6 @@ Loop sums of all loops are solved together; loops of which rounding or half turn
 one, as all are by `map_to_cones`. Theory: docs/theory/loop-sums.md.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 

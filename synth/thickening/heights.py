@@ -5,8 +5,6 @@ of Myard for five, plane-symmetric of Bricard for six. Source: Y. Chen, R. Peng,
 Science 349 (2015), 396-400. Theory: docs/guides/thick-panels.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import pi, sin

@@ -1,7 +1,5 @@
 """Panels of a thickness as plane-faced solids: a slab, and risers from it to hinges at another height."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -3,8 +3,6 @@
 Theory: docs/guides/thick-panels.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A crease pattern folded flat as a page shows it: the cells of its image, and layer orders to choose from."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import islice
 

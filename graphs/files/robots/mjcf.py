@@ -5,8 +5,6 @@ hinge where the joints between the bodies keep them in a plane, else a ball. A h
 ``<custom>``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from math import radians

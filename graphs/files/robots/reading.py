@@ -1,7 +1,5 @@
 """What readers of robots share: XML read safely, frames, and bodies with joints made a mechanism."""
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass, field
 from math import cos, sin

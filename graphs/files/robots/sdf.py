@@ -3,8 +3,6 @@
 *SDFormat specification*: poses are relative to the model, or to the link, joint or frame that they name.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from xml.etree.ElementTree import Element
 

@@ -4,8 +4,6 @@
 `synth.simulation.urdf` writes it.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import Element

@@ -1,7 +1,5 @@
 """``synth atlas``: all types up to a size in one file."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable
 from functools import partial

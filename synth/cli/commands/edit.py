@@ -1,7 +1,5 @@
 """``synth edit`` and ``synth reduce``: mechanisms changed, with the change of mobility."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """``synth look``: a first answer about any file."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import click

@@ -1,7 +1,5 @@
 """``synth thicken``: a crease pattern with panels of a thickness."""
 
-from __future__ import annotations
-
 import click
 
 import synth.thickening

@@ -1,7 +1,5 @@
 """Crease patterns folded flat: from the front, from the back, and with light through the layers."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path

@@ -3,8 +3,6 @@
 Equal problems are counted once. A large problem is parted into cases: values of a few variables.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property

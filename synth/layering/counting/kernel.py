@@ -4,8 +4,6 @@ Whatever is here `synth.layering.counting.problem` and `synth.layering.counting.
 is no library.
 """
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Sequence
 from ctypes import c_int, c_int64, c_void_p

@@ -6,8 +6,6 @@ of each that it has met: its key is which variables are open, and what the other
 components (2000); M. Thurley, sharpSAT (2006). Theory: docs/theory/layer-orders.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -3,8 +3,6 @@
 Each newly known order of two panels over a cell is compared with those of both to every third panel there.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from graphs.types import Ints, Signs

@@ -1,7 +1,5 @@
 """Layer orders at a configuration at which some panels lie on each other. Theory: docs/theory/layer-orders.md."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property

@@ -1,7 +1,5 @@
 """A sheet at a configuration, as the orders of its layers are asked for."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 
