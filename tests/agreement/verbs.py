@@ -7,6 +7,7 @@ some. What it answers is an `Outcome`.
 from __future__ import annotations
 
 import json
+import weakref
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -15,6 +16,7 @@ from html.parser import HTMLParser
 from math import degrees, radians
 from pathlib import Path
 from signal import ITIMER_PROF, SIGPROF, setitimer, signal
+from types import FrameType
 from typing import Any
 
 import numpy as np
@@ -305,17 +307,35 @@ class _TimeIsUpError(BaseException):
     """A question takes too long."""
 
 
+_AGAIN = 0.01
+"""Seconds until a question is stopped again, if it could not be the first time."""
+
+
+def _finalises(frame: FrameType | None) -> bool:
+    """Tell whether an object is being finalised, where Python prints exceptions and goes on."""
+    while frame is not None:
+        if frame.f_code.co_name == "__del__" or frame.f_code.co_filename == weakref.__file__:
+            return True
+        frame = frame.f_back
+    return False
+
+
 @contextmanager
 def _at_most(seconds: float | None) -> Iterator[None]:
     if seconds is None:
         yield
         return
 
-    def end(_number: int, _frame: object) -> None:
-        raise _TimeIsUpError
+    ended = False
+
+    def end(_number: int, frame: FrameType | None) -> None:
+        nonlocal ended
+        if not ended and not _finalises(frame):
+            ended = True
+            raise _TimeIsUpError
 
     before = signal(SIGPROF, end)
-    setitimer(ITIMER_PROF, seconds)
+    setitimer(ITIMER_PROF, seconds, _AGAIN)
     try:
         yield
     finally:

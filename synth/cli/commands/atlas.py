@@ -160,7 +160,10 @@ def query(
 @options.FORCE
 @options.JSON
 def show(atlas: str, type_id: str, output: str | None, force: bool, as_json: bool) -> None:
-    """Show the properties of a type, given its id or its name, and the types related to it."""
+    """Show the properties of a type.
+
+    ID is an id or a name, such as "Watt chain". The types related to it are listed too.
+    """
     out.check_output(output, force=force)
     report = synth.atlas.open_atlas(atlas).show(type_id)
     if output is not None:
@@ -199,7 +202,10 @@ def page(atlas: str, condition: str, folder: str, title: str, workers: int | Non
 @options.FILES
 @options.JSON
 def find(atlas: str, files: tuple[str, ...], as_json: bool) -> None:
-    """Find the types of mechanisms in the atlas, and the types one edit away."""
+    """Find the types of mechanisms in the atlas.
+
+    The types one edit away are listed too.
+    """
     opened = synth.atlas.open_atlas(atlas)
     failures: list[str] = []
     answers = []

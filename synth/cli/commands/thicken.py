@@ -13,7 +13,7 @@ from synth.cli.reading import MECHANISM, PRECISION, precise_sheet, read
 @MECHANISM
 @options.value("--thickness", "MM", "Thickness of panels, millimetres.", type=options.LENGTH, required=True)
 @options.value(
-    "--scale", None, "Millimetres per unit of the coordinates.  [default: 1]", type=options.LENGTH, default=1.0
+    "--scale", None, "Millimetres per unit of the coordinates.", type=options.LENGTH, default=1.0
 )
 @options.output("Write the hinged solids (.json), or their shapes (.stl, .3mf, .obj; .gltf with the motion).")
 @options.FORCE
