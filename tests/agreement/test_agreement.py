@@ -136,7 +136,7 @@ def test_all_verbs_agree_on(specimen, tmp_path):
         pytest.skip("no mechanism with coordinates, or too large")
     table, wrong = Table(), []
     doors = DOORS if specimen.file is not None and not specimen.name.startswith("fold/") else DOORS[:1]
-    for one in comparisons([specimen], tmp_path, doors=doors, seconds=1.0):
+    for one in comparisons([specimen], tmp_path, doors=doors, seconds=0.7):
         table.add(one.variant, one.outcomes, one.disagreements)
         wrong += [f"{one.variant} | {each}" for each in one.disagreements]
     print(table)

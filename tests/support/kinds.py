@@ -18,7 +18,7 @@ import pytest
 KINDS = ("unit", "law", "world")
 DURATIONS = Path(__file__).resolve().parent.parent / "durations.json"
 """Seconds of processor time: of each test from `STORED_FROM` on, and of all tests of a kind that are not slow."""
-NIGHT = 600.0
+NIGHT = 300.0
 """Slow tests that take longer, in seconds of processor time, run with `make test-night` only."""
 STORED_FROM = 0.1
 """Tests that take longer, in seconds of processor time, are no unit tests."""
