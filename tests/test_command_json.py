@@ -53,6 +53,8 @@ COMMANDS = [
     "cone move data/surfaces/fig11-stephenson.json",
     "order --orientations data/orientations/tipparthi.json --axis 1,2,3",
     "convert data/wiener/watt.json made.graphml --lossy",
+    "convert data/linkages/stewart.json stewart.xml --as mjcf",
+    "convert data/linkages/bennett.json bennett.csv --as table --drive 0=60",
     "design four-bar data/wishes/crank-and-follower.json --starts 1",
 ]
 

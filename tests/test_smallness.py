@@ -110,6 +110,8 @@ EXEMPT = {
     ("synth/realisation/special/axes.py", "_LEAST"): "regularisation of a step",
     ("synth/realisation/special/axes.py", "_TIGHT"): "end of an iteration",
     ("synth/simulation/mjcf.py", "STEP"): "time of a step",
+    ("synth/simulation/mjcf.py", "_LIGHTEST"): "bound of a simulator",
+    ("synth/simulation/step.py", "_ACCURACY"): "accuracy that a file states",
     ("synth/simulation/mjcf.py", "_SOLVER"): "end of an iteration of a simulator",
     ("synth/simulation/mjcf.py", "_STIFF"): "stiffness of a simulator",
     ("synth/surfaces/loop_sums.py", "_MOST_SENSITIVE"): "greatest growth of rounding, a large number",

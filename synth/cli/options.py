@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from math import degrees, pi, radians
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -65,6 +66,14 @@ def _length(word: str, *, zero: bool = False) -> float:
     return length
 
 
+def _thickness(word: str) -> float:
+    """Return a length; 0 too, which is refused where solids are made, in a line that names the file."""
+    with suppress(ValueError):
+        if float(word) == 0.0:
+            return 0.0
+    return _length(word)
+
+
 def _branch(word: str) -> int | str:
     """Return the number of a branch, as `synth fold --branches` lists them, or its signs."""
     if not (word.isascii() and word.isdigit()):
@@ -103,6 +112,7 @@ LENGTH = WordType("length", _length)
 """The type of --size, --scale, --thickness and the like."""
 LENGTH_OR_NONE = WordType("length", partial(_length, zero=True))
 """The type of lengths that may be 0, such as --gap."""
+THICKNESS = WordType("length", _thickness)
 NUMBERS = WordType("numbers", _numbers)
 AXIS = WordType("numbers", partial(_numbers, axis=True))
 BRANCH = WordType("branch", _branch)

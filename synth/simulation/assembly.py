@@ -183,8 +183,8 @@ def assembly_of(mechanism: Movable, options: AssemblyOptions | None = None) -> A
     Raises
     ------
     UnsolvableError
-        If it has no coordinates, driven joints cannot be driven, slides close a loop without a hinge, or a panel is
-        not planar.
+        If it has no coordinates or nothing solid, driven joints cannot be driven, slides close a loop without a
+        hinge, or a panel is not planar.
     InvariantError
         If there is no such joint or branch.
 
@@ -198,6 +198,8 @@ def assembly_of(mechanism: Movable, options: AssemblyOptions | None = None) -> A
     options = options or AssemblyOptions()
     at = configuration_of(mechanism, slides=True)
     options.springs.check_joints(at.joints)
+    if not at.joints and not isinstance(at, SheetConfiguration):
+        raise UnsolvableError("nothing is solid: links without panels have a shape by their joints, and there are none")
     driven, notes = _motion(at, options)
     linkage = at.linkage
     path = linkage.angles[None] if driven is None else driven.path.angles
@@ -208,12 +210,10 @@ def assembly_of(mechanism: Movable, options: AssemblyOptions | None = None) -> A
     posed = moved(linkage, angles)
     unit_length = _unit(posed, at, options)
     metre = linkage.extent * unit_length
-    thickness = metre * _THIN if options.thickness is None else options.thickness / _METRE
+    thickness = _thickness(options, metre)
     drivers = () if driven is None else tuple(driven.places)
     hinges = _hinges(at, posed, metre, options, unit_length)
-    on_surface = shells_of(
-        at.given if isinstance(mechanism, Configuration) else mechanism, linkage, angles, metre, thickness
-    )
+    on_surface = shells_of(mechanism if at.given is None else at.given, linkage, angles, metre, thickness)
     bodies = _bodies(at, posed, hinges, angles, metre, options.density, thickness, on_surface)
     lengths = np.where(np.isin(np.arange(len(hinges)), linkage.slides), metre, 1.0)
     tree, bases, cut = spanning_tree(at, hinges, drivers)
@@ -264,6 +264,17 @@ def _unit(posed: PosedLinkage, at: Configuration, options: AssemblyOptions) -> f
         points = np.array([[*corner, 0.0][:3] for corner in at.sheet.coordinates or ()])
     longest = float(np.ptp(points, axis=0).max(initial=0.0)) or posed.extent
     return options.size / _METRE / longest
+
+
+def _thickness(options: AssemblyOptions, metre: float) -> float:
+    """Return the thickness of panels and bars, metres; UnsolvableError where it is none beside the extent."""
+    if options.thickness is None:
+        return metre * _THIN
+    thickness = options.thickness / _METRE
+    if thickness <= DOUBLE.same_point * metre:
+        sizes = f"the thickness is {options.thickness:g} mm at an extent of {_METRE * metre:.3g} mm"
+        raise UnsolvableError(f"nothing is solid: {sizes}; try a larger thickness")
+    return thickness
 
 
 def _hinges(

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from graphs.errors import numbered
+from graphs.errors import UnsolvableError, numbered
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.simulation.assembly import Assembly, driven_inertia
@@ -31,12 +31,15 @@ _SOLVER: dict[str, Any] = {
 }
 _STIFF: dict[str, Any] = {"solref": [2.0 * STEP, 1.0], "solimp": [0.9999, 0.9999, 0.001, 0.5, 2.0]}
 """As stiff as the step allows: errors decay in two steps."""
+_LIGHTEST = 1e-15
+"""MuJoCo refuses moving bodies of a smaller mass or moment of inertia, kg and kg m2 (mjMINVAL)."""
 SERVO = 50.0
 """Driven joints follow their input in 1/50 s."""
 
 
 def mjcf_bytes(assembly: Assembly) -> bytes:
-    """Return an assembly as MJCF."""
+    """Return an assembly as MJCF; UnsolvableError if a moving body is too light for MuJoCo."""
+    _check_weights(assembly)
     root = Element("mujoco", {"model": "mechanism"})
     root.add("compiler", angle="radian", autolimits=True, balanceinertia=False)
     option = root.add("option", **_SOLVER)
@@ -61,6 +64,16 @@ def mjcf_bytes(assembly: Assembly) -> bytes:
     if not assets.children:
         root.children.remove(assets)
     return document(root, _head(assembly))
+
+
+def _check_weights(assembly: Assembly) -> None:
+    for joint in assembly.tree:
+        body = assembly.bodies[joint.child]
+        mass, moment = body.properties.mass, float(np.linalg.eigvalsh(body.properties.inertia)[0])
+        if min(mass, moment) < _LIGHTEST:
+            too_light = f"{body.name} has a mass of {mass:.2g} kg and a moment of inertia of {moment:.2g} kg m²"
+            expected = f"MuJoCo requires {_LIGHTEST:g} of each"
+            raise UnsolvableError(f"{too_light}, and {expected}; try a larger size, thickness or density")
 
 
 def _head(assembly: Assembly) -> list[str]:

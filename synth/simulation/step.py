@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from graphs.errors import numbered
+from graphs.errors import UnsolvableError, numbered
 from graphs.geometry import frame_about, unit
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
@@ -17,6 +17,8 @@ from synth.simulation.assembly import Assembly
 from synth.simulation.bodies import Bar, Plate, Shape, Shell
 
 _MILLIMETRES = 1000.0
+_ACCURACY = 1e-7
+"""Points nearer than this are one for whoever reads the file, millimetres."""
 _HEAD = """ISO-10303-21;
 HEADER;
 FILE_DESCRIPTION(('synthedra'),'2;1');
@@ -28,7 +30,10 @@ DATA;
 
 
 def step_bytes(assembly: Assembly) -> bytes:
-    """Return an assembly as STEP."""
+    """Return an assembly as STEP; UnsolvableError if its bodies are thinner than points of a file are apart."""
+    if _MILLIMETRES * assembly.thickness <= _ACCURACY:
+        thickness = f"the thickness is {_MILLIMETRES * assembly.thickness:.2g} mm"
+        raise UnsolvableError(f"{thickness}, and STEP files are accurate to {_ACCURACY:g} mm; try a larger size")
     file = _File()
     whole = file.product("mechanism")
     parts = []
@@ -62,7 +67,7 @@ class _File:
         length = self.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))")
         angle = self.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))")
         solid = self.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())")
-        measure = f"LENGTH_MEASURE(1.E-07),{length},'distance_accuracy_value','confusion accuracy'"
+        measure = f"LENGTH_MEASURE({_real(_ACCURACY)}),{length},'distance_accuracy_value','confusion accuracy'"
         uncertain = self.add(f"UNCERTAINTY_MEASURE_WITH_UNIT({measure})")
         self.context = self.add(
             f"(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(({uncertain}))"
@@ -288,4 +293,5 @@ def _text(text: str) -> str:
 
 def lost_as_step(assembly: Assembly) -> tuple[str, ...]:
     """Return what STEP does not hold: joints are no part of it, their axes are curves."""
-    return (f"{numbered(len(assembly.hinges), 'joint')}, but for the axes", "the motion")
+    joints = [f"{numbered(len(assembly.hinges), 'joint')}, but for the axes"] if assembly.hinges else []
+    return (*joints, *(["the motion"] if len(assembly.path) > 1 else []))

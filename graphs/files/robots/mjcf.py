@@ -24,7 +24,8 @@ from graphs.types import Floats
 
 _KINDS = {"hinge": JointKind.REVOLUTE, "slide": JointKind.PRISMATIC, "ball": JointKind.SPHERICAL}
 _LEFT_OUT = {"tendon": "tendon section", "deformable": "deformable section"}
-_NOT_MADE = ("composite", "flexcomp", "replicate", "attach", "plugin")
+_BODY = {"body", "frame", "joint", "freejoint", "inertial", "geom", "site", "camera", "light"}
+"""Elements of bodies that are read, or have nothing to do with joints."""
 
 
 def read_mjcf(path: Path) -> HingedSolids | JointedLinkage:
@@ -71,7 +72,7 @@ class _Reader:
                     waiting.append((child, body, composed(frame, self._frame(child)), here))
                 elif child.tag == "body":
                     waiting.append((child, *self._body(child, body, frame, child.get("childclass", here)), here))
-                elif child.tag in _NOT_MADE:
+                elif child.tag not in _BODY:
                     self.robot.unread[f"<{child.tag}>"] += 1
             for site in element.findall("site"):
                 point = self.robot.numbers(site.get("pos"), 3, "<site>", "0 0 0")

@@ -18,6 +18,8 @@ _KINDS = {
     "ball": JointKind.SPHERICAL, "universal": JointKind.UNIVERSAL, "fixed": None,
 }  # fmt: skip
 _MODEL = "__model__"
+_KNOWN = {"link", "joint", "frame", "pose", "static", "self_collide", "allow_auto_disable", "plugin", "enable_wind"}
+"""Elements of models that are read, or have nothing to do with joints."""
 
 
 def read_sdf(path: Path) -> HingedSolids | JointedLinkage:
@@ -27,8 +29,8 @@ def read_sdf(path: Path) -> HingedSolids | JointedLinkage:
     if len(models) != 1:
         robot.fail("", f"{len(models)} models", "1")
     (model,) = models
-    for tag in ("include", "model"):
-        robot.unread[f"<{tag}> in the model"] += len(model.findall(tag))
+    robot.unread.update(f"<{element.tag}> in the model" for element in model if element.tag not in _KNOWN)
+    robot.unread["static model"] += (model.findtext("static") or "").strip() in ("true", "1")
     robot.unread = +robot.unread
     for link in model.findall("link"):
         robot.add_body(link.get("name", ""))

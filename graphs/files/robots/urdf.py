@@ -20,6 +20,8 @@ _KINDS = {
     "revolute": JointKind.REVOLUTE, "continuous": JointKind.REVOLUTE, "prismatic": JointKind.PRISMATIC,
     "planar": JointKind.PLANAR, "fixed": None, "floating": None,
 }  # fmt: skip
+_KNOWN = {"link", "joint", "material", "transmission", "gazebo", "mujoco", "sensor"}
+"""Elements of robots that are read, or have nothing to do with joints."""
 
 
 def read_urdf(path: Path) -> HingedSolids | JointedLinkage:
@@ -41,7 +43,8 @@ def read_urdf(path: Path) -> HingedSolids | JointedLinkage:
         _add_loops(robot, load_json(beside), frames, beside)
     else:
         robot.unread["mimic joint"] += len(root.findall("joint/mimic"))
-        robot.unread = +robot.unread
+    robot.unread.update(f"<{element.tag}>" for element in root if element.tag not in _KNOWN)
+    robot.unread = +robot.unread
     return robot.mechanism()
 
 

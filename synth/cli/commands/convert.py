@@ -40,13 +40,18 @@ _OF_MODELS = ("density", "drive", "branch", "stiffness")
     "Change the centres: planar analogue, spherical analogue, or most general form.",
 )  # fmt: skip
 @options.choice("--table", ("axes", "vertices"), "Table for a .csv file: joint axes or vertices, in every frame.")
-@options.value("--thickness", "MM", "Thickness of panels as solids.  [default: 1]", type=options.LENGTH)
+@options.value(
+    "--thickness", "MM",
+    "Thickness of panels as solids; with --as also of shells and bars.  [default: 1; with --as, extent / 100]",
+    type=options.THICKNESS,
+)  # fmt: skip
 @options.value(
     "--gap", "MM", "Gap between solids at a hinge.  [default: twice the thickness]", type=options.LENGTH_OR_NONE
 )
 @options.value(
-    "--scale", None, "For solids: millimetres per unit of the coordinates.  [default: 1]", type=options.LENGTH
-)
+    "--scale", None, "For solids: millimetres per unit of the coordinates.  [default: 1; with --as, 1000]",
+    type=options.LENGTH,
+)  # fmt: skip
 @options.value(
     "--size", "MM", "For solids: longest side; for a linkage on a cone or cylinder, length of the ruling lines.",
     type=options.LENGTH,
@@ -129,7 +134,8 @@ def convert(
     if model is None:
         _check_no_model(for_model)
     of_solids = model is None and _is_of_solids(target, solid)
-    original, notes = read(source), tuple[str, ...]()
+    original = read(source)
+    notes: tuple[str, ...] = getattr(original, "notes", ())
     with about(source):
         mechanism = synth.convert(original, kind, form=form)
         if table is not None:
@@ -139,7 +145,8 @@ def convert(
             text, lost = table_text(mechanism, table)
             write_text(Path(target), text, force=force)
         elif model is not None:
-            lost, notes = _write_model(mechanism, target, model, force=force, **solid, **for_model)
+            lost, of_model = _write_model(mechanism, target, model, force=force, **solid, **for_model)
+            notes = (*notes, *of_model)
         elif of_solids:
             lost = _write_solids(mechanism, target, force=force, **solid)
         else:
@@ -149,7 +156,7 @@ def convert(
             lost = write_converted(mechanism, target, source_sheet, lossy=lossy, force=force)
     if as_json:
         keys = {"input": source, "output": target, "kind": type(mechanism).__name__, "lost": list(lost)}
-        print_json({**keys, **({} if model is None else {"notes": list(notes)})})
+        print_json({**keys, "notes": list(notes)})
         return
     from graphs.convert.table import kind_in_words
 

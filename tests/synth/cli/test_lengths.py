@@ -21,7 +21,6 @@ def _at_home(data, monkeypatch):
         (("template", CONE, "-o", "a.pdf"), "--thickness"),
         (("convert", FOLD, "a.stl"), "--size"),
         (("convert", FOLD, "a.stl"), "--scale"),
-        (("convert", FOLD, "a.stl"), "--thickness"),
         (("realise", "k1:Cr"), "--size"),
     ],
 )
@@ -29,6 +28,23 @@ def test_a_length_out_of_range_is_told_by_its_option(words, option, value):
     told = run(*words, option, value, code=2).output
     assert f"Invalid value for '{option}'" in told
     assert "out of range; expected 1e-50 to 1e+50" in told or "'wide' is not a number" in told
+
+
+@pytest.mark.parametrize("value", ["nan", "inf", "-1", "1e160", "1e-300", "wide"])
+def test_a_thickness_of_solids_out_of_range(value):
+    told = run("convert", FOLD, "a.stl", "--thickness", value, code=2).output
+    assert "Invalid value for '--thickness'" in told
+
+
+@pytest.mark.parametrize(
+    "words", [("a.stl",), ("a.obj",), ("a.gltf",), ("a.xml", "--as", "mjcf"), ("a.step", "--as", "step")]
+)
+@pytest.mark.parametrize("source", [FOLD, CONE])
+def test_solids_of_no_thickness(words, source):
+    """One line that names the file."""
+    told = run("convert", source, *words, "--size", 60, "--thickness", 0, code=2).output
+    assert len(told.splitlines()) == 1
+    assert told.startswith(f"{source}: thickness 0.0; expected a positive number")
 
 
 def test_a_gap_may_be_0_and_not_less(tmp_path):

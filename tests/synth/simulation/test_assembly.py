@@ -1,5 +1,7 @@
 """Bodies and trees: mass and inertia by a second method, which hinges are cut, what is refused."""
 
+import json
+import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
@@ -9,13 +11,14 @@ import pytest
 from commands import run
 
 import synth
-from graphs.errors import FileError, InvariantError, UnsolvableError
+from graphs.errors import FileError, InvariantError, SynthedraError, UnsolvableError
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from synth.moving.made import configuration_of
 from synth.simulation.assembly import AssemblyOptions, assembly_of, driven_inertia, spanning_tree
 from synth.simulation.bodies import Bar, MassProperties, Plate
 from synth.simulation.mjcf import convex_parts
+from synth.simulation.writing import MODELS
 from synth.templates.unfolding import Plane
 
 L_SHAPE = np.array([(0, 0, 0), (3, 0, 1), (3, 1, 1), (1, 1, 1 / 3), (1, 2, 1 / 3), (0, 2, 0)], dtype=float)
@@ -164,6 +167,103 @@ def test_what_is_refused(tmp_path):
     with pytest.raises(UnsolvableError, match="the driven joints form a loop"):
         spanning_tree(configuration_of(bennett), assembly_of(bennett).hinges, range(4))
     assert not list(tmp_path.iterdir())
+
+
+SOLIDS = {"format": "synthedra/solids", "version": 1, "loops": []}
+NOTHING = {
+    "no links": SOLIDS | {"links": 0, "joints": [], "axes": []},
+    "one link": SOLIDS | {"links": 1, "joints": [], "axes": []},
+    "no joints": SOLIDS | {"links": 4, "joints": [], "axes": []},
+}
+BORDER = {"edges_vertices": [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]], "edges_assignment": [*"BBBBM"]}
+FACES = BORDER | {"faces_vertices": [[0, 1, 2], [0, 2, 3]]}
+PANELS = {
+    "no panels": (
+        BORDER | {"edges_assignment": [*"MVMVM"], "vertices_coords": [[0, 0], [1, 0], [2, 0], [3, 0]]},
+        "face",
+    ),
+    "vertices alone": ({"vertices_coords": [[0, 0], [1, 0]]}, "faces_vertices: missing"),
+    "a panel without area": (FACES | {"vertices_coords": [[0, 0], [1, 0], [2, 0], [0, 1]]}, "panel 0 has no area"),
+    "all in one point": (FACES | {"vertices_coords": [[1, 1]] * 4}, "no area"),
+}
+
+
+def refused(file, name, *words):
+    """The one line with which a command refuses a file; nothing is written."""
+    out = file.parent / f"out{MODELS[name].suffix}"
+    result = run("convert", file, out, "--as", name, *words, code=2)
+    assert not list(file.parent.glob("out*"))
+    assert result.stdout == ""
+    (line,) = result.stderr.splitlines()
+    assert line.startswith(f"{file}: ")
+    with pytest.raises(SynthedraError):
+        synth.write_model(file, out, name, **{words[at][2:]: float(words[at + 1]) for at in range(0, len(words), 2)})
+    return line
+
+
+@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("case", NOTHING)
+def test_nothing_solid(case, name, tmp_path):
+    (tmp_path / "a.json").write_text(json.dumps(NOTHING[case]))
+    assert "nothing is solid: links without panels have a shape by their joints" in refused(tmp_path / "a.json", name)
+
+
+@pytest.mark.parametrize("name", ["mjcf", "step"])
+@pytest.mark.parametrize("case", PANELS)
+def test_no_panels(case, name, tmp_path):
+    document, message = PANELS[case]
+    (tmp_path / "a.fold").write_text(json.dumps(document))
+    assert message in refused(tmp_path / "a.fold", name)
+
+
+@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize(
+    "file", ["linkages/bennett.json", "surfaces/fig11-stephenson.json", "patterns/four-bar-vertex.fold"]
+)
+def test_no_thickness(file, name, tmp_path, data):
+    """Bars, shells and panels: 0, and what is 0 beside the size."""
+    copied = tmp_path / Path(file).name
+    copied.write_bytes((data / file).read_bytes())
+    assert "thickness 0.0; expected a positive number" in refused(copied, name, "--thickness", "0")
+    line = refused(copied, name, "--size", "300", "--thickness", "1e-9")
+    assert "nothing is solid: the thickness is 1e-09 mm at an extent of " in line
+
+
+@pytest.mark.parametrize(
+    ("surface", "message"),
+    [
+        ({"lambda_deg": 90}, "lambda_deg: 90; expected 0 or more, and less than 90"),
+        ({"lambda_deg": 89.9999999}, "links are thicker than the surface is wide"),
+        ({"format": "synthedra/cylindrical", "lambda_deg": None, "radius": 0}, "radius: 0; expected a number above 0"),
+    ],
+)
+def test_cones_and_cylinders_of_no_width(surface, message, tmp_path, data):
+    document = json.loads((data / "surfaces" / "fig11-stephenson.json").read_text()) | surface
+    (tmp_path / "a.json").write_text(json.dumps({key: value for key, value in document.items() if value is not None}))
+    assert message in refused(tmp_path / "a.json", "step")
+
+
+def test_too_small_for_a_format(tmp_path, data):
+    copied = tmp_path / "a.json"
+    copied.write_bytes((data / "linkages" / "bennett.json").read_bytes())
+    light = refused(copied, "mjcf", "--size", "0.1")
+    assert re.search(
+        r"link_\d has a mass of \S+ kg and a moment of inertia of \S+ kg m², and MuJoCo requires 1e-15", light
+    )
+    assert "the thickness is 1e-08 mm, and STEP files are accurate to 1e-07 mm" in refused(
+        copied, "step", "--size", "0.0001", "--thickness", "1e-8"
+    )
+
+
+def test_a_panel_alone(tmp_path):
+    """No joints, and yet a solid; no joints are lost, and no motion."""
+    square = {"vertices_coords": [[0, 0], [1, 0], [1, 1], [0, 1]], "faces_vertices": [[0, 1, 2, 3]]}
+    (tmp_path / "a.fold").write_text(json.dumps(square))
+    for name, written in MODELS.items():
+        if name not in ("table", "header"):
+            notes = synth.write_model(tmp_path / "a.fold", tmp_path / f"a{written.suffix}", name)
+            assert notes[0] == "no joints: nothing moves"
+            assert not any("joint" in note or "motion" in note for note in notes[1:])
 
 
 def test_what_does_not_move():

@@ -75,6 +75,15 @@ def shells(kind):
     return assembly, parts
 
 
+def test_shells_of_a_file(data, tmp_path):
+    """A linkage on a cone by the name of its file, and as it is read: the same shells."""
+    file = data / "surfaces" / "fig11-stephenson.json"
+    for name, mechanism in (("a", file), ("b", synth.read(file))):
+        synth.write_model(mechanism, tmp_path / f"{name}.step", "step")
+    assert (tmp_path / "a.step").read_bytes() == (tmp_path / "b.step").read_bytes()
+    assert len(of_type(entities((tmp_path / "a.step").read_bytes()), "CONICAL_SURFACE")) == 4 * 6
+
+
 @pytest.mark.parametrize("kind", SURFACES)
 def test_entities_of_shells(kind):
     assembly, parts = shells(kind)

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from commands import run
 from simulated import mujoco_or_skip
 from sizes import slow, slow_but
 
@@ -181,6 +182,14 @@ BAD = {
     "models": ("a.sdf", "<sdf/>", "0 models; expected 1"),
     "own frame": ("a.sdf", '<sdf><model name="m"><link name="a"><pose relative_to="a">0 0 0 0 0 0</pose></link><link name="b"/>'
                   '<joint name="j" type="revolute"><parent>b</parent><child>a</child></joint></model></sdf>', "relative to itself"),
+    "no kind": ("a.urdf", URDF.format('<joint name="j"><parent link="a"/><child link="b"/></joint>'), "the type ''; expected one of"),
+    "spherical": ("a.urdf", URDF.format('<joint name="j" type="spherical"><parent link="a"/><child link="b"/></joint>'), "the type 'spherical'"),
+    "universal": ("a.xml", body('<joint type="universal"/>'), "the type 'universal'; expected hinge, slide, ball or free"),
+    "default": ("a.xml", body('<joint/>', '<default><joint type="cylindrical"/></default>'), "the type 'cylindrical'"),
+    "gearbox": ("a.sdf", '<sdf><model name="m"><link name="a"/><joint name="j" type="gearbox"><parent>world</parent>'
+                '<child>a</child></joint></model></sdf>', "the type 'gearbox'"),
+    "revolute2": ("a.sdf", '<sdf><model name="m"><link name="a"/><joint name="j" type="revolute2"><parent>world</parent>'
+                  '<child>a</child></joint></model></sdf>', "the type 'revolute2'"),
     "screw": ("a.sdf", '<sdf><model name="m"><link name="a"/><joint name="j" type="screw"><parent>world</parent>'
               '<child>a</child></joint></model></sdf>', "the type 'screw'"),
 }  # fmt: skip
@@ -194,6 +203,29 @@ def test_what_is_refused(case, tmp_path):
         synth.read(tmp_path / name)
     assert message in str(error.value)
     assert "\n" not in str(error.value)
+    for words in (("mobility", tmp_path / name), ("convert", tmp_path / name, tmp_path / "b.xml", "--as", "mjcf")):
+        result = run(*words, code=2)
+        assert (result.stdout, result.stderr) == ("", f"{error.value}\n")
+
+
+UNREAD = {
+    "a.xml": (body("<joint/><screw/><composite/>"), ["1 <composite>", "1 <screw>"]),
+    "a.urdf": (URDF.format('<joint name="j" type="revolute"><parent link="a"/><child link="b"/></joint><loop_joint/>'), ["1 <loop_joint>"]),
+    "a.sdf": ('<sdf><model name="m"><static>true</static><gripper/><link name="a"/><joint name="j" type="revolute">'
+              "<parent>world</parent><child>a</child></joint></model></sdf>", ["1 <gripper> in the model", "1 static model"]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", UNREAD)
+def test_elements_that_are_not_read(name, tmp_path):
+    """Joints of other programs that are no joints to us: a note of `mobility` and of `convert`."""
+    text, parts = UNREAD[name]
+    (tmp_path / name).write_text(text)
+    notes = [f"not read: {part}" for part in parts]
+    assert sorted(synth.read(tmp_path / name).notes) == notes
+    assert all(f"note: {note}" in run("mobility", tmp_path / name).output for note in notes)
+    told = json.loads(run("convert", tmp_path / name, tmp_path / "b.json", "--json").output)
+    assert sorted(told["notes"]) == notes
 
 
 @pytest.mark.parametrize("loops", [{}, {"loops": 3}, {"loops": [3]}, {"loops": [{"links": ["a", "z"], "joint": "l",
