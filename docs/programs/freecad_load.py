@@ -2,7 +2,8 @@
 
 PLACEMENTS=placements.json FRAME=-1 STEP=miura.step OUT=miura.FCStd freecadcmd freecad_load.py
 
-Placements are those of placements.py, whose bodies are in the order of the parts; the hinge axes come last and stay.
+Placements are those of placements.py, by the names of bodies; the hinge axes stay. Parts keep their names and their
+group: by default, freecadcmd 0.20 merges an assembly into one shape, and crashes, also on files of its own.
 """
 
 import json
@@ -10,14 +11,16 @@ import os
 from pathlib import Path
 
 import FreeCAD
-import Part
+import Import
 
 document = FreeCAD.newDocument("mechanism")
-Part.insert(os.environ["STEP"], document.Name)
+Import.insert(os.environ["STEP"], document.Name, merge=False)
+parts = {part.Label: part for part in document.Objects}
 frames = json.loads(Path(os.environ["PLACEMENTS"]).read_text())
-for part, (name, row) in zip(document.Objects, frames[int(os.environ.get("FRAME", "-1"))].items(), strict=False):
-    part.Label = name
-    part.Placement = FreeCAD.Placement(FreeCAD.Matrix(*row, 0.0, 0.0, 0.0, 1.0)).multiply(part.Placement)
+placements = frames[int(os.environ.get("FRAME", "-1"))]
+for name, row in placements.items():
+    motion = FreeCAD.Placement(FreeCAD.Matrix(*row, 0.0, 0.0, 0.0, 1.0))
+    parts[name].Placement = motion.multiply(parts[name].Placement)
 document.recompute()
 document.saveAs(os.environ["OUT"])
-print(f"{len(document.Objects)} objects, {len(frames[0])} bodies placed")
+print(f"{len(document.Objects)} objects, {len(placements)} bodies placed")

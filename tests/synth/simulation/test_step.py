@@ -228,3 +228,85 @@ def test_solids_by_another_kernel(name, tmp_path):
     assert np.abs(centres - [1000.0 * part.centre for part in parts]).max() < 1e-6 * 1000.0 * assembly.size
     corners = [len(shape.plane.flat) if hasattr(shape, "plane") else 1 for shape in shapes]
     assert faces == sum(count + 2 for count in corners)
+
+
+def assembly_by_xcaf(path):
+    """What the reader of CAD programs such as FreeCAD finds: (name of the whole, its parts), by Open CASCADE.
+
+    A part is (its name, that of its product, translation in millimetres, volume, centre of mass).
+    """
+    pytest.importorskip("OCP", reason="OCP is not installed; try make test-simulators")
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+    from OCP.IFSelect import IFSelect_RetDone
+    from OCP.STEPCAFControl import STEPCAFControl_Reader
+    from OCP.TCollection import TCollection_ExtendedString
+    from OCP.TDataStd import TDataStd_Name
+    from OCP.TDF import TDF_ChildIterator, TDF_Label
+    from OCP.TDocStd import TDocStd_Document
+    from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
+
+    def name(label):
+        attribute = TDataStd_Name()
+        assert label.FindAttribute(TDataStd_Name.GetID_s(), attribute)
+        return attribute.Get().ToExtString()
+
+    def below(label):
+        children = TDF_ChildIterator(label, False)
+        while children.More():
+            yield children.Value()
+            children.Next()
+
+    document, reader = TDocStd_Document(TCollection_ExtendedString("XmlXCAF")), STEPCAFControl_Reader()
+    for mode in (reader.SetNameMode, reader.SetColorMode, reader.SetLayerMode):
+        mode(True)
+    assert reader.ReadFile(str(path)) == IFSelect_RetDone
+    assert reader.Transfer(document)
+    shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).BaseLabel()
+    (whole,) = [label for label in below(shapes) if XCAFDoc_ShapeTool.IsFree_s(label)]
+    assert XCAFDoc_ShapeTool.IsAssembly_s(whole)
+    parts = []
+    for label in below(whole):
+        product, properties = TDF_Label(), GProp_GProps()
+        assert XCAFDoc_ShapeTool.IsComponent_s(label)
+        assert XCAFDoc_ShapeTool.GetReferredShape_s(label, product)
+        BRepGProp.VolumeProperties_s(XCAFDoc_ShapeTool.GetShape_s(label), properties)
+        place = XCAFDoc_ShapeTool.GetLocation_s(label).Transformation().TranslationPart()
+        centre = properties.CentreOfMass()
+        at, middle = ([point.X(), point.Y(), point.Z()] for point in (place, centre))
+        parts.append((name(label), name(product), at, properties.Mass(), middle))
+    return name(whole), parts
+
+
+def with_names_of_any_kind():
+    """A four-bar whose links have names with umlauts, quotes and backslashes, and letters from elsewhere."""
+    four_bar = planar_four_bar()
+    names = {"ground": "it's \\", "crank": "Kurbel äöü", "coupler": "漢字", "rocker": "#1;b"}
+    joints = {joint: tuple(names[link] for link in ends) for joint, ends in four_bar.chain.joints.items()}
+    return synth.HingedSolids(synth.SCGraph(names.values(), joints), four_bar.axes)
+
+
+@pytest.mark.parametrize(
+    "mechanism",
+    [
+        synth.generate("miura").mechanism,
+        synth.generate("bennett").mechanism,
+        with_names_of_any_kind(),
+        *SURFACES.values(),
+    ],
+    ids=["panels", "bars", "names", *SURFACES],
+)
+def test_assembly_as_cad_programs_read_it(mechanism, tmp_path):
+    """Names, placements, volumes and centres of the parts of the assembly; hinge axes are a part without volume."""
+    assembly = assembly_of(mechanism)
+    (tmp_path / "a.step").write_bytes(step_bytes(assembly))
+    whole, parts = assembly_by_xcaf(tmp_path / "a.step")
+    assert whole == "mechanism"
+    expected = [body.name for body in assembly.bodies]
+    assert [part[0] for part in parts] == [part[1] for part in parts] == [*expected, "hinge axes"]
+    for number, (body, (_, _, at, volume, middle)) in enumerate(zip(assembly.bodies, parts, strict=False)):
+        assert np.abs(np.array(at) - 1000.0 * assembly.origin(number)).max() < 1e-9 * 1000.0 * assembly.size
+        properties = body.properties
+        assert volume == pytest.approx(1e9 * properties.mass / assembly.options.density, rel=1e-9)
+        assert np.abs(np.array(middle) - 1000.0 * properties.centre).max() < 1e-6 * 1000.0 * assembly.size
+    assert parts[-1][3] == 0.0
