@@ -1,64 +1,118 @@
 """Robots read: there and back, files as others write them, what is refused and what is told."""
 
 import json
+from functools import partial
 from pathlib import Path
 
+import networkx as nx
 import numpy as np
 import pytest
 from commands import run
 from simulated import mujoco_or_skip
-from sizes import slow, slow_but
+from sizes import slow_but
 
 import synth
-from graphs.errors import FileError, SynthedraError
+from enumerate.chains.jobs import chains
+from graphs.errors import FileError
 from graphs.joints.linkage import JointedLinkage, JointKind
+from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from synth.moving.made import configuration_of
 from synth.patterns.catalogue import GENERATORS
-from synth.simulation.assembly import AssemblyOptions
-from synth.simulation.writing import write_assembly
+from synth.simulation.assembly import assembly_of
+from synth.simulation.mjcf import mjcf_bytes
+from synth.simulation.sdf import sdf_bytes
+from synth.simulation.urdf import urdf_files
 
 DATA = Path(__file__).parents[4] / "data"
-FORMATS = {"mjcf": ".xml", "urdf": ".urdf", "sdf": ".sdf"}
 FILES = sorted([*DATA.glob("linkages/*.*"), *DATA.glob("joints/*.json"), *DATA.glob("patterns/*.fold"),
                 *DATA.glob("wiener/*.fold"), *DATA.glob("realised/*.fold")])  # fmt: skip
 QUICK = ("miura", "goldberg", "stewart", "crash-lock")
 
 
-def there_and_back(mechanism, tmp_path):
-    """Each format keeps links, joints, axes, and the rank of the closure equations at its configuration."""
-    for name, suffix in FORMATS.items():
-        path = tmp_path / f"a{suffix}"
-        assembly = write_assembly(mechanism, path, name, AssemblyOptions(), force=True)
+def linkage_on_axes(graph, lines):
+    """A chain with an axis, (point, direction), for each joint; its loops are closed there."""
+    joints = {f"{a}-{b}": (a, b) for a, b in sorted(graph.edges)}
+    return HingedSolids(SCGraph(sorted(graph), joints), dict(zip(joints, lines, strict=True)))
+
+
+def random_linkage(kind, graph, seed):
+    """A chain with random axes: parallel, through one point, or anywhere."""
+    rng, count = np.random.default_rng(seed), graph.number_of_edges()
+    points, directions = rng.uniform(-1.0, 1.0, (2, count, 3))
+    if kind == "planar":
+        directions[:] = rng.normal(size=3)
+    elif kind == "spherical":
+        points[:] = 0.0
+    return linkage_on_axes(graph, list(zip(points.tolist(), directions.tolist(), strict=True)))
+
+
+def random_linkages():
+    """All chains of up to eight links and one degree of freedom, planar and spherical; loops of 7 to 12 in space."""
+    for kind in ("planar", "spherical"):
+        for links in (4, 6, 8):
+            for number, graph in enumerate(chains(links, 1)):
+                yield f"{kind} chain of {links}, {number}", partial(random_linkage, kind, graph, 100 * links + number)
+    for links in range(7, 13):
+        yield f"loop of {links} in space", partial(random_linkage, "spatial", nx.cycle_graph(links), links)
+
+
+def with_loops(path):
+    """Whether a file has coordinates, and loops: strings of panels have none, and joints of all kinds no places."""
+    if path.parent.name == "joints":
+        return path.stem in ("roberts", "slider-crank-placed", "stretched-four-bar")
+    return not path.stem.startswith(("chain-", "ups-chain", "three-link-chain", "fig12-open"))
+
+
+MANY = {
+    **{name: partial(lambda name: synth.generate(name).mechanism, name) for name in GENERATORS},
+    **{f"{path.parent.name}/{path.name}": partial(synth.read, path) for path in filter(with_loops, FILES)},
+    **dict(random_linkages()),
+}
+"""Mechanisms with loops, by their names: generators, files, types that were given coordinates, chains at random."""
+
+
+def written(assembly, folder):
+    """Write an assembly in each format without its meshes; return the files."""
+    (folder / "a.xml").write_bytes(mjcf_bytes(assembly))
+    files = urdf_files(assembly)
+    for ending in (".urdf", ".loops.json"):
+        (folder / f"a{ending}").write_bytes(files[ending])
+    (folder / "a.sdf").write_bytes(sdf_bytes(assembly))
+    return folder / "a.xml", folder / "a.urdf", folder / "a.sdf"
+
+
+def rank_at(configuration, angles):
+    matrix = configuration.closure.dense(angles)
+    return np.linalg.matrix_rank(matrix, tol=1e-6) if matrix.size else 0
+
+
+def there_and_back(mechanism, folder):
+    """Each format keeps the id, the degrees of freedom at its configuration, and the axes; return the loops."""
+    assembly = assembly_of(mechanism)
+    lengths = np.where([hinge.slide for hinge in assembly.hinges], assembly.size, 1.0)
+    angles = np.array([hinge.angle for hinge in assembly.hinges]) / lengths
+    freedoms = len(angles) - rank_at(assembly.configuration, angles)
+    for path in written(assembly, folder):
         back = synth.read(path)
-        linkage = assembly.configuration.linkage
-        assert synth.identify(back.chain).chain == synth.identify(linkage.graph).chain
-        lengths = np.where([hinge.slide for hinge in assembly.hinges], assembly.size, 1.0)
-        angles = np.array([hinge.angle for hinge in assembly.hinges]) / lengths
-        ranks = []
-        for at, where in ((assembly.configuration, angles), (configuration_of(back, slides=True), None)):
-            matrix = at.closure.dense(at.linkage.angles if where is None else where)
-            ranks.append(np.linalg.matrix_rank(matrix, tol=1e-6) if matrix.size else 0)
-        assert ranks[0] == ranks[1]
+        assert synth.identify(back).chain == synth.identify(mechanism).chain
+        there = configuration_of(back, slides=True)
+        assert len(there.joints) - rank_at(there, there.linkage.angles) == freedoms == assembly.freedoms
         for hinge in assembly.hinges:
             if isinstance(back, HingedSolids):
                 point, axis = (np.array(part) for part in back.axes[hinge.name])
                 assert np.linalg.norm(np.cross(axis, hinge.direction)) < 1e-12
                 assert np.linalg.norm(np.cross(point - hinge.point, hinge.direction)) < 1e-12 * max(1, assembly.size)
+    return len(assembly.cuts)
 
 
-@pytest.mark.parametrize("name", slow_but(QUICK, GENERATORS))
-def test_generators_there_and_back(name, tmp_path):
-    there_and_back(synth.generate(name).mechanism, tmp_path)
+@pytest.mark.parametrize("name", slow_but(QUICK, MANY))
+def test_there_and_back(name, tmp_path):
+    assert there_and_back(MANY[name](), tmp_path) > 0
 
 
-@pytest.mark.parametrize("path", [slow(path) for path in FILES], ids=lambda path: path.stem)
-def test_files_there_and_back(path, tmp_path):
-    try:
-        configuration_of(path, slides=True)
-    except SynthedraError:
-        pytest.skip("no coordinates")
-    there_and_back(path, tmp_path)
+def test_how_many_go_there_and_back():
+    assert len(MANY) >= 146
 
 
 FOUR_BAR = """<mujoco><compiler angle="degree"/>
