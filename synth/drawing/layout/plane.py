@@ -26,8 +26,8 @@ _LOOKS = 8
 _STILL = 2e-3
 _SPRING, _PUSH = 0.2, 0.06
 _OF_HEIGHT = 0.45
-_OPEN, _LOW = 0.04, 0.3
-"""How hard, and below which height, triangles are opened, in units of a side's length."""
+_OPEN, _OPEN_BODIES = (0.04, 0.3), (0.6, 0.9)
+"""How hard, and below which height, triangles are opened, in units of a side's length: of dots, and of bodies."""
 _APART, _AWAY = 0.5, 0.8
 """How near nodes may come to edges before they are pushed, and how hard, in units of a side's length."""
 _UPRIGHT = np.array([-1.0, 1.0])
@@ -169,6 +169,7 @@ class _Forces:
     def __init__(self, graph: PlaneGraph, sides: Sequence[tuple[int, int]], bodies: Sequence[Sequence[int]]) -> None:
         size = len(graph.nodes)
         self._graph, self._own = graph, graph.own
+        self._open_by, self._low = _OPEN_BODIES if bodies else _OPEN
         springs = [(side, 1.0, 1.0) for side in sides]
         for body in bodies:
             for i, k in combinations(range(len(body)), 2):
@@ -225,7 +226,7 @@ class _Forces:
         length = np.maximum(np.sqrt((opposite**2).sum(axis=2)), 1e-12)
         twice_area = opposite[:, 0, 0] * opposite[:, 1, 1] - opposite[:, 0, 1] * opposite[:, 1, 0]
         height = np.maximum(twice_area[:, None] / length, 1e-9)
-        push = np.minimum(_OPEN * np.maximum(1 / height - 1 / _LOW, 0.0), 1.0) / length
+        push = np.minimum(self._open_by * np.maximum(1 / height - 1 / self._low, 0.0), 1.0) / length
         inward = np.stack([-opposite[:, :, 1], opposite[:, :, 0]], axis=2) * push[:, :, None]
         np.add.at(force, triangles, inward - np.roll(inward, 1, axis=1) / 2 - np.roll(inward, 2, axis=1) / 2)
 

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import cos, hypot, pi, sin
 
+import shapely
+
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import numbered
 from graphs.loops.loop import Centre
@@ -32,6 +34,8 @@ _SMALL_BOX = 200.0
 """Points of width and height below which letters and dots are smaller."""
 _HIGH, _PANEL, _FAN, _END = 1.0, 0.8, 0.55, 0.6
 """Height of a strip; widths of a panel, of a step of a fan, and of a body at an end, in units of the height."""
+_ROOM = 0.62
+"""Radius of a circle in a body that holds its number, in heights of letters."""
 _STRIP = 34.0
 """Height of a strip, points, where there is room."""
 
@@ -117,13 +121,14 @@ def _edges(row: list[Point], off: float) -> list[tuple[Point, Point]]:
 def _labels(outlines: dict[LinkId, list[Point]], joints: dict[JointId, Point], look: ChainLook) -> list[Label]:
     """Return the numbers of links, bold, in bodies or beside bars, and those of joints beside them."""
     lines = [edge for row in outlines.values() for edge in _edges(row, _width(row, look) / 2)]
+    bodies = [shapely.Polygon(row) for row in outlines.values() if len(row) > 2]
     wishes: list[tuple[Label, list[Point]]] = []
     if look.link_numbers:
         for link, row in sorted(outlines.items(), key=lambda item: -len(item[1])):
             label = Label(
                 (0, 0), str(link), look.size, bold=True, halo=len(row) < 3, widest=8, data=(("link", str(link)),)
             )
-            wishes.append((label, _for_body(row, look)))
+            wishes.append((label, _for_body(row, look, bodies)))
     if look.joint_numbers:
         for joint, at in joints.items():
             label = Label((0, 0), str(joint), 0.85 * look.size, "grey", widest=8, data=(("joint", str(joint)),))
@@ -131,10 +136,15 @@ def _labels(outlines: dict[LinkId, list[Point]], joints: dict[JointId, Point], l
     return placed(wishes, [(x, y, look.dot + 0.8) for x, y in joints.values()], lines)
 
 
-def _for_body(row: list[Point], look: ChainLook) -> list[Point]:
+def _for_body(row: list[Point], look: ChainLook, bodies: Sequence[shapely.Polygon]) -> list[Point]:
+    """Return places for the number of a body, the best first: inside, or beside it where it is too thin."""
     middle = (sum(x for x, _ in row) / len(row), sum(y for _, y in row) / len(row))
     if len(row) > 2:
-        return [middle, *beside(middle, 0.6 * look.size)]
+        inside = [middle, *beside(middle, 0.6 * look.size)]
+        rim = _width(row, look) / 2
+        if shapely.Polygon(row).buffer(-_ROOM * look.size).is_empty:
+            return [*_beyond(row, rim + 0.75 * look.size, bodies), *inside]
+        return inside
     (ax, ay), (bx, by) = row
     long = hypot(bx - ax, by - ay) or 1.0
     across = (-(by - ay) / long, (bx - ax) / long)
@@ -144,6 +154,18 @@ def _for_body(row: list[Point], look: ChainLook) -> list[Point]:
         foot = (ax + part * (bx - ax), ay + part * (by - ay))
         places += [(foot[0] + side * far * across[0], foot[1] + side * far * across[1]) for side in (1, -1)]
     return [*places, *beside(middle, far)]
+
+
+def _beyond(row: list[Point], off: float, bodies: Sequence[shapely.Polygon]) -> list[Point]:
+    """Return places beside the middles of a body's sides, so far off, that lie in no body, the outermost first."""
+    places = []
+    for (ax, ay), (bx, by) in zip(row, [*row[1:], row[0]], strict=True):
+        long = hypot(bx - ax, by - ay) or 1.0
+        across, down = off * (by - ay) / long, -off * (bx - ax) / long
+        places += [((ax + bx) / 2 + side * across, (ay + by) / 2 + side * down) for side in (1, -1)]
+    middle = shapely.MultiPolygon(bodies).centroid
+    free = [point for point in map(shapely.Point, places) if not any(body.contains(point) for body in bodies)]
+    return [(point.x, point.y) for point in sorted(free, key=middle.distance, reverse=True)]
 
 
 @dataclass(frozen=True, slots=True)

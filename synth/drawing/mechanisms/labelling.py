@@ -12,7 +12,10 @@ SIGN = 4.2
 """Radius of the sign of a centre, points."""
 _WEIGHT_OF_LABEL = 1000.0
 _WEIGHT_OF_POINT = 60.0
+_WEIGHT_OF_NEIGHBOUR = 3.0
 _AIR = 0.6
+_APART = 2.0
+"""How near another label beside it may come before both may be read as one, points."""
 _SQUARE = 16.0
 _Box: TypeAlias = tuple[float, float, float, float]
 """Left, top, right, bottom."""
@@ -53,6 +56,9 @@ def placed(
             if any(_overlap(box, other) for square in _squares_of(box) for other in boxes.get(square, ())):
                 continue
             cost += _cost(box, points, lines)
+            wide = (box[0] - _APART, box[1], box[2] + _APART, box[3])
+            if any(_overlap(wide, other) for square in _squares_of(wide) for other in boxes.get(square, ())):
+                cost += _WEIGHT_OF_NEIGHBOUR
             if cost < least:
                 best, least = (place, box), cost
         if best is not None:
