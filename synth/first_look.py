@@ -12,8 +12,10 @@ from graphs.errors import numbered
 from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.identity.chains import chain_id
 from graphs.joints.linkage import JointedLinkage
+from graphs.loops.loop import Centre
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import lies_flat
+from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import SurfaceLinkage
@@ -132,7 +134,15 @@ def _kind(mechanism: Mechanism, answer: JudgedMobility) -> str:
     where = "with coordinates" if placed else "a type without coordinates"
     kind = kind_in_words(mechanism)
     article = "An" if kind.startswith(("SC", "a", "e", "i", "o")) else "A"
-    return f"{article} {kind}, {where}: {_parts(answer)}{_named(mechanism, answer)}."
+    planar = ", at infinity: the linkage is planar" if _is_planar(mechanism) else ""
+    return f"{article} {kind}, {where}: {_parts(answer)}{planar}{_named(mechanism, answer)}."
+
+
+def _is_planar(mechanism: Mechanism) -> bool:
+    """Check whether an SC or SCD graph has one centre class, and that is at infinity."""
+    if not isinstance(mechanism, SCGraph) or mechanism.spatial_loops:
+        return False
+    return [centre.centre for centre in mechanism.centre_classes()] == [Centre.INFINITE]
 
 
 def _kind_of_sheet(sheet: Sheet, others: int) -> str:

@@ -5,27 +5,29 @@ written as a PDF, or one picture per page.
 """
 
 import json
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain, count, islice
 from math import pi, radians
 from pathlib import Path
 from textwrap import wrap
-from typing import Any
+from typing import Any, get_args
 
 from enumerate.chains.names import name_of
 from enumerate.runner.job import Limits, row_as_dict
 from enumerate.runner.store import read_meta, read_rows
 from enumerate.strings.panel_strings import ChainString
-from graphs.errors import FileError, InvariantError, SynthedraError, numbered, shown
+from graphs.errors import FileError, InvariantError, SynthedraError, UnsolvableError, numbered, shown
 from graphs.files.formats import is_id, mechanism_of_id, read_all
 from graphs.files.outputs import check_installed, check_writable, write_as
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 from synth.conformed.rates import loops_of_chain
 from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.drawing.mechanisms.pictures import draw
-from synth.drawing.scene.shapes import LARGE, Label, Layer, moved, text_width
+from synth.drawing.scene.shapes import LARGE, Label, Layer, Point, moved, text_width
 from synth.drawing.scene.writing import PICTURES, Pages, Scene
+from synth.realisation.realised import Kind, Realisation, realise
 
 Row = Mapping[str, Any]
 """Column to value."""
@@ -41,11 +43,14 @@ _IDS = ("code", "mechanism", "chain")
 _WIDE, _HIGH = 595.0, 842.0
 """A4, points."""
 _EDGE, _HEAD = 30.0, 26.0
-_COLUMNS, _ROWS = 4, 6
+_COLUMNS, _WITH_SHEETS, _ROWS = 4, 3, 6
+"""Columns of a page, fewer where sheets stand beside graphs, and rows."""
 _LETTERS = 5.0
-_LINES = 4
-"""Lines of text below a picture: number, id, properties."""
+_LINES, _MOST_LINES = 4, 9
+"""Lines of text below a picture (number, id, properties): at least, and at most where a caption is long."""
 _AIR = 6.0
+_MOST_REALISED, _TRIES = 12, 4
+"""Links of the largest types that are realised for their sheet, and drawings that are tried of each."""
 
 
 def _rows_of_file(place: Path) -> Iterator[Row]:
@@ -262,6 +267,9 @@ def _said(row: Row) -> str:
         words.append(f"symmetry {row['symmetry']}")
     if row.get("joints") and isinstance(row["joints"], str):
         words.append(row["joints"])
+    if isinstance(row.get("sides"), list | tuple):
+        counts = [(count, sides) for sides, count in enumerate(row["sides"], start=3) if count]
+        words += [f"{numbered(n, 'link') if i == 0 else n} of {sides} sides" for i, (n, sides) in enumerate(counts)]
     words += [said.format(_listed_numbers(row[column])) for column, said in _DIFFERING.items() if row.get(column)]
     return ", ".join(words)
 
@@ -269,7 +277,6 @@ def _said(row: Row) -> str:
 _DIFFERING = {
     "assortment": "assortment {}",
     "loop_sizes": "loops {}",
-    "sides": "sides {}",
     "open_edges": "{} open edges",
     "implicit": "{} implicit",
     "inversions": "{} inversions",
@@ -281,42 +288,120 @@ def _listed_numbers(value: Any) -> str:
     return " + ".join(map(str, value)) if isinstance(value, list | tuple) else str(value)
 
 
-def catalogue_pages(entries: Iterable[CatalogueEntry], title: str = "", kind: str | None = None) -> Iterator[Scene]:
+def catalogue_pages(
+    entries: Iterable[CatalogueEntry], title: str = "", kind: str | None = None, *, sheets: bool = True
+) -> Iterator[Scene]:
     """Yield pages of 24 pictures, with a title above each; an entry is released when its page is made.
 
-    `kind` is as for `synth.draw`.
+    `kind` is as for `synth.draw`. With `sheets`, the graph of an SC or SCD type has its realised sheet beside it,
+    or below it the reason why there is none; there are 18 then on a page.
     """
     rest = iter(entries)
+    first = next(rest, None)
+    if first is None:
+        return
+    rest = chain([first], rest)
+    sheets = sheets and kind in (None, "graph") and _is_type(first.mechanism)
+    columns = _WITH_SHEETS if sheets else _COLUMNS
     for number in count(1):
-        on_page = list(islice(rest, _COLUMNS * _ROWS))
+        on_page = list(islice(rest, columns * _ROWS))
         if not on_page:
             return
         layers: list[Layer] = []
         head = [Label((_EDGE, _EDGE), title, LARGE, anchor="start", bold=True, halo=False, widest=90)]
         head.append(Label((_WIDE - _EDGE - 40, _EDGE), f"page {number}", 7.0, "grey", "start", halo=False))
         texts: list[Label] = []
-        for place, entry in enumerate(on_page):
-            picture, words = _in_cell(entry, place, kind)
+        realised = [_sheet_of_type(entry.mechanism) if sheets else None for entry in on_page]
+        across = _Cell(0, columns, _LINES).letters
+        captions = [_caption(entry, sheet, across) for entry, sheet in zip(on_page, realised, strict=True)]
+        lines = min(max(_LINES, *map(len, captions)), _MOST_LINES)
+        for place, (entry, sheet, caption) in enumerate(zip(on_page, realised, captions, strict=True)):
+            picture, words = _in_cell(entry, sheet, caption[:lines], _Cell(place, columns, lines), kind)
             layers += picture
             texts += words
         yield Scene(_WIDE, _HIGH, (*layers, Layer("text", (*head, *texts))), title)
 
 
-def _in_cell(entry: CatalogueEntry, place: int, kind: str | None) -> tuple[list[Layer], list[Label]]:
-    """Return the picture of an entry in its cell of the page, and the text below it."""
-    wide, high = (_WIDE - 2 * _EDGE) / _COLUMNS, (_HIGH - 2 * _EDGE - _HEAD) / _ROWS
-    left, top = _EDGE + place % _COLUMNS * wide, _EDGE + _HEAD + place // _COLUMNS * high
-    box = wide - _AIR, high - _LINES * 1.4 * _LETTERS - _AIR
-    scene = draw(entry.mechanism, kind, box=box, caption=None)
-    right, down = left + (wide - scene.width) / 2, top + (box[1] - scene.height) / 2
-    picture = [moved(layer, right, down) for layer in scene.layers if layer.shapes]
-    first = top + high - _LINES * 1.4 * _LETTERS
-    most = int((wide - _AIR) / text_width("0", _LETTERS))
+def _is_type(mechanism: Any) -> bool:
+    """Check for an SC or SCD graph whose centres are its own: panels can be drawn of it."""
+    return isinstance(mechanism, SCGraph | SCDGraph) and not getattr(mechanism, "centres_assumed", False)
+
+
+def _sheet_of_type(mechanism: Any) -> Realisation | str | None:
+    """Return a realisation of an SC or SCD type, or why there is none; None of anything else."""
+    if not _is_type(mechanism):
+        return None
+    if len(mechanism) > _MOST_REALISED:
+        return f"more than {_MOST_REALISED} links"
+    reason = ""
+    for shape in get_args(Kind):
+        try:
+            return realise(mechanism, kind=shape, tries=_TRIES)
+        except UnsolvableError as error:
+            reason = reason or str(error)
+    return reason
+
+
+def _caption(entry: CatalogueEntry, sheet: Realisation | str | None, across: int) -> list[str]:
+    """Return the lines below a picture, of so many letters: number, name, properties, what there is of the sheet."""
+    said = [entry.said]
+    if isinstance(sheet, str):
+        said.append(f"no sheet: {sheet}")
+    elif sheet is not None and not isinstance(entry.mechanism, SCDGraph):
+        said.append(f"sheet of {numbered(sheet.scd.counts.open_edges, 'open edge')}")
+    return [str(entry.number), *wrap(entry.name, across), *wrap(", ".join(filter(None, said)), across)]
+
+
+@dataclass(frozen=True, slots=True)
+class _Cell:
+    """A cell of a page by its number, from 0, with so many lines of text below the picture; sizes are in points."""
+
+    number: int
+    columns: int
+    lines: int
+
+    @property
+    def size(self) -> Point:
+        """Width and height."""
+        return (_WIDE - 2 * _EDGE) / self.columns, (_HIGH - 2 * _EDGE - _HEAD) / _ROWS
+
+    @property
+    def corner(self) -> Point:
+        """The left upper corner."""
+        row, column = divmod(self.number, self.columns)
+        return _EDGE + column * self.size[0], _EDGE + _HEAD + row * self.size[1]
+
+    @property
+    def box(self) -> Point:
+        """Width and height for pictures."""
+        return self.size[0] - _AIR, self.size[1] - self.lines * 1.4 * _LETTERS - _AIR
+
+    @property
+    def letters(self) -> int:
+        """Number of letters on a line."""
+        return int(self.box[0] / text_width("0", _LETTERS))
+
+
+def _in_cell(
+    entry: CatalogueEntry, sheet: Realisation | str | None, caption: Sequence[str], cell: _Cell, kind: str | None
+) -> tuple[list[Layer], list[Label]]:
+    """Return the pictures of an entry in its cell of the page, and the text below."""
+    (left, top), (wide, high) = cell.corner, cell.box
+    beside = None if sheet is None or isinstance(sheet, str) else sheet.sheet
+    across = wide if beside is None else (wide - _AIR) / 2
+    scenes = [draw(entry.mechanism, kind, box=(across, high), caption=None)]
+    if beside is not None:
+        scenes.append(draw(beside, numbers=False, box=(across, high), caption=None))
+    picture = []
+    for number, scene in enumerate(scenes):
+        right = left + number * (across + _AIR) + (across + _AIR - scene.width) / 2
+        down = top + (high - scene.height) / 2
+        picture += [moved(layer, right, down) for layer in scene.layers if layer.shapes]
+    first = top + high + _AIR
     labels = []
-    texts = [str(entry.number), *wrap(entry.name, most), *wrap(entry.said, most)]
-    for i, text in enumerate(texts[:_LINES]):
+    for i, text in enumerate(caption):
         at, colour = (left + _AIR, first + i * 1.35 * _LETTERS), "grey" if i else "ink"
-        labels.append(Label(at, text, _LETTERS, colour, "start", bold=i == 0, halo=False, widest=most))
+        labels.append(Label(at, text, _LETTERS, colour, "start", bold=i == 0, halo=False, widest=cell.letters))
     return picture, labels
 
 

@@ -65,10 +65,13 @@ def _colouring(ctx: click.Context, _parameter: click.Parameter, words: tuple[str
     "--where", "COLUMN=VALUE",
     "For a catalogue: draw only rows with this number (2, 2..4, 2..) or text in a column; may be repeated."
 )  # fmt: skip
+@options.flag(
+    "--sheets/--no-sheets", "For a catalogue of SC or SCD graphs: show the realised sheet beside each.", default=True
+)
 @AT
 @options.FORCE
 def draw(
-    file: str, output: str, kind: str | None, paper: str, where: tuple[str, ...], force: bool, **look: Any
+    file: str, output: str, kind: str | None, paper: str, where: tuple[str, ...], sheets: bool, force: bool, **look: Any
 ) -> None:  # fmt: skip
     """Draw the mechanism of a file or an id, or a catalogue of all mechanisms in a store, a list or a folder.
 
@@ -82,7 +85,8 @@ def draw(
     shapes carry them as data-link and data-joint.
 
     A store (.sqlite), rows (.jsonl, .parquet), a graph6 file or a folder gives a catalogue, 24 pictures per page,
-    with id, name, degrees of freedom, centres and symmetry: one .pdf, or one file per page.
+    with id, name, degrees of freedom, centres and symmetry: one .pdf, or one file per page. SC and SCD graphs of up to
+    12 links have their realised sheet beside them, or the reason why there is none below.
 
     \b
     Examples:
@@ -98,7 +102,8 @@ def draw(
 
     check_picture(output, force=force)
     if is_catalogue(file):
-        _draw_catalogue(file, output, kind, dict(map(_condition, where)), paper, force)
+        conditions = dict(map(_condition, where))
+        _draw_catalogue(file, output, {"kind": kind, "sheets": sheets}, conditions, paper, force)
         return
     if where:
         raise click.UsageError("--where requires a catalogue: a store, rows, a graph6 file or a folder")
@@ -112,13 +117,13 @@ def draw(
 
 
 def _draw_catalogue(
-    file: str, output: str, kind: str | None, where: dict[str, Limits | str], paper: str, force: bool
+    file: str, output: str, look: dict[str, Any], where: dict[str, Limits | str], paper: str, force: bool
 ) -> None:
     from synth.drawing.catalogue import catalogue_entries, catalogue_pages, write_catalogue
 
     failures: list[str] = []
     entries = _counted(catalogue_entries(file, where, failures))
-    written = write_catalogue(catalogue_pages(entries, Path(file).name, kind), output, paper=paper, force=force)
+    written = write_catalogue(catalogue_pages(entries, Path(file).name, **look), output, paper=paper, force=force)
     tell_written(*written)
     if not written:
         click.echo("nothing to draw")

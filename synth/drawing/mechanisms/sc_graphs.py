@@ -42,6 +42,8 @@ from synth.drawing.scene.writing import Scene
 _UNIT = 58.0
 _LINK = 6.6
 _STUB = 10.0
+_SMALL_BOX, _SMALLEST = 110.0, 0.6
+"""Points of width and height below which margins and letters are reduced, and by how much at most."""
 _LOOSE_LOOPS = 12
 """Largest number of loops that are not faces and are listed below; more are counted."""
 _BAND = 0.9
@@ -57,7 +59,8 @@ def sc_scene(sc: SCGraph, options: PictureOptions = PLAIN) -> Scene:
     rotation, outer = _kept_drawing(sc)
     layout = layout_of(sc.nodes, sc.joints, as_bodies=False, rotation=rotation, outer=outer)
     places = [*layout.links.values(), *layout.joints.values()]
-    frame = framed(places, _UNIT, options.box, margin=_STUB + 2 * _LINK)
+    small = min(1.0, max(_SMALLEST, min(options.box) / _SMALL_BOX))
+    frame = framed(places, _UNIT, options.box, margin=small * (_STUB + 2 * _LINK))
     numbers = class_numbers(sc)
     ways = {joint: frame.row(row) for joint, row in layout.ways.items()}
     drawn = {joint: _bent(row) for joint, row in ways.items()}
@@ -67,7 +70,7 @@ def sc_scene(sc: SCGraph, options: PictureOptions = PLAIN) -> Scene:
     )
     signs, loose = _signs(sc, layout, frame, numbers)
     stubs = _stubs(sc, ways, links, radius) if isinstance(sc, SCDGraph) else []
-    labels = _labels(ways, links, radius, signs, numbers)
+    labels = _labels(ways, links, radius, signs, numbers, small)
     joints = [Line(row, "ink", 1.2 * NORMAL, data=(("joint", str(joint)),)) for joint, row in drawn.items()]
     reduction = reduce(sc)
     layers = [
@@ -150,20 +153,21 @@ def _labels(
     radius: float,
     signs: Mapping[int, _Sign],
     numbers: Mapping[int, int],
+    small: float,
 ) -> list[Label]:
-    """Return the numbers of classes beside their signs, if there are several, and of joints."""
+    """Return the numbers of classes beside their signs, if there are several, and of joints, reduced by a factor."""
     lines = [piece for row in ways.values() for piece in pairwise(row)]
     discs = [(x, y, radius + 0.5) for x, y in links.values()]
-    discs += [(at[0], at[1], SIGN + 0.5) for at, _, _ in signs.values()]
+    discs += [(at[0], at[1], small * SIGN + 0.5) for at, _, _ in signs.values()]
     wishes = []
     if len(set(numbers.values())) > 1:
         for at, number, _ in signs.values():
-            label = Label((0, 0), str(number + 1), 0.9 * SMALL, colour_of_class(number))
-            wishes.append((label, beside(at, SIGN + 4.5, 8, 0.0)))
+            label = Label((0, 0), str(number + 1), 0.9 * small * SMALL, colour_of_class(number))
+            wishes.append((label, beside(at, small * (SIGN + 4.5), 8, 0.0)))
     for joint, row in ways.items():
         middle = row[1] if len(row) == 3 else ((row[0][0] + row[1][0]) / 2, (row[0][1] + row[1][1]) / 2)
-        label = Label((0, 0), str(joint), 0.8 * SMALL, "grey", widest=8, data=(("joint", str(joint)),))
-        wishes.append((label, beside(middle, 4.5)))
+        label = Label((0, 0), str(joint), 0.8 * small * SMALL, "grey", widest=8, data=(("joint", str(joint)),))
+        wishes.append((label, beside(middle, small * 4.5)))
     return placed(wishes, discs, lines)
 
 
@@ -205,10 +209,15 @@ def _open_angles(sides: Sequence[JointId | None], angle_of: Callable[[JointId], 
 
 def _said(sc: SCGraph, layout: Layout, loose: Sequence[Loop], numbers: Mapping[int, int]) -> list[str]:
     """Return lines that count links, joints and centres, and list the loops that are not faces."""
-    counts = [(len(sc), "link"), (len(sc.joints), "joint"), (len(sc.centre_classes()), "centre")]
+    counts = [(len(sc), "link", ""), (len(sc.joints), "joint", "")]
+    classes = sc.centre_classes()
+    if classes and all(one.centre is Centre.INFINITE for one in classes):
+        counts.append((len(classes), "centre at infinity", "centres at infinity"))
+    else:
+        counts.append((len(classes), "centre", ""))
     if sc.spatial_loops:
-        counts.append((sc.spatial_loops, "spatial loop"))
-    said = ", ".join(numbered(number, word) for number, word in counts)
+        counts.append((sc.spatial_loops, "spatial loop", ""))
+    said = ", ".join(numbered(*count) for count in counts)
     lines = [said + ("" if layout.plane else "; not planar: lines cross")]
     every = [*sc.loops, *sc.closing]
     for loop in loose[:_LOOSE_LOOPS]:

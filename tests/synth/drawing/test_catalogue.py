@@ -1,6 +1,7 @@
 """Catalogues: what is in them, that labels do not overlap, that they come page by page."""
 
 import json
+import shutil
 from itertools import combinations, islice
 from math import atan2, pi
 from pathlib import Path
@@ -11,6 +12,7 @@ from commands import run
 
 import synth
 from enumerate.chains.jobs import chain_rows
+from enumerate.scd.jobs import scd_rows
 from graphs.errors import FileError, InvariantError
 from graphs.files.formats import read
 from synth.drawing.catalogue import catalogue_entries, catalogue_pages
@@ -61,9 +63,36 @@ def test_a_catalogue_names_what_is_known(six_links):
     assert "stephenson, M = 1, symmetry 4, assortment 4 + 2, 3 inversions" in said
 
 
+def panels_on(page):
+    """The creases and borders of sheets on a page, by the layers that hold them."""
+    return [layer for layer in page.layers if layer.name == "creases"]
+
+
+def test_types_have_their_realised_sheet_beside_the_graph(tmp_path):
+    rows = listed(tmp_path / "scd.jsonl", scd_rows(4, 1, 3))
+    entries = list(catalogue_entries(rows))
+    (page,) = catalogue_pages(entries, "vertices")
+    assert len(panels_on(page)) == len(entries) > 0
+    assert len(panels_on(next(catalogue_pages(entries, "vertices", sheets=False)))) == 0
+    assert_no_two_labels_overlap(page)
+    assert "4 links of 3 sides" in " ".join(label.text for label in page.labels())
+
+
+def test_a_type_without_a_sheet_says_why(tmp_path):
+    for name in ("fortune-teller", "watt-planar"):
+        shutil.copy(DATA / "wiener" / f"{name}.json", tmp_path)
+    (page,) = catalogue_pages(catalogue_entries(tmp_path))
+    said = " ".join(label.text for label in page.labels())
+    assert "no sheet: more than 12 links" in said
+    assert "no sheet: no realisation was found in 4 tries" in said
+
+
 def test_a_chain_without_centres_is_not_called_a_spherical_system():
     assert "spherical system)" not in str(synth.mobility("k1:E`hW")).replace("spherical system (Wiener", "")
     assert "kinematic chain" in synth.look("k1:E`hW").kind
+    planar = DATA / "wiener" / "watt-planar.json"
+    assert "1 centre, at infinity: the linkage is planar" in synth.look(planar).kind
+    assert any("1 centre at infinity" in label.text for label in synth.draw(planar).labels())
     assert "spherical system)" in str(synth.mobility("m1:ab.ac.bde.cef.dg.fg"))
 
 

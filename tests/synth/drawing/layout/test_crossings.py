@@ -4,7 +4,7 @@ from itertools import combinations, islice
 
 import networkx as nx
 import pytest
-from shapely.geometry import LineString, Polygon
+from shapely.geometry import LineString, Point, Polygon
 
 from enumerate.chains.jobs import chains
 from graphs.identity.chains import chain_from_id
@@ -70,6 +70,26 @@ def assert_mirrored(graph, layout):
 def test_some_chains_of_eight_links():
     found = [check(graph) for graph in islice(chains(8, 1), 0, 16, 4)]
     assert found == [(True, True), (True, True), (True, True), (True, False)]
+
+
+def clearance(layout):
+    """The least distance of a joint from a link that does not have it, or from the opposite side of its own link."""
+    sides = [
+        (row[i], row[(i + 1) % len(row)])
+        for row in layout.outlines.values()
+        for i in range(len(row) if len(row) > 2 else 1)
+    ]
+    return min(
+        LineString(side).distance(Point(at)) for side in sides for at in layout.joints.values() if at not in side
+    )
+
+
+def test_links_of_eight_link_chains_are_wide_and_apart():
+    """No joint is near a link without it, and no link is a needle."""
+    graphs = [graph for number, graph in enumerate(chains(8, 1), 1) if number in (4, 5, 15, 16)]
+    apart = [clearance(layout_of(graph.nodes, dict(enumerate(graph.edges)))) for graph in graphs]
+    assert min(apart) > 0.25
+    assert min(apart[1:]) > 0.6
 
 
 @pytest.mark.slow
