@@ -9,8 +9,11 @@ from math import ceil, prod
 from operator import le
 from textwrap import wrap
 
+import numpy as np
+
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.printing import plain
+from graphs.types import Floats
 from synth.drawing.scene.shapes import Label, Layer, Line, moved, part_in_box, scaled
 from synth.drawing.scene.writing import Scene
 from synth.templates.pieces import LOOKS, Kind, Piece, Point, TemplateLine, Text
@@ -332,6 +335,12 @@ _APART = 6.0
 _MOST_PAGES = 500
 """Largest number of pages: more are a mistake."""
 _LONGEST_TITLE = 40
+_MOST_NESTED = 60
+"""Number of pieces up to which those in rows are compared with nested ones."""
+_CELL = 2.0
+"""Millimetres of a cell of a raster in which pieces are nested."""
+_HALF = 0.5
+"""Cells in common below which there are none: sums of Fourier transforms are rounded."""
 _Laid = list[tuple[Piece, float, float]]
 
 
@@ -396,15 +405,74 @@ def laid_out(pieces: Sequence[Piece], width: float, height: float) -> Iterator[_
         yield laid
 
 
+def nested(pieces: Sequence[Piece], width: float, height: float) -> list[_Laid]:
+    """Return the contents of areas of a width and a height (millimetres) on which pieces lie in each other's bays.
+
+    Items are as for `laid_out`, the pieces turned by quarters. Areas and pieces, widened by half of what keeps
+    them apart, are rasters: the largest piece comes first, each to the lowest place that is free, found for all
+    places at once by a product of Fourier transforms. Every piece fits on the area as it is.
+    """
+    shape = int((height + _APART) / _CELL), int((width + _APART) / _CELL)
+    areas: list[tuple[Floats, _Laid]] = []
+    for piece in sorted(pieces, key=lambda piece: -piece.covered.area):
+        ways = [piece.at_origin()]
+        for _ in range(3):
+            ways.append(ways[-1].turned())
+        rasters = [(way, raster) for way in ways if all(map(le, (raster := _raster(way)).shape, shape))]
+        if not rasters:  # as large as the area, within half a cell
+            areas.append((np.ones(shape), [(ways[0], 0.0, 0.0)]))
+            continue
+        for area in [*areas, (np.zeros(shape), list[tuple[Piece, float, float]]())]:
+            places = [
+                (*place, number) for number, (_, raster) in enumerate(rasters) for place in _lowest(area[0], raster)
+            ]
+            if places:
+                break
+        _, row, column, number = min(places)
+        way, raster = rasters[number]
+        taken, laid = area
+        taken[row : row + raster.shape[0], column : column + raster.shape[1]] += raster
+        if not laid:
+            areas.append((taken, laid))
+        laid.append((way, column * _CELL, row * _CELL))
+    return [laid for _, laid in areas]
+
+
+def _raster(piece: Piece) -> Floats:
+    """Return 1 for each cell that a piece reaches, widened, and 0 for others: float[rows, columns], lowest first."""
+    import shapely
+    from shapely.affinity import translate
+
+    wide = shapely.union(piece.covered, shapely.MultiLineString([(line.start, line.end) for line in piece.strokes]))
+    wide = translate(wide.buffer(_APART / 2), _APART / 2, _APART / 2)
+    shapely.prepare(wide)
+    _, _, right, high = wide.bounds
+    columns, rows = np.meshgrid(np.arange(ceil(right / _CELL)), np.arange(ceil(high / _CELL)))
+    cells = shapely.box(columns * _CELL, rows * _CELL, (columns + 1) * _CELL, (rows + 1) * _CELL)
+    return np.asarray(shapely.intersects(wide, cells), dtype=np.float64)
+
+
+def _lowest(taken: Floats, raster: Floats) -> list[tuple[int, int, int]]:
+    """Return the lowest free place of a raster, as its upper end, its row and its column; or none."""
+    common = np.fft.rfft2(taken) * np.conj(np.fft.rfft2(raster, s=taken.shape))
+    overlap = np.fft.irfft2(common, s=taken.shape)
+    rows, columns = (whole - part + 1 for whole, part in zip(taken.shape, raster.shape, strict=True))
+    free = np.argwhere(overlap[:rows, :columns] < _HALF)
+    return [(int(row) + raster.shape[0], int(row), int(column)) for row, column in free[:1].tolist()]
+
+
 def _contents(template: Template, paper: Paper) -> tuple[Paper, list[_Laid | Tile]]:
-    """Return what each page holds: pieces laid out, or a tile of one."""
+    """Return what each page holds: pieces laid out, in rows or if it saves a page nested, or a tile of one."""
     fitting: list[Piece] = []
     larger: list[Piece] = []
     for piece in template.pieces:
         placed = piece.at_origin()
         ways = [way for way in (placed, placed.turned()) if all(map(le, way.size, paper.window))]
         (fitting if ways else larger).append(ways[0] if ways else placed)
-    contents: list[_Laid | Tile] = list(laid_out(fitting, *paper.window))
+    laid = list(laid_out(fitting, *paper.window))
+    if len(laid) > 1 and len(fitting) <= _MOST_NESTED:
+        laid = min(laid, nested(fitting, *paper.window), key=len)
+    contents: list[_Laid | Tile] = list(laid)
     for number, piece in enumerate(larger, start=1):
         contents += tiles_of(piece, paper.window, str(number) if len(larger) > 1 else "")
     return paper, contents

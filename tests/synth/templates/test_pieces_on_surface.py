@@ -1,5 +1,6 @@
 """Links of conical linkages as flat pieces, rolled up again: on the cone, in their layers, without meeting."""
 
+from dataclasses import replace
 from functools import cache
 from itertools import combinations
 
@@ -16,7 +17,7 @@ from graphs.mechanism.surfaces import Cone, Cylinder, SurfaceLinkage
 from synth.candidates.job import CandidateJob
 from synth.conformed.linkages import OnSurface, loop_of_steps
 from synth.templates.on_surface import Dimensions, LayeredLinkage, surface_of, template_on_surface
-from synth.templates.pages import Paper, pages_of
+from synth.templates.pages import Paper, laid_out, nested, pages_of
 from synth.templates.template import linkage_on_a_surface
 
 LAMBDA = np.radians(28)
@@ -190,3 +191,22 @@ def test_pages_hold_every_piece_and_the_note_every_joint():
     named = [text.words for page in pages[:-1] for text in page.texts]
     for link in linkage.chain:
         assert sum(word.startswith(f"{link}, layer") for word in named) == 1
+
+
+def test_pieces_of_a_linkage_lie_in_each_others_bays_where_that_saves_a_page():
+    """All on one page, 6 mm apart and within its window, where rows of boxes take two."""
+    chain = OnSurface(FOUR_BAR, np.radians([0, 80, 280, 190]).tolist(), np.radians(65))
+    template = template_on_surface(chain, Cone(np.radians(65)), Dimensions(size=90))
+    window = Paper(210, 297).window
+    pieces = [piece.at_origin() for piece in template.pieces]
+    assert len(list(laid_out(pieces, *window))) == 2
+    (laid,) = nested(pieces, *window)
+    placed = [piece.moved(right, up) for piece, right, up in laid]
+    assert len(placed) == len(pieces)
+    for piece in placed:
+        left, low, right, high = piece.box
+        assert min(left, low) > -1e-9
+        assert right <= window[0] + 1e-9
+        assert high <= window[1] + 1e-9
+    assert all(one.covered.distance(other.covered) >= 6.0 - 1e-9 for one, other in combinations(placed, 2))
+    assert len(pages_of(replace(template, steps=()), Paper(210, 297))) == 1
