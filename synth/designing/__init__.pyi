@@ -1,14 +1,22 @@
 from synth.designing.designs import Design as Design, Designs as Designs, DesignSearch as DesignSearch, design as design
 from synth.designing.dimensions import Dimensions as Dimensions, dimensions_of as dimensions_of
 from synth.designing.poses import DesignPoint as DesignPoint
-from synth.designing.sizes import BoxSize as BoxSize, SheetArea as SheetArea, SizeRatio as SizeRatio
+from synth.designing.sizes import (
+    BoxSize as BoxSize,
+    EdgeLengths as EdgeLengths,
+    EqualArcs as EqualArcs,
+    EqualLengths as EqualLengths,
+    LinkArc as LinkArc,
+    PanelCorners as PanelCorners,
+    SheetArea as SheetArea,
+    SizeRatio as SizeRatio,
+    Symmetry as Symmetry,
+)
 from synth.designing.targets import Formula as Formula, Mesh as Mesh, Polyline as Polyline, read_mesh as read_mesh
 from synth.designing.wish_files import read_wishes as read_wishes
 from synth.designing.wishes import (
-    EqualArcs as EqualArcs,
     Goal as Goal,
     JointAngle as JointAngle,
-    LinkArc as LinkArc,
     LinkDirection as LinkDirection,
     LinkOrientation as LinkOrientation,
     PointDistance as PointDistance,

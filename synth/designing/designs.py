@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from graphs.answer.mechanisms import mobility
 from graphs.convert.table import Mechanism
-from graphs.errors import InvariantError, SynthedraError, numbered
+from graphs.errors import InvariantError, SynthedraError, UnsolvableError, numbered
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
@@ -96,7 +97,8 @@ class Design(Printed):
 
     Examples
     --------
-    >>> from synth.designing.wishes import Goal, LinkArc
+    >>> from synth.designing.sizes import LinkArc
+    >>> from synth.designing.wishes import Goal
     >>> from synth.patterns import generate
     >>> wish = LinkArc(joints=("0", "1"), goal=Goal(equals=1.0))
     >>> best = design(generate("four-bar").mechanism, Wishes((wish,)), starts=1).best
@@ -283,7 +285,7 @@ def design(
     Raises
     ------
     UnsolvableError
-        If the mechanism has no coordinates, or nothing of it may change.
+        If the mechanism has no coordinates, nothing of it may change, or its type cannot move.
     InvariantError
         If wishes name what is not there, or contradict each other.
 
@@ -329,7 +331,8 @@ class DesignSearch:
 
     Examples
     --------
-    >>> from synth.designing.wishes import Goal, LinkArc
+    >>> from synth.designing.sizes import LinkArc
+    >>> from synth.designing.wishes import Goal
     >>> from synth.patterns import generate
     >>> wish = LinkArc(joints=("0", "1"), goal=Goal(equals=1.0))
     >>> DesignSearch(generate("four-bar").mechanism, Wishes((wish,))).design(0)
@@ -346,7 +349,7 @@ class DesignSearch:
     ) -> None:
         generator = GENERATORS.get(mechanism) if isinstance(mechanism, str) else None
         self.family: Dimensions = dimensions_of(
-            generator or mechanism, fixed=wishes.fixed, parameters=wishes.parameters
+            generator or mechanism, fixed=wishes.fixed, parameters=wishes.parameters, bounds=wishes.bounds
         )
         self.problem = DesignProblem(self.family, wishes)
         self.spread, self.seed = spread, seed
@@ -354,7 +357,7 @@ class DesignSearch:
         if any(len(one) != numbers for one in beginnings):
             raise InvariantError("beginnings", "designs of another mechanism", f"{numbers} numbers each")
         self.beginnings = beginnings
-        self.freedoms = _judgement(self.family.mechanism(self.family.start))[0]
+        self.freedoms = _freedoms_to_keep(self.family.mechanism(self.family.start))
 
     def design(self, start: int) -> Design | None:
         """Return the design of a start, judged; None where numbers of a start make no mechanism."""
@@ -388,6 +391,21 @@ def _judgement(mechanism: Mechanism) -> tuple[int | None, str]:
     except SynthedraError as error:
         return None, str(error)
     return verdict.freedoms, verdict.text
+
+
+def _freedoms_to_keep(mechanism: Mechanism) -> int | None:
+    """Return the degrees of freedom with which a search begins, None if they are not known.
+
+    Raises `UnsolvableError` if neither the mechanism nor a generic one of its type moves: no dimensions help.
+    """
+    freedoms, _ = _judgement(mechanism)
+    if freedoms == 0:
+        counted = mobility(mechanism)
+        generic = counted.mobility if counted.exact is None else counted.exact.mobility
+        if generic is not None and generic <= 0:
+            which = f"the mechanism is rigid, and so is a generic one of its type (M = {generic})"
+            raise UnsolvableError(f"{which}; try one that moves, synth generate lists some")
+    return freedoms
 
 
 def judged(problem: DesignProblem, found: FoundDesign, start: int, wanted: int | None = None) -> Design:

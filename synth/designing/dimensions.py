@@ -96,7 +96,11 @@ class Dimensions(Protocol):
 
 
 def dimensions_of(
-    mechanism: Designable, *, fixed: Collection[str] = (), parameters: Mapping[str, float] | None = None
+    mechanism: Designable,
+    *,
+    fixed: Collection[str] = (),
+    parameters: Mapping[str, float] | None = None,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
 ) -> Dimensions:
     """Return what may change of a mechanism.
 
@@ -109,6 +113,8 @@ def dimensions_of(
         Dimensions that stay, by name; ``outline`` stands for all vertices on the border of a sheet.
     parameters : mapping of str to float, optional
         Of a generator: values to begin with, radians.
+    bounds : mapping of str to (float, float), optional
+        The least and largest value of parameters, or of azimuths and the cone angle, radians or lengths.
 
     Raises
     ------
@@ -145,7 +151,23 @@ def dimensions_of(
             family = AxisDimensions(linkage.graph, np.hstack([points, linkage.directions]), fixed)
     if not len(family.start):
         raise UnsolvableError("nothing of the mechanism may change: all its dimensions are fixed")
+    _narrow(family, bounds or {})
     return family
+
+
+def _narrow(family: Dimensions, bounds: Mapping[str, tuple[float, float]]) -> None:
+    """Keep dimensions of one number within bounds, and begin there."""
+    (low, high), own = family.bounds, np.bincount(family.of, minlength=len(family.names))
+    single = [name for name, numbers in zip(family.names, own, strict=True) if numbers == 1]
+    for name, (least, most) in bounds.items():
+        if name not in single:
+            what = f"there is no dimension {shown(name)} of one number that may change"
+            raise InvariantError("bounds", what, known(single, name) if single else "parameters of a generator")
+        place = int(np.flatnonzero(family.of == family.names.index(name))[0])
+        low[place], high[place] = max(low[place], least), min(high[place], most)
+        if not low[place] < high[place]:
+            raise InvariantError("bounds", f"{name} from {low[place]:g} to {high[place]:g}", "the smaller one first")
+    family.start = np.clip(family.start, low, high)
 
 
 def _on_cone(linkage: SurfaceLinkage | OnSurface) -> OnSurface | None:

@@ -92,6 +92,7 @@ class DesignFrame:
         self.joints = list(self.graph.joints)
         self._tree = BodyTree(first.linkage, family.ground)
         sheet = family.sheet
+        self.drawn = first.vertices * self.extent + self.middle
         self.link_of = np.zeros(0, dtype=np.int64)
         self.placed = np.zeros(0, dtype=np.int64)
         if sheet is not None:

@@ -85,7 +85,8 @@ def reweighed(wishes: Wishes, frozen: Collection[int] = (), weights: Mapping[int
 
     Examples
     --------
-    >>> from synth.designing.wishes import Goal, LinkArc
+    >>> from synth.designing.sizes import LinkArc
+    >>> from synth.designing.wishes import Goal
     >>> wishes = Wishes((JointAngle(joint="1", goal=Goal(equals=0.3)), LinkArc(joints=("0", "1"), goal=Goal(equals=1))))
     >>> changed = reweighed(wishes, frozen=[1], weights={0: 5.0})
     >>> changed.wishes[0].weight, str(changed.rules[0])

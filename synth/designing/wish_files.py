@@ -12,14 +12,22 @@ from typing import Any
 from graphs.errors import FileError, SynthedraError, shown
 from graphs.files.text import Checker, load_json
 from synth.designing.poses import DesignPoint
-from synth.designing.sizes import BoxSize, SheetArea, SizeRatio
+from synth.designing.sizes import (
+    BoxSize,
+    EdgeLengths,
+    EqualArcs,
+    EqualLengths,
+    LinkArc,
+    PanelCorners,
+    SheetArea,
+    SizeRatio,
+    Symmetry,
+)
 from synth.designing.targets import Formula, Polyline, Target, read_mesh
 from synth.designing.wishes import (
     POSE,
-    EqualArcs,
     Goal,
     JointAngle,
-    LinkArc,
     LinkDirection,
     LinkOrientation,
     PointDistance,
@@ -113,6 +121,25 @@ def _arcs(check: Checker, value: Any, place: str) -> tuple[tuple[str, ...], ...]
     return tuple(_names(2)(check, item, where) for where, item in check.items(value, place))
 
 
+def _vertices(length: int) -> Callable[[Checker, Any, str], tuple[int, ...]]:
+    def read(check: Checker, value: Any, place: str) -> tuple[int, ...]:
+        check.list(value, place, length, f"a list of {length} vertices")
+        return tuple(check.integer(item, where) for where, item in check.items(value, place))
+
+    return read
+
+
+def _many(read: Callable[[Checker, Any, str], Any], what: str) -> Callable[[Checker, Any, str], tuple[Any, ...]]:
+    return lambda check, value, place: tuple(
+        read(check, item, where) for where, item in check.items(value, place, f"a list of {what}")
+    )
+
+
+def _line(check: Checker, value: Any, place: str) -> tuple[Any, ...]:
+    check.list(value, place, 2, "two points of a line")
+    return tuple(_numbers(2)(check, item, where) for where, item in check.items(value, place))
+
+
 def _size(check: Checker, value: Any, place: str) -> str:
     if value not in ("longest", "area", "radius"):
         check.fail(place, value, "longest, area or radius")
@@ -144,6 +171,15 @@ _ANGLE = _Value(lambda check, value, place: radians(check.number(value, place)),
 _VECTOR = _Value(_numbers(3), _list(_NUMBER, 3, 3))
 _POINTS = _Value(_points, _list({"$ref": "#/$defs/point"}, 1))
 _SIZE = _Value(_size, {"enum": ["longest", "area", "radius"]})
+_VERTEX: dict[str, Any] = {"type": "integer", "minimum": 0}
+_EDGES = _Value(_many(_vertices(2), "edges"), _list(_list(_VERTEX, 2, 2), 1))
+_CORNERS = _Value(_many(_vertices(3), "corners"), _list(_list(_VERTEX, 3, 3), 1))
+_FLAT_POINT = _list(_NUMBER, 2, 2)
+_SYMMETRY = {
+    "mirror": _Value(_line, _list(_FLAT_POINT, 2, 2)),
+    "turns": _Value(lambda check, value, place: check.integer(value, place, 2), {"type": "integer", "minimum": 2}),
+    "centre": _Value(_numbers(2), _FLAT_POINT),
+}
 _LIMITS = ("equals", "at_least", "at_most")
 
 
@@ -181,10 +217,17 @@ _KINDS: Mapping[str, _Kind] = {
     ),
     "arc": _Kind(LinkArc, {"joints": _Value(_names(2), _list(_NAME, 2, 2))}, {}, _ANGLE, at=False),
     "equal-arcs": _Kind(EqualArcs, {"arcs": _Value(_arcs, _list(_list(_NAME, 2, 2), 2, 2))}, {}, at=False),
+    "edges": _Kind(EdgeLengths, {}, {"edges": _EDGES}, _LENGTH, at=False),
+    "equal-lengths": _Kind(EqualLengths, {"edges": _EDGES}, {}, at=False),
+    "corners": _Kind(PanelCorners, {}, {"corners": _CORNERS}, _ANGLE, at=False),
+    "symmetry": _Kind(Symmetry, {}, _SYMMETRY, at=False),
     "area": _Kind(SheetArea, {}, {}, _LENGTH, at=False),
 }  # fmt: skip
 _RENAMED = {"of": "size_of"}
-_TOP = ("between", "driver", "fixed", "flat_foldable", "in_order", "parameters", "configurations", "ranges", "rules")
+_TOP = (
+    "between", "bounds", "configurations", "driver", "fixed", "flat_foldable", "in_order", "parameters", "ranges",
+    "rules",
+)  # fmt: skip
 
 
 def read_wishes(path: str | Path) -> Wishes:
@@ -245,12 +288,19 @@ def wishes_of_document(value: Any, path: Path) -> Wishes:
             driver,
             fixed,
             {name: check.number(number, f"parameters.{name}") for name, number in parameters.items()},
+            _bounds(check, value.get("bounds", {})),
             _flag(check, value, "flat_foldable", default=False),
             _flag(check, value, "in_order", default=True),
             check.integer(value.get("between", 0), "between", 0, _MOST_BETWEEN),
         ),
         place="wishes",
     )
+
+
+def _bounds(check: Checker, value: Any) -> dict[str, tuple[float, float]]:
+    check.mapping(value, "bounds", (), value if isinstance(value, dict) else ())
+    pairs = {name: _numbers(2)(check, item, f"bounds.{name}") for name, item in value.items()}
+    return {name: (least, most) for name, (least, most) in pairs.items()}
 
 
 def _flag(check: Checker, value: Mapping[str, Any], key: str, *, default: bool) -> bool:
@@ -351,6 +401,7 @@ def wishes_schema() -> dict[str, Any]:
                 "driver": {"type": ["string", "integer", "null"]},
                 "fixed": _list(_NAME, 0),
                 "parameters": angles,
+                "bounds": {"type": "object", "additionalProperties": _list(_NUMBER, 2, 2)},
                 "flat_foldable": {"type": "boolean"},
                 "in_order": {"type": "boolean"},
                 "between": {"type": "integer", "minimum": 0, "maximum": _MOST_BETWEEN},

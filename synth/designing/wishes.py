@@ -7,16 +7,15 @@ radians, lengths in the unit of the file. Theory: docs/theory/design.md.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import asin, inf, sqrt
 from typing import ClassVar, Literal
 
 import numpy as np
 
-from graphs.errors import InvariantError, UnsolvableError
-from graphs.geometry import crossing, unit
-from graphs.tolerances import DOUBLE
+from graphs.errors import InvariantError
+from graphs.geometry import unit
 from graphs.types import Floats
 from synth.designing.poses import Derived, DesignFrame, DesignPoint, PosedDesign, stacked
 from synth.designing.targets import Target
@@ -133,6 +132,84 @@ class Wish:
 
     def __str__(self) -> str:
         return type(self).__name__
+
+
+@dataclass(frozen=True, kw_only=True)
+class GoalWish(Wish):
+    """A wish about one measure: what it should be.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    goal : Goal
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> GoalWish(goal=Goal(equals=1.0)).goal.limits
+    (1.0, 1.0)
+    """
+
+    goal: Goal
+
+    def measured(self, pose: PosedDesign) -> Derived:
+        """Return what is measured at its configuration."""
+        raise NotImplementedError
+
+    def missed(self, pose: PosedDesign) -> Derived:
+        """Return by how much the measure is off; within limits it has no derivatives."""
+        measured = self.measured(pose)
+        off = self.goal.misses(measured.values)
+        slopes = np.ones(len(off)) if self.goal.equals is not None else (off != 0.0).astype(float)
+        return Derived(off, slopes[:, None] * measured.by_angles, slopes[:, None] * measured.by_numbers)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShapeWish(Wish):
+    """A wish about dimensions alone: it is the same at all configurations.
+
+    Examples
+    --------
+    >>> ShapeWish().configurations
+    ()
+    """
+
+    @property
+    def configurations(self) -> tuple[str, ...]:
+        """None: it is the same at all."""
+        return ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointsWish(Wish):
+    """A wish about several points, by default all vertices of a sheet.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    points : tuple of DesignPoint
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> PointsWish().points
+    ()
+    """
+
+    points: tuple[DesignPoint, ...] = ()
+
+    def check(self, frame: DesignFrame) -> None:
+        """Check links and vertices."""
+        for point in self.measured_points(frame):
+            frame.check_point(point)
+
+    def measured_points(self, frame: DesignFrame) -> Sequence[DesignPoint]:
+        """Return the points; `UnsolvableError` without any, if it has no vertices."""
+        return self.points or frame.all_vertices()
 
 
 def _angle_of(chord: Floats) -> float:
@@ -324,7 +401,7 @@ class PointPlace(Wish):
 
 
 @dataclass(frozen=True, kw_only=True)
-class PointDistance(Wish):
+class PointDistance(GoalWish):
     """The distance between two points.
 
     Attributes
@@ -343,7 +420,6 @@ class PointDistance(Wish):
     """
 
     points: tuple[DesignPoint, DesignPoint]
-    goal: Goal
     unit = "length"
 
     def check(self, frame: DesignFrame) -> None:
@@ -351,31 +427,20 @@ class PointDistance(Wish):
         for point in self.points:
             frame.check_point(point)
 
-    def missed(self, pose: PosedDesign) -> Derived:
-        """Return how far the distance is off."""
-        return within_goal(self.goal, _distance(pose.places(self.points)))
+    def measured(self, pose: PosedDesign) -> Derived:
+        """Return the distance; of points in one place its derivative is zero."""
+        both = pose.places(self.points)
+        along = both.values[3:] - both.values[:3]
+        size = float(np.linalg.norm(along))
+        direction = along / size if size > 0.0 else along
+        return both.through(np.array([size]), np.concatenate([-direction, direction])[None])
 
     def __str__(self) -> str:
         return f"distance of {self.points[0]} and {self.points[1]} at {self.at}"
 
 
-def _distance(both: Derived) -> Derived:
-    """Return the distance of two points; of points in one place its derivative is zero."""
-    along = both.values[3:] - both.values[:3]
-    size = float(np.linalg.norm(along))
-    direction = along / size if size > 0.0 else along
-    return both.through(np.array([size]), np.concatenate([-direction, direction])[None])
-
-
-def within_goal(goal: Goal, measured: Derived) -> Derived:
-    """Return by how much numbers miss a goal; within limits they have no derivatives."""
-    off = goal.misses(measured.values)
-    slopes = np.ones(len(off)) if goal.equals is not None else (off != 0.0).astype(float)
-    return measured.through(off, np.diag(slopes))
-
-
 @dataclass(frozen=True, kw_only=True)
-class PointsOn(Wish):
+class PointsOn(PointsWish):
     """Points that lie on a surface or path (`synth.designing.targets`); by default all vertices.
 
     Attributes
@@ -395,17 +460,11 @@ class PointsOn(Wish):
     """
 
     target: Target
-    points: tuple[DesignPoint, ...] = ()
     unit = "length"
-
-    def check(self, frame: DesignFrame) -> None:
-        """Check links and vertices."""
-        for point in self.points or frame.all_vertices():
-            frame.check_point(point)
 
     def missed(self, pose: PosedDesign) -> Derived:
         """Return how far each point is from the target, to first order."""
-        points = self.points or pose.frame.all_vertices()
+        points = self.measured_points(pose.frame)
         there = pose.places(points)
         off, slopes = self.target.missed(there.values.reshape(-1, 3))
         rows = off.shape[1]
@@ -465,7 +524,8 @@ class TransmissionAngle(Wish):
         angle, slope = _dihedral(near.values, axis.values, far.values)
         folded = angle if angle <= np.pi / 2 else np.pi - angle
         sign = 1.0 if angle <= np.pi / 2 else -1.0
-        return within_goal(Goal(at_least=self.at_least), both.through(np.array([folded]), sign * slope[None]))
+        off = Goal(at_least=self.at_least).misses(np.array([folded]))
+        return both.through(off, sign * slope[None] * (off != 0.0))
 
     def __str__(self) -> str:
         return f"transmission angle at joint {self.joint} at {self.at}"
@@ -487,110 +547,6 @@ def _dihedral(a: Floats, k: Floats, b: Floats) -> tuple[float, Floats]:
     by_k = by_k + np.cross(by_m, a) + np.cross(b, by_n)
     sign = 1.0 if angle >= 0.0 else -1.0
     return float(abs(angle)), sign * np.concatenate([by_a, by_k, by_b])
-
-
-@dataclass(frozen=True, kw_only=True)
-class LinkArc(Wish):
-    """The angle between two axes of a link, radians.
-
-    Attributes
-    ----------
-    at : str
-        Name of a configuration.
-    joints : (str, str)
-    goal : Goal
-        Radians.
-    weight : float
-        As of `Wish`.
-
-    Examples
-    --------
-    >>> print(LinkArc(joints=("0", "1"), goal=Goal(equals=1.0)))
-    arc between joints 0 and 1
-    """
-
-    joints: tuple[str, str]
-    goal: Goal
-    unit = "angle"
-
-    @property
-    def configurations(self) -> tuple[str, ...]:
-        """None: it is the same at all."""
-        return ()
-
-    def check(self, frame: DesignFrame) -> None:
-        """Check the joints: they must be on one link."""
-        places = [frame.joint(name) for name in self.joints]
-        if not set(frame.graph.joints[frame.joints[places[0]]]) & set(frame.graph.joints[frame.joints[places[1]]]):
-            raise InvariantError("arc", f"joints {' and '.join(self.joints)} are on no one link", "two of one link")
-
-    def measured(self, pose: PosedDesign) -> Derived:
-        """Return the arc."""
-        first, second = (pose.frame.joint(name) for name in self.joints)
-        dependence, directions = pose.design.dependence, pose.design.linkage.directions
-        turns = [
-            -crossing(directions[joint]) @ dependence.arrays[0][6 * joint : 6 * joint + 3] for joint in (first, second)
-        ]
-        a, b = directions[first], directions[second]
-        cross = np.cross(a, b)
-        sine, cosine = float(np.linalg.norm(cross)), float(a @ b)
-        if sine <= DOUBLE.parallel:
-            raise UnsolvableError(
-                f"the axes of joints {' and '.join(self.joints)} are parallel: their arc has no slope"
-            )
-        by_a = (cosine * np.cross(b, cross) / sine - sine * b) / (sine**2 + cosine**2)
-        by_b = (cosine * np.cross(cross, a) / sine - sine * a) / (sine**2 + cosine**2)
-        slope = by_a @ turns[0] + by_b @ turns[1]
-        none = np.zeros((1, len(pose.angles)))
-        return Derived(np.array([np.arctan2(sine, cosine)]), none, slope[None])
-
-    def missed(self, pose: PosedDesign) -> Derived:
-        """Return how far the arc is off."""
-        return within_goal(self.goal, self.measured(pose))
-
-    def __str__(self) -> str:
-        return f"arc between joints {self.joints[0]} and {self.joints[1]}"
-
-
-@dataclass(frozen=True, kw_only=True)
-class EqualArcs(Wish):
-    """Two arcs that are equal, each between two axes of a link.
-
-    Attributes
-    ----------
-    at : str
-        Name of a configuration.
-    arcs : ((str, str), (str, str))
-    weight : float
-        As of `Wish`.
-
-    Examples
-    --------
-    >>> print(EqualArcs(arcs=(("0", "1"), ("2", "3"))))
-    arcs 0-1 and 2-3 equal
-    """
-
-    arcs: tuple[tuple[str, str], tuple[str, str]]
-    unit = "angle"
-    _any: Goal = field(default=Goal(at_least=0.0), init=False, repr=False)
-
-    @property
-    def configurations(self) -> tuple[str, ...]:
-        """None: it is the same at all."""
-        return ()
-
-    def check(self, frame: DesignFrame) -> None:
-        """Check the joints."""
-        for pair in self.arcs:
-            LinkArc(joints=pair, goal=self._any).check(frame)
-
-    def missed(self, pose: PosedDesign) -> Derived:
-        """Return the difference of the arcs."""
-        one, other = (LinkArc(joints=pair, goal=self._any).measured(pose) for pair in self.arcs)
-        return one - other
-
-    def __str__(self) -> str:
-        return f"arcs {' and '.join('-'.join(pair) for pair in self.arcs)} equal"
 
 
 @dataclass(frozen=True)
@@ -630,6 +586,8 @@ class Wishes:
         Dimensions that stay.
     parameters : mapping of str to float
         Of a generator, to begin with, radians.
+    bounds : mapping of str to (float, float)
+        The least and largest value of parameters, or azimuths and the cone angle, radians or lengths.
     flat_foldable : bool
         Keep a flat sheet flat-foldable, and of vertices of four creases let ratios agree round panels.
     in_order : bool
@@ -650,6 +608,7 @@ class Wishes:
     driver: str | None = None
     fixed: tuple[str, ...] = ()
     parameters: Mapping[str, float] = field(default_factory=dict)
+    bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     flat_foldable: bool = False
     in_order: bool = True
     between: int = 0

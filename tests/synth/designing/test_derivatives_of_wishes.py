@@ -8,13 +8,21 @@ from synth.conformed.linkages import loop_on_cones
 from synth.designing.dimensions import ConeDimensions, dimensions_of
 from synth.designing.poses import DesignPoint
 from synth.designing.problem import DesignProblem
-from synth.designing.sizes import BoxSize, SheetArea, SizeRatio
+from synth.designing.sizes import (
+    BoxSize,
+    EdgeLengths,
+    EqualArcs,
+    EqualLengths,
+    LinkArc,
+    PanelCorners,
+    SheetArea,
+    SizeRatio,
+    Symmetry,
+)
 from synth.designing.targets import Formula, Mesh, Polyline
 from synth.designing.wishes import (
-    EqualArcs,
     Goal,
     JointAngle,
-    LinkArc,
     LinkDirection,
     LinkOrientation,
     PointDistance,
@@ -56,6 +64,8 @@ def of_sheets():
         BoxSize(at="b", size_of="longest", goal=Goal(at_most=0.1)),
         SizeRatio(at="a", over="b", size_of="area", goal=Goal(at_most=0.1)),
         SheetArea(goal=Goal(at_most=0.1)),
+        EdgeLengths(goal=Goal(at_least=9.0)),
+        PanelCorners(goal=Goal(equals=1.2)),
         PointsOn(at="b", target=Formula("x**2 + y**2 + (z - 1)**2 - 4")),
         PointPlace(at="pose", point=DesignPoint(vertex=3), equals=(1.0, 1.0, 1.0)),
     ]
@@ -72,7 +82,13 @@ def made(kind):
         first = loop_on_cones(np.radians([120, 95, 45, 85]))[0]
         return ConeDimensions(first), of_links("1", "2", "3", "4")
     if kind == "vertices":
-        return dimensions_of(generate("miura", rows=2, columns=3).mechanism), of_sheets()
+        half = np.sqrt(3.0) / 4.0
+        own = [
+            EqualLengths(edges=((0, 1), (1, 5), (5, 9))),
+            PanelCorners(corners=((0, 1, 5), (5, 9, 10)), goal=Goal(at_least=3.0)),
+            Symmetry(turns=2, centre=(3.0 * half, 1.25)),
+        ]
+        return dimensions_of(generate("miura", rows=2, columns=3).mechanism), [*of_sheets(), *own]
     if kind == "folded triangles":
         folded = generate("waterbomb", rows=1, columns=1, fold=0.6).mechanism
         return dimensions_of(folded), of_sheets()

@@ -44,9 +44,14 @@ def test_a_file_of_every_kind_is_read_and_valid(tmp_path):
         {"kind": "arc", "joints": [0, 1], "at_least": 20, "at_most": 90},
         {"kind": "equal-arcs", "arcs": [[0, 1], [2, 3]]},
         {"kind": "area", "at_most": 4},
+        {"kind": "edges", "edges": [[0, 1]], "at_least": 1},
+        {"kind": "equal-lengths", "edges": [[0, 1], [1, 2]]},
+        {"kind": "corners", "corners": [[0, 1, 2]], "equals": 90},
+        {"kind": "symmetry", "mirror": [[0, 0], [0, 1]]},
+        {"kind": "symmetry", "turns": 4, "centre": [0, 1]},
     ]
     ranges = [{"joint": 0, "from": 10, "to": 50, "steps": 3}]
-    path = written(tmp_path, wishes=wishes, ranges=ranges, fixed=[0], rules=[wishes[-2]], driver="0", in_order=False)
+    path = written(tmp_path, wishes=wishes, ranges=ranges, fixed=[0], rules=[wishes[11]], driver="0", in_order=False)
     jsonschema.validate(json.loads(path.read_text()), SCHEMA)
     read = read_wishes(path)
     assert {definition for definition in SCHEMA["$defs"] if definition != "point"} == {one["kind"] for one in wishes}
@@ -68,6 +73,9 @@ WRONG = [
     ({"wishes": [{"kind": "on", "target": {"file": "none.stl"}}]}, "cannot be read"),
     ({"configurations": [{"name": "pose"}]}, "configurations[0].name: the name 'pose'"),
     ({"configurations": [{"name": "open"}, {"name": "open"}]}, "two configurations have one name"),
+    ({"bounds": {"sector": [1]}}, "bounds.sector: a list of 1; expected a list of 2 numbers"),
+    ({"wishes": [{"kind": "corners", "corners": [[0, 1]], "equals": 90}]}, "corners[0]: a list of 2; expected a list of 3 vertices"),
+    ({"wishes": [{"kind": "symmetry", "turns": 1}]}, "wishes[0].turns: 1; expected"),
     ({"version": 2}, "version: 2; expected 1"),
 ]  # fmt: skip
 
