@@ -133,7 +133,7 @@ test-simulators: $(STAMP)
 	    { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq liburdfdom-tools; } || \
 	      echo "check_urdf could not be installed; some tests will skip" >&2; \
 	  else echo "check_urdf is not installed; some tests will skip (sudo apt-get install liburdfdom-tools)" >&2; fi
-	$(BIN)/python -m pytest $(PARALLEL) -m "not slow" tests/synth/simulation
+	$(BIN)/python -m pytest $(PARALLEL) -m "not slow" tests/synth/simulation tests/graphs/files/robots
 
 # Operators and guards of FILE (those changed since SINCE without one) that no test of its room holds.
 .PHONY: mutants

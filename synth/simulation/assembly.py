@@ -62,7 +62,7 @@ class AssemblyOptions:
     branch : int or str, optional
         Motion branch, as for `synth.move`.
     springs : Springs, optional
-        Newton metres per radian.
+        Newton metres per radian, and constant moments at joints in newton metres.
 
     Examples
     --------
@@ -252,7 +252,16 @@ def _motion(at: Configuration, options: AssemblyOptions) -> tuple[DrivenMotion |
         if options.drive or options.branch is not None:
             raise
         return None, (f"no actuators: {error}",)
-    return driven, ((f"the motion ends before its goal: {driven.path.stopped}",) if driven.path.stopped else ())
+    notes = [f"the motion ends before its goal: {driven.path.stopped}"] if driven.path.stopped else []
+    if turns_back(driven.path.angles[:, list(driven.places)]):
+        notes.append("the driven joint turns back on the way, where a motor at it cannot lead; try to drive another")
+    return driven, tuple(notes)
+
+
+def turns_back(values: Floats) -> bool:
+    """Check whether one joint, float[F] or float[F, 1], goes back on its way; False for several joints."""
+    steps = np.diff(values.reshape(len(values), -1), axis=0)
+    return steps.shape[1] == 1 and bool((steps < 0.0).any() and (steps > 0.0).any())
 
 
 def _unit(posed: PosedLinkage, at: Configuration, options: AssemblyOptions) -> float:
@@ -293,7 +302,7 @@ def _hinges(
             Hinge(
                 names[place], joint, number[first], number[second], points[place] * metre + middle,
                 posed.directions[place], float(reaches[place]) * metre, angle, slide, limits,
-                springs.stiffness.get(joint, 0.0), springs.rest.get(joint, angle),
+                springs.stiffness.get(joint, 0.0), springs.rest.get(joint, angle), springs.moments.get(joint, 0.0),
             )
         )  # fmt: skip
     return tuple(hinges)
@@ -388,7 +397,7 @@ def spanning_tree(
 ) -> tuple[tuple[TreeJoint, ...], tuple[int, ...], tuple[int, ...]]:
     """Return a tree of the hinges, broad first, the bodies where it begins, and the hinges that it leaves out.
 
-    Slides, driven hinges and those with springs come first: a hinge that is cut has no place for these.
+    Slides, driven hinges and those with springs or moments come first: a hinge that is cut has no place for these.
     """
     graph = at.linkage.graph
     around: list[list[int]] = [[] for _ in graph.nodes]
@@ -402,7 +411,8 @@ def spanning_tree(
     left_out = [number for number in driven if number not in forced]
     if left_out:
         raise UnsolvableError(f"the driven joints form a loop: joint {shown(hinges[left_out[0]].joint)}")
-    forced |= _forest(hinges, [*sorted(forced), *(n for n, h in enumerate(hinges) if h.stiffness)], len(around))
+    loaded = [number for number, hinge in enumerate(hinges) if hinge.stiffness or hinge.moment]
+    forced |= _forest(hinges, [*sorted(forced), *loaded], len(around))
     degree = np.array([len(numbers) for numbers in around], dtype=float)
     first = list(graph.nodes).index(graph.ground) if graph.ground is not None else leading(degree) if len(degree) else 0
     carried, tree, bases = set[int](), list[TreeJoint](), list[int]()

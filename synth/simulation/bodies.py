@@ -12,6 +12,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from graphs.errors import numbered
 from graphs.geometry import unit
 from graphs.types import Floats, JointId, LinkId
 from synth.templates.unfolding import Plane
@@ -171,7 +172,7 @@ class Hinge:
 
     The second turns against the first by `angle` about `direction` through `point`, right-handed; `reach` is half
     the length of the hinge. A slide goes along its direction by `angle`, metres. `limits` are those of the joint,
-    radians, None where there are none; `stiffness` and `rest` are those of its spring.
+    radians, None where there are none; `stiffness` and `rest` are those of its spring, `moment` one that acts always.
     """
 
     name: str
@@ -186,10 +187,17 @@ class Hinge:
     limits: tuple[float, float] | None = None
     stiffness: float = 0.0
     rest: float = 0.0
+    moment: float = 0.0
 
     def end(self, way: float) -> Floats:
         """Return an end of the hinge, float[3]: 1 along its direction, -1 against it."""
         return self.point + way * self.reach * self.direction
+
+
+def springs_and_moments(hinges: Sequence[Hinge]) -> tuple[str, ...]:
+    """Return how many hinges have springs, and how many have moments, for what a format does not hold."""
+    springs, moments = sum(bool(hinge.stiffness) for hinge in hinges), sum(bool(hinge.moment) for hinge in hinges)
+    return tuple(numbered(count, word) for count, word in ((springs, "spring"), (moments, "moment")) if count)
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from graphs.errors import UnsolvableError, numbered
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.simulation.assembly import Assembly, driven_inertia
-from synth.simulation.bodies import Bar, Body, Hinge, Plate, TreeJoint
+from synth.simulation.bodies import Bar, Body, Hinge, Plate, TreeJoint, springs_and_moments
 from synth.simulation.connections import CutHinge
 from synth.simulation.xml import Element, document
 
@@ -56,10 +56,16 @@ def mjcf_bytes(assembly: Assembly) -> bytes:
         for cut in assembly.cuts:
             _add_cut(assembly, cut, equality)
         _add_cut_hinges(assembly, root)
-    if assembly.driven:
+    moments = _with_moments(assembly)
+    if assembly.driven or moments:
         actuator = root.add("actuator")
         for number in assembly.driven:
             _add_servo(assembly, number, actuator)
+        for hinge in moments:
+            actuator.add(
+                "general", name=f"moment_{hinge.name}", joint=hinge.name, gainprm=0.0, biastype="affine",
+                biasprm=[hinge.moment, 0.0, 0.0],
+            )  # fmt: skip
     _add_keys(assembly, root, world)
     if not assets.children:
         root.children.remove(assets)
@@ -192,6 +198,12 @@ def _add_servo(assembly: Assembly, number: int, actuator: Element) -> None:
     )  # fmt: skip
 
 
+def _with_moments(assembly: Assembly) -> list[Hinge]:
+    """Return the hinges of the tree at which a constant moment acts."""
+    hinges = (assembly.hinges[joint.hinge] for joint in assembly.tree)
+    return [hinge for hinge in hinges if hinge.moment]
+
+
 def _add_keys(assembly: Assembly, root: Element, world: Element) -> None:
     """Add the first and the last configuration of the motion."""
     if len(assembly.path) < 2:
@@ -200,13 +212,13 @@ def _add_keys(assembly: Assembly, root: Element, world: Element) -> None:
     order = [number[str(element.attributes["name"])] for element in world.inside() if element.tag == "joint"]
     keys = root.add("keyframe")
     for name, row in (("start", assembly.path[0]), ("end", assembly.path[-1])):
-        keys.add("key", name=name, qpos=row[order], ctrl=row[list(assembly.driven)])
+        control = [*row[list(assembly.driven)], *(0.0 for _ in _with_moments(assembly))]
+        keys.add("key", name=name, qpos=row[order], ctrl=control)
 
 
 def lost_as_mjcf(assembly: Assembly) -> tuple[str, ...]:
     """Return what MJCF does not hold: joints that are connections have no limits and no springs."""
     cut = [assembly.hinges[each.hinge] for each in assembly.cuts]
     limits = sum(hinge.limits is not None for hinge in cut)
-    springs = sum(hinge.stiffness > 0.0 for hinge in cut)
-    lost = [numbered(limits, "limit") + " of cut hinges"] if limits else []
-    return (*lost, *([numbered(springs, "spring") + " of cut hinges"] if springs else []))
+    lost = [numbered(limits, "limit")] if limits else []
+    return tuple(f"{count} of cut hinges" for count in (*lost, *springs_and_moments(cut)))

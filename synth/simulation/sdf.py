@@ -89,4 +89,6 @@ def _add_joint(assembly: Assembly, hinge: Hinge, ends: tuple[int, int], sense: f
 
 def lost_as_sdf(assembly: Assembly) -> tuple[str, ...]:
     """Return what SDF does not hold: motors are plugins there."""
-    return (f"{numbered(len(assembly.driven), 'actuator')}, which are plugins",) if assembly.driven else ()
+    actuators = [f"{numbered(len(assembly.driven), 'actuator')}, which are plugins"] if assembly.driven else []
+    moments = sum(bool(hinge.moment) for hinge in assembly.hinges)
+    return (*actuators, *([numbered(moments, "moment")] if moments else []))

@@ -14,7 +14,7 @@ from graphs.geometry import frame_about, unit
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.simulation.assembly import Assembly
-from synth.simulation.bodies import Bar, Plate, Shape, Shell
+from synth.simulation.bodies import Bar, Plate, Shape, Shell, springs_and_moments
 
 _MILLIMETRES = 1000.0
 _ACCURACY = 1e-7
@@ -294,4 +294,4 @@ def _text(text: str) -> str:
 def lost_as_step(assembly: Assembly) -> tuple[str, ...]:
     """Return what STEP does not hold: joints are no part of it, their axes are curves."""
     joints = [f"{numbered(len(assembly.hinges), 'joint')}, but for the axes"] if assembly.hinges else []
-    return (*joints, *(["the motion"] if len(assembly.path) > 1 else []))
+    return (*joints, *springs_and_moments(assembly.hinges), *(["the motion"] if len(assembly.path) > 1 else []))

@@ -2,7 +2,7 @@
 
 Rows are solved for, each closed to the tolerance of the middle; what interpolation leaves between two rows is
 measured at three configurations that are solved for too. The moment of the driver is that of virtual work: what
-weight and springs do while it turns.
+weight, springs and moments at joints do while it turns.
 """
 
 import csv
@@ -21,7 +21,7 @@ from graphs.printing import plain
 from graphs.types import Floats
 from synth.motion.driving import MotionOptions, driven_from
 from synth.motion.singular.second_order import rates_at
-from synth.simulation.assembly import Assembly
+from synth.simulation.assembly import Assembly, turns_back
 from synth.simulation.bodies import Hinge
 from synth.simulation.connections import Parting
 
@@ -43,8 +43,8 @@ class MotionTable:
     angles : float[N, hinges]
         Radians, lengths of slides metres.
     torques : float[N]
-        Newton metres (of a slide newtons) that hold the driver against weight, along -z, and springs; not a number
-        where its rates are not determined.
+        Newton metres (of a slide newtons) that hold the driver against weight, along -z, springs and moments at
+        joints; not a number where its rates are not determined.
     linear : float
         A bound of the error of linear interpolation, radians, by second differences of the rows between.
     cubic : float
@@ -60,11 +60,16 @@ class MotionTable:
 
 @lru_cache(maxsize=4)
 def motion_table(assembly: Assembly, rows: int = ROWS) -> MotionTable:
-    """Return the motion of the driven joint of an assembly; UnsolvableError unless one joint drives one freedom."""
+    """Return the motion of the driven joint of an assembly.
+
+    UnsolvableError unless one joint drives one freedom, and never turns back.
+    """
     if len(assembly.driven) != 1 or assembly.freedoms != 1:
         freedoms, driven = assembly.freedoms, len(assembly.driven)
         raise UnsolvableError(f"a table requires 1 driven joint and 1 degree of freedom, not {driven} and {freedoms}")
     at, (driver,) = assembly.configuration, assembly.driven
+    if turns_back(assembly.path[:, driver]):
+        raise UnsolvableError("the driven joint turns back on the way, so no angle is a function of its; try another")
     values = np.linspace(assembly.path[0, driver], assembly.path[-1, driver], _BETWEEN * rows + 1)
     lengths = np.where([hinge.slide for hinge in assembly.hinges], assembly.size, 1.0)
     given = assembly.options
@@ -74,7 +79,7 @@ def motion_table(assembly: Assembly, rows: int = ROWS) -> MotionTable:
         given.drive and end, branch=given.branch, frames=len(values) - 1, values=values[1:, None] / lengths[driver]
     )
     fine = driven_from(at, wanted).path.angles
-    if len(fine) < len(values):
+    if len(fine) != len(values):
         raise UnsolvableError("the driven joint cannot be followed along its range in small steps")
     fine = fine * lengths
     angles = fine[::_BETWEEN]
@@ -90,7 +95,7 @@ def motion_table(assembly: Assembly, rows: int = ROWS) -> MotionTable:
 
 
 def _torque(assembly: Assembly, driver: int, angles: Floats) -> float:
-    """Return the moment of the driver against weight and springs, by virtual work."""
+    """Return the moment of the driver against weight, springs and moments at joints, by virtual work."""
     at, size = assembly.configuration, assembly.size
     rates = rates_at(at.closure, angles, at.tolerances.singular)
     if rates.shape[1] != 1 or not rates[driver, 0]:
@@ -106,7 +111,8 @@ def _torque(assembly: Assembly, driver: int, angles: Floats) -> float:
     heights = (twists[:, 3:] + np.cross(twists[:, :3], centres))[:, 2]
     masses = np.array([body.properties.mass for body in assembly.bodies])
     turned = angles * lengths
-    springs = sum(h.stiffness * (turned[n] - h.rest) * rates[n] for n, h in enumerate(assembly.hinges) if h.stiffness)
+    moments = (h.stiffness * (turned[n] - h.rest) - h.moment for n, h in enumerate(assembly.hinges))
+    springs = sum(moment * rate for moment, rate in zip(moments, rates, strict=True))
     return float(_GRAVITY * masses @ heights + springs)
 
 
@@ -169,7 +175,8 @@ def header_bytes(assembly: Assembly) -> bytes:
     return f"""/* synthedra: joint angles of a mechanism of one degree of freedom.
    The driven joint is {plain(driver.name, 60)}. Radians, of slides metres. Columns: {names}.
    Linear interpolation is wrong by at most {table.linear:.2e}.
-   mechanism_moment: what the driver needs against weight (along -z) and springs, newton metres{notes}. */
+   mechanism_moment: what the driver needs against weight (along -z), springs and moments at joints, newton metres
+   (of a slide newtons){notes}. */
 #ifndef MECHANISM_TABLE_H
 #define MECHANISM_TABLE_H
 #define MECHANISM_ROWS {len(table.angles)}

@@ -18,7 +18,7 @@ from graphs.geometry import frame_about, unit
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.simulation.assembly import Assembly
-from synth.simulation.bodies import Bar, Body, Plate
+from synth.simulation.bodies import Bar, Body, Plate, springs_and_moments
 from synth.simulation.tables import MotionTable, motion_table
 from synth.simulation.xml import Element, document
 from synth.templates.solids import plate_of
@@ -191,6 +191,5 @@ def loops_to_json(assembly: Assembly, table: MotionTable | None) -> dict[str, An
 
 def lost_as_urdf(assembly: Assembly) -> tuple[str, ...]:
     """Return what URDF does not hold."""
-    springs = sum(hinge.stiffness > 0.0 for hinge in assembly.hinges)
     loops = [f"{numbered(len(assembly.cuts), 'loop')}, but in the file beside"] if assembly.cuts else []
-    return (*loops, *([numbered(springs, "spring")] if springs else []))
+    return (*loops, *springs_and_moments(assembly.hinges))

@@ -11,11 +11,10 @@ from math import degrees
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from graphs.errors import numbered
 from graphs.geometry import frame_about, unit
 from graphs.types import Floats
 from synth.simulation.assembly import Assembly, driven_inertia
-from synth.simulation.bodies import Bar, Body, Hinge, MassProperties, Plate
+from synth.simulation.bodies import Bar, Body, Hinge, MassProperties, Plate, springs_and_moments
 from synth.simulation.mjcf import SERVO
 from synth.templates.solids import plate_of
 
@@ -178,5 +177,4 @@ def _tuple(numbers: Floats) -> str:
 
 def lost_as_usd(assembly: Assembly) -> tuple[str, ...]:
     """Return what USD does not hold."""
-    springs = sum(hinge.stiffness > 0.0 for hinge in assembly.hinges)
-    return ("digits of axes beyond 32 bits", *([numbered(springs, "spring")] if springs else []))
+    return ("digits of axes beyond 32 bits", *springs_and_moments(assembly.hinges))

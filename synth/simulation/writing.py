@@ -69,7 +69,7 @@ def write_model(
     branch : int or str, optional
         As for `synth.move`.
     springs : Springs, optional
-        Newton metres per radian.
+        Newton metres per radian, and constant moments at joints in newton metres (at slides newtons).
     force : bool, optional
         Overwrite an existing file.
 

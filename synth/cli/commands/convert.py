@@ -24,7 +24,7 @@ _OF_SOLIDS = {
     "thickness": "--thickness", "gap": "--gap", "scale": "--scale", "size": "--size", "number": "--cone",
 }  # fmt: skip
 """Options of files of solids, by their parameters."""
-_OF_MODELS = ("density", "drive", "branch", "stiffness")
+_OF_MODELS = ("density", "drive", "branch", "stiffness", "rest", "moment")
 
 
 @click.command()
@@ -69,6 +69,10 @@ _OF_MODELS = ("density", "drive", "branch", "stiffness")
 )
 @options.branch("With --as: motion branch, as for `synth fold`.")
 @options.repeated("--stiffness", "JOINT=K", "With --as: torsion spring at a joint, in N m per radian; may be repeated.")
+@options.repeated(
+    "--rest", "JOINT=DEGREES", "With --as: rest angle of a spring; by default the angle in the file. May be repeated."
+)
+@options.repeated("--moment", "JOINT=M", "With --as: constant moment at a joint, in N m; may be repeated.")
 @options.FORCE
 @options.LOSSY
 @options.flag("--json as_json", "Print the conversion and its notes as JSON.")
@@ -108,7 +112,8 @@ def convert(
       sdf (.sdf)           Gazebo: all joints, those that close loops too
       usd (.usda)          USD Physics: joints that close loops are excluded from the articulation
       step (.step)         CAD: exact solids, an assembly of them, hinge axes as curves
-      table (.csv)         joint angles at steps of the driven joint, and the moment that it needs
+      table (.csv)         joint angles at steps of the driven joint, and the moment that it needs against weight,
+                           springs and moments
       header (.h)          the same for C, with a function that interpolates, and a bound of its error
 
     Notes list what OUT cannot hold, by kind and number. If OUT would read back as another type (its links, joints
@@ -184,7 +189,7 @@ def _check_no_model(values: dict[str, Any]) -> None:
 
 def _write_model(
     mechanism: Mechanism, target: str, model: str, *, force: bool, drive: tuple[str, ...],
-    stiffness: tuple[str, ...], density: float | None, **values: Any,
+    stiffness: tuple[str, ...], rest: tuple[str, ...], moment: tuple[str, ...], density: float | None, **values: Any,
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:  # fmt: skip
     """Write a model; return what its format does not hold, and notes on the motion."""
     from synth.moving import configuration_of
@@ -198,7 +203,11 @@ def _write_model(
     how = AssemblyOptions(
         density=density or DENSITY, **values,
         drive=options.driven_angles(graph, drive),
-        springs=synth.Springs(options.numbers_of_joints(graph, stiffness, "--stiffness", "JOINT=K")),
+        springs=synth.Springs(
+            options.numbers_of_joints(graph, stiffness, "--stiffness", "JOINT=K"),
+            options.driven_angles(graph, rest, "--rest"),
+            options.numbers_of_joints(graph, moment, "--moment", "JOINT=M"),
+        ),
     )  # fmt: skip
     assembly = write_assembly(at, target, model, how, force=force)
     return MODELS[model].lost(assembly), assembly.notes

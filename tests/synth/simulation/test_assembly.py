@@ -127,7 +127,16 @@ def test_a_file_is_one_document(tmp_path):
     connects = [connect.get("name").rpartition("_")[0] for connect in root.iter("connect")]
     assert not set(joints) & set(connects)
     assert joints["joint_1"].get("stiffness") == "1"
+    assert not list(root.iter("general"))
     assert any("of cut hinges" in note for note in notes)
+
+
+@pytest.mark.parametrize("name", ["mjcf", "urdf", "sdf", "usd", "step"])
+def test_springs_and_moments_that_a_format_does_not_hold(name, tmp_path):
+    bennett, springs = synth.generate("bennett").mechanism, synth.Springs({1: 1.0}, moments={1: 2.0, 3: 0.5})
+    lost = " ".join(synth.write_model(bennett, tmp_path / f"a{MODELS[name].suffix}", name, springs=springs))
+    assert ("1 spring" in lost) == (name not in ("mjcf", "sdf"))
+    assert ("2 moments" in lost) == (name != "mjcf")
 
 
 def test_names_of_any_kind(tmp_path):

@@ -10,6 +10,7 @@ import pytest
 from simulated import Simulated, crossing, planar, planar_four_bar
 from sizes import slow_but
 
+from synth.compliance.springs import Springs
 from synth.patterns.catalogue import GENERATORS
 from synth.patterns.generated import generate
 from synth.simulation.mjcf import mjcf_bytes
@@ -129,6 +130,16 @@ def test_the_foot_of_jansens_leg():
             turned = data.qpos[simulated.places.index(0)]
             here = data.xpos[lower] + data.xmat[lower].reshape(3, 3) @ foot
             assert np.abs(here[:2] - leg_points(turned)["F"] / 100.0).max() < 1e-6
+
+
+def test_moments_act_on_joints():
+    """The force of MuJoCo at each joint is our moment, whichever way the tree passes it."""
+    moments = {joint: 0.1 + joint for joint in range(5)}
+    simulated = Simulated(generate("goldberg").mechanism, drive={0: 0.4}, springs=Springs(moments=moments))
+    simulated.data.ctrl[0] = simulated.data.qpos[simulated.places.index(0)]
+    simulated.mujoco.mj_forward(simulated.model, simulated.data)
+    expected = [moments[simulated.assembly.hinges[place].joint] for place in simulated.places]
+    assert np.allclose(simulated.data.qfrc_actuator, expected, atol=1e-12)
 
 
 def test_slides():

@@ -2,12 +2,14 @@
 
 import csv
 import ctypes
+import json
 import shutil
 import subprocess
 from math import radians
 
 import numpy as np
 import pytest
+from commands import run
 from simulated import planar_four_bar
 
 import synth
@@ -17,18 +19,21 @@ from synth.simulation.tables import motion_table, placed
 
 
 def energy(assembly, angles):
-    """Weight times height, and what springs hold, at joint angles."""
+    """Weight times height, what springs hold, and less what moments have done, at joint angles."""
     _, centres = placed(assembly, angles)
     masses = np.array([body.properties.mass for body in assembly.bodies])
-    springs = sum(h.stiffness * (a - h.rest) ** 2 / 2 for h, a in zip(assembly.hinges, angles, strict=True))
+    springs = sum(
+        h.stiffness * (a - h.rest) ** 2 / 2 - h.moment * a for h, a in zip(assembly.hinges, angles, strict=True)
+    )
     return 9.81 * masses @ centres[:, 2] + springs
 
 
 @pytest.mark.parametrize("name", ["miura", "bennett", "four-bar", "sarrus"])
 def test_moments_are_slopes_of_energy(name):
     mechanism = synth.generate(name).mechanism
-    joint = next(iter(assembly_of(mechanism).hinges)).joint
-    assembly = assembly_of(mechanism, AssemblyOptions(size=500.0, springs=synth.Springs({joint: 0.5}, {joint: 0.2})))
+    joint, *_, other = (hinge.joint for hinge in assembly_of(mechanism).hinges)
+    springs = synth.Springs({joint: 0.5}, {joint: 0.2}, {other: -0.3})
+    assembly = assembly_of(mechanism, AssemblyOptions(size=500.0, springs=springs))
     table = motion_table(assembly)
     driver = table.angles[:, table.driver]
     energies = np.array([energy(assembly, row) for row in table.angles])
@@ -82,6 +87,51 @@ def test_a_table_for_c(tmp_path):
         assert np.abs(np.array(angles) - row).max() <= library.off()
     assert library.at(ctypes.c_double(7.0), angles) == 0
     assert angles[0] == pytest.approx(2 * np.pi)
+
+
+def test_a_load_at_the_rocker(tmp_path, data):
+    """A moment at the rocker, and what the crank needs: in the ratio of their rates, by closed form."""
+    springs = synth.Springs(moments={"D": 2.0})
+    table, without = (
+        motion_table(assembly_of(planar_four_bar(), AssemblyOptions(drive={"O": 2 * np.pi}, springs=each)))
+        for each in (springs, synth.Springs())
+    )
+    crank, rocker = table.angles[:, table.driver], table.angles[:, 3]
+    slopes = np.gradient(rocker, crank[1] - crank[0], edge_order=2)
+    assert np.abs(without.torques).max() < 1e-12  # its axes are along the weight
+    assert np.abs(table.torques + 2.0 * slopes).max() < 3e-3
+    file, out = data / "linkages" / "bennett.json", tmp_path / "a.csv"
+    run(
+        "convert",
+        file,
+        out,
+        "--as",
+        "table",
+        "--drive",
+        "0=90",
+        "--moment",
+        "2=2",
+        "--stiffness",
+        "1=0.5",
+        "--rest",
+        "1=30",
+    )
+    rows = list(csv.DictReader(out.read_text().splitlines()))
+    given = synth.Springs({1: 0.5}, {1: radians(30)}, {2: 2.0})
+    again = motion_table(assembly_of(file, AssemblyOptions(drive={0: radians(90)}, springs=given)))
+    assert np.allclose([float(row["driver_moment"]) for row in rows], again.torques, atol=1e-12)
+
+
+def test_a_driver_that_turns_back(tmp_path):
+    """A loop of seven hinges in space, whose driven joint turns back on the way: no table, and a note of the model."""
+    rng = np.random.default_rng(7)
+    points, directions = rng.uniform(-1.0, 1.0, (2, 7, 3)).tolist()
+    joints = dict(enumerate([(0, 1), (0, 6), (1, 2), (2, 3), (3, 4), (4, 5), (5, 6)]))
+    ring = synth.HingedSolids(synth.SCGraph(7, joints), dict(enumerate(zip(points, directions, strict=True))))
+    with pytest.raises(UnsolvableError, match="the driven joint turns back on the way, so no angle is a function"):
+        synth.write_model(ring, tmp_path / "a.csv", "table")
+    assert "the driven joint turns back on the way" in synth.write_model(ring, tmp_path / "a.urdf", "urdf")[0]
+    assert "functions" not in json.loads((tmp_path / "a.loops.json").read_text())
 
 
 def test_what_has_no_table(tmp_path):
