@@ -159,15 +159,15 @@ data: $(STAMP)
 	@.ci/changed data synth/atlas/named.json -- sh -ec '\
 	  $(BIN)/python data/make.py; $(BIN)/python data/realised.py; $(BIN)/python data/atlas_names.py'
 
-docs: $(STAMP)
+docs: $(STAMP) page
 	$(BIN)/python -m pip install --quiet -e '.[docs,draw]'
 	$(BIN)/python -m sphinx -W --keep-going -q -b html docs docs/_build/html
 	$(BIN)/python docs/links.py
 
-# The site as a folder for any static host, with the pages of examples beside it; all links in it are relative.
+# The site as a folder for any static host, with pages and templates of the gallery beside it; all links are relative.
 SITE ?= site
 .PHONY: site
-site: docs page
+site: docs
 	rm -rf $(SITE)
 	cp -r docs/_build/html $(SITE)
 	rm -rf $(SITE)/.doctrees $(SITE)/.buildinfo

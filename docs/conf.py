@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 sys.path.insert(0, str(HERE))
 
 from cross_links import CrossLinks  # noqa: E402
+from gallery import add_links, add_pages  # noqa: E402
 from reference_pages import write_reference  # noqa: E402
 
 project = "synthedra"
@@ -36,5 +37,7 @@ _links = CrossLinks(write_reference(HERE / "reference"))
 
 
 def setup(app: Sphinx) -> None:
-    """Have reference and theory linked to each other."""
+    """Have reference and theory linked to each other, and pages and templates beside the gallery."""
     _links.connect(app)
+    app.connect("source-read", add_links)
+    app.connect("build-finished", add_pages)

@@ -5,32 +5,33 @@ written as a PDF, or one picture per page.
 """
 
 import json
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain, count, islice
 from math import pi, radians
 from pathlib import Path
 from textwrap import wrap
-from typing import Any, get_args
+from typing import Any, TypeAlias
 
 from enumerate.chains.names import name_of
 from enumerate.runner.job import Limits, row_as_dict
 from enumerate.runner.store import read_meta, read_rows
 from enumerate.strings.panel_strings import ChainString
-from graphs.errors import FileError, InvariantError, SynthedraError, UnsolvableError, numbered, shown
+from graphs.errors import FileError, InvariantError, SynthedraError, numbered, shown
 from graphs.files.formats import is_id, mechanism_of_id, read_all
 from graphs.files.outputs import check_installed, check_writable, write_as
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.scd import SCDGraph
+from graphs.mechanism.sheet import Sheet
 from synth.conformed.rates import loops_of_chain
 from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.shapes import LARGE, Label, Layer, Point, moved, text_width
 from synth.drawing.scene.writing import PICTURES, Pages, Scene
-from synth.realisation.realised import Kind, Realisation, realise
 
 Row = Mapping[str, Any]
 """Column to value."""
+Realise: TypeAlias = Callable[[SCGraph], tuple[Sheet | None, str]]
+"""From an SC or SCD graph to its sheet, if there is one, and what there is to say of it: why there is none."""
 
 _STORES = (".sqlite", ".db")
 _ROW_FILES = (*_STORES, ".jsonl", ".parquet")
@@ -49,8 +50,6 @@ _LETTERS = 5.0
 _LINES, _MOST_LINES = 4, 9
 """Lines of text below a picture (number, id, properties): at least, and at most where a caption is long."""
 _AIR = 6.0
-_MOST_REALISED, _TRIES = 12, 4
-"""Links of the largest types that are realised for their sheet, and drawings that are tried of each."""
 
 
 def _rows_of_file(place: Path) -> Iterator[Row]:
@@ -289,19 +288,19 @@ def _listed_numbers(value: Any) -> str:
 
 
 def catalogue_pages(
-    entries: Iterable[CatalogueEntry], title: str = "", kind: str | None = None, *, sheets: bool = True
+    entries: Iterable[CatalogueEntry], title: str = "", kind: str | None = None, *, realise: Realise | None = None
 ) -> Iterator[Scene]:
     """Yield pages of 24 pictures, with a title above each; an entry is released when its page is made.
 
-    `kind` is as for `synth.draw`. With `sheets`, the graph of an SC or SCD type has its realised sheet beside it,
-    or below it the reason why there is none; there are 18 then on a page.
+    `kind` is as for `synth.draw`. With `realise` (`synth.realisation.sheet_of_type`), the graph of an SC or SCD
+    type has its sheet beside it, or below it the reason why there is none; there are 18 then on a page.
     """
     rest = iter(entries)
     first = next(rest, None)
     if first is None:
         return
     rest = chain([first], rest)
-    sheets = sheets and kind in (None, "graph") and _is_type(first.mechanism)
+    sheets = realise is not None and kind in (None, "graph") and _is_type(first.mechanism)
     columns = _WITH_SHEETS if sheets else _COLUMNS
     for number in count(1):
         on_page = list(islice(rest, columns * _ROWS))
@@ -311,45 +310,34 @@ def catalogue_pages(
         head = [Label((_EDGE, _EDGE), title, LARGE, anchor="start", bold=True, halo=False, widest=90)]
         head.append(Label((_WIDE - _EDGE - 40, _EDGE), f"page {number}", 7.0, "grey", "start", halo=False))
         texts: list[Label] = []
-        realised = [_sheet_of_type(entry.mechanism) if sheets else None for entry in on_page]
+        realised = [
+            _NO_SHEET if realise is None or not sheets or not _is_type(entry.mechanism) else realise(entry.mechanism)
+            for entry in on_page
+        ]
         across = _Cell(0, columns, _LINES).letters
-        captions = [_caption(entry, sheet, across) for entry, sheet in zip(on_page, realised, strict=True)]
+        captions = [_caption(entry, said, across) for entry, (_, said) in zip(on_page, realised, strict=True)]
         lines = min(max(_LINES, *map(len, captions)), _MOST_LINES)
-        for place, (entry, sheet, caption) in enumerate(zip(on_page, realised, captions, strict=True)):
+        for place, (entry, (sheet, _), caption) in enumerate(zip(on_page, realised, captions, strict=True)):
             picture, words = _in_cell(entry, sheet, caption[:lines], _Cell(place, columns, lines), kind)
             layers += picture
             texts += words
-        yield Scene(_WIDE, _HIGH, (*layers, Layer("text", (*head, *texts))), title)
+        rows = _ROWS if number > 1 else -(-len(on_page) // columns)  # one page is as high as its rows
+        high = _HIGH - (_ROWS - rows) * _Cell(0, columns, lines).size[1]
+        yield Scene(_WIDE, high, (*layers, Layer("text", (*head, *texts))), title)
 
 
 def _is_type(mechanism: Any) -> bool:
     """Check for an SC or SCD graph whose centres are its own: panels can be drawn of it."""
-    return isinstance(mechanism, SCGraph | SCDGraph) and not getattr(mechanism, "centres_assumed", False)
+    return isinstance(mechanism, SCGraph) and not getattr(mechanism, "centres_assumed", False)
 
 
-def _sheet_of_type(mechanism: Any) -> Realisation | str | None:
-    """Return a realisation of an SC or SCD type, or why there is none; None of anything else."""
-    if not _is_type(mechanism):
-        return None
-    if len(mechanism) > _MOST_REALISED:
-        return f"more than {_MOST_REALISED} links"
-    reason = ""
-    for shape in get_args(Kind):
-        try:
-            return realise(mechanism, kind=shape, tries=_TRIES)
-        except UnsolvableError as error:
-            reason = reason or str(error)
-    return reason
+_NO_SHEET: tuple[Sheet | None, str] = (None, "")
 
 
-def _caption(entry: CatalogueEntry, sheet: Realisation | str | None, across: int) -> list[str]:
-    """Return the lines below a picture, of so many letters: number, name, properties, what there is of the sheet."""
-    said = [entry.said]
-    if isinstance(sheet, str):
-        said.append(f"no sheet: {sheet}")
-    elif sheet is not None and not isinstance(entry.mechanism, SCDGraph):
-        said.append(f"sheet of {numbered(sheet.scd.counts.open_edges, 'open edge')}")
-    return [str(entry.number), *wrap(entry.name, across), *wrap(", ".join(filter(None, said)), across)]
+def _caption(entry: CatalogueEntry, more: str, across: int) -> list[str]:
+    """Return the lines below a picture, of so many letters: number, name, properties, what there is to say more."""
+    said = ", ".join(filter(None, [entry.said, more]))
+    return [str(entry.number), *wrap(entry.name, across), *wrap(said, across)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -383,11 +371,10 @@ class _Cell:
 
 
 def _in_cell(
-    entry: CatalogueEntry, sheet: Realisation | str | None, caption: Sequence[str], cell: _Cell, kind: str | None
+    entry: CatalogueEntry, beside: Sheet | None, caption: Sequence[str], cell: _Cell, kind: str | None
 ) -> tuple[list[Layer], list[Label]]:
     """Return the pictures of an entry in its cell of the page, and the text below."""
     (left, top), (wide, high) = cell.corner, cell.box
-    beside = None if sheet is None or isinstance(sheet, str) else sheet.sheet
     across = wide if beside is None else (wide - _AIR) / 2
     scenes = [draw(entry.mechanism, kind, box=(across, high), caption=None)]
     if beside is not None:

@@ -17,6 +17,7 @@ from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.identity.drawings import map_id
 from graphs.limits import LEAST, MOST
+from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed
@@ -314,6 +315,43 @@ def realise(
         return _best(replace(task, lift=folded_strip), [(DrawingConditions(), strips(pattern, seed, tries))])
     choices = choices_of_conditions(pattern, flat_foldable=flat_foldable, symmetric=symmetric)
     return _best(task, [(choice, drawings(pattern, seed, tries, choice, allowance)) for choice in choices])
+
+
+_MOST_SHOWN, _FEW_TRIES = 12, 4
+"""Links of the largest types whose sheet is shown in catalogues, and drawings that are tried of each."""
+
+
+def sheet_of_type(mechanism: SCGraph) -> tuple[Sheet | None, str]:
+    """Return a sheet of an SC or SCD graph, found quickly, and what there is to say of it.
+
+    Parameters
+    ----------
+    mechanism : SCGraph or SCDGraph
+
+    Returns
+    -------
+    (Sheet or None, str)
+        A flat sheet if there is one, or else a configuration in space. Of an SC graph the second says how many
+        open edges it has, where there is no sheet, why.
+
+    Examples
+    --------
+    >>> from graphs.identity.drawings import mechanism_from_map_id
+    >>> sheet_of_type(mechanism_from_map_id("m1:ab.ac.bd.cd"))
+    (<Sheet: 4 faces, 4 creases, 5 vertices, flat>, 'sheet of 4 open edges')
+    """
+    if len(mechanism) > _MOST_SHOWN:
+        return None, f"no sheet: more than {_MOST_SHOWN} links"
+    reason = ""
+    for kind in get_args(Kind):
+        try:
+            realised = realise(mechanism, kind=kind, tries=_FEW_TRIES)
+        except UnsolvableError as error:
+            reason = reason or f"no sheet: {error}"
+            continue
+        open_edges = numbered(realised.scd.counts.open_edges, "open edge")
+        return realised.sheet, "" if isinstance(mechanism, SCDGraph) else f"sheet of {open_edges}"
+    return None, reason
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ import click
 
 import synth.drawing
 import synth.guidance
+import synth.realisation
 import synth.templates
 import synth.viewer
 from graphs.errors import InvariantError
@@ -103,7 +104,8 @@ def draw(
     check_picture(output, force=force)
     if is_catalogue(file):
         conditions = dict(map(_condition, where))
-        _draw_catalogue(file, output, {"kind": kind, "sheets": sheets}, conditions, paper, force)
+        realise = synth.realisation.sheet_of_type if sheets else None
+        _draw_catalogue(file, output, {"kind": kind, "realise": realise}, conditions, paper, force)
         return
     if where:
         raise click.UsageError("--where requires a catalogue: a store, rows, a graph6 file or a folder")

@@ -17,6 +17,7 @@ from graphs.errors import FileError, InvariantError
 from graphs.files.formats import read
 from synth.drawing.catalogue import catalogue_entries, catalogue_pages
 from synth.drawing.mechanisms.pictures import draw
+from synth.realisation import sheet_of_type
 
 DATA = Path(__file__).resolve().parents[3] / "data"
 
@@ -71,9 +72,9 @@ def panels_on(page):
 def test_types_have_their_realised_sheet_beside_the_graph(tmp_path):
     rows = listed(tmp_path / "scd.jsonl", scd_rows(4, 1, 3))
     entries = list(catalogue_entries(rows))
-    (page,) = catalogue_pages(entries, "vertices")
+    (page,) = catalogue_pages(entries, "vertices", realise=sheet_of_type)
     assert len(panels_on(page)) == len(entries) > 0
-    assert len(panels_on(next(catalogue_pages(entries, "vertices", sheets=False)))) == 0
+    assert len(panels_on(next(catalogue_pages(entries, "vertices")))) == 0
     assert_no_two_labels_overlap(page)
     assert "4 links of 3 sides" in " ".join(label.text for label in page.labels())
 
@@ -81,7 +82,7 @@ def test_types_have_their_realised_sheet_beside_the_graph(tmp_path):
 def test_a_type_without_a_sheet_says_why(tmp_path):
     for name in ("fortune-teller", "watt-planar"):
         shutil.copy(DATA / "wiener" / f"{name}.json", tmp_path)
-    (page,) = catalogue_pages(catalogue_entries(tmp_path))
+    (page,) = catalogue_pages(catalogue_entries(tmp_path), realise=sheet_of_type)
     said = " ".join(label.text for label in page.labels())
     assert "no sheet: more than 12 links" in said
     assert "no sheet: no realisation was found in 4 tries" in said
