@@ -57,7 +57,7 @@ EXEMPT = {
     ("synth/designing/search.py", "_ROUGH"): "end of an iteration",
     ("synth/designing/search.py", "_SETTLED"): "end of an iteration",
     ("synth/designing/targets.py", "_COMPLEX"): "step of differences",
-    ("synth/designing/quadrilaterals.py", "_STEP"): "imaginary step of exact derivatives",
+    ("synth/designing/quadrilaterals.py", "IMAGINARY"): "imaginary step of exact derivatives",
     ("synth/designing/targets.py", "_STEP"): "step of differences",
     ("synth/designing/tracing.py", "_SAME"): "how well two methods agree",
     ("synth/drawing/sphere.py", "_ROUND"): "simplified outlines of a drawing",

@@ -3,6 +3,7 @@ from synth.designing.dimensions import Dimensions as Dimensions, dimensions_of a
 from synth.designing.poses import DesignPoint as DesignPoint
 from synth.designing.sizes import (
     BoxSize as BoxSize,
+    CellCurvatures as CellCurvatures,
     EdgeLengths as EdgeLengths,
     EqualArcs as EqualArcs,
     EqualLengths as EqualLengths,

@@ -1,11 +1,12 @@
 """Designs: found from wishes, judged, and compared; `design` is what `synth design` calls.
 
 A design is a success if its configurations are closed, its rules hold, the verdict says that it moves, and a motion
-passes its configurations on one branch in their order. Theory: docs/theory/design.md.
+passes its configurations on one branch in their order, panels beside each other. Theory: docs/theory/design.md.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from html import escape
 from math import degrees
 from pathlib import Path
 from typing import Any
@@ -15,22 +16,34 @@ import numpy as np
 from graphs.answer.mechanisms import mobility
 from graphs.convert.table import Mechanism
 from graphs.errors import InvariantError, SynthedraError, UnsolvableError, numbered
+from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.designing.dimensions import Designable, Dimensions, dimensions_of
+from synth.designing.poses import PosedDesign
 from synth.designing.problem import DesignProblem
 from synth.designing.search import FoundDesign, found_from, seeded, start_of
-from synth.designing.tracing import DesignDefects, traced
+from synth.designing.targets import beside_target
+from synth.designing.tracing import DesignDefects, collision_on_the_way, traced, traced_together
 from synth.designing.wish_files import read_wishes
-from synth.designing.wishes import POSE, Unit, Wishes
+from synth.designing.wishes import POSE, PointsOn, Unit, Wishes
+from synth.drawing.mechanisms.pictures import draw
+from synth.drawing.scene.writing import svg_text
 from synth.moving.made import configuration_of
 from synth.patterns.catalogue import GENERATORS
 from synth.verdict.judged import verdict_of_motion
+from synth.viewer.pages import html_page
 
 STARTS = 8
 SPREAD = 0.1
 """How far starts are off the mechanism: radians of axes, parts of edges and parameters."""
+FIGURE_HEADS = ("wish", "miss", "most sensitive to")
+_POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
+_STYLE = (
+    "body{font-family:sans-serif;margin:2em;max-width:60em}td,th{text-align:left;padding:.2em .8em}"
+    "figure{display:inline-block;margin:1em}svg{max-width:26em;height:auto}"
+)
 _MET = 1e-9
 """A wish that misses by less, in radians or parts of the extent, is met."""
 
@@ -151,11 +164,15 @@ class Design(Printed):
         lines: list[Block] = [f"design from start {self.start}: {'; '.join(self.faults) or 'success'}"]
         lines += [self.verdict] if self.moves else []
         lines.append(f"loop-closure residual {self.error:.1e}")
+        return [*lines, TableBlock(FIGURE_HEADS, self.rows())]
+
+    def rows(self, most: int = 3) -> list[tuple[str, str, str]]:
+        """Return the row of each wish, with so many dimensions on which it depends most."""
         rows = []
         for figure in self.figures:
             ranked = sorted(figure.sensitivity.items(), key=lambda item: (-round(item[1], 6), item[0]))
-            rows.append((figure.wish, figure.text, ", ".join(f"{name} {value:.3g}" for name, value in ranked[:3])))
-        return [*lines, TableBlock(("wish", "miss", "most sensitive to"), rows)]
+            rows.append((figure.wish, figure.text, ", ".join(f"{name} {value:.3g}" for name, value in ranked[:most])))
+        return rows
 
     def record(self) -> dict[str, Any]:
         """Return what a row of a store holds, radians: `DesignSearch.of_record` makes the design of it again."""
@@ -349,7 +366,11 @@ class DesignSearch:
     ) -> None:
         generator = GENERATORS.get(mechanism) if isinstance(mechanism, str) else None
         self.family: Dimensions = dimensions_of(
-            generator or mechanism, fixed=wishes.fixed, parameters=wishes.parameters, bounds=wishes.bounds
+            generator or mechanism,
+            fixed=wishes.fixed,
+            parameters=wishes.parameters,
+            bounds=wishes.bounds,
+            closed_form=wishes.closed_form,
         )
         self.problem = DesignProblem(self.family, wishes)
         self.spread, self.seed = spread, seed
@@ -366,6 +387,53 @@ class DesignSearch:
         numbers = self.beginnings[start] if stated else start_of(self.problem, start, self.spread, rng)
         found = found_from(self.problem, numbers, rng, follow=start % 2 == 0)
         return None if found is None else judged(self.problem, found, start, self.freedoms)
+
+    def placed(self, one: Design, name: str) -> Sheet | None:
+        """Return the sheet of a design at a configuration, where the fixed panel stays; None of other mechanisms."""
+        problem = self.problem
+        made = one.mechanism
+        if not isinstance(made, Sheet):
+            return None
+        angles = [one.angles[name][str(joint)] for joint in problem.frame.joints]
+        pose = PosedDesign(problem.frame, self.family.linkage(one.numbers), np.array(angles))
+        corners = np.zeros((made.vertices, 3))
+        corners[problem.frame.placed] = pose.places(problem.frame.all_vertices()).values.reshape(-1, 3)
+        return replace(made, coordinates=tuple(map(tuple, corners.tolist())), frames=None)
+
+    def page(self, one: Design) -> str:
+        """Return a page of HTML about a design: its figures, and its configurations beside their targets.
+
+        Raises `UnsolvableError` if the mechanism cannot be drawn.
+
+        Examples
+        --------
+        >>> from synth.designing.sizes import LinkArc
+        >>> from synth.designing.wishes import Goal
+        >>> from synth.patterns import generate
+        >>> wish = LinkArc(joints=("0", "1"), goal=Goal(equals=1.0))
+        >>> search = DesignSearch(generate("four-bar").mechanism, Wishes((wish,)))
+        >>> "arc between joints 0 and 1" in search.page(search.design(0))
+        True
+        """
+        parts = [(POSE, draw(one.mechanism, numbers=True, caption=None))]
+        for name in self.problem.asked:
+            sheet = self.placed(one, name)
+            if sheet is not None:
+                targets = [
+                    wish.target
+                    for wish in self.problem.wishes.wishes
+                    if isinstance(wish, PointsOn) and wish.at == name and not wish.points
+                ]
+                shown = beside_target(sheet, targets[0]) if targets else sheet
+                parts.append((name, draw(shown, "folded", numbers=False, caption=None)))
+        figures = "\n".join(
+            f"<figure>{svg_text(scene)}<figcaption>{escape(name)}</figcaption></figure>" for name, scene in parts
+        )
+        rows = "\n".join(f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in row)}</tr>" for row in one.rows())
+        heads = "".join(f"<th>{head}</th>" for head in FIGURE_HEADS)
+        lines = "".join(f"<p>{escape(str(line))}</p>" for line in one.blocks() if isinstance(line, str))
+        body = f"<h1>Design</h1>{lines}<table><tr>{heads}</tr>{rows}</table>{figures}"
+        return html_page(_POLICY, f"<title>Design</title><style>{_STYLE}</style>", body)
 
     def of_record(self, start: int, record: Mapping[str, Any]) -> Design:
         """Return the design of a record that `Design.record` made."""
@@ -425,7 +493,10 @@ def judged(problem: DesignProblem, found: FoundDesign, start: int, wanted: int |
 
 
 def _defects(problem: DesignProblem, found: FoundDesign, freedoms: int | None) -> DesignDefects:
-    """Return the defects of the motion through all configurations; of several freedoms none are looked for."""
+    """Return the defects of the motion through all configurations.
+
+    One degree of freedom is driven by one joint, several by as many inputs, if configurations have so many.
+    """
     wishes = problem.wishes
     at_pose = any(POSE in wish.configurations for wish in wishes.wishes)
     closure = problem.frame.closure(found.step.design)
@@ -438,12 +509,29 @@ def _defects(problem: DesignProblem, found: FoundDesign, freedoms: int | None) -
     passed = {one.name: at for one, at in zip(wishes.configurations, found.angles, strict=True)}
     names = [*([POSE] if at_pose else []), *problem.asked]
     angles = [*([zero] if at_pose else []), *(passed[name] for name in problem.asked)]
-    if len(angles) < 2 or freedoms != 1 or max(found.errors) > DOUBLE.closed:
+    if not angles or max(found.errors, default=0.0) > DOUBLE.closed:
         return DesignDefects((), False)
-    every = [traced(closure, names, angles, driver, in_order=wishes.in_order) for driver in problem.drivers]
-    return next((one for one in every if not one.defects), every[0]) if every else DesignDefects((), False)
+    one, drivers = DesignDefects((), False), problem.together
+    goals = np.zeros((0, len(drivers)))
+    if len(angles) > 1 and freedoms == 1 and problem.drivers:
+        every = [(traced(closure, names, angles, joint, in_order=wishes.in_order), joint) for joint in problem.drivers]
+        one, driver = next((pair for pair in every if not pair[0].defects), every[0])
+        drivers, goals = [driver], np.array(one.inputs)[1:, None]
+    elif len(angles) > 1 and freedoms == len(drivers):
+        one, goals = traced_together(closure, names, angles, drivers), np.array(angles)[1:, drivers]
+    if problem.family.sheet is None or one.defects:
+        return one
+    collision = problem.frame.collision(found.step.design)
+    crossed = collision_on_the_way(closure, names, angles, goals, drivers, collision)
+    if not crossed and freedoms == 1 and not zero.any():  # back towards the flat sheet, which is singular
+        turns = _NEAR_FLAT * angles[0][(driver := int(np.abs(angles[0]).argmax()))]
+        ends = (names[0], "the flat sheet")
+        crossed = collision_on_the_way(closure, ends, angles[:1], np.array([[turns]]), [driver], collision)
+    return replace(one, defects=(crossed,)) if crossed else one
 
 
+_NEAR_FLAT = 0.1
+"""Part of the largest fold angle to which a sheet is unfolded when collisions are looked for."""
 _SIGN = {"M": -1.0, "V": 1.0}
 
 

@@ -29,6 +29,7 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import Cone, SurfaceLinkage, joint_axes
 from graphs.types import Floats, Ints, JointId, LinkId
 from synth.conformed.linkages import OnSurface, linkage_on_surfaces
+from synth.designing.quadrilaterals import IMAGINARY, QuadrilateralSides, marched, miura_sides, sheet_of_sides
 from synth.folding.derivatives import dependence_on_vertices, largest_panel
 from synth.motion.derivatives import AxisDependence, dependence_on_axes, derivatives_by_parameters
 from synth.motion.linkage import PosedLinkage, linkage_of_axes, linkage_of_sheet
@@ -101,6 +102,7 @@ def dimensions_of(
     fixed: Collection[str] = (),
     parameters: Mapping[str, float] | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
+    closed_form: bool = False,
 ) -> Dimensions:
     """Return what may change of a mechanism.
 
@@ -115,6 +117,8 @@ def dimensions_of(
         Of a generator: values to begin with, radians.
     bounds : mapping of str to (float, float), optional
         The least and largest value of parameters, or of azimuths and the cone angle, radians or lengths.
+    closed_form : bool, optional
+        Of the generator ``miura``: not its parameters may change, but corners and lengths on two sides of the sheet.
 
     Raises
     ------
@@ -133,7 +137,14 @@ def dimensions_of(
     ('4',)
     """
     family: Dimensions
-    if isinstance(mechanism, Generator):
+    if closed_form:
+        if not isinstance(mechanism, Generator) or mechanism.name != "miura":
+            raise UnsolvableError("closed_form is for sheets that begin as those of the generator miura")
+        values = mechanism.values(parameters or {})
+        rows, columns = int(values["rows"]), int(values["columns"])
+        sides = miura_sides(rows, columns, values["sector"], values["straight"], values["zigzag"], 1.0)
+        family = QuadrilateralDimensions(sides, fixed)
+    elif isinstance(mechanism, Generator):
         family = ParameterDimensions(mechanism, parameters or {}, fixed)
     else:
         if parameters:
@@ -469,6 +480,64 @@ class ParameterDimensions:
         linkage = replace(first, points=points, directions=lines[:, 3:])
         dependence = dependence_on_axes(linkage).after(slopes)
         return DesignedLinkage(linkage, dependence, _NO_VERTICES, np.zeros((0, 3, len(numbers))))
+
+
+class QuadrilateralDimensions:
+    """The corners and lengths on two sides of a flat-foldable sheet of quadrilaterals: all others follow.
+
+    Whatever they are, the sheet folds rigidly (`synth.designing.quadrilaterals`), so that no rule has to keep it so.
+
+    Parameters
+    ----------
+    sides : QuadrilateralSides
+        To begin with.
+    fixed : collection of str, optional
+
+    Examples
+    --------
+    >>> from synth.designing.quadrilaterals import miura_sides
+    >>> family = QuadrilateralDimensions(miura_sides(4, 4, 1.2, 1.0, 1.0, 0.5))
+    >>> family.names[:2], len(family.names), family.grid
+    (('left a 0', 'left a 1'), 26, (5, 5))
+    """
+
+    def __init__(self, sides: QuadrilateralSides, fixed: Collection[str] = ()) -> None:
+        rows, columns = len(sides.heights), len(sides.widths)
+        self.grid = (rows + 1, columns + 1)
+        parts = (
+            ("left a", rows + 1), ("left b", rows + 1), ("lower a", columns), ("lower b", columns), ("height", rows),
+            ("width", columns),
+        )  # fmt: skip
+        names = [f"{part} {number}" for part, count in parts for number in range(count)]
+        _check_fixed(fixed, names, "dimension")
+        self._sides, self._all = sides, sides.numbers[:-1]
+        self._free = np.array([place for place, name in enumerate(names) if name not in fixed], dtype=np.int64)
+        self.names, self.of = _grouped(self._free.tolist(), names)
+        self.start = self._all[self._free]
+        corners = self._free < len(names) - rows - columns
+        self.bounds = (np.zeros(len(self.start)), np.where(corners, pi, inf))
+        self.scales = np.where(corners, 1.0, self.start)
+        sheet = with_all_edges(sheet_of_sides(sides))
+        self.sheet: Sheet | None = sheet
+        self._mechanism = mechanism_of_sheet(sheet)
+        self._first = linkage_of_sheet(sheet, self._mechanism)
+        self.ground = list(self._first.graph.nodes)[largest_panel(self._mechanism.panels)]
+
+    def _with(self, numbers: Floats) -> QuadrilateralSides:
+        every = self._all.astype(numbers.dtype).reshape(-1, *[1] * (numbers.ndim - 1))
+        every = np.repeat(every, numbers.shape[1], axis=1) if numbers.ndim > 1 else every.copy()
+        every[self._free] = numbers
+        return self._sides.at(np.concatenate([every, np.full((1, *numbers.shape[1:]), self._sides.fold)]))
+
+    def mechanism(self, numbers: Floats) -> Sheet:
+        """Return the flat sheet; `UnsolvableError` if its panels are not convex."""
+        return with_all_edges(sheet_of_sides(self._with(numbers)))
+
+    def linkage(self, numbers: Floats) -> DesignedLinkage:
+        """Return the linkage of the sheet, with exact derivatives of its vertices."""
+        moved = numbers[:, None] + 1j * IMAGINARY * np.eye(len(numbers))
+        slopes = marched(self._with(moved))[0].imag / IMAGINARY
+        return sheet_linkage(self.mechanism(numbers), self._mechanism, self._first, slopes.reshape(-1, len(numbers)))
 
 
 def _linkage_of(solids: HingedSolids) -> PosedLinkage:

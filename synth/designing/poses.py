@@ -17,8 +17,10 @@ from graphs.edit.named import joint_named, known, link_named
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.geometry import crossing
 from graphs.loops.loop import Centre
+from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.designing.dimensions import DesignedLinkage, Dimensions
+from synth.folding.collisions import Collision, shapes_of_panels
 from synth.motion.closure import ClosureEquations
 from synth.motion.derivatives import BodyPoses, BodyTree, spatial
 
@@ -129,6 +131,20 @@ class DesignFrame:
         return ClosureEquations(
             replace(linkage, points=points, directions=directions, angles=angles, loops=tuple(loops))
         )
+
+    def collision(self, design: DesignedLinkage) -> Collision:
+        """Return what finds panels of a design that pass through each other on a walk."""
+        sheet, points = self.family.sheet, self.all_vertices()
+        assert sheet is not None
+
+        def places(angles: Floats) -> Floats:
+            every = np.zeros((len(angles), sheet.vertices, 3))
+            for row, one in enumerate(angles):
+                every[row, self.placed] = PosedDesign(self, design, one).places(points).values.reshape(-1, 3)
+            return every
+
+        here = places(design.linkage.angles[None])[0]
+        return Collision(shapes_of_panels(sheet, mechanism_of_sheet(sheet), here, DOUBLE), places)
 
     def joint(self, name: str) -> int:
         """Return the place of a joint by its name; `InvariantError` if there is none."""

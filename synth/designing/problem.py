@@ -148,6 +148,7 @@ class DesignProblem:
         self.columns = [slice(int(a), int(b)) for a, b in pairwise(starts)]
         self.size = int(starts[-1])
         self.drivers = self._drivers()
+        self.together = sorted({joint for inputs in self.inputs for joint in inputs})
         self.start = self.joined(family.start, [self.held(k, self.zero) for k in range(len(self.inputs))])
         self._contradictions()
 

@@ -24,7 +24,8 @@ from graphs.mechanism.sheet import Sheet
 from graphs.types import Floats
 from synth.patterns.panels import sheet_of_faces
 
-_STEP = 1e-40
+IMAGINARY = 1e-40
+"""Imaginary step of numbers, of which derivatives are exact."""
 
 
 @dataclass(frozen=True)
@@ -277,7 +278,7 @@ def curved_sheet(
 
     def slopes(numbers: Floats) -> Floats:
         count = len(numbers)
-        return np.asarray(missed(numbers[:, None] + 1j * _STEP * np.eye(count)).imag / _STEP)
+        return np.asarray(missed(numbers[:, None] + 1j * IMAGINARY * np.eye(count)).imag / IMAGINARY)
 
     found = scipy.optimize.least_squares(missed, first, slopes, method="lm", max_nfev=rounds)
     best = sides.at(found.x)

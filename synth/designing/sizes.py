@@ -16,7 +16,8 @@ from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints
 from synth.designing.poses import Derived, DesignFrame, PosedDesign
-from synth.designing.wishes import Goal, GoalWish, PointsWish, ShapeWish
+from synth.designing.quadrilaterals import IMAGINARY, cell_curvatures
+from synth.designing.wishes import Goal, GoalWish, PointsWish, ShapeWish, Wish
 
 Size = Literal["longest", "area", "radius"]
 """The longest edge of the box along principal axes, the product of its two longest, or the largest distance from the
@@ -544,3 +545,57 @@ class Symmetry(ShapeWish):
         if self.mirror is None:
             return f"symmetry of {self.turns} turns about ({self.centre[0]:g}, {self.centre[1]:g})"
         return "mirror symmetry about " + "-".join(f"({x:g}, {y:g})" for x, y in self.mirror)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CellCurvatures(Wish):
+    """Principal curvatures of a folded sheet of quadrilaterals, at all its cells of 2 x 2 panels.
+
+    Misses are those of Gaussian and mean curvatures, in parts of the larger principal curvature (squared).
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    principal : (float, float)
+        One over the unit of length; both negative is the same surface seen from below.
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> print(CellCurvatures(at="folded", principal=(0.1, -0.1)))
+    curvatures 0.1 and -0.1 at folded
+    """
+
+    principal: tuple[float, float]
+
+    def check(self, frame: DesignFrame) -> None:
+        """Check that there are cells, and a curvature."""
+        grid = getattr(frame.family, "grid", None)
+        if grid is None:
+            raise UnsolvableError("curvatures are those of flat-foldable quadrilaterals; set closed_form")
+        if any(count % 2 == 0 or count < 5 for count in grid):
+            rows, columns = grid[0] - 1, grid[1] - 1
+            raise InvariantError("curvature", f"a sheet of {rows} x {columns} panels", "even numbers, 4 or more")
+        if not any(self.principal):
+            raise InvariantError("curvature", "no curvature", "a principal curvature that is not 0")
+
+    def missed(self, pose: PosedDesign) -> Derived:
+        """Return how far curvatures of all cells are off."""
+        grid, frame = getattr(pose.frame.family, "grid"), pose.frame  # noqa: B009  # of that family alone
+        there = pose.places(frame.all_vertices())
+        size = len(there.values)
+        moved = there.values[:, None] + 1j * IMAGINARY * np.eye(size)
+        off = self._off(moved.reshape(*grid, 3, size))
+        return there.through(off[:, 0].real, off.imag / IMAGINARY)
+
+    def _off(self, places: Floats) -> Floats:
+        k, h = cell_curvatures(places)
+        first, second = self.principal
+        scale = max(map(abs, self.principal))
+        parts = ((k - first * second) / scale**2, (h - (first + second) / 2.0) / scale)
+        return np.concatenate([part.reshape(-1, *places.shape[3:]) for part in parts])
+
+    def __str__(self) -> str:
+        return f"curvatures {self.principal[0]:g} and {self.principal[1]:g} at {self.at}"

@@ -6,7 +6,7 @@ docs/theory/design.md.
 
 import ast
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from types import CodeType
@@ -18,6 +18,7 @@ from graphs.errors import FileError, InvariantError, UnsolvableError, shown
 from graphs.files.formats import read
 from graphs.geometry import unit
 from graphs.mechanism.precision import in_space
+from graphs.mechanism.sheet import Sheet
 from graphs.types import Floats
 from synth.moving.made import sheet_of
 
@@ -113,6 +114,8 @@ class Formula:
 
 
 _STEP = 1e-5
+_ROUNDS = 5
+"""Newton's steps to a target."""
 
 
 @dataclass(frozen=True)
@@ -194,6 +197,42 @@ class Mesh:
             best = int(np.linalg.norm(candidates - point, axis=1).argmin())
             places[row], ways[row] = candidates[best], normals[best]
         return places, ways
+
+
+def nearest_on(target: Target, points: Floats) -> Floats:
+    """Return points of a target near points float[P, 3]: float[P, 3].
+
+    >>> nearest_on(Formula("x**2 + y**2 + z**2 - 4"), np.array([[2.5, 0.0, 0.0]])).round(9).tolist()
+    [[2.0, 0.0, 0.0]]
+    """
+    there = np.array(points, dtype=float)
+    for _ in range(_ROUNDS):
+        off, slopes = target.missed(there)
+        there -= np.stack([np.linalg.lstsq(by, one, rcond=None)[0] for by, one in zip(slopes, off, strict=True)])
+    return there
+
+
+def beside_target(sheet: Sheet, target: Target) -> Sheet:
+    """Return a sheet together with its panels laid on the target, which are one panel: to be drawn.
+
+    >>> square = Sheet(3, (), "", ((0, 1, 2),), ((0, 0, 0.5), (1, 0, 0.5), (0, 1, 0.5)))
+    >>> beside_target(square, Formula("z")).coordinates[3:]
+    ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+    """
+    count = sheet.vertices
+    places = in_space(sheet.coordinates or ())
+    both = np.concatenate([places, nearest_on(target, places)])
+    return replace(
+        sheet,
+        vertices=2 * count,
+        edges=(*sheet.edges, *((a + count, b + count) for a, b in sheet.edges)),
+        assignments=sheet.assignments + "".join("B" if letter == "B" else "F" for letter in sheet.assignments),
+        faces=(*sheet.faces, *(tuple(vertex + count for vertex in face) for face in sheet.faces)),
+        coordinates=tuple(map(tuple, both.tolist())),
+        fold_angles=None,
+        frames=None,
+        reading=None,
+    )
 
 
 def _nearest_of_triangles(point: Floats, a: Floats, b: Floats, c: Floats) -> Floats:

@@ -1,4 +1,4 @@
-"""Defects of designs: whether a motion passes the configurations, on one circuit and branch, in their order.
+"""Defects of designs: whether a motion passes the configurations, on one circuit and branch, in order, and collides.
 
 The driven joint is taken from one configuration to the next, by the walk of `synth.motion`; what the search found is
 only compared with where that arrives. Theory: docs/theory/design.md.
@@ -12,8 +12,9 @@ import numpy as np
 
 from graphs.errors import SynthedraError
 from graphs.types import Floats
+from synth.folding.collisions import Collision
 from synth.motion.closure import ClosureEquations
-from synth.motion.path import Path, circuit_through, driven_path
+from synth.motion.path import Path, PathOptions, circuit_through, driven_path
 
 _SAME = 1e-6
 """Radians by which a traced configuration may differ from one that was found; what leads there is solved to 1e-12."""
@@ -68,6 +69,39 @@ def traced(
     if apart:
         return DesignDefects((f"on another circuit than {names[0]}: {', '.join(apart)}",), True)
     return DesignDefects((f"the driven joint turns back between {names[missed - 1]} and {names[missed]}",), True)
+
+
+def traced_together(
+    closure: ClosureEquations, names: Sequence[str], angles: Sequence[Floats], drivers: Sequence[int]
+) -> DesignDefects:
+    """Return the defects of a linkage with as many inputs as freedoms: all are driven straight on at once."""
+    path = driven_path(closure, angles[0], drivers, np.array(angles)[1:, drivers])
+    missed = _passed(path, angles)
+    if missed is None:
+        return DesignDefects((), True)
+    return DesignDefects((f"the inputs of {names[missed - 1]} do not lead straight to {names[missed]}",), True)
+
+
+def collision_on_the_way(
+    closure: ClosureEquations, names: Sequence[str], angles: Sequence[Floats], goals: Floats, drivers: Sequence[int],
+    collision: Collision,
+) -> str:  # fmt: skip
+    """Return which panels pass through each other on the way through configurations; empty if none do.
+
+    Goals, float[F - 1, D], are those of the driven joints after the first configuration.
+    """
+    pair = collision.crossing(angles[0])
+    if pair is not None:
+        return f"panels {pair[0]} and {pair[1]} pass through each other at {names[0]}"
+    if not goals.size:
+        return ""
+    options = PathOptions(events=[collision])
+    path = driven_path(closure, angles[0], drivers, goals, options=options)
+    met = next((event for event in path.events if event.kind == "collision"), None)
+    if met is None:
+        return ""
+    panels, before = " and ".join(map(str, met.panels)), min(met.frame, len(names) - 2)
+    return f"panels {panels} pass through each other between {names[before]} and {names[before + 1]}"
 
 
 def _steps(values: Floats, sense: int) -> Floats:

@@ -14,6 +14,7 @@ from graphs.files.text import Checker, load_json
 from synth.designing.poses import DesignPoint
 from synth.designing.sizes import (
     BoxSize,
+    CellCurvatures,
     EdgeLengths,
     EqualArcs,
     EqualLengths,
@@ -221,12 +222,13 @@ _KINDS: Mapping[str, _Kind] = {
     "equal-lengths": _Kind(EqualLengths, {"edges": _EDGES}, {}, at=False),
     "corners": _Kind(PanelCorners, {}, {"corners": _CORNERS}, _ANGLE, at=False),
     "symmetry": _Kind(Symmetry, {}, _SYMMETRY, at=False),
+    "curvature": _Kind(CellCurvatures, {"principal": _Value(_numbers(2), _FLAT_POINT)}, {}),
     "area": _Kind(SheetArea, {}, {}, _LENGTH, at=False),
 }  # fmt: skip
 _RENAMED = {"of": "size_of"}
 _TOP = (
-    "between", "bounds", "configurations", "driver", "fixed", "flat_foldable", "in_order", "parameters", "ranges",
-    "rules",
+    "between", "bounds", "closed_form", "configurations", "driver", "fixed", "flat_foldable", "in_order", "parameters",
+    "ranges", "rules",
 )  # fmt: skip
 
 
@@ -290,6 +292,7 @@ def wishes_of_document(value: Any, path: Path) -> Wishes:
             {name: check.number(number, f"parameters.{name}") for name, number in parameters.items()},
             _bounds(check, value.get("bounds", {})),
             _flag(check, value, "flat_foldable", default=False),
+            _flag(check, value, "closed_form", default=False),
             _flag(check, value, "in_order", default=True),
             check.integer(value.get("between", 0), "between", 0, _MOST_BETWEEN),
         ),
@@ -403,6 +406,7 @@ def wishes_schema() -> dict[str, Any]:
                 "parameters": angles,
                 "bounds": {"type": "object", "additionalProperties": _list(_NUMBER, 2, 2)},
                 "flat_foldable": {"type": "boolean"},
+                "closed_form": {"type": "boolean"},
                 "in_order": {"type": "boolean"},
                 "between": {"type": "integer", "minimum": 0, "maximum": _MOST_BETWEEN},
             },

@@ -590,6 +590,8 @@ class Wishes:
         The least and largest value of parameters, or azimuths and the cone angle, radians or lengths.
     flat_foldable : bool
         Keep a flat sheet flat-foldable, and of vertices of four creases let ratios agree round panels.
+    closed_form : bool
+        Of a sheet that begins as Miura's: change corners and lengths on two sides, from which the others follow.
     in_order : bool
         Configurations are passed in their order.
     between : int
@@ -610,6 +612,7 @@ class Wishes:
     parameters: Mapping[str, float] = field(default_factory=dict)
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     flat_foldable: bool = False
+    closed_form: bool = False
     in_order: bool = True
     between: int = 0
 

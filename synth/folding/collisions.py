@@ -132,7 +132,7 @@ class Collision(Event):
     def before(self, walk: Walk, rates: Floats) -> str:
         """Return which panels cross where the walk begins."""
         start = walk.here.angles
-        if walk.here is not walk.frames[0] or self._crossing(start) is None:
+        if walk.here is not walk.frames[0] or self.crossing(start) is None:
             return ""
         return f"panels pass through each other at the start: {self._record(walk, start)}"
 
@@ -145,7 +145,7 @@ class Collision(Event):
         free, every = 0.0, self._places(np.array([place.angles for _, place in ends]))
         for (part, _), places in zip(ends, every, strict=True):
             if self._panels.crossing(places) is not None:
-                kept, beyond = step.piece(free, part).last(lambda angles: self._crossing(angles) is None)
+                kept, beyond = step.piece(free, part).last(lambda angles: self.crossing(angles) is None)
                 self._met = beyond.angles
                 return step.up_to(kept), "panels pass through each other"
             free = part
@@ -173,12 +173,12 @@ class Collision(Event):
 
     def _begun(self, closure: ClosureEquations, free: Floats, crossed: Floats) -> tuple[tuple[int, ...], Floats]:
         """Return which panels first cross between two frames, and joint angles there: by halves."""
-        panels: tuple[int, ...] = self._crossing(crossed) or ()
+        panels: tuple[int, ...] = self.crossing(crossed) or ()
         for _ in range(_REFINED):
             middle = corrected(closure, (free + crossed) / 2.0)
             if not middle.closed:
                 break
-            pair = self._crossing(middle.angles)
+            pair = self.crossing(middle.angles)
             if pair is None:
                 free = middle.angles
             else:
@@ -186,10 +186,11 @@ class Collision(Event):
         return panels, crossed
 
     def _record(self, walk: Walk, angles: Floats) -> str:
-        walk.record("collision", angles, panels=self._crossing(angles) or ())
+        walk.record("collision", angles, panels=self.crossing(angles) or ())
         return walk.met[-1].line(range(walk.closure.joints) if walk.goal is None else walk.goal.names)
 
-    def _crossing(self, angles: Floats) -> tuple[int, int] | None:
+    def crossing(self, angles: Floats) -> tuple[int, int] | None:
+        """Return two panels that cross at joint angles float[J]; None if there are none."""
         return self._panels.crossing(self._places(angles[None])[0])
 
 

@@ -43,12 +43,16 @@ if TYPE_CHECKING:
 @options.number("--workers", "N", "With --store: number of processes. By default one per core.")
 @options.output("Write the best design: .json, or .fold and other formats for a sheet.")
 @options.output("Draw the best design to this file (.svg, .png or .pdf).", "OUT", "--picture")
+@options.output(
+    "Write a page about the best design: figures, and its configurations with targets.", "OUT.html", "--page"
+)
+@options.output("Write a template of the best design (.pdf, .svg or .dxf).", "OUT", "--template")
 @options.FORCE
 @options.JSON
 def design(
     mechanism: str, wishes: str, starts: int, spread: float, seed: int, store: str | None, resume: bool,
     freeze: tuple[int, ...], weigh: tuple[str, ...], begin: str | None, workers: int | None, output: str | None,
-    picture: str | None, force: bool, as_json: bool,
+    picture: str | None, page: str | None, template: str | None, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Find dimensions of a mechanism with which its motion is as wished.
 
@@ -76,6 +80,8 @@ def design(
         raise click.UsageError("--resume and --workers require --store STORE")
     check_output(output, force=force)
     check_picture(picture, force=force)
+    for place in (page, template):
+        check_output(place, force=force)
     if not Path(wishes).exists():
         raise FileError(wishes, "", "no such file", "a file of wishes")
     synth.designing.read_wishes(wishes)
@@ -89,7 +95,10 @@ def design(
         else:
             running = RunOptions(store, workers, resume=resume, quiet=as_json, force=force)
             designs = _from_store(job, running)
-    _print(designs, mechanism, output, picture, force=force, as_json=as_json)
+        written = _written(
+            job, designs, {"": output, "picture": picture, "page": page, "template": template}, force=force
+        )
+    _print(designs, mechanism, written, as_json=as_json)
 
 
 def _weights(words: tuple[str, ...]) -> tuple[tuple[int, float], ...]:
@@ -158,22 +167,34 @@ def _from_store(job: DesignJob, running: RunOptions) -> Designs:
     return compared(job.designs(rows), job.starts)
 
 
-def _print(
-    designs: Designs, mechanism: str, output: str | None, picture: str | None, *, force: bool, as_json: bool
-) -> None:
-    """Print the designs, and write the best."""
+def _written(job: DesignJob, designs: Designs, places: dict[str, str | None], *, force: bool) -> list[str]:
+    """Write the best design as a file, a picture, a page, and a template; return the names of the files."""
+    from graphs.files.atomic import write_text
+
     best = designs.best
-    written = []
-    if best is not None and output is not None:
-        synth.write(best.mechanism, output, force=force)
-        written.append(output)
-    if best is not None and picture is not None:
-        synth.draw(best.mechanism).save(picture, force=force)
-        written.append(picture)
+    written: list[str] = []
+    for what, place in places.items():
+        if best is None or place is None:
+            continue
+        if what == "picture":
+            synth.draw(best.mechanism).save(place, force=force)
+        elif what == "page":
+            write_text(Path(place), job.search.page(best), force=force)
+        elif what == "template":
+            written += map(str, synth.write_template(synth.template(best.mechanism), place, force=force))
+            continue
+        else:
+            synth.write(best.mechanism, place, force=force)
+        written.append(place)
+    return written
+
+
+def _print(designs: Designs, mechanism: str, written: list[str], *, as_json: bool) -> None:
+    """Print the designs, and what was written."""
     if as_json:
         print_json({"file": mechanism, **designs.to_json(), "written": written})
     else:
         print_result(designs, {}, as_json=False)
         tell_written(*written)
-    if best is None:
+    if designs.best is None:
         sys.exit(1)

@@ -10,6 +10,7 @@ from synth.designing.poses import DesignPoint
 from synth.designing.problem import DesignProblem
 from synth.designing.sizes import (
     BoxSize,
+    CellCurvatures,
     EdgeLengths,
     EqualArcs,
     EqualLengths,
@@ -89,13 +90,25 @@ def made(kind):
             Symmetry(turns=2, centre=(3.0 * half, 1.25)),
         ]
         return dimensions_of(generate("miura", rows=2, columns=3).mechanism), [*of_sheets(), *own]
+    if kind == "quadrilaterals":
+        first = dimensions_of(GENERATORS["miura"], parameters={"rows": 4, "columns": 4}, closed_form=True)
+        return first, [*of_sheets(), CellCurvatures(at="b", principal=(2.0, -0.5))]
     if kind == "folded triangles":
         folded = generate("waterbomb", rows=1, columns=1, fold=0.6).mechanism
         return dimensions_of(folded), of_sheets()
     return dimensions_of(GENERATORS["miura-tube"]), of_sheets()
 
 
-KINDS = ["four-bar", "axes of a Bennett linkage", "Bennett", "cone", "vertices", "folded triangles", "tube"]
+KINDS = [
+    "four-bar",
+    "axes of a Bennett linkage",
+    "Bennett",
+    "cone",
+    "vertices",
+    "folded triangles",
+    "tube",
+    "quadrilaterals",
+]
 
 
 def extrapolated(function, steps):

@@ -2,11 +2,13 @@
 
 import json
 
+import numpy as np
 import pytest
 from commands import run
 
 import synth
 from synth.designing import design
+from synth.designing.quadrilaterals import cell_curvatures
 from synth.members import arcs_of
 from synth.patterns import generate
 
@@ -89,3 +91,54 @@ def test_options_that_need_a_store_and_files_that_are_not_there(files, tmp_path)
     assert "--store" in run("design", *files, "--resume", code=2).output
     assert "no such file" in run("design", files[0], tmp_path / "none.json", code=2).output
     assert "no such file" in run("design", tmp_path / "none.json", files[1], code=2).output
+
+
+SADDLE = {
+    "format": "synthedra/wishes",
+    "version": 1,
+    "closed_form": True,
+    "parameters": {"rows": 4, "columns": 4, "sector": 1.2},
+    "configurations": [{"name": "folded"}],
+    "wishes": [{"kind": "curvature", "at": "folded", "principal": [0.1, -0.1]}],
+}
+
+
+def test_a_sheet_of_quadrilaterals_takes_curvatures_with_its_page_and_template(tmp_path):
+    place = tmp_path / "saddle.json"
+    place.write_text(json.dumps(SADDLE))
+    files = ("-o", tmp_path / "saddle.fold", "--page", tmp_path / "page.html", "--template", tmp_path / "cut.svg")
+    told = json.loads(run("design", "miura", place, "--starts", 1, *files, "--json").stdout)
+    (one,) = told["designs"]
+    assert one["figures"][0]["met"]
+    assert one["residual"] < 1e-12
+    sheet = synth.read(tmp_path / "saddle.fold")
+    assert synth.mobility(sheet).verdict.freedoms == 1
+    angles = [np.radians(angle) for angle in one["configurations"]["folded"].values()]
+    folded = synth.fold(sheet, drive={1: angles[0]}, frames=1).sheets()[-1]
+    gaussian, mean = cell_curvatures(np.array(folded.coordinates).reshape(5, 5, 3))
+    np.testing.assert_allclose(gaussian, -0.01, atol=1e-9)
+    np.testing.assert_allclose(mean, 0.0, atol=1e-9)
+    page = (tmp_path / "page.html").read_text()
+    assert page.count("<svg") == 2
+    assert "curvatures 0.1 and -0.1 at folded" in page
+    assert len(told["written"]) == len([path for path in tmp_path.iterdir() if path != place])
+    for wrong, message in (
+        ({"closed_form": False}, "set closed_form"),
+        ({"parameters": {"rows": 3, "columns": 4}}, "a sheet of 3 x 4 panels; expected even numbers, 4 or more"),
+    ):
+        place.write_text(json.dumps({**SADDLE, **wrong}))
+        assert message in run("design", "miura", place, code=2).output
+
+
+def test_the_page_of_a_design_shows_the_target(tmp_path):
+    sheet = tmp_path / "miura.fold"
+    synth.write(generate("miura", rows=2, columns=2).mechanism, sheet)
+    wish = {"kind": "on", "at": "folded", "target": {"formula": "x**2 + y**2 + (z - 9)**2 - 81"}}
+    place = tmp_path / "wishes.json"
+    place.write_text(
+        json.dumps({**WISHES, "configurations": [{"name": "folded", "inputs": {"1": -30}}], "wishes": [wish]})
+    )
+    run("design", sheet, place, "--starts", 1, "--page", tmp_path / "page.html")
+    page = (tmp_path / "page.html").read_text()
+    assert page.count("<figure>") == 2
+    assert page.count("<path") + page.count("<polygon") > 8

@@ -47,6 +47,7 @@ def test_a_file_of_every_kind_is_read_and_valid(tmp_path):
         {"kind": "edges", "edges": [[0, 1]], "at_least": 1},
         {"kind": "equal-lengths", "edges": [[0, 1], [1, 2]]},
         {"kind": "corners", "corners": [[0, 1, 2]], "equals": 90},
+        {"kind": "curvature", "at": "open", "principal": [0.1, -0.1]},
         {"kind": "symmetry", "mirror": [[0, 0], [0, 1]]},
         {"kind": "symmetry", "turns": 4, "centre": [0, 1]},
     ]
