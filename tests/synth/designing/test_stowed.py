@@ -3,13 +3,11 @@
 import runpy
 from pathlib import Path
 
-import numpy as np
 import pytest
 from sizes import slow
 
 from graphs.mechanism.sheet import Sheet
 from synth.designing import Goal, JointAngle, SheetArea, WishedConfiguration, Wishes, design
-from synth.patterns import GENERATORS, generate
 
 BENCHMARK = runpy.run_path(str(Path(__file__).resolve().parents[3] / "benchmarks" / "stowed_designs.py"))
 QUICK = "eight links, number 23"
