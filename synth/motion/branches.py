@@ -12,13 +12,14 @@ from itertools import islice
 from math import degrees, inf, pi
 from typing import Any, Literal
 
+import networkx as nx
 import numpy as np
 
 from graphs.geometry import lines_meet, sectors, unit
 from graphs.loops.loop import Centre
 from graphs.rank.singular_values import inertia, rank_of, spectrum
 from graphs.tolerances import DOUBLE, MARGIN, canonical_basis, canonical_order, signed
-from graphs.types import Floats, JointId
+from graphs.types import Floats, Ints, JointId
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, PosedLoop
 from synth.motion.singular import second_order
@@ -83,6 +84,45 @@ def _outward(linkage: PosedLinkage, loop: PosedLoop) -> Floats | None:
         return None
     outward = unit(away)
     return outward if abs(sectors(outward).sum() - 2 * pi) <= DOUBLE.parallel else None
+
+
+def straight_folds(linkage: PosedLinkage) -> tuple[Ints, ...]:
+    """Return for each family of parallel lines along which a flat sheet folds straight the line of each joint, int[J].
+
+    It is -1 for joints that are on none. A line is of creases that go on straight at every vertex, and beyond holes;
+    all its creases fold alike. Parallel lines meet at no vertex, so their angles are free. Whether loops round holes
+    close then is left to the caller.
+    """
+    size = len(linkage.angles)
+    next_to, ends = nx.Graph(), np.zeros(size, dtype=bool)
+    next_to.add_nodes_from(range(size))
+    by_size: dict[int, list[tuple[int, ...]]] = {}
+    for loop in linkage.loops:
+        by_size.setdefault(len(loop.joints), []).append(loop.joints)
+    for joints in map(np.array, by_size.values()):
+        along, at = linkage.directions[joints][:, :, None], linkage.points[joints]
+        turned = np.abs(np.cross(along, along.transpose(0, 2, 1, 3))).max(axis=3)
+        beside = np.abs(np.cross(along, at[:, :, None] - at[:, None])).max(axis=3)
+        same = (turned <= DOUBLE.parallel) & (beside <= DOUBLE.same_point)
+        ends[joints[same.sum(axis=2) == 1]] = True  # of itself alone: the line does not go on
+        loops, one, other = np.nonzero(np.triu(same, 1))
+        next_to.add_edges_from(zip(joints[loops, one].tolist(), joints[loops, other].tolist(), strict=True))
+    whole = [sorted(line) for line in nx.connected_components(next_to) if not ends[list(line)].any()]
+    families: list[tuple[Floats, list[list[int]]]] = []
+    for line in sorted(whole):
+        along = linkage.directions[line[0]]
+        near = (lines for first, lines in families if np.abs(np.cross(first, along)).max() <= DOUBLE.parallel)
+        family = next(near, None)
+        if family is None:
+            families.append((along, family := []))
+        family.append(line)
+    numbers = []
+    for _, family in families:
+        number = np.full(size, -1)
+        for place, line in enumerate(family):
+            number[line] = place
+        numbers.append(number)
+    return tuple(numbers)
 
 
 Certainty = Literal["proved", "numerical", "not known"]

@@ -18,19 +18,22 @@ from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.mechanism.precision import BY_DIGITS, ESTIMATED
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block
+from graphs.rank.dissection import number_below
 from graphs.tolerances import DOUBLE
-from graphs.types import Floats, JointId
+from graphs.types import Floats, Ints, JointId
 from synth.folding.configuration import SheetConfiguration
 from synth.layering.summary import FlatFoldability, flat_foldability
-from synth.motion.branches import Branch, Branches, Certainty, signs_of
+from synth.motion.branches import Branch, Branches, Certainty, signs_of, straight_folds
+from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT, Configuration
 from synth.motion.marked import Marked
-from synth.motion.singular.sampling import walked
+from synth.motion.singular.sampling import closes_along_general_rates, walked
 from synth.motion.walk.events import number_of_free_rates
 from synth.moving.made import configuration_of, with_precision
 from synth.verdict.verdict import (
     AsWritten,
     Basis,
+    FreedomBounds,
     MotionBranch,
     MotionFindings,
     Verdict,
@@ -93,6 +96,7 @@ def _worded(findings: MotionFindings, basis: Basis, *, exhaustive: bool = False,
         clusters,
         as_written=findings.written,
         further=further,
+        bounds=findings.bounds,
     )
 
 
@@ -111,15 +115,70 @@ def _of_one_motion(configuration: Configuration, generic: int | None) -> Verdict
     if rates is None or far <= DOUBLE.moved:
         return _of_no_motion(configuration, generic, rigid=begun.rigid)
     moving = np.flatnonzero((np.abs(rates) > DOUBLE.zero_rate) | (np.abs(end - linkage.angles) > DOUBLE.immobile))
-    freedoms = number_of_free_rates(closure, end, moving)
+    bounds = _bounds_of_one(configuration, end, moving)
+    least, most = bounds.stated
+    freedoms = most if least == most else None
     turning = set(moving.tolist())
     still = tuple(joint for place, joint in enumerate(joints) if place not in turning)
     from_folded = None if begun.folded is None else (begun.folded.found_at, begun.folded.back_to)
     branch = MotionBranch(signs_of(rates), freedoms, "numerical", still, far, misfit, from_folded)
     immobile = still if freedoms == 1 and not configuration.flat else ()
     marked = _as_marked(configuration.marks, rates)
-    findings = MotionFindings(configuration, (branch,), branch, freedoms, "numerical", False, generic, immobile, marked)
+    findings = MotionFindings(
+        configuration, (branch,), branch, freedoms, "numerical", False, generic, immobile, marked, bounds=bounds
+    )
     return _worded(findings, "motion")
+
+
+def _bounds_of_one(configuration: Configuration, end: Floats, moving: Ints) -> FreedomBounds:
+    """Return bounds of freedoms and of the number of branches, by one that was traced to an end, float[J].
+
+    At the end, the freedoms of joints that move, int[n], are at most their infinitesimal ones. They are as many if
+    general rates close; otherwise at least as many as there are more joints than equations, and one. Straight folds
+    are other branches if nothing else begins where they are folded, or one of them has more freedoms than there are
+    rates at the end.
+    """
+    closure, start = configuration.closure, configuration.linkage.angles
+    matrix = closure.at(end)[1]
+    own = matrix[:, moving]
+    most = number_of_free_rates(closure, end, moving)
+    most = number_below(own, DOUBLE.singular) if most is None else most
+    counted = len(moving) - int((np.diff(own.indptr) > 0).sum())
+    least = most if closes_along_general_rates(closure, end, moving) else min(most, max(counted, 1))
+    here = number_below(closure.at(start)[1], DOUBLE.singular)
+    there = most if len(moving) == len(end) else number_below(matrix, DOUBLE.singular)
+    families = straight_folds(configuration.linkage) if configuration.flat else ()
+    folds = [_StraightFold(closure, lines) for lines in sorted(families, key=lambda one: -one.max())[:_FAMILIES]]
+    folds = [fold for fold in folds if fold.closes]
+    lines = max((fold.lines for fold in folds), default=0)
+    others = sum(fold.is_branch for fold in folds if not fold.has(moving))
+    freest = max(least, lines)
+    return FreedomBounds(1 + max(others, int(lines > there)), (least, most), (freest, max(here, freest)))
+
+
+_FOLDED = (0.3, 1.0)
+"""Radians between which random fold angles of lines show whether loops close at any."""
+_FAMILIES = 8
+"""Of so many families of parallel lines bounds are made, those of most lines first."""
+
+
+class _StraightFold:
+    """A flat sheet folded along parallel lines only, at angles in general position; the line of each joint, or -1."""
+
+    def __init__(self, closure: ClosureEquations, lines: Ints) -> None:
+        self.lines = int(lines.max()) + 1
+        folds = np.random.default_rng(self.lines).uniform(*_FOLDED, self.lines)
+        self._closure, self._on_line, self._angles = closure, lines >= 0, np.where(lines < 0, 0.0, folds[lines])
+        self.closes = closure.error(self._angles) <= DOUBLE.closed
+
+    def has(self, moving: Ints) -> bool:
+        """Tell whether joints that move are on lines only."""
+        return bool(self._on_line[moving].all())
+
+    @property
+    def is_branch(self) -> bool:
+        """Whether nothing else begins where it is folded: there are no more rates than lines."""
+        return number_below(self._closure.at(self._angles)[1], DOUBLE.singular) == self.lines
 
 
 def _of_no_motion(configuration: Configuration, generic: int | None, *, rigid: bool) -> Verdict:
@@ -176,12 +235,24 @@ def _of_branches(configuration: Configuration, search: Branches, generic: int | 
         still = [set(branch.stiff_joints) for branch in branches]
         immobile = tuple(joint for joint in configuration.joints if all(joint in joints for joints in still))
     written = _as_written(configuration)
-    findings = MotionFindings(
-        configuration, branches, stated, freedoms, certainty, search.complete, generic, immobile, marked, written
-    )
+    bounds = None if search.complete or stated is None else _bounds_of_search(configuration, branches, stated)
+    evidence = (certainty, search.complete, generic, immobile, marked, written, bounds)
+    findings = MotionFindings(configuration, branches, stated, freedoms, *evidence)
     exhaustive = search.exhaustive and not configuration.unsettled
     basis: Basis = "pose" if search.regular and certainty == "proved" else "motion"
     return _worded(findings, basis, exhaustive=exhaustive, further=further)
+
+
+def _bounds_of_search(
+    configuration: Configuration, branches: Sequence[MotionBranch], stated: MotionBranch
+) -> FreedomBounds:
+    """Return the same where a search for branches ended early: those that were traced have their freedoms."""
+    here = number_below(configuration.closure.at(configuration.linkage.angles)[1], DOUBLE.singular)
+    traced = [branch for branch in branches if branch.certainty != "not known"]
+    least = 1 if stated.freedoms is None else stated.freedoms
+    most = here if stated.freedoms is None else stated.freedoms
+    freest = max([least, *(branch.freedoms or 0 for branch in traced)])
+    return FreedomBounds(max(len(traced), 1), (least, most), (freest, max(here, freest)))
 
 
 def _unmoved(configuration: Configuration, branches: Branches) -> tuple[int | None, Certainty]:

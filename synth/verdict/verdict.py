@@ -93,6 +93,42 @@ class WithinPrecision:
 
 
 @dataclass(frozen=True, slots=True)
+class FreedomBounds:
+    """What holds where not all branches were searched for: bounds of their number and of their freedoms.
+
+    Attributes
+    ----------
+    branches : int
+        There are at least so many branches.
+    stated : (int, int)
+        Freedoms of the stated branch: at least as many as were shown by tracing, at most as many as there are
+        infinitesimal ones at its end.
+    freest : (int, int)
+        Freedoms of the branch that has most: at least those of a branch that was traced, or is known since the
+        sheet folds along parallel straight lines; at most the infinitesimal ones at the configuration.
+    """
+
+    branches: int
+    stated: tuple[int, int]
+    freest: tuple[int, int]
+
+    @property
+    def settled(self) -> bool:
+        """Whether there are no other branches: the stated one has all infinitesimal freedoms."""
+        return self.stated[0] == self.freest[1]
+
+    def to_json(self) -> dict[str, int]:
+        """Return plain data."""
+        return {
+            "branches_at_least": self.branches,
+            "freedoms_at_least": self.stated[0],
+            "freedoms_at_most": self.stated[1],
+            "freest_at_least": self.freest[0],
+            "freest_at_most": self.freest[1],
+        }
+
+
+@dataclass(frozen=True, slots=True)
 class Verdict:
     """Whether a mechanism moves, in a sentence and in numbers.
 
@@ -123,6 +159,8 @@ class Verdict:
     further : int or None
         If the search ended at its allowance: how many beginnings of branches it had found and not followed; there
         may be more. None if it came to its end.
+    bounds : FreedomBounds or None
+        Where not all branches were searched for, or one motion stands for all.
 
     Examples
     --------
@@ -144,6 +182,7 @@ class Verdict:
     as_written: AsWritten | None = None
     within_precision: WithinPrecision | None = None
     further: int | None = None
+    bounds: FreedomBounds | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on (docs/command-json.md)."""
@@ -155,6 +194,7 @@ class Verdict:
             "branches": [branch.to_json() for branch in self.branches],
             "exhaustive": self.exhaustive,
             "not_followed": self.further,
+            "bounds": None if self.bounds is None else self.bounds.to_json(),
             "stiff_joints": list(self.stiff_joints),
             "stiff_places": places,
             "clusters": [list(cluster) for cluster in self.clusters],
@@ -200,7 +240,7 @@ class MotionFindings:
     The verdict states the degrees of freedom of the branch `stated`; `complete` says whether the search for
     branches came to its end; `generic` is the mobility of the type; `immobile` are the joints that are so on every
     branch; `marked` says whether a branch begins with the given mountain-valley assignment; `written` is what
-    holds exactly as written, if that differs.
+    holds exactly as written, if that differs; `bounds` are given where not all branches were searched for.
     """
 
     at: Configuration
@@ -213,6 +253,7 @@ class MotionFindings:
     immobile: tuple[JointId, ...] = ()
     marked: Marked | None = None
     written: AsWritten | None = None
+    bounds: FreedomBounds | None = None
 
 
 def flaps_of(graph: SCGraph) -> list[JointId]:
@@ -239,7 +280,7 @@ def text_of_motion(findings: MotionFindings) -> str:
     if flaps and freedoms == len(flaps) and immobile and len(immobile) == rest:
         at = f"at the flap {_noun(flaps)} {listed(flaps)}"
         return f"Rigid except for flaps: {in_words(freedoms)}, {at}. {_immobile(immobile)}"
-    sentences = [_answer(findings), *_branches(findings)]
+    sentences = [_answer(findings), *_branches(findings), *_bounds(findings)]
     if immobile:
         sentences.append(_immobile(immobile))
     if findings.certainty != "proved":
@@ -267,6 +308,8 @@ def _answer(findings: MotionFindings) -> str:
     moves = "Rigid-foldable" if findings.at.limited else "Mobile"
     start = "from the flat state" if findings.at.flat else "from this configuration"
     count, freedoms = "degrees of freedom unknown", findings.freedoms
+    if freedoms is None and findings.bounds is not None:
+        count = _between(*findings.bounds.stated)
     if freedoms is not None:
         count = in_words(freedoms)
         if findings.marked != "has" and any(branch.freedoms != freedoms for branch in findings.branches):
@@ -294,11 +337,10 @@ def _as_written(written: AsWritten | None) -> str:
 
 
 def _branches(findings: MotionFindings) -> list[str]:
-    """Return the sentence that counts the branches, where there are several or others were not looked for."""
+    """Return the sentence that counts the branches, where there are several."""
     branches, kind = findings.branches, "folding branch" if findings.at.flat else "motion branch"
     if len(branches) < 2:
-        lone = findings.at.flat and branches and not findings.complete and findings.marked != "has"
-        return [f"Only 1 {kind} was searched for."] if lone else []
+        return []
     kinds = Counter(branch.freedoms for branch in branches)
     count = ("" if findings.complete else "At least ") + numbered(len(branches), kind, f"{kind}es")
     if len(kinds) == 1:
@@ -306,6 +348,24 @@ def _branches(findings: MotionFindings) -> list[str]:
     most_first = sorted(kinds.items(), key=lambda item: -(item[0] or 0))
     each = [f"{number} with {'unknown' if freedoms is None else freedoms} DOF" for freedoms, number in most_first]
     return [f"{count}: {', '.join(each)}."]
+
+
+def _bounds(findings: MotionFindings) -> list[str]:
+    """Return the sentence on the branches that were not searched for: how many at least, how free at most."""
+    bounds = findings.bounds
+    if bounds is None or bounds.settled:
+        return []
+    kind = "folding branch" if findings.at.flat else "motion branch"
+    freest = _between(*bounds.freest)
+    if len(findings.branches) > 1:
+        return [f"The freest {kind} has {freest}."]
+    there = "is at least 1" if bounds.branches == 1 else f"are at least {bounds.branches}"
+    return [f"Not all {kind}es were searched for: there {there}, and the freest has {freest}."]
+
+
+def _between(least: int, most: int) -> str:
+    """Return bounds of a number of degrees of freedom in words."""
+    return in_words(least) if least == most else f"at least {least} and at most {in_words(most)}"
 
 
 def _immobile(joints: Sequence[JointId]) -> str:

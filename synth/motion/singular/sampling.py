@@ -7,14 +7,14 @@ no motion is found so, they are freed. Theory: docs/theory/folding.md.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import islice
+from itertools import islice, pairwise
 from math import radians, tan
 
 import numpy as np
 
 from graphs.rank.singular_values import Split, inertia, singular_values, split
 from graphs.tolerances import DOUBLE, leading, signed, trailing
-from graphs.types import Floats
+from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import PosedLinkage, moved
 from synth.motion.path import PathOptions, driven_path
@@ -208,6 +208,39 @@ def rates_towards(space: second_order.RateSpace, wanted: Floats) -> Floats:
         general = [end for end in ends if end is not None and _slopes(forms, end) > rank]
         x = general[trailing(np.array([-(end @ start) / size for end in general]), scale=1.0)] if general else x
     return np.zeros_like(wanted) if x is None else turn * _scaled(space.basis @ x)
+
+
+_ASIDE_STEPS = (8e-3, 4e-3, 2e-3)
+"""Steps along general rates, radians of the joint that moves most."""
+_SHRINKS = 0.7
+"""What is off after a step of half the length, as part of what was off before: a half where rates touch a motion,
+all of it where they do not."""
+
+
+def closes_along_general_rates(closure: ClosureEquations, angles: Floats, moving: Ints) -> bool:
+    """Tell whether motions through a closed configuration have as many freedoms as there are rates that close.
+
+    Rates are those of joints that move, at places int[n], with the others at rest. General ones of these rates are
+    followed by three steps. Where the nearest closed configuration is off by a part of the step that shrinks with it,
+    the rates are tangent to a motion; rates in general position are so only if all are, but for a set of measure
+    zero.
+    """
+    still = np.ones(len(angles), dtype=bool)
+    still[moving] = False
+    held = closure.locked(np.flatnonzero(still).tolist())
+    chance = np.random.default_rng(len(moving)).normal(size=len(angles))
+    rates = corrected(held, angles).space.projected(np.where(still, 0.0, chance))
+    size = float(np.abs(rates).max(initial=0.0))
+    if size <= DOUBLE.zero_rate:
+        return False
+    off = []
+    for step in _ASIDE_STEPS:
+        aside = step / size * rates
+        end = corrected(held, angles + aside)
+        if not end.closed:
+            return False
+        off.append(float(np.abs(end.angles - angles - aside).max()) / step)
+    return all(less <= max(_SHRINKS * more, DOUBLE.zero) for more, less in pairwise(off))
 
 
 def general_rates(

@@ -8,12 +8,20 @@ import networkx as nx
 import numpy as np
 import pytest
 from commands import run
+from sizes import slow
 
 import synth
 from graphs.files.formats import read, write
 from graphs.mechanism.sheet import Sheet
+from graphs.rank.dissection import number_below
+from synth.motion import configuration as configurations
+from synth.motion.branches import straight_folds
+from synth.motion.singular.sampling import closes_along_general_rates
+from synth.moving.made import configuration_of
 from synth.patterns.creases import fan, miura
-from synth.verdict.judged import mobility, mobility_of_type
+from synth.verdict import judged
+from synth.verdict.judged import mobility, mobility_of_type, verdict_of_motion
+from synth.verdict.verdict import FreedomBounds
 
 KEYS = {
     "freedoms",
@@ -22,6 +30,7 @@ KEYS = {
     "branches",
     "exhaustive",
     "not_followed",
+    "bounds",
     "stiff_joints",
     "stiff_places",
     "clusters",
@@ -177,3 +186,70 @@ def test_a_large_sheet_is_judged_by_one_motion_along_its_assignment():
     verdict = told(miura(36, 36, 1.0))
     assert (verdict.freedoms, verdict.basis, verdict.certainty) == (1, "motion", "numerical")
     assert "with the given mountain-valley assignment" in verdict.text
+
+
+def test_a_large_sheet_has_bounds_of_what_was_not_searched_for():
+    """The straight lines are another branch; rates at the flat state are those of both families of creases."""
+    verdict = told(miura(28, 24, 1.0))
+    assert verdict.bounds == FreedomBounds(branches=2, stated=(1, 1), freest=(23, 23 + 27))
+    assert (
+        ": 1 degree of freedom. Not all folding branches were searched for: there are at least 2, "
+        "and the freest has at least 23 and at most 50 degrees of freedom. Numerical" in verdict.text
+    )
+    assert verdict.to_json()["bounds"] == {
+        "branches_at_least": 2, "freedoms_at_least": 1, "freedoms_at_most": 1,
+        "freest_at_least": 23, "freest_at_most": 50,
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("name", "rows", "columns"),
+    [("miura", 4, 5), ("map", 4, 3), slow("miura", 6, 6), slow("waterbomb", 2, 2), slow("chickenwire", 4, 4)],
+)
+def test_bounds_hold_for_all_branches_of_a_sheet_small_enough_to_list_them(name, rows, columns, monkeypatch):
+    sheet = synth.generate(name, rows=rows, columns=columns).mechanism
+    at = configuration_of(sheet)
+    listed = at.branches
+    values = np.linalg.svd(at.closure.dense(at.linkage.angles), compute_uv=False)
+    monkeypatch.setattr(configurations, "MOST_JOINTS", 3)
+    bounds = verdict_of_motion(configuration_of(sheet)).bounds
+    freest = max(branch.freedoms for branch in listed.branches)
+    assert listed.complete
+    assert bounds.branches <= len(listed.branches)
+    assert bounds.freest[0] <= freest <= bounds.freest[1] == len(at.joints) - (values > 1e-9).sum()
+    assert bounds.stated == (verdict_of_motion(at).freedoms,) * 2
+
+
+def test_rates_at_the_flat_state_are_not_all_of_motions():
+    at = configuration_of(miura(5, 5, 1.0))
+    every = np.arange(len(at.joints))
+    assert not closes_along_general_rates(at.closure, at.linkage.angles, every)
+    assert closes_along_general_rates(at.closure, at.branches.branches[0].sample, every)
+    assert number_below(at.closure.at(at.linkage.angles)[1], 1e-5) == 8
+
+
+def test_freedoms_between_bounds_are_said_to_be_so(monkeypatch):
+    """Where general rates do not close, the rates at the end are only a bound."""
+    monkeypatch.setattr(judged, "closes_along_general_rates", lambda *_: False)
+    verdict = told(synth.generate("map", rows=26, columns=14).mechanism)
+    least, most = verdict.bounds.stated
+    assert (verdict.freedoms, verdict.certainty, least) == (None, "numerical", 1)
+    assert f"assignment: at least 1 and at most {most} degrees of freedom. Not all" in verdict.text
+
+
+RING = tuple((x, y) for y in range(4) for x in range(4))
+"""Corners of three by three squares; panels leave the middle one open."""
+
+
+@pytest.mark.parametrize(
+    ("top", "lines"), [(((8, 9, 13, 12), (9, 10, 14, 13)), [2, 2]), (((8, 9, 10, 14, 13, 12),), [1, 2])]
+)
+def test_lines_go_on_beyond_a_hole_or_end_there(top, lines):
+    """Above the hole the first line goes on between two panels, or ends at one."""
+    faces = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (4, 5, 9, 8), (6, 7, 11, 10), (10, 11, 15, 14), *top)
+    at = configuration_of(Sheet(16, (), "", faces, tuple((float(x), float(y)) for x, y in RING)))
+    families = straight_folds(at.linkage)
+    assert sorted(int(family.max()) + 1 for family in families) == lines
+    for family in families:
+        angles = np.where(family < 0, 0.0, np.array([0.7, 0.4])[family])
+        assert at.closure.error(angles) < 1e-12
