@@ -1,2 +1,6 @@
-from synth.assembly.modes import AssemblyMode as AssemblyMode, PositionSet as PositionSet, positions as positions
-from synth.assembly.table import PositionTable as PositionTable
+from synth.assembly.modes import (
+    AssemblyMode as AssemblyMode,
+    PositionSet as PositionSet,
+    PositionTable as PositionTable,
+    positions as positions,
+)

@@ -1,7 +1,7 @@
 """Many members of one type at once, arrays in and out: `sweep`.
 
-Members come of arcs, axes or coordinates (`dimensions`), and are taken through inputs (`kernel`, in C; `lockstep`, by
-numpy). Theory: docs/theory/members.md.
+Members come of arcs, axes or coordinates (`dimensions`), and are taken through inputs (`kernel`: in C, or by numpy).
+Theory: docs/theory/members.md.
 """
 
 from graphs.lazy import offered

@@ -19,7 +19,7 @@ from synth.assembly.family import Family, family_of
 from synth.assembly.kernel import DIRECTION, POINT, SLIDE
 from synth.folding.configuration import SheetConfiguration
 from synth.fourbar.closing import can_close
-from synth.members.member_type import Members, MemberType
+from synth.members.kernel import Members, MemberType
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
 from synth.moving.made import Movable, configuration_of

@@ -1,22 +1,28 @@
-"""Sweep: members of one type taken through given inputs, and what becomes of each."""
+"""Sweep: members of one type taken through given inputs, and what becomes of each.
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+Where joints are determined by count all members go at once (`synth.members.kernel`). Loops of most crease patterns,
+and of spatial linkages that move, have redundant equations, so a square system does not decide them; the walk of one
+member after the other does (`synth.motion.walk`): each moves as `synth.move` moves it.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
+from graphs.errors import InvariantError, SynthedraError, UnsolvableError, check_argument, numbered, shown
 from graphs.printing import Block, Printed, TableBlock, plain
+from graphs.tolerances import DOUBLE
 from graphs.types import Flags, Floats, Ints, JointId
 from synth.assembly.family import family_of
 from synth.folding.configuration import SheetConfiguration
 from synth.members.dimensions import Dimensions, batch_of, checked_coordinates, type_of
-from synth.members.kernel import swept
-from synth.members.member_type import BARRED, CLOSED
-from synth.members.walking import sheets_at, walked
+from synth.members.kernel import BARRED, CLOSED, OPEN, TURNS_BACK, Swept, swept
 from synth.motion.configuration import Configuration
+from synth.motion.driving import MotionOptions, driven_from
 from synth.moving.made import Movable, configuration_of
 
 STATES = ("closed", "turns back", "not reached", "cannot close")
@@ -269,3 +275,76 @@ def _inputs(drive: Mapping[JointId, npt.ArrayLike], count: int) -> Floats:
         lengths = ", ".join(str(values.shape[-1]) for values in columns)
         raise InvariantError("inputs", f"{lengths} inputs of the driven joints", "as many of each")
     return np.stack(np.broadcast_arrays(*columns), axis=-1)
+
+
+def walked(
+    members: Sequence[Callable[[], Configuration]],
+    driven: Ints,
+    inputs: Floats,
+    joints: int,
+    report: Callable[[int], None] | None,
+) -> tuple[Swept, dict[int, str]]:
+    """Move members, each made when it is its turn, to inputs, float[F, D] or float[N, F, D]: radians.
+
+    Return the angles of all joints, and why members have none.
+    """
+    rows = inputs.shape[-2]
+    answer = Swept(
+        np.full((len(members), rows, joints), np.nan),
+        np.full((len(members), rows), np.nan),
+        np.full((len(members), rows), BARRED, dtype=np.int8),
+    )
+    why: dict[int, str] = {}
+    for member, made in enumerate(members):
+        try:
+            own = made()
+            answer.status[member] = OPEN
+            for places, angles, errors in _moved(own, driven, inputs[member] if inputs.ndim == 3 else inputs):
+                answer.status[member, places] = TURNS_BACK
+                reached = places[: len(angles)]
+                answer.status[member, reached] = CLOSED
+                answer.angles[member, reached], answer.residuals[member, reached] = angles, errors
+        except SynthedraError as error:
+            why[member] = str(error)
+        if report is not None:
+            report(member + 1)
+    return answer, why
+
+
+def sheets_at(at: SheetConfiguration, coordinates: Floats) -> list[Callable[[], Configuration]]:
+    """Return what makes the configuration of a crease pattern with each of some vertices, float[N, V, 3]."""
+
+    def made(corners: Floats) -> Configuration:
+        return configuration_of(replace(at.sheet, coordinates=tuple(map(tuple, corners.tolist()))))
+
+    return [partial(made, corners) for corners in coordinates]
+
+
+def _moved(own: Configuration, driven: Ints, values: Floats) -> Iterator[tuple[Ints, Floats, Floats]]:
+    """Yield numbers of inputs, in the order in which they are come to, and the configurations at the first of them.
+
+    One joint goes from where it is to larger angles, and to smaller ones; several go from input to input.
+    """
+    start = own.linkage.angles[driven]
+    ways = [np.arange(len(values))]
+    if len(driven) == 1:
+        rising = np.argsort(values[:, 0], kind="stable")
+        above = values[rising, 0] >= start[0]
+        ways = [rising[above], rising[~above][::-1]]
+    names = [own.joints[place] for place in driven.tolist()]
+    for places in filter(len, ways):
+        wanted = values[places]
+        here = np.abs(wanted - start).max(axis=1) <= DOUBLE.closed
+        if here.all():
+            yield places, np.tile(own.linkage.angles, (len(places), 1)), np.zeros(len(places))
+            continue
+        goals = dict(zip(names, wanted[-1].tolist(), strict=True))
+        path = driven_from(own, MotionOptions(goals, frames=len(wanted), values=wanted)).path
+        frame, found = 0, list[int]()
+        for value in wanted:  # frames at turning points stand between those at inputs
+            off = np.abs(path.angles[frame:][:, driven] - value).max(axis=1) <= DOUBLE.same_configuration
+            if not off.any():
+                break
+            frame += int(off.argmax())
+            found.append(frame)
+        yield places, path.angles[found], path.errors[found]

@@ -12,8 +12,7 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from synth.assembly import positions
-from synth.assembly.family import family_of, general_positions
-from synth.assembly.solutions import solutions
+from synth.assembly.family import family_of, general_positions, solutions
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_axes
 from synth.moving.made import configuration_of

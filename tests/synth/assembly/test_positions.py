@@ -11,8 +11,7 @@ from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.mechanism.sc import SCGraph
 from synth.assembly import positions
-from synth.assembly.family import family_of, general_positions
-from synth.assembly.solutions import solutions
+from synth.assembly.family import family_of, general_positions, solutions
 from synth.fourbar.position import output_spherical
 from synth.moving.made import configuration_of
 from synth.patterns import generate

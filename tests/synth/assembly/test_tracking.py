@@ -6,7 +6,7 @@ from spherical import FOUR_BAR, STEPHENSON, spherical
 
 from enumerate.machine_code import folders
 from graphs.joints.linkage import JointedLinkage, JointPlace
-from synth.assembly import kept, tracking
+from synth.assembly import family as module, tracking
 from synth.assembly.family import Family, family_of, general_positions
 from synth.moving.made import configuration_of
 
@@ -62,15 +62,15 @@ def test_equations_and_paths_are_those_of_the_kernels(family: Family, seed, monk
 def test_general_positions_are_kept(tmp_path, monkeypatch):
     """They are found once; a damaged file is no answer; another seed is another member."""
     monkeypatch.setenv("SYNTHEDRA_CACHE", str(tmp_path))
-    monkeypatch.setattr(kept, "_remembered", {})
+    monkeypatch.setattr(module, "_remembered", {})
     family, _ = family_of(spherical(FOUR_BAR, np.random.default_rng(3)), [1])
     wanted = general_positions(family)
     found = []
-    monkeypatch.setattr(kept, "general_positions", lambda *given: found.append(given) or general_positions(*given))
+    monkeypatch.setattr(module, "general_positions", lambda *given: found.append(given) or general_positions(*given))
 
     def agrees(times):
-        kept._remembered.clear()  # as another process begins
-        general = kept.kept_positions(family)
+        module._remembered.clear()  # as another process begins
+        general = module.kept_positions(family)
         np.testing.assert_array_equal(general.values, wanted.values)
         np.testing.assert_array_equal(general.parameters, wanted.parameters)
         assert (general.curves, len(found)) == (wanted.curves, times)
@@ -81,5 +81,5 @@ def test_general_positions_are_kept(tmp_path, monkeypatch):
     assert folders.read_whole(file)
     file.write_bytes(file.read_bytes()[:-1])
     agrees(2)
-    assert len(kept.kept_positions(family, 5).values) == len(wanted.values)
+    assert len(module.kept_positions(family, 5).values) == len(wanted.values)
     assert len(found) == 3
