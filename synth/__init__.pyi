@@ -61,8 +61,11 @@ from synth.realisation.on_cone import realise_on_cone as realise_on_cone
 from synth.realisation.realised import realise as realise
 from synth.simulation.writing import write_model as write_model
 from synth.surfaces.linkages import map_linkage as map_linkage
-from synth.surfaces.loop_maps import map_to_cones as map_to_cones, map_to_cylinders as map_to_cylinders
-from synth.surfaces.many_loops import cones_of_loops as cones_of_loops
+from synth.surfaces.loop_maps import (
+    cones_of_loops as cones_of_loops,
+    map_to_cones as map_to_cones,
+    map_to_cylinders as map_to_cylinders,
+)
 from synth.templates.hinges import Hinges as Hinges
 from synth.templates.of_mechanism import template as template
 from synth.templates.writing import write_template as write_template

@@ -19,10 +19,11 @@ from synth.surfaces.linkages import (
 )
 from synth.surfaces.loop_maps import (
     ConeMap as ConeMap,
+    ConesOfLoops as ConesOfLoops,
     CylinderMap as CylinderMap,
+    cones_of_loops as cones_of_loops,
     map_to_cones as map_to_cones,
     map_to_cylinders as map_to_cylinders,
 )
 from synth.surfaces.loop_sums import circumradii as circumradii, cone_angles as cone_angles, loop_sum as loop_sum
-from synth.surfaces.many_loops import ConesOfLoops as ConesOfLoops, cones_of_loops as cones_of_loops
 from synth.surfaces.mapping import FamilyOfCircles as FamilyOfCircles, MappedLoop as MappedLoop

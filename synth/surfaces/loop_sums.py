@@ -4,23 +4,62 @@ A loop closes where its signed steps sum to 360 k degrees (Hyatt et al. 2020, Eq
 link is its *reach* C, the surface its *size* z: C = cot(angle / 2)^2, z = tan(lambda)^2, base 1 on a cone; C = 1 /
 length^2, z = 1 / (2 R)^2, base 0 on a cylinder. Half a step is atan2(sqrt(base + z), sqrt(C - z)), and along z the
 derivative of a loop sum has the sign of g = sum s_i (C_i - z)^(-1/2). No root is missed: a tower of functions,
-each with one sign change fewer, brackets the zeros of g, and these the roots, found by bisection. A loop sum is
-compared with its own rounding (`sum_rounding`), nothing absolute. Four links have closed forms (Hyatt et al. 2021,
-Eqs. 4, 5, 11 to 14). Theory: docs/theory/loop-sums.md, docs/theory/mapping.md, docs/theory/rounding.md.
+each with one sign change fewer, brackets the zeros of g, and these the roots, found by bisection: by loop_sums.c,
+or by numpy where it was not built. A loop sum is compared with its own rounding (`sum_rounding`), nothing absolute.
+Four links have closed forms (Hyatt et al. 2021, Eqs. 4, 5, 11 to 14). Theory: docs/theory/loop-sums.md,
+docs/theory/mapping.md, docs/theory/rounding.md.
 """
 
 from collections.abc import Callable, Iterator
+from ctypes import c_int64, c_void_p
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
+from graphs.compiled import library
 from graphs.errors import UnsolvableError
 from graphs.tolerances import EPSILON
-from graphs.types import Flags, Floats
+from graphs.types import Flags, Floats, Ints
 from synth.fourbar.closing import rounding_of
-from synth.surfaces.loop_kernel import roots_in_library
+
+SOURCE = Path(__file__).with_name("loop_sums.c")
+Columns = tuple[Ints, Ints, Ints, Floats, Floats, Ints, Ints]
+"""Loop, pattern, turns, size, residual, and 1 where double, of each root; loop, pattern, 1 where exact of families."""
+_ROOTS_OF_A_LOOP = 8
+"""For so many roots there is room at first."""
+
+
+def roots_in_library(reaches: Floats, patterns: npt.NDArray[np.int8], first_loop: int, base: int) -> Columns | None:
+    """Return the roots and families of loops with reaches float[B, n]; None where there is no library."""
+    found = library(SOURCE)
+    if found is None:
+        return None
+    if found.all_roots.argtypes is None:
+        found.all_roots.restype = None
+        found.all_roots.argtypes = [*[c_int64] * 4, *[c_void_p] * 2, *[c_int64] * 2, *[c_void_p] * 8]
+    loops, links = reaches.shape
+    reaches, patterns = np.ascontiguousarray(reaches), np.ascontiguousarray(patterns)
+    room = _ROOTS_OF_A_LOOP * loops + len(patterns)
+    while True:
+        columns = _columns(room)
+        counts = np.zeros(2, dtype=np.int64)
+        sizes = (loops, links, len(patterns), base)
+        given = (reaches.ctypes.data, patterns.ctypes.data, first_loop, room)
+        found.all_roots(*sizes, *given, *(column.ctypes.data for column in columns), counts.ctypes.data)
+        roots, families = counts.tolist()
+        if max(roots, families) <= room:
+            *of_roots, family = columns
+            return (*(column[:roots] for column in of_roots), family[:families])  # type: ignore[return-value]
+        room = max(roots, families)
+
+
+def _columns(room: int) -> Columns:
+    loop, pattern, turns, double = (np.empty(room, dtype=np.int64) for _ in range(4))
+    return loop, pattern, turns, np.empty(room), np.empty(room), double, np.empty((room, 3), dtype=np.int64)
+
 
 Base = Literal[0, 1]
 

@@ -9,8 +9,16 @@ from enumerate.sc.jobs import sc_graphs
 from enumerate.scd.jobs import scd_graphs
 from graphs.compiled import place_of
 from synth.realisation import drawing
-from synth.realisation.drawing import barycentric_start, first_unknowns, improved, shape_cost
-from synth.realisation.kernel import SOURCE, KernelDrawing, Sizes, kernel
+from synth.realisation.drawing import (
+    SOURCE,
+    KernelDrawing,
+    Sizes,
+    barycentric_start,
+    first_unknowns,
+    improved,
+    kernel,
+    shape_cost,
+)
 from synth.realisation.pattern import pattern_of, simplest_drawn
 from synth.realisation.realised import realise
 

@@ -5,11 +5,11 @@ import pytest
 
 from graphs.compiled import library
 from synth.fourbar.closing import can_close
-from synth.surfaces import loop_kernel, loop_sums
+from synth.surfaces import loop_sums
 from synth.surfaces.loop_maps import cone_reach, cylinder_reach
 
 needs_library = pytest.mark.skipif(
-    library(loop_kernel.SOURCE) is None, reason="there is no library: no compiler was at hand"
+    library(loop_sums.SOURCE) is None, reason="there is no library: no compiler was at hand"
 )
 
 
@@ -41,7 +41,7 @@ def test_roots_are_those_of_numpy(links, monkeypatch):
 def test_there_is_room_for_more_roots_than_most_loops_have(monkeypatch):
     reach = cylinder_reach(np.random.default_rng(2).integers(1, 4, (60, 6)).astype(float))
     wanted = loop_sums.loop_roots(reach, 0)
-    monkeypatch.setattr(loop_kernel, "_ROOTS_OF_A_LOOP", 0)
+    monkeypatch.setattr(loop_sums, "_ROOTS_OF_A_LOOP", 0)
     found = loop_sums.loop_roots(reach, 0)
     assert len(found.loop) == len(wanted.loop) > 60
     np.testing.assert_array_equal(found.size, wanted.size)

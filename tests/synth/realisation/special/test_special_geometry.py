@@ -17,7 +17,7 @@ from graphs.mechanism.sheet import sides_of_face
 from synth.realisation.conditions import agreeing_ratios, bent_line, bundles, parallel_creases, straight_lines
 from synth.realisation.drawing import barycentric_start
 from synth.realisation.pattern import pattern_of
-from synth.realisation.special.axes import AxisGroup, derivatives, equal_links, meeting, normal
+from synth.realisation.special.families import AxisGroup, derivatives, equal_links, meeting, normal
 from tests.support.commands import run
 
 QUADS = "m1:a-b.acd-.b-ef.cfgh.di-.e-j.gj-k.hl-i.k-l"
