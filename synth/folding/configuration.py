@@ -32,7 +32,7 @@ from synth.folding.mending.nearest import (
     nearby,
     searched_to,
 )
-from synth.layering.space.posed import PosedSheet
+from synth.layering.space.planes import PosedSheet
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT, Configuration, PointPlaces, doubt_of, doubt_of_rigid
 from synth.motion.linkage import Creases, PosedLinkage, creases_of, linkage_of_sheet

@@ -19,8 +19,7 @@ from synth.layering.constraints import PairTable
 from synth.layering.counting.problem import LayerProblem
 from synth.layering.counting.settling import counted
 from synth.layering.space.orders import Height, LayersInSpace, layers_of_stacked
-from synth.layering.space.planes import PlaneOfPanels, StackedPanels, stacked_panels
-from synth.layering.space.posed import PosedSheet
+from synth.layering.space.planes import PlaneOfPanels, PosedSheet, StackedPanels, stacked_panels
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.resting import RestingPanels
 

@@ -20,8 +20,7 @@ from synth.layering.counting.job import Counter
 from synth.layering.local import FlatVertex
 from synth.layering.orders import CONTRADICTION, FlatFolding, components_of
 from synth.layering.reduction import reduced
-from synth.layering.space.planes import StackedPanels, stacked_panels
-from synth.layering.space.posed import PosedSheet
+from synth.layering.space.planes import PosedSheet, StackedPanels, stacked_panels
 
 Height = tuple[int, int, int]
 """A cell and two panels, the first above the second: on the side that the normal of their plane points to."""

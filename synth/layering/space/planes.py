@@ -1,4 +1,4 @@
-"""Panels that lie in one plane at a configuration in space, and the images of all planes as one.
+"""A sheet at a configuration in space: panels that lie in one plane, and the images of all planes as one.
 
 Panels that a crease joins without a fold are one *plate*. In each plane that several plates overlap in, the image is
 made as that of a pattern folded flat. At a segment a panel can leave its plane too: round the segment the strands are
@@ -7,7 +7,7 @@ chords of a circle, from one ray to another, and no two cross. Theory: docs/theo
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, pairwise
 from math import pi
@@ -17,12 +17,45 @@ import numpy as np
 import shapely
 from scipy.spatial import cKDTree
 
+from graphs.convert.duality import SheetMechanism
 from graphs.geometry import frame_about, unit
-from graphs.mechanism.precision import extent_of
+from graphs.mechanism.precision import Precision, extent_of
 from graphs.mechanism.sheet import Sheet, sides_of_face
+from graphs.tolerances import Tolerances
 from graphs.types import Floats, Ints
 from synth.layering.image import FoldedImage, FoldedPanels, LeavingPanel, SegmentStrands, image_of
-from synth.layering.space.posed import PosedSheet
+from synth.motion.linkage import Creases
+
+
+@dataclass(frozen=True, eq=False)
+class PosedSheet:
+    """A sheet at a configuration.
+
+    Attributes
+    ----------
+    sheet : Sheet
+    mechanism : SheetMechanism
+    creases : Creases
+        Where they are between its panels.
+    precision : Precision
+    tolerances : Tolerances
+    points : float[V, 3]
+        The places of the vertices, in the unit of the coordinates.
+    angles : float[J]
+        The fold angles, radians, in the order of the joints.
+    signs : mapping of joint id to bool
+        Whether each crease is a valley, where that is known of those folded by 180 degrees.
+    """
+
+    sheet: Sheet
+    mechanism: SheetMechanism
+    creases: Creases
+    precision: Precision
+    tolerances: Tolerances
+    points: Floats
+    angles: Floats
+    signs: Mapping[int, bool]
+
 
 _NEARLY = 1e3
 """Planes whose normals and heights, in units of the extent, differ by more than so many times the distance of points

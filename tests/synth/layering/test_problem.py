@@ -8,8 +8,8 @@ from folded_sheets import folded_sheet, unassigned_map
 
 import synth
 from synth.layering.counting import settling
-from synth.layering.counting.kernel import ProblemInLibrary, kernel
 from synth.layering.counting.problem import LayerProblem, count_in_python, probe_in_python, solutions
+from synth.layering.counting.settling import ProblemInLibrary, kernel
 
 needs_library = pytest.mark.skipif(kernel() is None, reason="there is no library: no compiler was at hand")
 
