@@ -7,9 +7,8 @@ from enumerate.strings.panel_strings import (
     count_strings as count_strings,
     strings as strings,
 )
-from graphs.answer.conversion import convert as convert
+from graphs.answer.conversion import convert as convert, reconstruct as reconstruct
 from graphs.answer.identity import TypeClasses as TypeClasses, identify as identify, types_of as types_of
-from graphs.answer.reconstruction import reconstruct as reconstruct
 from graphs.convert.table import Mechanism as Mechanism
 from graphs.errors import (
     FileError as FileError,
@@ -43,7 +42,7 @@ from synth.designing.designs import design as design
 from synth.drawing.mechanisms.pictures import draw as draw
 from synth.editing import edit as edit
 from synth.first_look import FirstLook as FirstLook, look as look
-from synth.folding.layered import layers_at as layers_at
+from synth.folding.configuration import layers_at as layers_at
 from synth.folding.motion import fold as fold
 from synth.guidance.fourbars import four_bars as four_bars
 from synth.guidance.guiding import guiding_dyads as guiding_dyads
@@ -52,8 +51,7 @@ from synth.guidance.orientations import Orientations as Orientations
 from synth.layering.answer import layers as layers
 from synth.members.sweeping import sweep as sweep
 from synth.moving.cone_design import design_on_cone as design_on_cone
-from synth.moving.configured import in_configuration as in_configuration
-from synth.moving.motion import move as move
+from synth.moving.motion import in_configuration as in_configuration, move as move
 from synth.notebook import load_ipython_extension as load_ipython_extension
 from synth.overconstraint.explanation import explain as explain
 from synth.patterns.generated import generate as generate

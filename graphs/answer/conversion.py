@@ -1,8 +1,20 @@
-"""A mechanism converted by the names of kinds and forms. The roads are in :mod:`graphs.convert.table`."""
+"""A mechanism in another form: converted by the names of kinds and forms, or reconstructed vertex by vertex.
 
-from graphs.convert.table import CONVERSIONS, FORMS, Mechanism, graph_of
-from graphs.errors import InvariantError, shown
+The roads from kind to kind are in :mod:`graphs.convert.table`. A reconstruction is the polyhedron model of a
+mechanism, with its counts; source: Wiener 2016, section 3.4.4. Theory: docs/theory/polyhedron-model.md.
+"""
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from graphs.convert.panels import VertexStep, vertex_steps
+from graphs.convert.table import CONVERSIONS, FORMS, Mechanism, graph_of, to_polyhedron, to_scd
+from graphs.count.equations import mobility_of_model
+from graphs.errors import InvariantError, numbered, shown
 from graphs.files.accepted import MechanismLike, mechanism_for
+from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.mechanism.scd import FeatureCounts
+from graphs.printing import Block, Printed, TableBlock, plain
 
 
 def convert(mechanism: MechanismLike, kind: str | None = None, *, form: str | None = None) -> Mechanism:
@@ -40,3 +52,85 @@ def convert(mechanism: MechanismLike, kind: str | None = None, *, form: str | No
     if kind is not None:
         mechanism = CONVERSIONS[kind](mechanism)
     return mechanism if form is None else FORMS[form](graph_of(mechanism))
+
+
+_TOLD = ("vertices", "implicit_centres", "external_edges", "internal_edges")
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Reconstruction(Printed):
+    """A polyhedron model, and the steps of its reconstruction.
+
+    Attributes
+    ----------
+    model : PolyhedronModel
+    steps : tuple of VertexStep
+        Vertex by vertex: in what kind of face it lies, and which links meet there.
+    counts : FeatureCounts
+        V, C, E_ext, E_int of the SCD graph.
+    """
+
+    model: PolyhedronModel
+    steps: tuple[VertexStep, ...]
+    counts: FeatureCounts
+
+    @property
+    def mobility(self) -> int:
+        """M of the model by count (Wampler, Larson, Erdman 2007, Eq. 9)."""
+        return mobility_of_model(self.model)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the reconstruction as plain data, with the keys that scripts rely on (docs/command-json.md)."""
+        counts = asdict(self.counts)
+        return {
+            "vertices": [
+                {"vertex": step.vertex, "in": step.kind.value, "links": list(step.links)} for step in self.steps
+            ],
+            "counts": {key: counts[key] for key in _TOLD},
+            "mobility": self.mobility,
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the table and the line that are printed."""
+        rows = [
+            (
+                str(step.vertex),
+                "explicit centre" if step.kind.value == "explicit" else f"{step.kind.value} face",
+                ", ".join(plain(link) for link in step.links),
+            )
+            for step in self.steps
+        ]
+        counts = self.counts
+        return [
+            TableBlock(("vertex", "lies in", "links that meet there"), rows, ["vertex"]),
+            f"V = {counts.vertices}, C = {counts.implicit_centres}, E = {counts.external_edges} external "
+            f"+ {counts.internal_edges} internal, M = {self.mobility}",
+        ]
+
+    def __repr__(self) -> str:
+        return f"<Reconstruction: {numbered(len(self.model), 'vertex', 'vertices')}, M = {self.mobility}>"
+
+
+def reconstruct(mechanism: MechanismLike) -> Reconstruction:
+    """Reconstruct the polyhedron model of a mechanism, vertex by vertex.
+
+    Parameters
+    ----------
+    mechanism : Mechanism, str or Path
+        An SCD graph, a sheet of plain panels, or a polyhedron model that knows its links. The coordinates of a
+        sheet go with it.
+
+    Raises
+    ------
+    UnsolvableError
+        If the sides of the links are not known.
+
+    Examples
+    --------
+    >>> from graphs.convert.panels import scd_from_panels
+    >>> reconstruct(scd_from_panels([("o", "a", "b"), ("o", "b", "c"), ("o", "c", "a")]))
+    <Reconstruction: 4 vertices, M = 0>
+    """
+    mechanism = mechanism_for("reconstruct", mechanism)
+    scd = to_scd(mechanism)
+    return Reconstruction(to_polyhedron(mechanism), tuple(vertex_steps(scd)), scd.counts)

@@ -1,10 +1,12 @@
 """A crease pattern at a configuration: opened along its cuts, in its plane, mended where rounding stopped it.
 
-Theory: docs/theory/folding.md, docs/theory/mending.md.
+There it has layer orders, where panels lie on each other. Theory: docs/theory/folding.md, docs/theory/mending.md,
+docs/theory/layer-orders.md.
 """
 
 from __future__ import annotations
 
+import pathlib
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -12,9 +14,9 @@ from functools import cached_property
 import numpy as np
 
 from graphs.answer.mechanisms import sheet_in_frame
-from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
-from graphs.convert.opening import opened
-from graphs.errors import UnsolvableError
+from graphs.convert.duality import SheetMechanism, mechanism_of_sheet, opened
+from graphs.errors import UnsolvableError, check_argument
+from graphs.files.accepted import mechanism_for
 from graphs.mechanism.precision import keeping, precision_of_sheet, stated
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.tolerances import DOUBLE
@@ -32,12 +34,13 @@ from synth.folding.mending.nearest import (
     nearby,
     searched_to,
 )
+from synth.layering.counting.settling import counted
+from synth.layering.space.orders import LayersInSpace, layers_in_space
 from synth.layering.space.planes import PosedSheet
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT, Configuration, PointPlaces, doubt_of, doubt_of_rigid
 from synth.motion.linkage import Creases, PosedLinkage, creases_of, linkage_of_sheet
-from synth.motion.path import Path
-from synth.motion.resting import PassedPanels
+from synth.motion.path import PassedPanels, Path
 from synth.motion.walk.step import PathEvent
 
 
@@ -260,3 +263,54 @@ def _on(written: SheetConfiguration, mended: MendedPattern) -> SheetConfiguratio
     repairs = (*written.repairs, mended)
     sheet = keeping(mended.sheet, written.precision)
     return replace(written, linkage=linkage, exact=True, sheet=sheet, repairs=repairs)
+
+
+def layers_at(
+    mechanism: Sheet | SheetConfiguration | str | pathlib.Path,
+    *,
+    frame: int | None = None,
+    precision: float | None = None,
+) -> LayersInSpace:
+    """Return the layer orders of a crease pattern at the configuration of its coordinates.
+
+    Where panels lie on each other, a layer order says which one is on top; elsewhere there is nothing to order. Seen
+    along a segment, the paper goes from one plane to another without passing through itself.
+
+    Parameters
+    ----------
+    mechanism : Sheet, SheetConfiguration, or the path of a file
+    frame : int, optional
+        The frame of the file; 0 is the key frame.
+    precision : float, optional
+        The error of a coordinate, in its unit, as for `synth.mobility`.
+
+    Returns
+    -------
+    LayersInSpace
+        `orders` is their number: 1 where no panels lie on each other, 0 where every order has the paper pass through
+        itself.
+
+    Raises
+    ------
+    UnsolvableError
+        If the sheet has no coordinates, or its loops are not closed.
+
+    Examples
+    --------
+    A strip of three squares, both creases folded by 180 degrees as valleys: the outer squares are in one place.
+
+    >>> from math import pi
+    >>> corners = ((0, 0, 0), (1, 0, 0), (0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (0, 1, 0), (1, 1, 0))
+    >>> faces = ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6))
+    >>> strip = Sheet(8, ((1, 5), (2, 6)), "VV", faces, corners, fold_angles=(pi, pi))
+    >>> layers_at(strip).orders
+    2
+    """
+    check_argument("layers_at", mechanism, Sheet | SheetConfiguration | str | pathlib.Path)
+    if isinstance(mechanism, SheetConfiguration):
+        at = mechanism
+    else:
+        sheet = mechanism_for("layers_at", mechanism, Sheet)
+        assert isinstance(sheet, Sheet)
+        at = configuration_of_sheet(sheet, frame=frame, precision=precision, mend=False)
+    return layers_in_space(at.posed(), lambda problems: list(map(counted, problems)))

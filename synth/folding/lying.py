@@ -21,7 +21,7 @@ from synth.layering.counting.settling import counted
 from synth.layering.space.orders import Height, LayersInSpace, layers_of_stacked
 from synth.layering.space.planes import PlaneOfPanels, PosedSheet, StackedPanels, stacked_panels
 from synth.motion.closure import ClosureEquations, corrected
-from synth.motion.resting import RestingPanels
+from synth.motion.path import RestingPanels
 
 _SHEET, _PANELS, _PAIRS, _VARIABLES = 3000, 300, 20_000, 60
 """Panels of a sheet, panels that lie on others, pairs of them over cells, and variables of a problem up to which layers

@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
-from graphs.convert.opening import opened
+from graphs.convert.duality import SheetMechanism, mechanism_of_sheet, opened
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.geometry import signed_area
 from graphs.limits import check_work

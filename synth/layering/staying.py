@@ -13,8 +13,7 @@ from typing import Any
 import networkx as nx
 import numpy as np
 
-from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
-from graphs.convert.opening import opened
+from graphs.convert.duality import SheetMechanism, mechanism_of_sheet, opened
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.limits import check_work
 from graphs.mechanism.precision import flat_places, keeping, precision_of_sheet

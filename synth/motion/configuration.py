@@ -26,8 +26,7 @@ from synth.motion.branches import MOST_JOINTS, Branch, Branches, branches_of, se
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, moved
 from synth.motion.marked import AssignedBranch, Disagreement, agreeing_best, assigned_branch, nearest_branch
-from synth.motion.path import Path
-from synth.motion.resting import PassedPanels
+from synth.motion.path import PassedPanels, Path
 from synth.motion.singular.nearest import InitialMotion, begun_near
 from synth.motion.singular.second_order import rates_at
 from synth.motion.walk.walking import Event

@@ -19,8 +19,7 @@ from synth.motion.branches import Branch, Branches, Method
 from synth.motion.configuration import Configuration, listed
 from synth.motion.driving import DrivenMotion, MotionOptions, driven_from
 from synth.motion.linkage import PosedLinkage, link_motions
-from synth.motion.path import Path
-from synth.motion.resting import RestingPanels
+from synth.motion.path import Path, RestingPanels
 
 FRAMES = 20
 """Frames after the first, by default."""

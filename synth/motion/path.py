@@ -1,8 +1,9 @@
 """Paths of closed configurations with driven joints, and circuits: closed curves past all dead points.
 
 With one freedom turning points of the driver are passed. A path ends where its driven joints cannot come nearer to
-their angles, and says why; a circuit has no driver: the walk goes along the curve until it comes back to where it
-began. How steps are taken: `synth.motion.walk`. Theory: docs/theory/folding.md, docs/theory/moving.md.
+their angles, and says why; of a sheet, also in which frames panels pass through each other, and how they lie at its
+end. A circuit has no driver: the walk goes along the curve until it comes back to where it began. How steps are taken:
+`synth.motion.walk`. Theory: docs/theory/folding.md, docs/theory/moving.md, docs/theory/layer-orders.md.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import degrees
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -271,3 +273,43 @@ def circuit_through(
     if stopped:
         stopped += f" where a joint has turned {degrees(float(np.abs(angles[-1] - start).max())):.6g}°"
     return Path(angles, np.array([frame.error for frame in walk.frames]), stopped, tuple(walk.met), watched)
+
+
+@dataclass(frozen=True, slots=True)
+class RestingPanels:
+    """Panels that lie on each other in the last frame of a motion.
+
+    Attributes
+    ----------
+    planes : tuple of tuple of int
+        The panels in each plane; those that unfolded creases join count as one, by the lowest number.
+    orders : int or None
+        The number of layer orders with which the motion can end; None if there are too many panels to count them.
+
+    Examples
+    --------
+    >>> RestingPanels(((0, 1), (2, 3)), 1).line()
+    'ends with panels on each other in 2 planes, in 1 layer order'
+    """
+
+    planes: tuple[tuple[int, ...], ...]
+    orders: int | None
+
+    def line(self) -> str:
+        """Return it in one line."""
+        where = f"ends with panels on each other in {numbered(len(self.planes), 'plane')}"
+        if self.orders is None:
+            return f"{where}; their layer orders were not counted"
+        return f"{where}, in {numbered(self.orders, 'layer order')}" if self.orders else f"{where}, in no layer order"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {"planes": [list(plane) for plane in self.planes], "orders": self.orders}
+
+
+class PassedPanels(NamedTuple):
+    """A path with the event that panels pass through each other, frames in which they do, how they lie at its end."""
+
+    path: Path
+    frames: tuple[int, ...] = ()
+    resting: RestingPanels | None = None

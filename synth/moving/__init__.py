@@ -1,7 +1,8 @@
 """Linkages of any kind moved: solids hinged at edges, polyhedron models, conical linkages, guided four-bars.
 
-`made` makes a configuration of any mechanism that has coordinates, `motion` drives its joints and writes tables,
-`on_surface` follows conical linkages all along their circuits. Theory: docs/theory/moving.md.
+`made` makes a configuration of any mechanism that has coordinates, `motion` drives its joints, brings it into
+other configurations and writes tables, `on_surface` follows conical linkages all along their circuits. Theory:
+docs/theory/moving.md.
 """
 
 from graphs.lazy import offered

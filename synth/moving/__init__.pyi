@@ -4,7 +4,6 @@ from synth.moving.cone_design import (
     ConeDesigns as ConeDesigns,
     design_on_cone as design_on_cone,
 )
-from synth.moving.configured import in_configuration as in_configuration
 from synth.moving.made import (
     configuration_of as configuration_of,
     linkage_of_rods as linkage_of_rods,
@@ -12,6 +11,7 @@ from synth.moving.made import (
 )
 from synth.moving.motion import (
     FilePoses as FilePoses,
+    in_configuration as in_configuration,
     move as move,
     poses_of_file as poses_of_file,
     table_text as table_text,

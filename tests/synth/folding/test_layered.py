@@ -12,7 +12,7 @@ from sizes import slow
 
 import synth
 from graphs.mechanism.sheet import Sheet
-from synth.folding.layered import layers_at
+from synth.folding.configuration import layers_at
 from synth.layering.checking import fault_of
 
 RIGHT = pi / 2

@@ -14,7 +14,7 @@ import synth
 import synth.moving
 from graphs.files.formats import write
 from graphs.mechanism.sheet import Sheet
-from synth.folding.layered import layers_at
+from synth.folding.configuration import layers_at
 from synth.layering import read_face_orders, wishes_of
 
 RIGHT = pi / 2

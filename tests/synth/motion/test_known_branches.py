@@ -9,8 +9,7 @@ import pytest
 from folding_patterns import frog_base, pleated_hypar, triangulated
 from scipy.optimize import least_squares
 
-from graphs.convert.duality import mechanism_of_sheet
-from graphs.convert.opening import opened
+from graphs.convert.duality import mechanism_of_sheet, opened
 from graphs.files.formats import read
 from graphs.mechanism.sheet import with_all_edges
 from synth.folding.motion import fold
