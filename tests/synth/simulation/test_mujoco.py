@@ -3,17 +3,22 @@
 The second method is `synth.move`, with closure equations of whole loops; MuJoCo has trees and soft connections.
 """
 
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
 import pytest
-from simulated import Simulated, crossing, planar, planar_four_bar
+from simulated import Simulated, crossing, mujoco_or_skip, planar, planar_four_bar
 from sizes import slow_but
 
+from graphs.mechanism.solids import HingedSolids
 from synth.compliance.springs import Springs
 from synth.patterns.catalogue import GENERATORS
 from synth.patterns.generated import generate
 from synth.simulation.mjcf import mjcf_bytes
+from synth.simulation.writing import write_model
 
 LINKAGES = sorted(Path(__file__).parents[3].glob("data/linkages/*.*"))
 QUICK = ("miura", "bennett", "goldberg", "four-bar", "sarrus", "crash-lock")
@@ -49,6 +54,23 @@ def test_generators_driven_over_their_range(name):
     driven = Simulated(generate(name).mechanism).driven()
     assert driven.residual < 1e-6
     assert driven.error < 1e-3
+
+
+@pytest.mark.parametrize("mechanism", [generate("miura").mechanism, planar_four_bar()], ids=["miura", "four-bar"])
+def test_the_program_of_the_guide(mechanism, tmp_path):
+    """It drives the model over nine tenths of its range, and its loops hold."""
+    mujoco_or_skip()
+    drive = {"O": 6.28} if isinstance(mechanism, HingedSolids) else {}
+    write_model(mechanism, tmp_path / "a.xml", "mjcf", size=300.0, drive=drive)
+    program = Path(__file__).parents[3] / "docs" / "programs" / "drive.py"
+    ran = subprocess.run([sys.executable, program, "a.xml"], cwd=tmp_path, capture_output=True, text=True, check=True)
+    *ends, told = ran.stdout.splitlines()
+    first, last = (float(line.split()[2]) for line in ends)
+    model = ET.parse(tmp_path / "a.xml").getroot()
+    low, high = (np.degrees(float(end)) for end in model.find("actuator/position").get("ctrlrange").split())
+    assert abs(first - (low + 0.05 * (high - low))) < 0.1
+    assert abs(last - (high - 0.05 * (high - low))) < 0.1
+    assert float(told.split()[5]) < 1e-8
 
 
 @pytest.mark.parametrize("path", slow_but((), LINKAGES), ids=lambda path: getattr(path, "name", None))

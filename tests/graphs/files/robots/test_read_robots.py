@@ -8,7 +8,7 @@ import networkx as nx
 import numpy as np
 import pytest
 from commands import run
-from simulated import mujoco_or_skip
+from simulated import mujoco_or_skip, planar_four_bar
 from sizes import slow_but
 
 import synth
@@ -113,6 +113,28 @@ def test_there_and_back(name, tmp_path):
 
 def test_how_many_go_there_and_back():
     assert len(MANY) >= 146
+
+
+@pytest.mark.parametrize("suffix", [".xml", ".urdf", ".sdf"])
+def test_verbs_answer_about_robots(suffix, tmp_path):
+    """What is said of a mechanism is said of its robot: assembly modes, redundant equations, its name."""
+    four_bar, bennett = planar_four_bar(), synth.generate("bennett").mechanism
+    written(assembly_of(four_bar), tmp_path)
+    answers = (
+        synth.positions(four_bar, drive={"O": 0.7}),
+        synth.positions(tmp_path / f"a{suffix}", drive={"joint_O": 0.7}),
+    )
+    modes = [sorted(mode["angles_deg"][name] for mode in answer.to_json()["positions"])
+             for answer, name in zip(answers, ("B", "joint_B"), strict=True)]  # fmt: skip
+    assert len(modes[0]) == 2
+    assert np.allclose(*modes, atol=1e-8)
+    written(assembly_of(bennett), tmp_path)
+    of_robot, of_linkage = (synth.explain(each).to_json() for each in (tmp_path / f"a{suffix}", bennett))
+    assert [of_robot[key] for key in ("freedoms", "count", "h")] == [
+        of_linkage[key] for key in ("freedoms", "count", "h")
+    ]
+    assert of_robot["sets"][0]["reasons"] == of_linkage["sets"][0]["reasons"]
+    assert "(Bennett)" in of_robot["sets"][0]["reasons"][0]
 
 
 FOUR_BAR = """<mujoco><compiler angle="degree"/>
