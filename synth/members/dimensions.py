@@ -198,31 +198,59 @@ def _check_bends(linkage: PosedLinkage, arcs: Arcs, values: Floats) -> None:
             root[ends[0]] = ends[1]
 
 
-def _by_axes(linkage: PosedLinkage, family: Family, axes: Floats) -> Batch:
-    joints = len(linkage.graph.joints)
+def checked_axes(joints: int, given: object) -> Floats:
+    """Return the directions of the joints of members, float[N, J, 3]."""
+    axes = np.asarray(given, dtype=float)
     if axes.ndim != 3 or axes.shape[1:] != (joints, 3):
         raise InvariantError("axes", f"an array of shape {axes.shape}", f"float[N, {joints}, 3]")
-    kind = type_of(family)
-    if not kind.curved.all():
-        raise UnsolvableError("axes are directions, which require spherical loops: of planar ones give points")
     bad = ~(np.linalg.norm(axes, axis=2) > 0.0)
     if bad.any():
         member, place = np.argwhere(bad)[0].tolist()
         raise InvariantError("axes", f"axis {place} of member {member} has no direction", "a nonzero vector")
+    return axes
+
+
+def checked_points(linkage: PosedLinkage, given: object) -> Floats:
+    """Return the points of the joints of members, in units of the extent, about the middle: float[N, J, 3]."""
+    points, joints = np.asarray(given, dtype=float), len(linkage.graph.joints)
+    if points.ndim != 3 or points.shape[1:] != (joints, 3):
+        raise InvariantError("points", f"an array of shape {points.shape}", f"float[N, {joints}, 3]")
+    if not np.isfinite(points).all():
+        raise InvariantError("points", "the points of joints are not all numbers", "finite numbers")
+    return np.asarray((points - linkage.middle) / linkage.extent)
+
+
+def spatial_axes(linkage: PosedLinkage, dimensions: Dimensions) -> tuple[Floats, Floats]:
+    """Return directions and points of the joints of members with spatial loops, float[N, J, 3], points in extents.
+
+    What is not given is that of the linkage.
+    """
+    axes = checked_axes(len(linkage.graph.joints), dimensions.get("axes", linkage.directions[None]))
+    points = linkage.points[None]
+    if "points" in dimensions:
+        points = checked_points(linkage, dimensions["points"])
+    if len(axes) != len(points) and 1 not in (len(axes), len(points)):
+        raise InvariantError("parameters", f"axes of {len(axes)} members and points of {len(points)}", "as many")
+    count = 0 if not len(axes) or not len(points) else max(len(axes), len(points))
+    shape = (count, *axes.shape[1:])
+    return np.broadcast_to(unit(axes), shape), np.broadcast_to(points, shape)
+
+
+def _by_axes(linkage: PosedLinkage, family: Family, given: object) -> Batch:
+    axes = checked_axes(len(linkage.graph.joints), given)
+    kind = type_of(family)
+    if not kind.curved.all():
+        raise UnsolvableError("axes are directions, which require spherical loops: of planar ones give points")
     place = np.array([list(linkage.graph.joints).index(joint) for joint in family.joints])
     members = Members(unit(axes[:, place[kind.joint]]), np.zeros(len(family.joints)))
     return Batch(members, linkage.angles, np.zeros(len(axes), dtype=bool))
 
 
-def _by_points(linkage: PosedLinkage, family: Family, points: Floats, driven: Ints) -> Batch:
-    joints = list(linkage.graph.joints)
-    if points.ndim != 3 or points.shape[1:] != (len(joints), 3):
-        raise InvariantError("points", f"an array of shape {points.shape}", f"float[N, {len(joints)}, 3]")
-    if not np.isfinite(points).all():
-        raise InvariantError("points", "the points of joints are not all numbers", "finite numbers")
+def _by_points(linkage: PosedLinkage, family: Family, given: object, driven: Ints) -> Batch:
+    joints, points = list(linkage.graph.joints), checked_points(linkage, given)
     kind, names = type_of(family), [joints[place] for place in driven.tolist()]
     axes = np.zeros((len(points), len(kind.joint), 3))
-    for member, moved in enumerate((points - linkage.middle) / linkage.extent):
+    for member, moved in enumerate(points):
         axes[member] = axes_of(family, family_of(replace(linkage, points=moved), names)[1])
     return Batch(Members(axes, np.zeros(len(family.joints))), linkage.angles, np.zeros(len(points), dtype=bool))
 

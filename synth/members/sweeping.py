@@ -14,12 +14,14 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import InvariantError, SynthedraError, UnsolvableError, check_argument, numbered, shown
+from graphs.geometry import lines_meet
+from graphs.loops.loop import Centre
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.tolerances import DOUBLE
 from graphs.types import Flags, Floats, Ints, JointId
 from synth.assembly.family import family_of
 from synth.folding.configuration import SheetConfiguration
-from synth.members.dimensions import Dimensions, batch_of, checked_coordinates, type_of
+from synth.members.dimensions import Dimensions, batch_of, checked_coordinates, spatial_axes, type_of
 from synth.members.kernel import BARRED, CLOSED, OPEN, TURNS_BACK, Swept, swept
 from synth.motion.configuration import Configuration
 from synth.motion.driving import MotionOptions, driven_from
@@ -133,15 +135,16 @@ def sweep(
     Parameters
     ----------
     mechanism : Movable
-        With coordinates; it gives the type, and the assembly mode. Loops are spherical or planar.
+        With coordinates; it gives the type, and the assembly mode.
     parameters : mapping
         The dimensions of N members, of one kind. ``"arcs"``: radians between axes that follow each other in a loop,
         float[N, A] in the order of `arcs_of`, or a mapping of pairs of joints to float[N], the others being those of
         the mechanism; the angle between two arcs of a link stays. ``"axes"``: directions of all joints where
         spherical loops are closed, float[N, J, 3]. ``"points"``: of all joints where planar loops are closed, float[N,
-        J, 3], in the unit of the coordinates. ``"coordinates"``: vertices of a crease pattern, float[N, V, 2 or 3];
-        where it is flat, or has more closure equations than creases to solve them for, each member is folded by
-        itself, which takes milliseconds. Empty: the mechanism alone, which may have spatial loops then.
+        J, 3], in the unit of the coordinates. Of a linkage with a spatial loop one of these or both, each member being
+        moved by itself, which takes milliseconds, from where its axes are. ``"coordinates"``: vertices of a crease
+        pattern, float[N, V, 2 or 3]; where it is flat, or has more closure equations than creases to solve them for,
+        each member is folded by itself too. Empty: the mechanism alone, which may have spatial loops.
     drive : mapping of joint id to float[F] or float[N, F]
         Radians; of creases fold angles, of other joints from the configuration of the mechanism, or from the axes
         that are given; of prismatic joints lengths. They are gone through one after the other. As many joints as
@@ -159,7 +162,8 @@ def sweep(
     Raises
     ------
     UnsolvableError
-        If the mechanism has no coordinates or a spatial loop, or so many driven joints do not determine the others.
+        If the mechanism has no coordinates, arcs are given of a spatial loop, or so many driven joints do not
+        determine the others.
     InvariantError
         If arrays do not fit each other or the mechanism, or have numbers out of range.
 
@@ -182,7 +186,7 @@ def sweep(
         if joint not in names:
             raise InvariantError("joint", f"{shown(joint)} is no joint of the mechanism", "one of its joints")
     driven = np.array([names.index(joint) for joint in drive], dtype=np.int64)
-    walks = set(parameters) <= ({"coordinates"} if isinstance(at, SheetConfiguration) else set())
+    walks = set(parameters) <= _walked_kinds(at)
     if walks and (_is_flat(at) or not _determined(at, drive)):
         return _walked(at, parameters, drive, driven, joints, report)
     family, of_mechanism = family_of(linkage, list(drive))
@@ -225,6 +229,14 @@ def _determined(at: Configuration, drive: Mapping[JointId, object]) -> bool:
     return True
 
 
+def _walked_kinds(at: Configuration) -> set[str]:
+    """Return the kinds of dimensions of members that can be moved one after the other."""
+    if isinstance(at, SheetConfiguration):
+        return {"coordinates"}
+    spatial = any(loop.centre is Centre.NONE for loop in at.linkage.loops)
+    return {"axes", "points"} if spatial else set()
+
+
 def _is_flat(at: Configuration) -> bool:
     return isinstance(at, SheetConfiguration) and at.flat
 
@@ -239,9 +251,10 @@ def _walked(
 ) -> Sweep:
     """Move members one after the other: they are flat, or joints are not determined by count."""
     members: Sequence[Callable[[], Configuration]] = [lambda: at]
-    if parameters:
-        assert isinstance(at, SheetConfiguration)
+    if isinstance(at, SheetConfiguration) and parameters:
         members = sheets_at(at, checked_coordinates(at, parameters["coordinates"]))
+    elif parameters:
+        members = linkages_at(at, *spatial_axes(at.linkage, parameters))
     inputs = _inputs(drive, len(members))
     units = np.ones(len(at.joints))
     units[list(at.linkage.slides)] = at.linkage.extent
@@ -318,6 +331,27 @@ def sheets_at(at: SheetConfiguration, coordinates: Floats) -> list[Callable[[], 
         return configuration_of(replace(at.sheet, coordinates=tuple(map(tuple, corners.tolist()))))
 
     return [partial(made, corners) for corners in coordinates]
+
+
+def linkages_at(at: Configuration, axes: Floats, points: Floats) -> list[Callable[[], Configuration]]:
+    """Return what makes the configuration of a linkage with each of some axes, float[N, J, 3] both, in extents.
+
+    Any axes are those of a linkage that closes where they are; but a loop about a centre, or a planar one, remains so.
+    """
+    linkage = at.linkage
+
+    def made(along: Floats, places: Floats) -> Configuration:
+        for loop in linkage.loops:
+            joints = list(loop.joints)
+            if loop.centre is Centre.FINITE and lines_meet(places[joints], along[joints]).off.max() > DOUBLE.meant:
+                raise UnsolvableError("the axes of a loop about a centre do not meet in a point")
+            if loop.centre is Centre.INFINITE:
+                turning = along[[joint for joint in joints if joint not in linkage.slides]]
+                if np.abs(np.cross(turning, turning[:1])).max(initial=0.0) > DOUBLE.meant:
+                    raise UnsolvableError("the axes of a planar loop are not parallel")
+        return replace(at, linkage=replace(linkage, directions=along, points=places))
+
+    return [partial(made, along, places) for along, places in zip(axes, points, strict=True)]
 
 
 def _moved(own: Configuration, driven: Ints, values: Floats) -> Iterator[tuple[Ints, Floats, Floats]]:

@@ -1,20 +1,27 @@
 """Members of a type by arrays: against positions and closed forms, the library against numpy, and what does not close."""
 
 import re
+from dataclasses import replace
 
+import networkx as nx
 import numpy as np
 import pytest
+from scipy.linalg import expm
 from spherical import FOUR_BAR, STEPHENSON, WATT, spherical
 
 from graphs.compiled import library
 from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.formats import read
 from graphs.joints.linkage import JointedLinkage, JointPlace
+from graphs.loops.loop import Centre
+from graphs.mechanism.sc import SCGraph
 from synth.assembly import positions
 from synth.folding.motion import fold
 from synth.fourbar.closing import can_close
 from synth.members import STATES, arcs_of, kernel, sweep
+from synth.members.sweeping import linkages_at
 from synth.motion.closure import ClosureEquations
+from synth.motion.linkage import linkage_of_axes
 from synth.motion.path import driven_path
 from synth.moving.made import configuration_of
 from synth.moving.motion import move
@@ -236,6 +243,61 @@ def test_a_mechanism_alone(name):
     assert swept.closed.any()
 
 
+def turned(points, directions, angles):
+    """The product of the motions of joints one after the other, by matrix exponentials: float[4, 4]."""
+    product = np.eye(4)
+    for point, (x, y, z), angle in zip(points, directions, angles, strict=True):
+        turn = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+        twist = np.zeros((4, 4))
+        twist[:3, :3], twist[:3, 3] = turn, -turn @ point
+        product = product @ expm(angle * twist)
+    return product
+
+
+def test_members_with_a_spatial_loop():
+    """Rings of seven joints, of one freedom each, from axes at random; each moves as it does alone, and closes."""
+    chance, ring = np.random.default_rng(5), nx.cycle_graph(7).edges
+    chain = SCGraph(7, list(ring))
+    axes, points = chance.normal(size=(3, 7, 3)), 10.0 * chance.normal(size=(3, 7, 3))
+    made = [linkage_of_axes(chain, dict(enumerate(zip(*one, strict=True)))) for one in zip(points, axes, strict=True)]
+    joint, inputs = made[0].loops[0].joints[0], [0.01, -0.01, 3.0]
+    swept = sweep(made[0], {"axes": axes, "points": points}, drive={joint: inputs})
+    assert swept.closed[:, :2].all()
+    for own, rows, state in zip(made, swept.angles, swept.state, strict=True):
+        order, signs = list(own.loops[0].joints), np.array(own.loops[0].signs)
+        unit_axes = own.directions[order]
+        for value, angles in zip(inputs[:2], rows, strict=False):
+            np.testing.assert_allclose(angles, move(own, drive={joint: value}, frames=1).path.angles[-1], atol=1e-9)
+            whole = turned(own.points[order], unit_axes, signs * angles[order])
+            np.testing.assert_allclose(whole, np.eye(4), atol=1e-11)
+        assert STATES[state[2]] in ("closed", "turns back", "not reached")
+    alone = sweep(made[1], {}, drive={joint: inputs})
+    np.testing.assert_allclose(alone.angles[0], swept.angles[1], atol=1e-9)
+    moved = sweep(made[0], {"points": points[:1]}, drive={joint: inputs})
+    np.testing.assert_allclose(moved.angles, swept.angles[:1], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "centre", "told"),
+    [
+        (spherical_ring(np.radians(CRANK)), Centre.FINITE, "do not meet in a point"),
+        (slider_crank(), Centre.INFINITE, "are not parallel"),
+    ],
+)
+def test_members_keep_their_centres(mechanism, centre, told):
+    """Beside a spatial loop others stay about a point, or planar."""
+    at = configuration_of(mechanism, slides=True)
+    [loop] = at.linkage.loops
+    at = replace(at, linkage=replace(at.linkage, loops=(replace(loop, centre=centre),)))
+    axes, points = at.linkage.directions, at.linkage.points
+    tilted = axes + 0.01 * np.random.default_rng(2).normal(size=axes.shape)
+    moved = points + 0.01 * np.random.default_rng(3).normal(size=axes.shape)
+    same, other = linkages_at(at, np.array([axes, tilted]), np.array([points, moved]))
+    np.testing.assert_array_equal(same().linkage.points, points)
+    with pytest.raises(UnsolvableError, match=told):
+        other()
+
+
 def test_links_of_three_joints_keep_the_angle_between_their_arcs():
     linkage = spherical(WATT, np.random.default_rng(4))
     arcs = arcs_of(linkage)
@@ -268,6 +330,11 @@ def test_only_some_joints_and_a_report():
         ({"axes": np.zeros((1, 4))}, {0: [0.1]}, "an array of shape (1, 4); expected float[N, 4, 3]"),
         ({"arcs": np.ones((2, 4))}, {0: [np.nan]}, "the inputs of joint 0 are not all numbers"),
         ({"arcs": np.ones((2, 4))}, {0: np.ones((3, 5))}, "inputs of shape (3, 5) for joint 0"),
+        (
+            {"axes": np.ones((1, 4, 3)), "points": np.ones((1, 4, 3))},
+            {0: [0.1]},
+            "parameters 'axes', 'points'; expected",
+        ),
         ({"coordinates": np.ones((2, 4, 3))}, {0: [0.1]}, "coordinates require a crease pattern"),
         ({"arcs": np.ones((2, 4))}, {0: [0.1], 1: [0.1]}, "2 joints driven"),
     ],
