@@ -47,7 +47,7 @@ COMMANDS = [
     "explain data/linkages/bennett.json",
     "advise data/patterns/four-bar-vertex.fold --freedoms 0",
     "layers data/patterns/bird-base.fold --order 1",
-    "thicken data/realised/chain-RR.fold --thickness 0.01",
+    "thicken data/realised/chain-RR.fold --thickness 0.01 --no-collisions",
     "dyads --orientations data/orientations/tipparthi.json",
     "fourbar --orientations data/orientations/crank-rocker.json --best 1",
     "cone move data/surfaces/fig11-stephenson.json",

@@ -3,34 +3,136 @@
 Theory: docs/guides/thick-panels.md.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import pi
 from pathlib import Path
 from typing import Any
 
-import networkx as nx
 import numpy as np
-from scipy.spatial.transform import Rotation
+import shapely
 
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.files.formats import write
 from graphs.files.outputs import check_writable, write_as
+from graphs.geometry import unit
+from graphs.mechanism.precision import in_space
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import Axis, HingedSolids
 from graphs.printing import Block, Printed, TableBlock
 from graphs.types import Floats
 from synth.folding.configuration import SheetConfiguration
+from synth.motion.closure import ClosureEquations
+from synth.motion.configuration import Configuration
 from synth.motion.driving import MotionOptions
 from synth.motion.motion import motion_of
 from synth.moving.made import configuration_of
 from synth.templates.solids import SOLIDS, Solids
 from synth.templates.template import GREATEST
+from synth.thickening.collisions import FoldCourse, Meeting, MovingPieces, body_poses
 from synth.thickening.heights import HingeHeights, hinge_heights
-from synth.thickening.plates import ThickPlates, thick_plates
+from synth.thickening.plates import Plates, ThickPlates, cut_back, hinge_lines, thick_plates
+from synth.thickening.techniques import offset_plates, strip_plates, tapered_plates, trims_of
 from synth.verdict.judged import verdict_of_motion
 from synth.verdict.verdict import Verdict
+
+_CLEARANCE = 0.02
+"""Default clearance of panels that no hinge joins, as a part of the thickness."""
+_DENSITY = 700.0
+"""Kilograms per cubic metre, of plywood."""
+TECHNIQUES = ("spatial", "tapered", "offset", "hinge")
+"""Ways to give panels a thickness."""
+_GREATEST_ANGLES = {"spatial": 179.0, "tapered": 150.0, "offset": 179.0, "hinge": 150.0}
+"""Default greatest fold angles, degrees."""
+_STEPS = (1.5, 0.5)
+"""Degrees between places of the motion at which panels are cut back: finer ones if solids still meet."""
+_RANGES = (180.0, 165.0, 150.0, 135.0, 120.0, 105.0, 90.0, 75.0, 60.0, 45.0, 30.0, 15.0)
+"""Greatest fold angles, degrees, up to which panels are cut back: the first at which each hinge keeps a part."""
+
+
+@dataclass(frozen=True)
+class Collisions:
+    """Whether the solids meet on the motion.
+
+    Attributes
+    ----------
+    meeting : Meeting
+        The first place at which solids meet, swept: no configuration is left out.
+    overlaps : float[F]
+        The volume that solids have in common in each frame, cubic millimetres.
+    clearance : float
+        Between panels that no hinge joins, millimetres.
+
+    Examples
+    --------
+    >>> import synth
+    >>> thick = synth.thicken(synth.generate("miura", rows=2, columns=2).mechanism, thickness=0.05)
+    >>> thick.collisions.meeting.panels, float(thick.collisions.overlaps.max())
+    (None, 0.0)
+    """
+
+    meeting: Meeting
+    overlaps: Floats
+    clearance: float
+
+
+@dataclass(frozen=True)
+class TechniqueFigures:
+    """What a technique gives for a sheet, to compare it with others.
+
+    Attributes
+    ----------
+    how : str
+        ``spatial``, ``tapered``, ``offset`` or ``hinge``.
+    angle : float
+        The largest fold angle until solids meet, radians.
+    stowed : tuple of 3 float
+        Sides of a box round the solids there, millimetres, the longest first: upright on panel 0.
+    thinnest : float
+        The least height of a slab or width of a part, millimetres.
+    mass : float
+        Of all panels, grams, at 700 kilograms per cubic metre (plywood).
+    fault : str
+        Why the technique does not suit the sheet; empty if it does.
+
+    Examples
+    --------
+    >>> TechniqueFigures("tapered", fault="panel 0 allows less than 1 mm").angle
+    0.0
+    """
+
+    how: str
+    angle: float = 0.0
+    stowed: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    thinnest: float = 0.0
+    mass: float = 0.0
+    fault: str = ""
+
+    @property
+    def rank(self) -> tuple[float, ...]:
+        """Better ones come first: by greatest angle to a degree, stowed volume, thinnest part, mass."""
+        angle = round(float(np.degrees(self.angle)))
+        return (-angle, round(float(np.prod(self.stowed)), 3), -self.thinnest, self.mass)
+
+    def row(self) -> tuple[str, ...]:
+        """Return the row of a table."""
+        if self.fault:
+            return (self.how, self.fault, "", "", "")
+        box = " x ".join(f"{side:.4g}" for side in self.stowed)
+        return (self.how, f"{np.degrees(self.angle):.4g}°", box, f"{self.thinnest:.3g}", f"{self.mass:.4g}")
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data: lengths in millimetres, angles in degrees, grams."""
+        if self.fault:
+            return {"how": self.how, "fault": self.fault}
+        return {
+            "how": self.how, "angle_deg": float(np.degrees(self.angle)), "stowed": list(self.stowed),
+            "thinnest": self.thinnest, "mass": self.mass,
+        }  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -43,7 +145,7 @@ class ThickSheet(Printed):
         Links are the panels; axes in millimetres, in the flat state.
     heights : HingeHeights
         In units of the thickness.
-    plates : ThickPlates
+    plates : Plates
         The solids in the flat state.
     thickness : float
         Millimetres.
@@ -55,27 +157,39 @@ class ThickSheet(Printed):
         Whether the fold angles are those of the thin sheet.
     residual : float
         The largest loop-closure residual of the solids on the motion.
+    hinge_lines : mapping of joint to list of (float[2], float[2])
+        The parts of each axis at which both panels have material, by their ends in the plane, millimetres.
+    how : str
+        ``spatial``, ``tapered``, ``offset`` or ``hinge``.
+    collisions : Collisions, optional
+        None if they were not looked for.
+    comparison : tuple of TechniqueFigures
+        Of all techniques, if the best was wanted.
 
     Examples
     --------
     >>> import synth
-    >>> thick = synth.thicken(synth.generate("miura").mechanism, thickness=0.05)
+    >>> thick = synth.thicken(synth.generate("miura").mechanism, thickness=0.05, collisions=False)
     >>> thick.solids
     <HingedSolids: 9 links, 12 joints>
     """
 
     solids: HingedSolids
     heights: HingeHeights
-    plates: ThickPlates
+    plates: Plates
     thickness: float
     verdict: Verdict
     angles: Floats
     keeps_angles: bool
     residual: float
+    hinge_lines: Mapping[int, Sequence[tuple[Floats, Floats]]]
+    how: str = "spatial"
+    collisions: Collisions | None = None
+    comparison: tuple[TechniqueFigures, ...] = ()
 
     def panel_motions(self) -> tuple[Floats, Floats]:
         """Return rotations, float[F, P, 3, 3], and translations, float[F, P, 3], of panels; panel 0 rests."""
-        return _panel_motions(self.solids, self.angles)
+        return body_poses(len(self.solids.chain), *_hinges(self.solids), self.angles)
 
     def blocks(self) -> list[Block]:
         """Return the sentence and the heights that are printed."""
@@ -85,17 +199,37 @@ class ThickSheet(Printed):
         angles = "those of the thin sheet" if self.keeps_angles else "not those of the thin sheet"
         rows = [(str(joint), f"{height * self.thickness:.6g}") for joint, height in self.heights.hinges.items()]
         most = float(np.degrees(np.abs(self.angles).max(initial=0.0)))
+        columns = ("technique", "greatest angle", "stowed box in mm", "thinnest part in mm", "mass in g")
+        compared = TableBlock(columns, [one.row() for one in self.comparison], columns[1:])
         return [
             str(self.verdict),
-            f"vertices: {linkages or 'none inside the sheet'}",
+            *([compared] if self.comparison else []),
+            *([f"vertices: {linkages or 'none inside the sheet'}"] if self.how == "spatial" else []),
             f"fold angles: {angles}, up to {most:.6g}°; loop-closure residual {self.residual:.1g}",
-            "collisions of the solids: not checked",
+            *self._collision_lines(),
             TableBlock(("crease", "height in mm"), rows, ("crease", "height in mm")),
         ]
 
+    def _collision_lines(self) -> list[str]:
+        if self.collisions is None:
+            return ["collisions of the solids: not checked"]
+        meeting, volume = self.collisions.meeting, self.plates.volume
+        angle = f"{np.degrees(meeting.angle):.6g}°"
+        met = "" if meeting.panels is None else "panels {} and {} meet at ".format(*meeting.panels)
+        first = f"collisions of the solids: {met or 'none up to '}{angle} (largest fold angle; swept, without gaps)"
+        most = float(self.collisions.overlaps.max(initial=0.0)) / volume
+        cut = sum(self.plates.cut.values())
+        lines = [first, f"overlap in {numbered(len(self.angles), 'frame')}: at most {most:.1g} of the volume"]
+        if cut:
+            part = f"{100.0 * cut / (volume + cut):.2g} percent of the volume"
+            clearance = f"clearance {self.collisions.clearance:.3g} mm"
+            lines.append(f"cut back: {numbered(len(self.plates.cut), 'panel')}, {part}; {clearance}")
+        return lines
+
     def to_json(self) -> dict[str, Any]:
-        """Return plain data: lengths in millimetres, angles in degrees."""
+        """Return plain data: lengths in millimetres, angles in degrees, volumes in cubic millimetres."""
         return {
+            "how": self.how,
             "thickness": self.thickness,
             "verdict": self.verdict.to_json(),
             "heights": [
@@ -109,6 +243,16 @@ class ThickSheet(Printed):
             "keeps_angles": self.keeps_angles,
             "residual": self.residual,
             "angles_deg": np.degrees(self.angles).tolist(),
+            "volume": self.plates.volume,
+            "cut": [{"panel": panel, "volume": volume} for panel, volume in sorted(self.plates.cut.items())],
+            "collisions": None
+            if self.collisions is None
+            else {
+                **self.collisions.meeting.to_json(),
+                "overlaps": self.collisions.overlaps.tolist(),
+                "clearance": self.collisions.clearance,
+            },
+            **({"comparison": [one.to_json() for one in self.comparison]} if self.comparison else {}),
         }
 
     def write(self, path: str | Path, *, force: bool = False) -> tuple[str, ...]:
@@ -123,8 +267,17 @@ class ThickSheet(Printed):
         return write_as(solids, path, SOLIDS, force=force)
 
 
-def thicken(mechanism: MechanismLike, *, thickness: float, scale: float = 1.0) -> ThickSheet:
-    """Give the panels of a flat crease pattern a thickness; hinges are moved off its plane so that it still folds.
+def thicken(
+    mechanism: MechanismLike,
+    *,
+    thickness: float,
+    how: str = "spatial",
+    scale: float = 1.0,
+    angle: float | None = None,
+    clearance: float | None = None,
+    collisions: bool = True,
+) -> ThickSheet:
+    """Give the panels of a flat crease pattern a thickness, in such a way that it still folds.
 
     Parameters
     ----------
@@ -132,8 +285,19 @@ def thicken(mechanism: MechanismLike, *, thickness: float, scale: float = 1.0) -
         A flat crease pattern of mountains and valleys.
     thickness : float
         Of panels, millimetres.
+    how : str, optional
+        ``spatial``: hinges are moved off the plane of the sheet, so that vertices become overconstrained linkages.
+        ``tapered``: sides of panels are planes through hinges in the plane. ``offset``: panels are stepped away from
+        that plane by a layer order. ``hinge``: panels are apart, and a flexible strip bridges the gap. ``best``:
+        that with the greatest fold angle, then the smallest stowed box, the thickest thinnest part, the least mass.
     scale : float, optional
         Millimetres per unit of the coordinates.
+    angle : float, optional
+        The greatest fold angle, radians; by default 179 degrees, for tapered panels and hinge strips 150.
+    clearance : float, optional
+        Between panels that no hinge joins, millimetres; by default a fiftieth of the thickness.
+    collisions : bool, optional
+        Cut panels back where they would meet, and find up to which fold angle none meet.
 
     Returns
     -------
@@ -142,15 +306,15 @@ def thicken(mechanism: MechanismLike, *, thickness: float, scale: float = 1.0) -
     Raises
     ------
     InvariantError
-        If the thickness or the scale is out of range.
+        If the thickness, the scale, the angle or the clearance is out of range, or the technique unknown.
     UnsolvableError
         If the sheet is not flat, has no assignment, a vertex suits no overconstrained linkage, conditions exclude
-        each other, a panel is too narrow, or nothing moves.
+        each other, a panel is too narrow, there is no layer order, or nothing moves.
 
     Examples
     --------
     >>> import synth
-    >>> thick = synth.thicken(synth.generate("miura").mechanism, thickness=0.1)
+    >>> thick = synth.thicken(synth.generate("miura").mechanism, thickness=0.1, collisions=False)
     >>> thick.keeps_angles, thick.residual < 1e-9
     (True, True)
     """
@@ -158,22 +322,163 @@ def thicken(mechanism: MechanismLike, *, thickness: float, scale: float = 1.0) -
     for name, value in (("thickness", thickness), ("scale", scale)):
         if not 0 < value <= GREATEST:
             raise InvariantError(name, f"{name} {value!r}", f"a positive number, at most {GREATEST:g}")
+    between = _CLEARANCE * thickness if clearance is None else clearance
+    if not 0 < between <= thickness:
+        raise InvariantError("clearance", f"clearance {between!r}", "a positive number, at most the thickness")
+    if how not in (*TECHNIQUES, "best"):
+        raise InvariantError("how", f"{how!r}", f"one of {', '.join(TECHNIQUES)} and best")
+    if angle is not None and not 0 < angle < pi:
+        raise InvariantError("angle", f"angle {np.degrees(angle):.6g} degrees", "more than 0 and less than 180")
     at = _flat_configuration(sheet)
-    heights = hinge_heights(at.sheet, at.mechanism, at.tolerances)
+    wishes = _Wishes(thickness, scale, angle, between, collisions)
+    return _best(at, wishes) if how == "best" else _thickened(at, how, wishes)
+
+
+@dataclass(frozen=True)
+class _Wishes:
+    thickness: float
+    scale: float
+    angle: float | None
+    clearance: float
+    collisions: bool
+
+
+def _best(at: SheetConfiguration, wishes: _Wishes) -> ThickSheet:
+    """Return the best of all techniques with a comparison; an error if none suits the sheet."""
+    sheets: dict[str, ThickSheet] = {}
+    figures = []
+    for how in TECHNIQUES:
+        try:
+            sheets[how] = _thickened(at, how, replace(wishes, collisions=True))
+            figures.append(_figures(sheets[how]))
+        except UnsolvableError as error:
+            figures.append(TechniqueFigures(how, fault=str(error)))
+    if not sheets:
+        raise UnsolvableError(
+            "no technique suits the sheet: " + "; ".join(f"{one.how}: {one.fault}" for one in figures)
+        )
+    best = min((one for one in figures if not one.fault), key=lambda one: one.rank)
+    return replace(sheets[best.how], comparison=tuple(figures))
+
+
+def _figures(thick: ThickSheet) -> TechniqueFigures:
+    """Return what a thick sheet is like: its box where solids meet, in directions of the least area on panel 0."""
+    assert thick.collisions is not None
+    course = FoldCourse(configuration_of(thick.solids).closure, thick.angles)
+    angles = course.at(np.array([thick.collisions.meeting.place]))
+    turns, shifts = body_poses(len(thick.solids.chain), *_hinges(thick.solids), angles)
+    corners = np.concatenate([mesh.corners for mesh in thick.plates.placed(turns[0], shifts[0])])
+    around = shapely.MultiPoint(corners[:, :2]).minimum_rotated_rectangle
+    ring = np.array(around.exterior.coords)
+    sides = [*np.linalg.norm(np.diff(ring[:3], axis=0), axis=1).tolist(), float(np.ptp(corners[:, 2]))]
+    stowed = tuple(sorted(sides, reverse=True))
+    mass = thick.plates.volume * _DENSITY * 1e-6
+    meeting = thick.collisions.meeting
+    return TechniqueFigures(thick.how, meeting.angle, stowed, thick.plates.thinnest, mass)
+
+
+def _thickened(at: SheetConfiguration, how: str, wishes: _Wishes) -> ThickSheet:
+    """Return the thick sheet of a technique."""
+    thickness, scale, clearance = wishes.thickness, wishes.scale, wishes.clearance
+    greatest = wishes.angle or np.radians(_GREATEST_ANGLES[how])
+    joints = [int(str(joint)) for joint in at.mechanism.sc.joints]
+    thin = FoldCourse(at.closure, motion_of(at, MotionOptions()).path.angles).up_to(greatest)
+    turned = thin.frames[-1]
+    plates: Plates
+    heights = HingeHeights(dict.fromkeys(joints, 0.0), (-0.5,) * len(at.mechanism.panels), (), 0.0)
+    if how == "spatial":
+        heights = hinge_heights(at.sheet, at.mechanism, at.tolerances)
+        plates = thick_plates(at.sheet, at.mechanism, heights, thickness, scale)
+    elif how == "offset":
+        plates, heights = offset_plates(at, thickness, scale, clearance)
+    elif how == "tapered":
+        plates = tapered_plates(at, trims_of(joints, turned), thickness, scale, clearance, greatest)
+    else:
+        plates = strip_plates(at, trims_of(joints, turned), thickness, scale, greatest)
     solids = _hinged_solids(at, heights, thickness, scale)
-    plates = thick_plates(at.sheet, at.mechanism, heights, thickness, scale)
     thick = configuration_of(solids)
     verdict = verdict_of_motion(thick)
-    thin = motion_of(at, MotionOptions()).path.angles
-    keeps, residual = True, _residual(thick.closure, thin)
-    angles = thin
+    course, keeps = FoldCourse(thick.closure, thin.frames), True
+    residual = _residual(thick.closure, course.frames)
     if not residual <= thick.tolerances.closed:
-        keeps, angles = False, motion_of(thick, MotionOptions()).path.angles
-        residual = _residual(thick.closure, angles)
-    return ThickSheet(solids, heights, plates, thickness, verdict, angles, keeps, residual)
+        course, keeps = _course_of_solids(at, thick, greatest)
+        residual = _residual(thick.closure, course.frames)
+    lines = _CreaseLines(at, heights, thickness, scale)
+    found = None
+    if wishes.collisions:
+        plates, found = _swept(plates, solids, course, clearance, lines, keep_risers=how == "offset")
+    kept = lines.lines(plates) if isinstance(plates, ThickPlates) and how != "hinge" else lines.whole()
+    return ThickSheet(solids, heights, plates, thickness, verdict, course.frames, keeps, residual, kept, how, found)
 
 
-def _residual(closure: Any, angles: Floats) -> float:
+def _course_of_solids(at: SheetConfiguration, thick: Configuration, greatest: float) -> tuple[FoldCourse, bool]:
+    """Return the motion of solids by themselves, and whether the thin sheet closes at its angles too."""
+    course = FoldCourse(thick.closure, motion_of(thick, MotionOptions()).path.angles).up_to(greatest)
+    return course, _residual(at.closure, course.frames) <= at.tolerances.closed
+
+
+class _CreaseLines:
+    """The creases of a sheet, their panels and heights, as `hinge_lines` takes them."""
+
+    def __init__(self, at: SheetConfiguration, heights: HingeHeights, thickness: float, scale: float) -> None:
+        corners = in_space(at.sheet.coordinates or ())[:, :2] * scale
+        joints = at.mechanism.sc.joints
+        self.ends = {int(str(j)): [corners[list(piece)] for piece in at.mechanism.pieces[int(str(j))]] for j in joints}
+        self.panels = {int(str(joint)): [int(str(link)) for link in links] for joint, links in joints.items()}
+        self.heights = {joint: height * thickness for joint, height in heights.hinges.items()}
+
+    def whole(self) -> dict[int, list[tuple[Floats, Floats]]]:
+        """Return creases from end to end."""
+        return {joint: [(piece[0], piece[1]) for piece in pieces] for joint, pieces in self.ends.items()}
+
+    def lines(self, plates: ThickPlates) -> dict[int, list[tuple[Floats, Floats]]]:
+        """Return where both panels of each hinge have material."""
+        return hinge_lines(plates, self.ends, self.panels, self.heights)
+
+
+def _swept(
+    plates: Plates, solids: HingedSolids, course: FoldCourse, clearance: float, joints: _CreaseLines,
+    *, keep_risers: bool = False,
+) -> tuple[Plates, Collisions]:  # fmt: skip
+    """Return plates, stacks of plies cut back, and whether they meet.
+
+    They are cut for the largest range that leaves a part of each hinge, then again in finer steps if they still meet.
+    """
+    cut, part, meeting = plates, course, None
+    for greatest in _RANGES if isinstance(plates, ThickPlates) else ():
+        part = course.up_to(np.radians(greatest))
+        for step in np.radians(_STEPS):
+            assert isinstance(cut, ThickPlates)
+            tried = cut_back(cut, *_moving(cut, solids, part), clearance, step, keep_risers=keep_risers)
+            if any(joints.lines(cut)[joint] and not kept for joint, kept in joints.lines(tried).items()):
+                break
+            cut = tried
+            meeting = _moving(cut, solids, part)[0].first_meeting()
+            if meeting.panels is None:
+                break
+        if cut is not plates:
+            break
+    moving, _ = _moving(cut, solids, course)
+    if meeting is None or part is not course:
+        meeting = moving.first_meeting()
+    return cut, Collisions(meeting, moving.overlaps(np.arange(len(course.frames), dtype=float)), clearance)
+
+
+def _moving(plates: Plates, solids: HingedSolids, course: FoldCourse) -> tuple[MovingPieces, Any]:
+    """Return the solids as pieces on their hinges, and the ply of each piece."""
+    pieces, of_ply = plates.pieces()
+    return MovingPieces(pieces, *_hinges(solids), course), of_ply
+
+
+def _hinges(solids: HingedSolids) -> tuple[list[tuple[int, int]], Floats, Floats]:
+    """Return the bodies of each hinge, by their places, and its axis: points and unit directions, float[J, 3]."""
+    number = {link: place for place, link in enumerate(solids.chain.nodes)}
+    pairs = [(number[one], number[other]) for one, other in solids.chain.joints.values()]
+    axes = np.array([solids.axes[joint] for joint in solids.chain.joints]).reshape(-1, 2, 3)
+    return pairs, axes[:, 0], unit(axes[:, 1])
+
+
+def _residual(closure: ClosureEquations, angles: Floats) -> float:
     return max((float(np.abs(closure.at(row)[0]).max(initial=0.0)) for row in angles), default=0.0)
 
 
@@ -202,29 +507,3 @@ def _hinged_solids(at: SheetConfiguration, heights: HingeHeights, thickness: flo
         u, v, w = linkage.directions[place].tolist()
         axes[joint] = (x, y, heights.hinges[int(str(joint))] * thickness), (u, v, w)
     return HingedSolids(SCGraph(at.mechanism.sc.nodes, at.mechanism.sc.joints), axes)
-
-
-def _panel_motions(solids: HingedSolids, angles: Floats) -> tuple[Floats, Floats]:
-    """Return how links stand at joint angles, by a tree of hinges from link 0."""
-    joints: Mapping[Any, Any] = solids.chain.joints
-    columns = {joint: place for place, joint in enumerate(joints)}
-    links = list(solids.chain.nodes)
-    rotations = np.tile(np.eye(3), (len(angles), len(links), 1, 1))
-    shifts = np.zeros((len(angles), len(links), 3))
-    graph = nx.Graph()
-    graph.add_nodes_from(links)
-    for joint, (first, second) in joints.items():
-        if not graph.has_edge(first, second):
-            graph.add_edge(first, second, joint=joint)
-    number = {link: place for place, link in enumerate(links)}
-    for near, far in nx.bfs_edges(graph, links[0]):
-        joint = graph.edges[near, far]["joint"]
-        point, along = (np.array(one) for one in solids.axes[joint])
-        sign = 1.0 if joints[joint][0] == near else -1.0
-        vectors = sign * angles[:, columns[joint], None] * along / np.linalg.norm(along)
-        turns = Rotation.from_rotvec(vectors).as_matrix()
-        here, there = number[near], number[far]
-        rotations[:, there] = rotations[:, here] @ turns
-        offset = point - turns @ point
-        shifts[:, there] = (rotations[:, here] @ offset[..., None])[..., 0] + shifts[:, here]
-    return rotations, shifts

@@ -32,7 +32,9 @@ class Served:
 
     def asked(self, name, content, *edits, motion=False):
         """What the workbench says of a file: ``shown`` or ``error``; with `motion`, of one however large."""
-        words = urllib.parse.urlencode([("name", name), *(("edit", edit) for edit in edits), *[("motion", "yes")] * motion])
+        words = urllib.parse.urlencode(
+            [("name", name), *(("edit", edit) for edit in edits), *[("motion", "yes")] * motion]
+        )
         request = urllib.request.Request(f"{self.address}shown?{words}", data=content, method="POST")
         with urllib.request.urlopen(request, timeout=300) as answer:
             lines = [json.loads(line) for line in answer.read().splitlines() if line.strip()]

@@ -1,5 +1,7 @@
 """``synth thicken``: a crease pattern with panels of a thickness."""
 
+from math import radians
+
 import click
 
 import synth.thickening
@@ -12,21 +14,46 @@ from synth.cli.reading import MECHANISM, PRECISION, precise_sheet, read
 @click.command()
 @MECHANISM
 @options.value("--thickness", "MM", "Thickness of panels, millimetres.", type=options.LENGTH, required=True)
-@options.value(
-    "--scale", None, "Millimetres per unit of the coordinates.", type=options.LENGTH, default=1.0
+@options.choice(
+    "--how",
+    ("spatial", "tapered", "offset", "hinge", "best"),
+    "How panels get their thickness: hinges off the plane; sides of panels tapered; panels stepped away by layers; "
+    "gaps at flexible strips; or the best of these.",
+    default="spatial",
 )
+@options.value("--angle", "DEG", "Greatest fold angle, degrees; by default 179, for tapered and hinge 150.", type=float)
+@options.value("--scale", None, "Millimetres per unit of the coordinates.", type=options.LENGTH, default=1.0)
+@options.value(
+    "--clearance",
+    "MM",
+    "Clearance between panels that no hinge joins, millimetres; by default a fiftieth of the thickness.",
+    type=options.LENGTH,
+)
+@options.flag("--no-collisions", "Neither cut panels back nor check whether solids meet.")
 @options.output("Write the hinged solids (.json), or their shapes (.stl, .3mf, .obj; .gltf with the motion).")
 @options.FORCE
 @options.JSON
 @PRECISION
-def thicken(file: str, thickness: float, scale: float, output: str | None, force: bool, as_json: bool) -> None:
+def thicken(
+    file: str,
+    thickness: float,
+    how: str,
+    angle: float | None,
+    scale: float,
+    clearance: float | None,
+    no_collisions: bool,
+    output: str | None,
+    force: bool,
+    as_json: bool,
+) -> None:
     """Give panels a thickness, and move hinges off the plane so that the pattern still folds.
 
     Each vertex becomes an overconstrained spatial linkage: Bennett's for four creases of a flat-foldable vertex,
     which keeps all fold angles; Myard's for five and the plane-symmetric one of Bricard for six, if sectors and
     assignment are symmetric. One linear programme finds the heights of all hinges with the lowest risers; if there
     are none, vertices and panels whose conditions exclude each other are named. The verdict is that of the solids
-    and their hinges. Whether solids meet on the way is not checked.
+    and their hinges. Panels are cut back where they would meet; up to which fold angle none meet is then checked
+    for the whole motion, without gaps between frames.
 
     \b
     Examples:
@@ -41,7 +68,15 @@ def thicken(file: str, thickness: float, scale: float, output: str | None, force
     mechanism = read(file)
     with about(file):
         check_argument("thicken", mechanism, Sheet)
-        thick = synth.thickening.thicken(precise_sheet(mechanism), thickness=thickness, scale=scale)
+        thick = synth.thickening.thicken(
+            precise_sheet(mechanism),
+            thickness=thickness,
+            how=how,
+            angle=None if angle is None else radians(angle),
+            scale=scale,
+            clearance=clearance,
+            collisions=not no_collisions,
+        )
         lost = thick.write(output, force=force) if output else ()
     if as_json:
         print_json({"file": file, "output": output, **thick.to_json()})

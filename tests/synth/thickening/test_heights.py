@@ -83,6 +83,13 @@ def test_panels_leave_room_for_valleys_over_mountains(name):
             assert above > 1 - 1e-9 if at.sheet.assignments[joint] == "V" else above < 1e-9
 
 
+def test_one_offset_wrong_by_a_percent_is_proved_rigid():
+    random = np.random.default_rng(7)
+    for _ in range(4):
+        verdict = synth.mobility(thick(random_vertex(random)[0], 0.01)).verdict
+        assert repr(verdict) == "<Verdict: 0 degrees of freedom, proved>"
+
+
 def test_a_symmetric_vertex_of_six_creases_has_one_freedom_instead_of_three():
     sheet = fan([np.pi / 4, np.pi / 2, np.pi / 4] * 2, "MVVMVV")
     at = configuration_of(sheet)
