@@ -16,7 +16,7 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.polyhedron import GROUND, PointConstraint, PolyhedronModel, RemoteCentre
 from graphs.mechanism.sc import SCGraph, SpecialGeometry
 from graphs.mechanism.scd import SCDGraph
-from graphs.mechanism.solids import Axis, HingedSolids, Vector
+from graphs.mechanism.solids import Axis, HingedSolids, LinkShape, Vector
 from graphs.mechanism.surfaces import Cone, Cylinder, Pair, Surface, SurfaceLinkage, as_planar, places_of_steps
 from graphs.mechanism.vertex_edge import VertexEdgeGraph
 from graphs.types import JointId, LinkId
@@ -398,11 +398,30 @@ def _in_file(angle: float) -> float:
 
 def solids_from_document(value: Mapping[str, Any], check: Checker) -> HingedSolids:
     """Read hinged solids from their document."""
-    check.mapping(value, "", (*_CHAIN_KEYS, "axes"), ("ground", "special"))
-    chain = read_sc({key: value[key] for key in value if key != "axes"}, check)
+    check.mapping(value, "", (*_CHAIN_KEYS, "axes"), ("ground", "special", "shapes"))
+    chain = read_sc({key: value[key] for key in value if key not in ("axes", "shapes")}, check)
     axes = _axes(value["axes"], chain, check)
+    shapes = tuple(
+        _shape(item, place, check) for place, item in check.items(value.get("shapes", []), "shapes", "a list of shapes")
+    )
     place_of = {joint: f"axes[{place}]" for place, joint in enumerate(axes)}
-    return check.build(lambda: HingedSolids(chain, axes), lambda part: place_of.get(part[1], "axes"), "axes")
+
+    def where(part: Any) -> str:
+        return f"shapes[{part[1]}]" if part[0] == "shapes" else place_of.get(part[1], "axes")
+
+    return check.build(lambda: HingedSolids(chain, axes, shapes=shapes), where, "axes")
+
+
+def _shape(item: Any, place: str, check: Checker) -> LinkShape:
+    check.mapping(item, place, ("link", "corners", "triangles"), ("name",))
+    link = check.name(item["link"], f"{place}.link", "a link")
+    name = check.text(item["name"], f"{place}.name") if "name" in item else ""
+    corners = tuple(_vector(one, at, check) for at, one in check.items(item["corners"], f"{place}.corners", "points"))
+    triangles = []
+    for at, one in check.items(item["triangles"], f"{place}.triangles", "a list of triangles"):
+        a, b, c = (check.integer(corner, f"{at}[{k}]", 0) for k, corner in enumerate(check.list(one, at, 3)))
+        triangles.append((a, b, c))
+    return LinkShape(link, name, corners, tuple(triangles))
 
 
 def _axes(value: Any, chain: SCGraph, check: Checker) -> dict[JointId, Axis]:
@@ -430,7 +449,15 @@ def solids_document(solids: HingedSolids) -> dict[str, Any]:
             {"joint": written(joint), "point": list(point), "direction": list(direction)}
             for joint, (point, direction) in solids.axes.items()
         ],
+        **({"shapes": [_shape_document(shape) for shape in solids.shapes]} if solids.shapes else {}),
     }
+
+
+def _shape_document(shape: LinkShape) -> dict[str, Any]:
+    return {
+        "link": written(shape.link), **({"name": shape.name} if shape.name else {}),
+        "corners": list(map(list, shape.corners)), "triangles": list(map(list, shape.triangles)),
+    }  # fmt: skip
 
 
 def joints_from_document(value: Mapping[str, Any], check: Checker) -> JointedLinkage:

@@ -11,11 +11,36 @@ from types import MappingProxyType
 from graphs.errors import InvariantError, numbered, shown
 from graphs.limits import LEAST, MOST, check_extent, in_reach
 from graphs.mechanism.sc import SCGraph
-from graphs.types import JointId
+from graphs.types import JointId, LinkId
 
 Vector = tuple[float, float, float]
 Axis = tuple[Vector, Vector]
 """A point of a joint axis and its direction."""
+
+
+@dataclass(frozen=True, slots=True)
+class LinkShape:
+    """A closed plane-faced solid of a link, in the unit of the axes, at the configuration of the axes.
+
+    Attributes
+    ----------
+    link : link id
+    name : str
+    corners : tuple of (float, float, float)
+    triangles : tuple of (int, int, int)
+        Places of corners, counter-clockwise seen from outside.
+
+    Examples
+    --------
+    >>> corners = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1))
+    >>> LinkShape(0, "wedge", corners, ((0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3))).link
+    0
+    """
+
+    link: LinkId
+    name: str
+    corners: tuple[Vector, ...]
+    triangles: tuple[tuple[int, int, int], ...]
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -31,11 +56,14 @@ class HingedSolids:
         first, right-handed about the direction.
     notes : tuple of str, optional
         What a file had that was not read.
+    shapes : tuple of LinkShape, optional
+        Solids of links, where they are known.
 
     Raises
     ------
     InvariantError
-        If a joint has no axis, an axis no direction, or a number is not finite.
+        If a joint has no axis, an axis no direction, a number is not finite, or a shape is of no link, or has a
+        triangle without a corner.
 
     Examples
     --------
@@ -46,6 +74,7 @@ class HingedSolids:
     chain: SCGraph
     axes: Mapping[JointId, Axis]
     notes: tuple[str, ...] = field(default=(), compare=False)
+    shapes: tuple[LinkShape, ...] = field(default=(), compare=False)
 
     def __post_init__(self) -> None:
         checked: dict[JointId, Axis] = {}
@@ -61,11 +90,28 @@ class HingedSolids:
                 raise InvariantError("axis", wrong, "a vector that is not zero", ("axes", joint))
             checked[joint] = (point, direction)
         check_extent([point for point, _ in checked.values()])
+        for place, shape in enumerate(self.shapes):
+            _check_shape(self.chain, shape, place)
         object.__setattr__(self, "axes", MappingProxyType(checked))
 
     def __repr__(self) -> str:
         links, joints = numbered(len(self.chain), "link"), numbered(len(self.axes), "joint")
         return f"<HingedSolids: {links}, {joints}>"
+
+
+def _check_shape(chain: SCGraph, shape: LinkShape, place: int) -> None:
+    """Refuse the shape of a link that is not there, numbers that are not finite, and corners that are not there."""
+    if shape.link not in chain.nodes:
+        raise InvariantError("shape", f"{shown(shape.link)} is no link", "a link", ("shapes", place))
+    for corner in shape.corners:
+        if len(corner) != 3 or not in_reach(corner):
+            wrong = f"a shape of link {shown(shape.link)} has the corner {shown(list(corner))}"
+            raise InvariantError("shape", wrong, f"three numbers, none beyond {MOST:g}", ("shapes", place))
+    for triangle in shape.triangles:
+        if len(set(triangle)) != 3 or not all(0 <= corner < len(shape.corners) for corner in triangle):
+            wrong = f"a shape of link {shown(shape.link)} has the triangle {shown(list(triangle))}"
+            expected = f"three of its {numbered(len(shape.corners), 'corner')}"
+            raise InvariantError("shape", wrong, expected, ("shapes", place))
 
 
 def _vector(joint: JointId, numbers: Sequence[float]) -> Vector:

@@ -15,6 +15,7 @@ import numpy as np
 
 from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.geometry import frame_about
+from graphs.mechanism.solids import LinkShape
 from graphs.printing import plain
 from graphs.tolerances import DOUBLE, leading
 from graphs.types import Floats, JointId, LinkId
@@ -25,7 +26,7 @@ from synth.motion.configuration import Configuration
 from synth.motion.driving import DrivenMotion, MotionOptions, driven_from
 from synth.motion.linkage import PosedLinkage, moved, placed_links
 from synth.moving.made import Movable, configuration_of
-from synth.simulation.bodies import Bar, Body, Hinge, MassProperties, Plate, Shape, Shell, TreeJoint
+from synth.simulation.bodies import Bar, Body, Hinge, MassProperties, Plate, Polyhedron, Shape, Shell, TreeJoint
 from synth.simulation.connections import CutHinge, Parting, connections
 from synth.simulation.shells import shells_of
 from synth.templates.unfolding import Plane
@@ -63,6 +64,8 @@ class AssemblyOptions:
         Motion branch, as for `synth.move`.
     springs : Springs, optional
         Newton metres per radian, and constant moments at joints in newton metres.
+    shapes : tuple of LinkShape, optional
+        Solids of links, in the unit of the axes; by default bars between hinges.
 
     Examples
     --------
@@ -77,6 +80,7 @@ class AssemblyOptions:
     drive: Mapping[JointId, float] = field(default_factory=dict)
     branch: int | str | None = None
     springs: Springs = field(default_factory=Springs)
+    shapes: tuple[LinkShape, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("thickness", "density", "scale", "size"):
@@ -214,7 +218,7 @@ def assembly_of(mechanism: Movable, options: AssemblyOptions | None = None) -> A
     drivers = () if driven is None else tuple(driven.places)
     hinges = _hinges(at, posed, metre, options, unit_length)
     on_surface = shells_of(mechanism if at.given is None else at.given, linkage, angles, metre, thickness)
-    bodies = _bodies(at, posed, hinges, angles, metre, options.density, thickness, on_surface)
+    bodies = _bodies(at, posed, hinges, angles, metre, options.density, thickness, on_surface, options.shapes)
     lengths = np.where(np.isin(np.arange(len(hinges)), linkage.slides), metre, 1.0)
     tree, bases, cut = spanning_tree(at, hinges, drivers)
     few = path[:: max(1, len(path) // _LOOKED_AT)]
@@ -347,7 +351,7 @@ def _places(at: Configuration, posed: PosedLinkage) -> tuple[Floats, Floats]:
 
 def _bodies(
     at: Configuration, posed: PosedLinkage, hinges: Sequence[Hinge], angles: Floats, metre: float, density: float,
-    thickness: float, shells: Mapping[LinkId, Shell],
+    thickness: float, shells: Mapping[LinkId, Shell], solids: Sequence[LinkShape],
 ) -> tuple[Body, ...]:  # fmt: skip
     names = _names("link", posed.graph.nodes)
     bodies = []
@@ -355,6 +359,9 @@ def _bodies(
     for number, link in enumerate(posed.graph.nodes):
         if link in shells:
             shapes: list[Shape] = [shells[link]]
+        elif any(solid.link == link for solid in solids):
+            own = [solid for solid in solids if solid.link == link]
+            shapes = _polyhedra(at, own, (turns[number], shifts[number]), metre)
         elif isinstance(at, SheetConfiguration):
             shapes = _plates(at, number, (turns[number], shifts[number]), metre, thickness)
         else:
@@ -372,6 +379,19 @@ def _plates(
     corners = (np.array([[*corner, 0.0][:3] for corner in sheet.coordinates or ()]) - linkage.middle) / linkage.extent
     there = (corners @ rotation.T + shift) * metre + linkage.middle * (metre / linkage.extent)
     return [Plate(Plane(there[list(sheet.faces[face])], face), thickness) for face in at.mechanism.panels[link]]
+
+
+def _polyhedra(
+    at: Configuration, solids: Sequence[LinkShape], place: tuple[Floats, Floats], metre: float
+) -> list[Shape]:
+    """Return the solids of a link at a place: its rotation and its shift."""
+    linkage, (rotation, shift) = at.linkage, place
+    shapes: list[Shape] = []
+    for solid in solids:
+        corners = (np.array(solid.corners) - linkage.middle) / linkage.extent
+        there = (corners @ rotation.T + shift) * metre + linkage.middle * (metre / linkage.extent)
+        shapes.append(Polyhedron(there, np.array(solid.triangles)))
+    return shapes
 
 
 def _bars(hinges: Sequence[Hinge], metre: float, thickness: float) -> list[Shape]:

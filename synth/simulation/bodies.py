@@ -14,7 +14,7 @@ import numpy as np
 
 from graphs.errors import numbered
 from graphs.geometry import unit
-from graphs.types import Floats, JointId, LinkId
+from graphs.types import Floats, Ints, JointId, LinkId
 from synth.templates.unfolding import Plane
 
 
@@ -144,9 +144,32 @@ class Shell:
         return [Plate(Plane(np.array(ring), number), thickness) for number, ring in enumerate(rings)]
 
 
+@dataclass(frozen=True, eq=False)
+class Polyhedron:
+    """A closed solid by corners float[n, 3] and triangles int[m, 3], counter-clockwise seen from outside."""
+
+    corners: Floats
+    triangles: Ints
+
+    def properties(self, density: float) -> MassProperties:
+        """Return its mass, centre and inertia, exactly: those of tetrahedra from a corner to each triangle, signed."""
+        origin = self.corners[0]
+        sides = self.corners[self.triangles] - origin
+        volumes = np.einsum("ti,ti->t", sides[:, 0], np.cross(sides[:, 1], sides[:, 2])) / 6.0
+        mass, sums = float(density * volumes.sum()), sides.sum(axis=1)
+        centre = density * (volumes[:, None] * sums / 4.0).sum(axis=0) / mass
+        products = np.einsum("tki,tkj->tij", sides, sides) + sums[:, :, None] * sums[:, None, :]
+        second = density * (volumes[:, None, None] * products / 20.0).sum(axis=0) - mass * np.outer(centre, centre)
+        return MassProperties(mass, origin + centre, np.trace(second) * np.eye(3) - second)
+
+    def plates(self) -> list[Plate]:
+        """Return no plates: formats that have only these do not hold it."""
+        return []
+
+
 _FACET = np.radians(10.0)
 """Azimuth of a plate in place of a shell, at most."""
-Shape: TypeAlias = Plate | Bar | Shell
+Shape: TypeAlias = Plate | Bar | Shell | Polyhedron
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,7 +14,7 @@ from graphs.geometry import frame_about, unit
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.simulation.assembly import Assembly
-from synth.simulation.bodies import Bar, Plate, Shape, Shell, springs_and_moments
+from synth.simulation.bodies import Bar, Plate, Polyhedron, Shape, Shell, springs_and_moments
 
 _MILLIMETRES = 1000.0
 _ACCURACY = 1e-7
@@ -126,7 +126,31 @@ class _File:
 def _solid(file: _File, shape: Shape, origin: Floats) -> str:
     if isinstance(shape, Shell):
         return _shell(file, shape, origin)
+    if isinstance(shape, Polyhedron):
+        return _polyhedron(file, shape, origin)
     return _bar(file, shape, origin) if isinstance(shape, Bar) else _plate(file, shape, origin)
+
+
+def _polyhedron(file: _File, solid: Polyhedron, origin: Floats) -> str:
+    """Return a solid of triangles; each edge is written once, and passed both ways."""
+    corners = _MILLIMETRES * (solid.corners - origin)
+    vertices = [file.add(f"VERTEX_POINT('',{file.point(corner)})") for corner in corners]
+    edges: dict[tuple[int, int], str] = {}
+    faces = []
+    for triangle in solid.triangles.tolist():
+        around = []
+        for a, b in zip(triangle, triangle[1:] + triangle[:1], strict=True):
+            low, high = min(a, b), max(a, b)
+            if (low, high) not in edges:
+                line = file.line(corners[low], corners[high])
+                edges[low, high] = file.add(f"EDGE_CURVE('',{vertices[low]},{vertices[high]},{line},.T.)")
+            around.append((edges[low, high], a == low))
+        first, second, third = corners[triangle]
+        along = unit(second - first)
+        normal = unit(np.cross(second - first, third - first))
+        frame = np.column_stack([along, np.cross(normal, along), normal])
+        faces.append(file.face(around, file.add(f"PLANE('',{file.placement(first, frame)})")))
+    return file.solid(faces)
 
 
 def _plate(file: _File, plate: Plate, origin: Floats) -> str:

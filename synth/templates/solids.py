@@ -14,6 +14,7 @@ from graphs.files.solids.meshes import Mesh, obj_of_meshes, stl_bytes, three_mf_
 from graphs.geometry import rigid_motion
 from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import FLAT, Sheet, with_all_edges
+from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import Surface
 from graphs.types import Floats
 from synth.conformed.linkages import OnSurface
@@ -234,6 +235,40 @@ def write_solids(
     else:
         solids = Solids(plates_in_space(plates), frames_left_out=of_file.left_out + len(poses) - 1)
     return write_as(solids, path, SOLIDS, force=force)
+
+
+def write_shapes(solids: HingedSolids, path: str | Path, *, force: bool = False) -> tuple[str, ...]:
+    """Write the shapes of the links of hinged solids, millimetres, as they stand; return what the file does not hold.
+
+    Parameters
+    ----------
+    solids : HingedSolids
+        With shapes.
+    path : str or Path
+        The extension, .stl, .3mf, .gltf or .obj, determines the format.
+    force : bool, optional
+        Overwrite an existing file.
+
+    Raises
+    ------
+    FileError
+        If the extension is unknown, or the file cannot be written or exists.
+    UnsolvableError
+        If there are no shapes.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> import synth
+    >>> thick = synth.thicken(synth.generate("miura").mechanism, thickness=0.05, collisions=False)
+    >>> with TemporaryDirectory() as folder:
+    ...     write_shapes(thick.solids, Path(folder, "thick.stl"))
+    ('hinges, but for the gaps',)
+    """
+    if not solids.shapes:
+        raise UnsolvableError("solids require panels or shapes of links, and these hinged solids have axes only")
+    meshes = [Mesh(shape.name, np.array(shape.corners), np.array(shape.triangles)) for shape in solids.shapes]
+    return write_as(Solids(meshes, "hinged solids"), path, SOLIDS, force=force)
 
 
 def write_linkage_on_surface(

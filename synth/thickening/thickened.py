@@ -22,7 +22,7 @@ from graphs.geometry import unit
 from graphs.mechanism.precision import in_space
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
-from graphs.mechanism.solids import Axis, HingedSolids
+from graphs.mechanism.solids import Axis, HingedSolids, LinkShape
 from graphs.printing import Block, Printed, TableBlock
 from graphs.types import Floats
 from synth.folding.configuration import SheetConfiguration
@@ -408,7 +408,17 @@ def _thickened(at: SheetConfiguration, how: str, wishes: _Wishes) -> ThickSheet:
     if wishes.collisions:
         plates, found = _swept(plates, solids, course, clearance, lines, keep_risers=how == "offset")
     kept = lines.lines(plates) if isinstance(plates, ThickPlates) and how != "hinge" else lines.whole()
+    solids = replace(solids, shapes=_shapes(solids, plates))
     return ThickSheet(solids, heights, plates, thickness, verdict, course.frames, keeps, residual, kept, how, found)
+
+
+def _shapes(solids: HingedSolids, plates: Plates) -> tuple[LinkShape, ...]:
+    """Return the solids of panels as shapes of links."""
+    links, shapes = list(solids.chain.nodes), []
+    for mesh, panel in zip(plates.meshes, plates.panels, strict=True):
+        corners, triangles = (tuple(map(tuple, rows.tolist())) for rows in (mesh.corners, mesh.triangles))
+        shapes.append(LinkShape(links[panel], mesh.name, corners, triangles))
+    return tuple(shapes)
 
 
 def _course_of_solids(at: SheetConfiguration, thick: Configuration, greatest: float) -> tuple[FoldCourse, bool]:

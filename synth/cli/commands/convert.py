@@ -192,6 +192,7 @@ def _write_model(
     stiffness: tuple[str, ...], rest: tuple[str, ...], moment: tuple[str, ...], density: float | None, **values: Any,
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:  # fmt: skip
     """Write a model; return what its format does not hold, and notes on the motion."""
+    from graphs.mechanism.solids import HingedSolids
     from synth.moving import configuration_of
     from synth.simulation.assembly import DENSITY, AssemblyOptions
     from synth.simulation.writing import MODELS, write_assembly
@@ -202,6 +203,7 @@ def _write_model(
     graph = at.linkage.graph
     how = AssemblyOptions(
         density=density or DENSITY, **values,
+        shapes=mechanism.shapes if isinstance(mechanism, HingedSolids) and model == "step" else (),
         drive=options.driven_angles(graph, drive),
         springs=synth.Springs(
             options.numbers_of_joints(graph, stiffness, "--stiffness", "JOINT=K"),
@@ -214,11 +216,19 @@ def _write_model(
 
 
 def _write_solids(mechanism: Mechanism, target: str, *, force: bool, **solid: Any) -> tuple[str, ...]:
+    from graphs.mechanism.solids import HingedSolids
     from synth.moving.made import sheet_of
     from synth.templates.solids import write_solids
 
     if isinstance(mechanism, synth.SurfaceLinkage):
         return _write_on_surface(mechanism, target, force=force, **solid)
+    if isinstance(mechanism, HingedSolids) and mechanism.shapes:
+        from synth.templates.solids import write_shapes
+
+        if solid:
+            spelled = ", ".join(_OF_SOLIDS[name] for name in solid)
+            raise click.UsageError(f"{spelled}: not for hinged solids, whose links have shapes of their own")
+        return write_shapes(mechanism, target, force=force)
     sheet = sheet_of(mechanism)
     if sheet is None:
         raise UnsolvableError(f"solids require panels, and {mechanism!r} has none")

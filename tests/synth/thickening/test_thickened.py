@@ -52,6 +52,11 @@ def test_what_cannot_be_thickened_is_said_in_a_line():
             synth.thicken(sheet, thickness=thickness)
 
 
+def volume_of(shape):
+    sides = np.array(shape.corners)[np.array(shape.triangles)]
+    return np.einsum("ti,ti->", sides[:, 0], np.cross(sides[:, 1], sides[:, 2])) / 6.0
+
+
 def test_the_command_writes_solids_that_other_commands_take(tmp_path):
     out = tmp_path / "thick.json"
     source = tmp_path / "miura.fold"
@@ -59,7 +64,25 @@ def test_the_command_writes_solids_that_other_commands_take(tmp_path):
     answer = json.loads(run("thicken", source, "--thickness", "0.1", "--no-collisions", "-o", out, "--json").stdout)
     assert answer["keeps_angles"]
     assert "1 degree of freedom" in run("mobility", out).stdout
-    assert len(read(out).axes) == len(answer["heights"])
+    solids = read(out)
+    assert len(solids.axes) == len(answer["heights"])
+    assert sum(volume_of(shape) for shape in solids.shapes) == pytest.approx(answer["volume"])
+    for suffix in (".stl", ".3mf", ".gltf"):
+        assert "not stored" not in run("convert", out, tmp_path / f"converted{suffix}").stderr
+    step = tmp_path / "thick.step"
+    run("convert", out, step, "--as", "step", "--scale", "1")
+    text = step.read_text()
+    assert text.count("MANIFOLD_SOLID_BREP") == len(solids.shapes)
+    assert text.count("TRIMMED_CURVE") == len(solids.axes)
+    points = [
+        [float(x) for x in row.split("(")[-1].rstrip(");").split(",")]
+        for row in text.splitlines() if "CARTESIAN_POINT" in row
+    ]  # fmt: skip
+    assert np.ptp(np.array(points)[:, 2]) < 1.0  # millimetres
+    bad = json.loads(out.read_text())
+    bad["shapes"][0]["triangles"][0] = [0, 1, 99]
+    out.write_text(json.dumps(bad))
+    assert "a shape of link 0 has the triangle" in run("mobility", out, code=2).stderr
     for suffix in (".stl", ".3mf", ".gltf"):
         target = tmp_path / f"thick{suffix}"
         assert run("thicken", source, "--thickness", "0.1", "--no-collisions", "-o", target).exit_code == 0
