@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from graphs.errors import InvariantError, UnsolvableError, shown
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.geometry import frame_about
 from graphs.mechanism.solids import LinkShape
 from graphs.printing import plain
@@ -225,6 +225,9 @@ def assembly_of(mechanism: Movable, options: AssemblyOptions | None = None) -> A
     on_the_way = [_hinges(at, moved(linkage, each), metre, options, unit_length) for each in few]
     cuts, closing = connections([hinges, *on_the_way], tree, cut, len(bodies), metre, at.tolerances.singular)
     freedoms = len(tree) - closing.shape[1]
+    alone = len(bodies) - len({body for hinge in hinges for body in (hinge.first, hinge.second)})
+    if alone and not isinstance(at, SheetConfiguration):
+        notes = (*notes, f"{numbered(alone, 'link')} without joints: of unknown shape, a bar in the file")
     if driven is not None and freedoms > len(drivers):
         notes = (*notes, f"{freedoms} degrees of freedom, {len(drivers)} driven: others are free")
     return Assembly(

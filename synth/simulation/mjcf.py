@@ -192,10 +192,11 @@ def _add_servo(assembly: Assembly, number: int, actuator: Element) -> None:
     """Add an actuator that follows an angle, critically damped for the inertia that the whole mechanism has."""
     hinge, values = assembly.hinges[number], assembly.path[:, number]
     inertia = driven_inertia(assembly, number)
-    actuator.add(
-        "position", name=f"drive_{hinge.name}", joint=hinge.name, kp=inertia * SERVO**2, kv=2.0 * inertia * SERVO,
-        ctrlrange=[values.min(), values.max()],
-    )  # fmt: skip
+    servo = actuator.add(
+        "position", name=f"drive_{hinge.name}", joint=hinge.name, kp=inertia * SERVO**2, kv=2.0 * inertia * SERVO
+    )
+    if np.ptp(values) > DOUBLE.same_configuration:  # else it is held
+        servo.attributes["ctrlrange"] = [values.min(), values.max()]
 
 
 def _with_moments(assembly: Assembly) -> list[Hinge]:

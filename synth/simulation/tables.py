@@ -18,6 +18,7 @@ from scipy.interpolate import CubicSpline
 from graphs.errors import UnsolvableError
 from graphs.geometry import rotations
 from graphs.printing import plain
+from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.motion.driving import MotionOptions, driven_from
 from synth.motion.singular.second_order import rates_at
@@ -70,6 +71,8 @@ def motion_table(assembly: Assembly, rows: int = ROWS) -> MotionTable:
     at, (driver,) = assembly.configuration, assembly.driven
     if turns_back(assembly.path[:, driver]):
         raise UnsolvableError("the driven joint turns back on the way, so no angle is a function of its; try another")
+    if abs(assembly.path[-1, driver] - assembly.path[0, driver]) <= DOUBLE.same_configuration:
+        raise UnsolvableError("a table requires a range, and the driven joint ends where it begins")
     values = np.linspace(assembly.path[0, driver], assembly.path[-1, driver], _BETWEEN * rows + 1)
     lengths = np.where([hinge.slide for hinge in assembly.hinges], assembly.size, 1.0)
     given = assembly.options

@@ -252,6 +252,14 @@ def test_cones_and_cylinders_of_no_width(surface, message, tmp_path, data):
     assert message in refused(tmp_path / "a.json", "step")
 
 
+def test_a_link_without_joints(tmp_path, data):
+    """Its shape is not known: a note says what stands for it."""
+    document = json.loads((data / "linkages" / "bennett.json").read_text())
+    (tmp_path / "a.json").write_text(json.dumps(document | {"links": document["links"] + 1}))
+    notes = synth.write_model(tmp_path / "a.json", tmp_path / "a.xml", "mjcf")
+    assert notes == ("1 link without joints: of unknown shape, a bar in the file",)
+
+
 def test_too_small_for_a_format(tmp_path, data):
     copied = tmp_path / "a.json"
     copied.write_bytes((data / "linkages" / "bennett.json").read_bytes())

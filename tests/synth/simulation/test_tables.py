@@ -5,6 +5,7 @@ import ctypes
 import json
 import shutil
 import subprocess
+import xml.etree.ElementTree as ET
 from math import radians
 
 import numpy as np
@@ -132,6 +133,20 @@ def test_a_driver_that_turns_back(tmp_path):
         synth.write_model(ring, tmp_path / "a.csv", "table")
     assert "the driven joint turns back on the way" in synth.write_model(ring, tmp_path / "a.urdf", "urdf")[0]
     assert "functions" not in json.loads((tmp_path / "a.loops.json").read_text())
+
+
+def test_a_driver_that_is_held(tmp_path):
+    """A range of nothing: no table, and a servo without one."""
+    bennett = synth.generate("bennett").mechanism
+    for suffix, name in ((".csv", "table"), (".h", "header")):
+        with pytest.raises(
+            UnsolvableError, match="a table requires a range, and the driven joint ends where it begins"
+        ):
+            synth.write_model(bennett, tmp_path / f"a{suffix}", name, drive={0: 0.0})
+    synth.write_model(bennett, tmp_path / "a.xml", "mjcf", drive={0: 0.0})
+    (servo,) = ET.parse(tmp_path / "a.xml").getroot().iter("position")
+    assert servo.get("joint") == "joint_0"
+    assert servo.get("ctrlrange") is None
 
 
 def test_what_has_no_table(tmp_path):
