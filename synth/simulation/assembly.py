@@ -203,7 +203,9 @@ def assembly_of(mechanism: Movable, options: AssemblyOptions | None = None) -> A
     at = configuration_of(mechanism, slides=True)
     options.springs.check_joints(at.joints)
     if not at.joints and not isinstance(at, SheetConfiguration):
-        raise UnsolvableError("nothing is solid: links without panels have a shape by their joints, and there are none")
+        raise UnsolvableError(
+            "nothing is solid: links without panels get their shape from their joints, and there are none"
+        )
     driven, notes = _motion(at, options)
     linkage = at.linkage
     path = linkage.angles[None] if driven is None else driven.path.angles
@@ -261,7 +263,9 @@ def _motion(at: Configuration, options: AssemblyOptions) -> tuple[DrivenMotion |
         return None, (f"no actuators: {error}",)
     notes = [f"the motion ends before its goal: {driven.path.stopped}"] if driven.path.stopped else []
     if turns_back(driven.path.angles[:, list(driven.places)]):
-        notes.append("the driven joint turns back on the way, where a motor at it cannot lead; try to drive another")
+        notes.append(
+            "the driven joint turns back on the way, so a motor at it cannot drive the whole motion; try another joint"
+        )
     return driven, tuple(notes)
 
 

@@ -70,7 +70,9 @@ def motion_table(assembly: Assembly, rows: int = ROWS) -> MotionTable:
         raise UnsolvableError(f"a table requires 1 driven joint and 1 degree of freedom, not {driven} and {freedoms}")
     at, (driver,) = assembly.configuration, assembly.driven
     if turns_back(assembly.path[:, driver]):
-        raise UnsolvableError("the driven joint turns back on the way, so no angle is a function of its; try another")
+        raise UnsolvableError(
+            "the driven joint turns back on the way, so other angles are no functions of its angle; try another joint"
+        )
     if abs(assembly.path[-1, driver] - assembly.path[0, driver]) <= DOUBLE.same_configuration:
         raise UnsolvableError("a table requires a range, and the driven joint ends where it begins")
     values = np.linspace(assembly.path[0, driver], assembly.path[-1, driver], _BETWEEN * rows + 1)

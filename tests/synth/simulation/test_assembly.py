@@ -214,7 +214,9 @@ def refused(file, name, *words):
 @pytest.mark.parametrize("case", NOTHING)
 def test_nothing_solid(case, name, tmp_path):
     (tmp_path / "a.json").write_text(json.dumps(NOTHING[case]))
-    assert "nothing is solid: links without panels have a shape by their joints" in refused(tmp_path / "a.json", name)
+    assert "nothing is solid: links without panels get their shape from their joints" in refused(
+        tmp_path / "a.json", name
+    )
 
 
 @pytest.mark.parametrize("name", ["mjcf", "step"])
