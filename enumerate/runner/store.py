@@ -103,6 +103,8 @@ class SqliteSink:
         if meta["job"] != job.key:
             theirs = ", ".join(f"{key}={value}" for key, value in meta["job"].items())
             raise StoreError(f"{self.path}: holds another run ({theirs}); try another file name")
+        if list(meta["columns"]) != list(job.columns):
+            raise StoreError(f"{self.path}: {_columns_that_differ(meta['columns'], job)}")
         units = len(job.units())
         findings = store_units.examine_store(self.path, units, self._looking)
         self._complete = findings.sound and meta["complete"]
@@ -174,6 +176,19 @@ class SqliteSink:
         """Close the file; what it holds stays."""
         if self._connection is not None:
             self._connection.close()
+
+
+def _columns_that_differ(columns: Collection[str], job: Job) -> str:
+    """Return a line on a store that another version wrote, whose columns are not those of its job."""
+    missing = [name for name in job.columns if name not in columns]
+    foreign = [name for name in columns if name not in job.columns]
+    parts = [f"{said} {', '.join(names)}" for said, names in (("without", missing), ("with", foreign)) if names] or [
+        "in another order"
+    ]
+    return (
+        f"another version wrote it, {' and '.join(parts)}; expected the columns of this version: "
+        "try another file name, or --force to begin again"
+    )
 
 
 def read_meta(path: str | Path) -> dict[str, Any]:

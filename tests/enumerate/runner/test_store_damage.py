@@ -247,3 +247,29 @@ def test_a_run_that_was_killed_while_it_wrote_without_a_log_goes_on(tmp_path, st
     assert store.read_bytes() != stores[1]
     assert not read_meta(store)["complete"]
     assert mended(store) == ([], 40)
+
+
+def test_a_store_of_another_version_is_named_with_the_column_that_it_lacks(tmp_path):
+    """As conical stores of before the half angle stood beside lambda: nothing is written to it."""
+    store = tmp_path / "old.sqlite"
+    run(JOB, SqliteSink(store))
+    rest = dict(JOB.columns)
+    lacking = rest.popitem()[0]
+
+    class Newer(Squares):
+        columns = {**JOB.columns, "half_angle_deg": float}  # noqa: RUF012
+
+    before = store.read_bytes()
+    with pytest.raises(StoreError) as refused:
+        run(Newer(1000), SqliteSink(store, resume=True))
+    assert str(refused.value) == (
+        f"{store}: another version wrote it, without half_angle_deg; expected the columns of this version: "
+        "try another file name, or --force to begin again"
+    )
+
+    class Older(Squares):
+        columns = rest
+
+    with pytest.raises(StoreError, match=f"another version wrote it, with {lacking};"):
+        run(Older(1000), SqliteSink(store, resume=True))
+    assert store.read_bytes() == before

@@ -1,6 +1,9 @@
 """Lists of mechanisms grouped by type: against networkx, and by ids of the enumerators."""
 
+import json
 import random
+from itertools import islice
+from pathlib import Path
 
 import networkx as nx
 import pytest
@@ -52,6 +55,29 @@ def test_shuffled_graphs_are_grouped_as_networkx_does(many):
         for other in ones[:place]
     )
     assert found.repeated == len(graphs) - len(ones)
+
+
+@pytest.mark.slow
+def test_the_command_groups_a_thousand_shuffled_files(tmp_path):
+    """Files of three formats, of chains of six, eight and ten links under other names: the classes are the chains."""
+    dice = random.Random(7)
+    kinds = [nx.Graph(chain) for links in (6, 8) for chain in chains(links, 1)]
+    kinds += [nx.Graph(chain) for chain in islice(chains(10, 1), 0, 230, 3)]
+    members: dict[int, set[str]] = {}
+    for number in range(1000):
+        kind = dice.randrange(len(kinds))
+        graph = shuffled(kinds[kind], dice)
+        path = tmp_path / f"{number}{('.gml', '.edgelist', '.g6')[number % 3]}"
+        if path.suffix == ".gml":
+            nx.write_gml(graph, path)
+        elif path.suffix == ".edgelist":
+            nx.write_edgelist(graph, path, data=False)
+        else:
+            nx.write_graph6(graph, path, header=False)
+        members.setdefault(kind, set()).add(path.name)
+    answer = json.loads(run("id", *sorted(tmp_path.iterdir()), "--group", "--by", "chain", "--json").output)
+    found = {frozenset(Path(member).name for member in one["members"]) for one in answer["classes"]}
+    assert found == set(map(frozenset, members.values()))
 
 
 def test_drawings_are_told_apart_where_their_chains_are_not():

@@ -96,6 +96,40 @@ def test_layers_have_the_colours_of_laser_cutters(data, tmp_path):
     assert "gauge" not in svg
 
 
+def extents_of(path):
+    """Width and height, millimetres, of the lines of each layer of a DXF or SVG, read as text alone."""
+    text = path.read_text()
+    points: dict[str, list[tuple[float, float]]] = {}
+    if path.suffix == ".dxf":
+        codes = [line.strip() for line in text[text.index("ENTITIES") :].splitlines()]
+        pairs = list(zip(codes[1::2], codes[2::2], strict=False))
+        for place, (code, layer) in enumerate(pairs):
+            if code == "8" and pairs[place - 1] == ("0", "LINE"):
+                of_line = dict(pairs[place : place + 7])
+                ends = [(float(of_line[x]), float(of_line[y])) for x, y in (("10", "20"), ("11", "21"))]
+                points.setdefault(layer, []).extend(ends)
+    else:
+        for layer, group in re.findall(r'<g id="(\w+)"[^>]*>(.*?)</g>', text, re.DOTALL):
+            for way in re.findall(r'd="([^"]+)"', group):
+                numbers = [float(number) for number in re.findall(r"-?[\d.]+", way)]
+                points.setdefault(layer, []).extend(zip(numbers[::2], numbers[1::2], strict=True))
+    return {
+        layer: tuple(max(values) - min(values) for values in zip(*ends, strict=True)) for layer, ends in points.items()
+    }
+
+
+@pytest.mark.parametrize("suffix", [".dxf", ".svg"])
+def test_kerf_and_layers_as_they_are_measured_in_files(data, tmp_path, suffix):
+    bird = data / "patterns" / "bird-base.fold"
+    for kerf in (0.0, KERF):
+        out = tmp_path / f"bird-{kerf}{suffix}"
+        run("template", bird, "--size", 300, "--laser", "--kerf", kerf, "-o", out)
+        extents = extents_of(out)
+        assert set(extents) == {"CUT", "SCORE"}
+        assert extents["CUT"] == pytest.approx((300 + kerf, 300 + kerf))
+        assert extents["SCORE"] == pytest.approx((300, 300))
+
+
 def test_no_letter_lies_on_a_cut(bird):
     for hinges in (Hinges("living", 8.0), Hinges("gap", 8.0)):
         (piece,) = template_of(bird, size=300, hinges=hinges).pieces
