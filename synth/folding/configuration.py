@@ -70,6 +70,11 @@ class SheetConfiguration(Configuration):
         return bool(np.abs(self.linkage.angles).max(initial=0.0) <= DOUBLE.parallel)
 
     @property
+    def has_panels(self) -> bool:
+        """Whether it is of a sheet, whose frames are sheets."""
+        return True
+
+    @property
     def limited(self) -> bool:
         """Whether joints end at 180 degrees."""
         return True

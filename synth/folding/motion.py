@@ -17,7 +17,7 @@ from graphs.types import JointId
 from synth.folding.configuration import SheetConfiguration, configuration_of_sheet
 from synth.motion.driving import BranchChoice, MotionOptions, beginning
 from synth.motion.marked import disagreement_with
-from synth.motion.motion import FRAMES, Motion, motion_of
+from synth.motion.motion import FRAMES, SheetMotion, motion_of
 
 
 def fold(
@@ -30,7 +30,7 @@ def fold(
     collisions: bool = False,
     precision: float | None = None,
     report: Callable[[int], None] | None = None,
-) -> Motion:
+) -> SheetMotion:
     """Fold a crease pattern from its configuration, panels rigid, until the driven creases have their angles.
 
     Parameters
@@ -76,7 +76,9 @@ def fold(
     """
     sheet = mechanism_for("fold", mechanism, Sheet)
     at = configuration_of_sheet(sheet, precision=precision)
-    return motion_of(at, MotionOptions(drive or {}, along or {}, branch, frames, report), collisions=collisions)
+    motion = motion_of(at, MotionOptions(drive or {}, along or {}, branch, frames, report), collisions=collisions)
+    assert isinstance(motion, SheetMotion)  # the configuration has panels
+    return motion
 
 
 def assign_branch(mechanism: Sheet | SheetConfiguration, branch: int | str) -> SheetEdit:

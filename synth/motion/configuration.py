@@ -117,6 +117,11 @@ class Configuration:
         return False
 
     @property
+    def has_panels(self) -> bool:
+        """Whether it is of a sheet, whose frames are sheets."""
+        return False
+
+    @property
     def limited(self) -> bool:
         """Whether joints end at 180 degrees, where panels lie on each other."""
         return False

@@ -18,7 +18,7 @@ from graphs.types import Floats, JointId, LinkId
 from synth.motion.branches import Branch, Branches, Method
 from synth.motion.configuration import Configuration, listed
 from synth.motion.driving import DrivenMotion, MotionOptions, driven_from
-from synth.motion.linkage import PosedLinkage, link_motions
+from synth.motion.linkage import PosedLinkage, link_motions, moved
 from synth.motion.path import Path, RestingPanels
 
 FRAMES = 20
@@ -105,10 +105,9 @@ class Motion(Printed):
         """The largest loop-closure residual of all frames."""
         return self.path.error
 
-    def frames(self) -> list[Sheet | PosedLinkage]:
-        """Return the mechanism in each frame: a sheet with coordinates in space and fold angles, or a linkage."""
-        every = zip(self.path.angles, self.places, strict=True)
-        return [self.configuration.at(angles, points) for angles, points in every]
+    def frames(self) -> Sequence[Sheet] | Sequence[PosedLinkage]:
+        """Return the mechanism in each frame, all of one kind: sheets with fold angles (`SheetMotion`), or linkages."""
+        return [moved(self.linkage, angles) for angles in self.path.angles]
 
     def sheets(self) -> list[Sheet]:
         """Return the sheet in each frame: `frames` of what has panels, typed so.
@@ -124,11 +123,7 @@ class Motion(Printed):
         >>> [sheet.fold_angles is None for sheet in synth.fold(synth.generate("miura").mechanism, frames=1).sheets()]
         [False, False]
         """
-        frames = self.frames()
-        sheets = [frame for frame in frames if isinstance(frame, Sheet)]
-        if len(sheets) < len(frames):
-            raise UnsolvableError("frames are sheets of a crease pattern only, and this mechanism has no panels")
-        return sheets
+        raise UnsolvableError("frames are sheets of a crease pattern only, and this mechanism has no panels")
 
     def path_of(self, link: LinkId, point: Sequence[float]) -> Floats:
         """Return where a point of a link is in each frame, the first link held: a coupler curve, float[F, 3].
@@ -281,6 +276,30 @@ class Motion(Printed):
         return f"<Motion: {numbered(len(self.path.angles), 'frame')} of {numbered(len(self.joints), 'joint')}>"
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class SheetMotion(Motion):
+    """A motion of a crease pattern: its frames are sheets.
+
+    Attributes are those of `Motion`.
+
+    Examples
+    --------
+    >>> import synth
+    >>> synth.fold(synth.generate("miura").mechanism, frames=1).frames()[-1]
+    <Sheet: 16 faces, 24 creases, 25 vertices>
+    """
+
+    def frames(self) -> list[Sheet]:
+        """Return the sheet in each frame, with coordinates in space and fold angles."""
+        every = zip(self.path.angles, self.places, strict=True)
+        frames = (self.configuration.at(angles, points) for angles, points in every)
+        return [frame for frame in frames if isinstance(frame, Sheet)]
+
+    def sheets(self) -> list[Sheet]:
+        """Return the sheet in each frame, as `frames`."""
+        return self.frames()
+
+
 def motion_of(configuration: Configuration, options: MotionOptions, *, collisions: bool = False) -> Motion:
     """Return the motion from a configuration; with `collisions` it ends before panels pass through each other.
 
@@ -324,4 +343,5 @@ def motion_along(configuration: Configuration, driven: DrivenMotion) -> Motion:
     passed = configuration.passed(path, points[:kept], driven.places[0])
     far = float(apart[:kept].max(initial=0.0))
     places = points[:kept]
-    return Motion(configuration, driven.branch, passed.path, driven.goals, places, far, passed.frames, passed.resting)
+    kind = SheetMotion if configuration.has_panels else Motion
+    return kind(configuration, driven.branch, passed.path, driven.goals, places, far, passed.frames, passed.resting)

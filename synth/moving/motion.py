@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from io import StringIO
 from math import degrees
 from types import MappingProxyType
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, overload
 
 import numpy as np
 
@@ -24,10 +24,39 @@ from graphs.mechanism.sheet import Frames, Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.tolerances import DOUBLE
 from graphs.types import JointId
+from synth.folding.configuration import SheetConfiguration
 from synth.motion.driving import MotionOptions
 from synth.motion.linkage import moved
-from synth.motion.motion import FRAMES, Motion, motion_of
+from synth.motion.motion import FRAMES, Motion, SheetMotion, motion_of
 from synth.moving.made import Movable, configuration_of, sheet_of
+
+
+@overload
+def move(
+    mechanism: Sheet | SheetConfiguration,
+    *,
+    drive: Mapping[JointId, float] | None = ...,
+    along: Mapping[JointId, float] | None = ...,
+    branch: int | str | None = ...,
+    frames: int = ...,
+    collisions: bool = ...,
+    precision: float | None = ...,
+    report: Callable[[int], None] | None = ...,
+) -> SheetMotion: ...
+
+
+@overload
+def move(
+    mechanism: Movable,
+    *,
+    drive: Mapping[JointId, float] | None = ...,
+    along: Mapping[JointId, float] | None = ...,
+    branch: int | str | None = ...,
+    frames: int = ...,
+    collisions: bool = ...,
+    precision: float | None = ...,
+    report: Callable[[int], None] | None = ...,
+) -> Motion: ...
 
 
 def move(
