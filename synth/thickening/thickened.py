@@ -30,6 +30,8 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
 from synth.motion.driving import MotionOptions
 from synth.motion.motion import motion_of
+from synth.motion.singular.nearest import begun_near
+from synth.motion.singular.sampling import rates_towards
 from synth.moving.made import configuration_of
 from synth.templates.solids import SOLIDS, Solids
 from synth.templates.template import GREATEST
@@ -48,6 +50,8 @@ TECHNIQUES = ("spatial", "tapered", "offset", "hinge")
 """Ways to give panels a thickness."""
 _GREATEST_ANGLES = {"spatial": 179.0, "tapered": 150.0, "offset": 179.0, "hinge": 150.0}
 """Default greatest fold angles, degrees."""
+_FRAMES = 40
+"""Frames of a motion that is not that of the thin sheet: hinges may turn by a whole turn."""
 _STEPS = (1.5, 0.5)
 """Degrees between places of the motion at which panels are cut back: finer ones if solids still meet."""
 _RANGES = (180.0, 165.0, 150.0, 135.0, 120.0, 105.0, 90.0, 75.0, 60.0, 45.0, 30.0, 15.0)
@@ -401,7 +405,7 @@ def _thickened(at: SheetConfiguration, how: str, wishes: _Wishes) -> ThickSheet:
     course, keeps = FoldCourse(thick.closure, thin.frames), True
     residual = _residual(thick.closure, course.frames)
     if not residual <= thick.tolerances.closed:
-        course, keeps = _course_of_solids(at, thick, greatest)
+        course, keeps = _course_of_solids(at, thick, thin, greatest)
         residual = _residual(thick.closure, course.frames)
     lines = _CreaseLines(at, heights, thickness, scale)
     found = None
@@ -421,9 +425,26 @@ def _shapes(solids: HingedSolids, plates: Plates) -> tuple[LinkShape, ...]:
     return tuple(shapes)
 
 
-def _course_of_solids(at: SheetConfiguration, thick: Configuration, greatest: float) -> tuple[FoldCourse, bool]:
-    """Return the motion of solids by themselves, and whether the thin sheet closes at its angles too."""
-    course = FoldCourse(thick.closure, motion_of(thick, MotionOptions()).path.angles).up_to(greatest)
+def _course_of_solids(
+    at: SheetConfiguration, thick: Configuration, thin: FoldCourse, greatest: float
+) -> tuple[FoldCourse, bool]:
+    """Return the motion of solids by themselves, and whether the thin sheet closes at its angles too.
+
+    Of several branches that is taken which begins nearest to the thin sheet's motion.
+    """
+    towards = thin.frames[min(1, len(thin.frames) - 1)]
+    if thick.branches is None:
+        rates = begun_near(thick.closure, thick.linkage, towards).rates
+    else:
+        every = [rates_towards(branch.space, towards) for branch in thick.branches.branches]
+        sizes = [float(np.linalg.norm(rates)) for rates in every]
+        near = [float(one @ towards) / size if size else -np.inf for one, size in zip(every, sizes, strict=True)]
+        rates = every[int(np.argmax(near))] if every else None
+    if rates is None:
+        raise UnsolvableError("the solids do not move: no motion begins near that of the thin sheet")
+    along = dict(zip(thick.joints, rates.tolist(), strict=True))
+    path = motion_of(thick, MotionOptions(along=along, frames=_FRAMES)).path
+    course = FoldCourse(thick.closure, path.angles).up_to(greatest)
     return course, _residual(at.closure, course.frames) <= at.tolerances.closed
 
 
