@@ -34,11 +34,11 @@ from synth.motion.singular.nearest import begun_near
 from synth.motion.singular.sampling import rates_towards
 from synth.moving.made import configuration_of
 from synth.templates.solids import SOLIDS, Solids
-from synth.templates.template import GREATEST
+from synth.templates.template import GREATEST, Template
 from synth.thickening.collisions import FoldCourse, Meeting, MovingPieces, body_poses
 from synth.thickening.heights import HingeHeights, hinge_heights
 from synth.thickening.plates import Plates, ThickPlates, cut_back, hinge_lines, thick_plates
-from synth.thickening.techniques import offset_plates, strip_plates, tapered_plates, trims_of
+from synth.thickening.techniques import HingeSeat, offset_plates, parts_of, strip_plates, tapered_plates, trims_of
 from synth.verdict.judged import verdict_of_motion
 from synth.verdict.verdict import Verdict
 
@@ -163,6 +163,8 @@ class ThickSheet(Printed):
         The largest loop-closure residual of the solids on the motion.
     hinge_lines : mapping of joint to list of (float[2], float[2])
         The parts of each axis at which both panels have material, by their ends in the plane, millimetres.
+    valleys : set of int
+        The creases that are valleys.
     how : str
         ``spatial``, ``tapered``, ``offset`` or ``hinge``.
     collisions : Collisions, optional
@@ -187,6 +189,7 @@ class ThickSheet(Printed):
     keeps_angles: bool
     residual: float
     hinge_lines: Mapping[int, Sequence[tuple[Floats, Floats]]]
+    valleys: frozenset[int]
     how: str = "spatial"
     collisions: Collisions | None = None
     comparison: tuple[TechniqueFigures, ...] = ()
@@ -201,7 +204,7 @@ class ThickSheet(Printed):
         linkages = ", ".join(numbered(kinds.count(kind), f"{kind} vertex", f"{kind} vertices")
                              for kind in ("Bennett", "Myard", "Bricard") if kind in kinds)  # fmt: skip
         angles = "those of the thin sheet" if self.keeps_angles else "not those of the thin sheet"
-        rows = [(str(joint), f"{height * self.thickness:.6g}") for joint, height in self.heights.hinges.items()]
+        rows = [(str(joint), f"{height * self.thickness + 0.0:.6g}") for joint, height in self.heights.hinges.items()]
         most = float(np.degrees(np.abs(self.angles).max(initial=0.0)))
         columns = ("technique", "greatest angle", "stowed box in mm", "thinnest part in mm", "mass in g")
         compared = TableBlock(columns, [one.row() for one in self.comparison], columns[1:])
@@ -258,6 +261,28 @@ class ThickSheet(Printed):
             },
             **({"comparison": [one.to_json() for one in self.comparison]} if self.comparison else {}),
         }
+
+    def seats(self) -> list[HingeSeat]:
+        """Return where panels are joined."""
+        turned = dict(zip(self.solids.chain.joints, np.abs(self.angles).max(axis=0, initial=0.0), strict=True))
+        seats = []
+        for joint, (one, other) in self.solids.chain.joints.items():
+            number, half = int(str(joint)), float(turned[joint]) / 2.0
+            seats.append(
+                HingeSeat(
+                    number, number in self.valleys, self.heights.hinges[number] * self.thickness,
+                    (int(str(one)), int(str(other))), self.hinge_lines[number],
+                    half if self.how == "tapered" else 0.0,
+                    self.thickness * float(np.tan(half)) if self.how == "hinge" else 0.0,
+                )
+            )  # fmt: skip
+        return seats
+
+    def template(self) -> Template:
+        """Return outlines of all plies at full size, with hinges, holes and heights, and the parts list."""
+        title = f"{self.how} panels of {self.thickness:g} mm"
+        pieces, steps = parts_of(self.plates, self.seats(), self.thickness, title)
+        return Template(tuple(pieces), None, configuration_of(self.solids), title, (), steps)
 
     def write(self, path: str | Path, *, force: bool = False) -> tuple[str, ...]:
         """Write the hinged solids (.json) or the solids (.stl, .3mf, .obj; .gltf with the motion); return losses."""
@@ -412,8 +437,11 @@ def _thickened(at: SheetConfiguration, how: str, wishes: _Wishes) -> ThickSheet:
     if wishes.collisions:
         plates, found = _swept(plates, solids, course, clearance, lines, keep_risers=how == "offset")
     kept = lines.lines(plates) if isinstance(plates, ThickPlates) and how != "hinge" else lines.whole()
+    valleys = frozenset(joint for joint in joints if at.sheet.assignments[joint] == "V")
     solids = replace(solids, shapes=_shapes(solids, plates))
-    return ThickSheet(solids, heights, plates, thickness, verdict, course.frames, keeps, residual, kept, how, found)
+    return ThickSheet(
+        solids, heights, plates, thickness, verdict, course.frames, keeps, residual, kept, valleys, how, found
+    )
 
 
 def _shapes(solids: HingedSolids, plates: Plates) -> tuple[LinkShape, ...]:

@@ -1,6 +1,8 @@
 """``synth thicken``: a crease pattern with panels of a thickness."""
 
 from math import radians
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
@@ -9,6 +11,9 @@ from graphs.errors import check_argument
 from synth.cli import options
 from synth.cli.output import about, check_output, print_answer, print_json, tell_written
 from synth.cli.reading import MECHANISM, PRECISION, precise_sheet, read
+
+if TYPE_CHECKING:
+    from synth.thickening import ThickSheet
 
 
 @click.command()
@@ -30,7 +35,10 @@ from synth.cli.reading import MECHANISM, PRECISION, precise_sheet, read
     type=options.LENGTH,
 )
 @options.flag("--no-collisions", "Neither cut panels back nor check whether solids meet.")
-@options.output("Write the hinged solids (.json), or their shapes (.stl, .3mf, .obj; .gltf with the motion).")
+@options.output(
+    "Write the hinged solids (.json), their shapes (.stl, .3mf, .obj; .gltf with the motion), or templates with holes "
+    "and a parts list (.dxf, .svg, .pdf)."
+)
 @options.FORCE
 @options.JSON
 @PRECISION
@@ -77,12 +85,21 @@ def thicken(
             clearance=clearance,
             collisions=not no_collisions,
         )
-        lost = thick.write(output, force=force) if output else ()
+        written, lost = _written(thick, output, force=force) if output else ((), ())
     if as_json:
         print_json({"file": file, "output": output, **thick.to_json()})
         return
     print_answer(thick)
-    if output:
-        tell_written(output)
-        for part in lost:
-            click.echo(f"not in the file: {part}")
+    for name in written:
+        tell_written(name)
+    for part in lost:
+        click.echo(f"not in the file: {part}")
+
+
+def _written(thick: ThickSheet, output: str, *, force: bool) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Write what the extension says; return the files, and what they do not hold."""
+    from synth.templates.writing import TEMPLATES, write_template
+
+    if Path(output).suffix.lower() in TEMPLATES:
+        return tuple(map(str, write_template(thick.template(), output, force=force))), ()
+    return (output,), thick.write(output, force=force)
