@@ -27,8 +27,6 @@ _BLOCK = 4096
 """Pairs of pieces compared at a time."""
 _FINEST = 1e-6
 """A stretch of the motion is not halved if no hinge turns by more on it, in radians."""
-_PROPORTIONAL = 1e-8
-"""Tangents of half the fold angles keep their ratios to this."""
 _HALVINGS = 50
 """Until a place is known to rounding."""
 _UNSEEN = 2.0
@@ -94,7 +92,7 @@ def _edges(hull: Any) -> Floats:
 def _parted(directions: Floats) -> Floats:
     """Return directions without those that are parallel to one before."""
     parallel = np.abs(np.cross(directions[:, None], directions[None])).max(axis=2) <= DOUBLE.parallel
-    return directions[~np.tril(parallel, -1).any(axis=1)]
+    return np.asarray(directions[~np.tril(parallel, -1).any(axis=1)])
 
 
 def _filled(rows: Sequence[Floats]) -> Floats:
@@ -258,7 +256,7 @@ def _ratios(frames: Floats) -> Floats | None:
         return None
     ratios = halves[turned] / halves[turned][:, [driver]]
     middle = ratios[len(ratios) // 2]
-    return middle if np.abs(ratios - middle).max() < _PROPORTIONAL else None
+    return middle if np.abs(ratios - middle).max() < DOUBLE.parallel else None
 
 
 @dataclass(frozen=True)
@@ -442,7 +440,8 @@ class MovingPieces:
             folded = np.abs(self.course.at(stretches[:, 1]))
             at_hinge = np.where(hinge[pair] >= 0, folded[rows, hinge[pair]], np.inf)
             undone = at_hinge > clear[pair] + DOUBLE.parallel
-            pair, low, high, rows, most, a, b = (one[undone] for one in (pair, low, high, rows, most, a, b))
+            pair, rows, a, b = pair[undone], rows[undone], a[undone], b[undone]
+            low, high, most = low[undone], high[undone], most[undone]
             # Rates of the joints of the chain, 0 for the joint that fills it up.
             turned, bent = (
                 np.column_stack([one, np.zeros(len(one))])[rows[:, None], joints[b]] for one in (turned, bent)
@@ -506,7 +505,8 @@ class MovingPieces:
         point, reach = self._centre.copy(), self._radius.copy()
         points = np.concatenate([self.points, np.zeros((1, 3))])
         along = np.concatenate([self.directions, np.zeros((1, 3))])
-        joints, reaches = [], []
+        joints: list[Ints] = []
+        reaches: list[Floats] = []
         while (via[here] < count).any():
             joint = via[here]
             foot = points[joint] + ((point - points[joint]) * along[joint]).sum(axis=1, keepdims=True) * along[joint]

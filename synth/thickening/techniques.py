@@ -204,7 +204,7 @@ def _halved(corners: Floats, plane: Floats) -> Floats:
     kept = np.concatenate([corners[heights <= reach], across])
     if len(kept) <= 3 or np.ptp(kept, axis=0).min() <= reach:
         return kept[:0]
-    return kept[scipy.spatial.ConvexHull(kept).vertices]
+    return np.asarray(kept[scipy.spatial.ConvexHull(kept).vertices])
 
 
 def strip_plates(at: SheetConfiguration, trims: Trims, thickness: float, scale: float, angle: float) -> ThickPlates:
@@ -364,8 +364,8 @@ def parts_of(
             work = f"glue {len(names)} plies on each other" if solid else "one board, sides sawn between outlines"
         steps.append(f"Panel {panel}: {work}, {'; '.join(names)}.")
     for seat in seats:
-        kind = "valley" if seat.valley else "mountain"
-        text = f"Crease {seat.joint}, {kind}, panels {seat.panels[0]} and {seat.panels[1]}: "
+        sign = "valley" if seat.valley else "mountain"
+        text = f"Crease {seat.joint}, {sign}, panels {seat.panels[0]} and {seat.panels[1]}: "
         text += f"axis at {_written(seat.height)}, {seat.length:.4g} long"
         if seat.bevel:
             text += f", sides bevelled by {degrees(seat.bevel):.4g} degrees from upright"

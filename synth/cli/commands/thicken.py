@@ -1,5 +1,7 @@
 """``synth thicken``: a crease pattern with panels of a thickness."""
 
+from __future__ import annotations
+
 from math import radians
 from pathlib import Path
 from typing import TYPE_CHECKING
