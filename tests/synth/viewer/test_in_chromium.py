@@ -60,9 +60,9 @@ def browser(playwright):
 class Opened:
     """A page in a window of its own, with what it said and asked for."""
 
-    def __init__(self, browser, place, width=1280, scheme="light"):
+    def __init__(self, browser, place, width=1280, height=900, scheme="light"):
         self.context = browser.new_context(
-            viewport={"width": width, "height": 900}, offline=True, color_scheme=scheme, accept_downloads=True
+            viewport={"width": width, "height": height}, offline=True, color_scheme=scheme, accept_downloads=True
         )
         self.tab = self.context.new_page()
         self.said, self.asked = [], []
@@ -125,6 +125,16 @@ def opened(browser, tmp_path):
     yield open_
     for window in windows:
         window.close()
+
+
+def test_sliders_of_five_freedoms_are_in_reach_at_850_pixels(opened, data):
+    window = opened(read(data / "patterns" / "bird-base.fold"), height=850)
+    sliders = window.tab.locator(".sliders input[type=range]")
+    sync_api.expect(sliders).to_have_count(6)  # the path too
+    boxes = [one.bounding_box() for one in sliders.all()]
+    pane = window.tab.locator(".sliders").bounding_box()
+    assert all(box["y"] >= pane["y"] and box["y"] + box["height"] <= pane["y"] + pane["height"] + 1 for box in boxes)
+    assert window.tab.get_by_role("button", name="Play").bounding_box()["y"] < 850 - 36
 
 
 def spans(pose):
