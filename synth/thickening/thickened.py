@@ -411,12 +411,14 @@ def _thickened(at: SheetConfiguration, how: str, wishes: _Wishes) -> ThickSheet:
     thickness, scale, clearance = wishes.thickness, wishes.scale, wishes.clearance
     greatest = wishes.angle or np.radians(_GREATEST_ANGLES[how])
     joints = [int(str(joint)) for joint in at.mechanism.sc.joints]
+    # What excludes heights is a better reason than that nothing moves, so it comes first.
+    spatial = hinge_heights(at.sheet, at.mechanism, at.tolerances) if how == "spatial" else None
     thin = FoldCourse(at.closure, motion_of(at, MotionOptions()).path.angles).up_to(greatest)
     turned = thin.frames[-1]
     plates: Plates
     heights = HingeHeights(dict.fromkeys(joints, 0.0), (-0.5,) * len(at.mechanism.panels), (), 0.0)
-    if how == "spatial":
-        heights = hinge_heights(at.sheet, at.mechanism, at.tolerances)
+    if spatial is not None:
+        heights = spatial
         plates = thick_plates(at.sheet, at.mechanism, heights, thickness, scale)
     elif how == "offset":
         plates, heights = offset_plates(at, thickness, scale, clearance)

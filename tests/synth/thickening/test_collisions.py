@@ -85,16 +85,16 @@ def test_no_gap_between_frames_hides_a_meeting():
 
 @pytest.mark.parametrize("name", ["miura"])
 def test_solids_cut_back_fold_to_179_degrees_and_do_not_overlap_by_manifold3d(name):
-    manifold3d = pytest.importorskip("manifold3d")
+    pytest.importorskip("manifold3d")
     thick = synth.thicken(synth.generate(name, rows=2, columns=2).mechanism, thickness=0.05)
-    check_overlaps(manifold3d, thick)
+    check_overlaps(thick)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "options"), [("miura", {"rows": 4, "columns": 4}), ("square-twist", {})])
 def test_sheets_cut_back_fold_to_179_degrees_by_manifold3d(name, options):
-    manifold3d = pytest.importorskip("manifold3d")
-    check_overlaps(manifold3d, synth.thicken(synth.generate(name, **options).mechanism, thickness=0.05))
+    pytest.importorskip("manifold3d")
+    check_overlaps(synth.thicken(synth.generate(name, **options).mechanism, thickness=0.05))
 
 
 def test_angles_between_frames_close_the_loops():

@@ -56,11 +56,11 @@ def test_panels_reach_the_angle_that_is_wanted(how):
 
 
 def test_offset_panels_fold_the_whole_range_with_notches():
-    manifold3d = pytest.importorskip("manifold3d")
+    pytest.importorskip("manifold3d")
     thick = synth.thicken(synth.generate("miura", rows=2, columns=2).mechanism, thickness=0.05, how="offset")
     assert thick.keeps_angles
     assert thick.plates.cut
-    check_overlaps(manifold3d, thick)
+    check_overlaps(thick)
 
 
 @pytest.mark.parametrize(
