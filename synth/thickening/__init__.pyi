@@ -1,12 +1,3 @@
-from synth.thickening.collisions import (
-    ConvexPieces as ConvexPieces,
-    FoldCourse as FoldCourse,
-    Meeting as Meeting,
-    MovingPieces as MovingPieces,
-    distances as distances,
-    overlap as overlap,
-    pieces_of as pieces_of,
-)
 from synth.thickening.heights import (
     HingeHeights as HingeHeights,
     ThickVertex as ThickVertex,
@@ -14,5 +5,10 @@ from synth.thickening.heights import (
     hinge_heights as hinge_heights,
     thick_vertices as thick_vertices,
 )
-from synth.thickening.plates import Ply as Ply, ThickPlates as ThickPlates, thick_plates as thick_plates
-from synth.thickening.thickened import Collisions as Collisions, ThickSheet as ThickSheet, thicken as thicken
+from synth.thickening.plates import ThickPlates as ThickPlates, thick_plates as thick_plates
+from synth.thickening.thickened import (
+    Collisions as Collisions,
+    TechniqueFigures as TechniqueFigures,
+    ThickSheet as ThickSheet,
+    thicken as thicken,
+)

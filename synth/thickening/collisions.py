@@ -3,7 +3,7 @@
 Solids are convex pieces. Two of them are as far apart as the largest gap between planes across a direction; the
 directions to try are those of faces, of products of edges, and between corners and edges. Along a motion a pair is
 apart from one configuration to another if it is across one direction at both ends, by more than corners leave the
-chords of their paths; else the stretch is halved (conservative advancement). Theory: docs/guides/thick-panels.md.
+chords of their paths; else the stretch is halved (conservative advancement). Theory: docs/theory/thick-panels.md.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ import scipy.spatial
 from scipy.spatial.transform import Rotation
 
 from graphs.geometry import unit
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, MARGIN
 from graphs.types import Flags, Floats, Ints
 from synth.motion.closure import ClosureEquations, corrected
 
 _BLOCK = 4096
 """Pairs of pieces compared at a time."""
-_FINEST = 1e-6
+_FINEST = MARGIN
 """A stretch of the motion is not halved if no hinge turns by more on it, in radians."""
 _HALVINGS = 50
 """Until a place is known to rounding."""
@@ -256,7 +256,11 @@ def _ratios(frames: Floats) -> Floats | None:
         return None
     ratios = halves[turned] / halves[turned][:, [driver]]
     middle = ratios[len(ratios) // 2]
+<<<<<<< HEAD
     return middle if np.abs(ratios - middle).max() < DOUBLE.parallel else None
+=======
+    return middle if np.abs(ratios - middle).max() < DOUBLE.same_point else None
+>>>>>>> e6e7c545 (Guide: make it of wood; theory page of thick panels with a drawing; files, native JSON, changes)
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 The heights of the hinges round a vertex make its linkage an overconstrained spatial one: of Bennett for four creases,
 of Myard for five, plane-symmetric of Bricard for six. Source: Y. Chen, R. Peng, Z. You, "Origami of thick panels",
-Science 349 (2015), 396-400. Theory: docs/guides/thick-panels.md.
+Science 349 (2015), 396-400. Theory: docs/theory/thick-panels.md.
 """
 
 from collections.abc import Mapping, Sequence

@@ -2,7 +2,7 @@
 
 A panel is a stack of plies, prisms over plane outlines: a slab, and risers one thickness wide. Where panels that no
 hinge joins would come nearer than a clearance on the motion, the ply that loses less volume is cut back: by all
-places of the other, seen from it. Theory: docs/guides/thick-panels.md.
+places of the other, seen from it. Theory: docs/theory/thick-panels.md.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 All fold angles are those of the thin sheet. Sources: T. Tachi, "Rigid-foldable thick origami" (2011); B. J. Edmondson,
 R. J. Lang, S. P. Magleby, L. L. Howell, "An offset panel technique for thick rigidly foldable origami" (2014);
 J. S. Ku, E. D. Demaine, "Folding flat crease patterns with thick materials" (2016). Theory:
-docs/guides/thick-panels.md.
+docs/theory/thick-panels.md.
 """
 
 from __future__ import annotations

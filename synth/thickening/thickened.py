@@ -1,6 +1,6 @@
 """A crease pattern with panels of a thickness: hinged solids, their verdict, and their fold angles.
 
-Theory: docs/guides/thick-panels.md.
+Theory: docs/theory/thick-panels.md.
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 import synth
 from synth.moving.made import configuration_of
-from synth.thickening import FoldCourse, MovingPieces, distances, overlap, pieces_of
+from synth.thickening.collisions import FoldCourse, MovingPieces, distances, overlap, pieces_of
 
 BOX = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
 

@@ -8,7 +8,7 @@ import synth
 from graphs.errors import SynthedraError
 from graphs.mechanism.sheet import Sheet
 from synth.moving.made import configuration_of
-from synth.thickening import FoldCourse, MovingPieces
+from synth.thickening.collisions import FoldCourse, MovingPieces
 from synth.thickening.techniques import strip_plates, tapered_plates
 
 
