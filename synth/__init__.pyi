@@ -37,7 +37,7 @@ from synth.candidates.listing import (
     count_conical_candidates as count_conical_candidates,
 )
 from synth.compliance.compliance_states import DrivenJoint as DrivenJoint, states as states
-from synth.compliance.springs import Mass as Mass, Masses as Masses, Springs as Springs
+from synth.compliance.springs import Mass as Mass, Masses as Masses, SpringArrays as SpringArrays, Springs as Springs
 from synth.designing.designs import design as design
 from synth.drawing.mechanisms.pictures import draw as draw
 from synth.editing import edit as edit

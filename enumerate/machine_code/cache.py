@@ -24,7 +24,7 @@ import numba
 import numpy as np
 from numba.core import caching, serialize
 
-from enumerate.machine_code.folders import compiling, keep, kept, usable_bases
+from enumerate.machine_code.folders import compiled, compiling, keep, kept, usable_bases
 
 _numba: Any = caching
 _dumps: Callable[[object], bytes] = serialize.dumps
@@ -78,6 +78,11 @@ class KeptCode(_numba.FunctionCache):
         if found is None:
             compiling()
         return found
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        """Keep the code of a signature, and say that it is compiled."""
+        super().save_overload(sig, data)
+        compiled()
 
 
 @cache

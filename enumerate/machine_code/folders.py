@@ -209,6 +209,9 @@ def _prune_once(base: Path) -> None:
 Notify: TypeAlias = Callable[[Path | None, bool], None]
 """Notifies the user; takes the folder where the code will be kept, if there is one, and whether it can be compiled."""
 
+Progress: TypeAlias = Callable[[int, int], None]
+"""Takes how many functions this process has begun to compile, and how many of them are done."""
+
 MISSING = "numba is not installed; try: pip install 'synthedra[enumerate]'"
 """Why nothing is compiled."""
 
@@ -217,28 +220,54 @@ INTERPRETED = f"this is interpreted, which takes many times as long as compiled 
 
 
 class _Notice:
-    """How this process notifies the user, and whether it has.
+    """How this process notifies the user, whether it has, and how many functions it compiles.
 
     The count of the semaphore `left`, if there are several processes, says whether another one has.
     """
 
     notify: Notify | None = None
+    progress: Progress | None = None
     notified = False
+    shows = False
     left: Any = None
+    begun = done = 0
 
 
 _notice = _Notice()
 
 
-def on_compiling(notify: Notify | None) -> None:
-    """Let a function be called before the first function is compiled, or where one should be and cannot."""
-    _notice.notify, _notice.notified, _notice.left = notify, False, None
+def on_compiling(notify: Notify | None, progress: Progress | None = None) -> None:
+    """Let a function be called before the first function is compiled, or where one should be and cannot.
+
+    In the process that notifies, progress is called whenever a function is begun or done.
+    """
+    _begin(notify, progress, None)
+
+
+def _begin(notify: Notify | None, progress: Progress | None, left: Any) -> None:
+    _notice.notify, _notice.progress, _notice.left = notify, progress, left
+    _notice.notified = _notice.shows = False
+    _notice.begun = _notice.done = 0
 
 
 def compiling() -> None:
     """Note that something is about to be compiled."""
     if _notice.notify is not None and _first():
         _notice.notify(writable_base(), True)
+        _notice.shows = True
+    _notice.begun += 1
+    _show()
+
+
+def compiled() -> None:
+    """Note that something has been compiled."""
+    _notice.done += 1
+    _show()
+
+
+def _show() -> None:
+    if _notice.progress is not None and _notice.shows:
+        _notice.progress(_notice.begun, _notice.done)
 
 
 def interpreting_all() -> None:
@@ -259,7 +288,7 @@ def _first() -> bool:
     return _notice.left is None or bool(_notice.left.acquire(block=False))
 
 
-def to_workers() -> tuple[Notify, Any] | None:
+def to_workers() -> tuple[Notify, Progress | None, Any] | None:
     """Return what `heard_by` needs in each worker process, so that only one process of all notifies."""
     if _notice.notify is None:
         return None
@@ -267,10 +296,9 @@ def to_workers() -> tuple[Notify, Any] | None:
         from multiprocessing import Semaphore
 
         _notice.left = Semaphore(0 if _notice.notified else 1)
-    return _notice.notify, _notice.left
+    return _notice.notify, _notice.progress, _notice.left
 
 
-def heard_by(shared: tuple[Notify, Any] | None) -> None:
+def heard_by(shared: tuple[Notify, Progress | None, Any] | None) -> None:
     """Share in a worker what `to_workers` returned in the process that started it."""
-    notify, left = shared or (None, None)
-    _notice.notify, _notice.notified, _notice.left = notify, False, left
+    _begin(*(shared or (None, None, None)))

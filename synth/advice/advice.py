@@ -1,21 +1,22 @@
 """Joints to lock or panels to crease for a number of freedoms. Theory: docs/theory/advice.md."""
 
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from itertools import islice
 from math import inf, isfinite
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
 from graphs.edit.named import known
-from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
+from graphs.errors import InvariantError, NumericalError, UnsolvableError, check_argument, numbered, shown
 from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed, TableBlock
 from graphs.rank.singular_values import spectrum, split
 from graphs.tolerances import DOUBLE
-from graphs.types import Floats, JointId, LinkId
+from graphs.types import Flags, Floats, Ints, JointId, LinkId
 from synth.advice.diagonals import (
     Bounds,
     Candidates,
@@ -247,10 +248,98 @@ class _Protected:
     weights: Mapping[JointId, float] = field(default_factory=dict)
 
 
+@dataclass(frozen=True, slots=True, repr=False)
+class AdviceTable(Printed):
+    """Joints to lock, for many weights or configurations of one mechanism: N entries, at most L sets of S joints.
+
+    Attributes
+    ----------
+    configuration : Configuration
+        The input.
+    joints : tuple of joint id
+    wanted : int
+        Degrees of freedom that are required.
+    freedoms, branch : int[N]
+        Degrees of freedom M that there are, -1 where there is no advice; the motion branch on which that holds, -1
+        where the configuration is regular.
+    locks : int[N, L, S]
+        Places of the joints to lock, in the order of `Advice.locks`; -1 beyond those that there are.
+    weight, play : float[N, L]
+        Of these sets, as of `Locked`; nan beyond.
+    left : int[N, L]
+        Degrees of freedom with them locked; -1 where singular values do not decide, and beyond.
+    more : bool[N]
+        Whether there are, or may be, more sets.
+    why : mapping of int to str
+        Of entries without advice, why.
+
+    Examples
+    --------
+    >>> from synth.patterns import generate
+    >>> table = advise(generate("five-bar").mechanism, 1, weights={0: [1.0, 9.0, 0.0]}, limit=2)
+    >>> table, table.locks.shape, table.weight.tolist()
+    (<AdviceTable: 3 entries, 3 with advice>, (3, 2, 1), [[1.0, 1.0], [1.0, 1.0], [0.0, 1.0]])
+    """
+
+    configuration: Configuration
+    joints: tuple[JointId, ...]
+    wanted: int
+    freedoms: Ints
+    branch: Ints
+    locks: Ints
+    weight: Floats
+    play: Floats
+    left: Ints
+    more: Flags
+    why: dict[int, str]
+
+    def __len__(self) -> int:
+        return len(self.freedoms)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return all as plain data; of each entry as many sets as there are, joints by their ids."""
+        names = np.array([*self.joints, None], dtype=object)
+        count = (self.locks >= 0).any(axis=2).sum(axis=1).tolist()
+        sets = [
+            [[joint for joint in names[lock].tolist() if joint is not None] for lock in locks[:many]]
+            for locks, many in zip(self.locks, count, strict=True)
+        ]
+        return {
+            "configuration": self.configuration.to_json(),
+            "wanted": self.wanted,
+            "freedoms": [None if number < 0 else number for number in self.freedoms.tolist()],
+            "branch": [None if number < 0 else number for number in self.branch.tolist()],
+            "locks": sets,
+            **{
+                name: [row[:many] for row, many in zip(getattr(self, name).tolist(), count, strict=True)]
+                for name in ("weight", "play", "left")
+            },
+            "more": self.more.tolist(),
+            "why": {str(entry): why for entry, why in self.why.items()},
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed: the cheapest sets, and of how many entries."""
+        cheapest = self.locks[:, 0].tolist() if self.locks.shape[1] else []
+        sets = [tuple(self.joints[place] for place in places if place >= 0) for places in cheapest]
+        count = Counter(_names(lock) for lock in sets if lock)
+        lines: list[Block] = [f"{numbered(len(self), 'entry', 'entries')}; required: {self.wanted}"]
+        if count:
+            rows = [(name, str(number)) for name, number in count.most_common(_LIMIT)]
+            lines.append(TableBlock(("cheapest to lock", "entries"), rows, ["entries"]))
+        return [*lines, *(f"entry {entry}: {why}" for entry, why in list(self.why.items())[:_LIMIT])]
+
+    def __repr__(self) -> str:
+        advised = int((self.freedoms >= 0).sum())
+        return f"<AdviceTable: {numbered(len(self), 'entry', 'entries')}, {advised} with advice>"
+
+
+@overload
 def advise(
     mechanism: Movable,
     freedoms: int,
     *,
+    at: None = None,
     branch: int | str | None = None,
     weights: Mapping[JointId, float] | None = None,
     joints: Collection[JointId] = (),
@@ -259,7 +348,38 @@ def advise(
     limit: int = _LIMIT,
     size: int | None = None,
     leave_out: bool = False,
-) -> Advice:
+) -> Advice: ...
+
+
+@overload
+def advise(
+    mechanism: Movable,
+    freedoms: int,
+    *,
+    at: Floats | None = None,
+    branch: int | str | None = None,
+    weights: Mapping[JointId, float | Sequence[float] | Floats] | None = None,
+    joints: Collection[JointId] = (),
+    links: Collection[LinkId] = (),
+    flaps: bool = True,
+    limit: int = _LIMIT,
+) -> AdviceTable: ...
+
+
+def advise(
+    mechanism: Movable,
+    freedoms: int,
+    *,
+    at: Floats | None = None,
+    branch: int | str | None = None,
+    weights: Mapping[JointId, float] | Mapping[JointId, float | Sequence[float] | Floats] | None = None,
+    joints: Collection[JointId] = (),
+    links: Collection[LinkId] = (),
+    flaps: bool = True,
+    limit: int = _LIMIT,
+    size: int | None = None,
+    leave_out: bool = False,
+) -> Advice | AdviceTable:
     """Find joints to lock, or panels to crease, for a number of freedoms.
 
     Parameters
@@ -269,11 +389,14 @@ def advise(
     freedoms : int
         Required degrees of freedom, K. Of M that there are, M - K joints are locked, or K - M diagonals and more
         are creased.
+    at : float[N, J], optional
+        Joint angles of N configurations, radians, in the order of `Configuration.joints`, for instance those of a
+        `Sweep`: joints to lock are found at each.
     branch : int or str, optional
         From a singular configuration, above all a flat sheet: the motion branch, by its number or signs. By
         default the assignment chooses it.
-    weights : mapping of joint id to float, optional
-        Cost of locking a joint, 0 or more; by default 1.
+    weights : mapping of joint id to float, or to float[N], optional
+        Cost of locking a joint, 0 or more; by default 1. With arrays joints to lock are found for each of N weights.
     joints, links : collection of ids, optional
         Protected: the joints, and all joints of the links, are not locked; the links are not creased.
     flaps : bool, optional
@@ -285,6 +408,10 @@ def advise(
     leave_out : bool, optional
         Find for each set to lock the freedoms of a flat sheet without these creases, too: left out they stay at 0,
         which is a special angle.
+
+    Returns
+    -------
+    Advice, or of arrays AdviceTable
 
     Raises
     ------
@@ -309,15 +436,21 @@ def advise(
     ((1, 3, 4), 3.0)
     """
     check_argument("advise", mechanism, Movable)
-    protected = _Protected(frozenset(joints), frozenset(links), not flaps, dict(weights or {}))
     _check_number("freedoms", freedoms, 0)
     _check_number("limit", limit, 1)
-    at = configuration_of(mechanism)
-    sheet = at.drawn if isinstance(at, SheetConfiguration) else None
-    pose = general_pose(at, branch)
+    own = configuration_of(mechanism)
+    several = _several(weights or {})
+    if at is not None or several is not None:
+        if size is not None or leave_out:
+            raise InvariantError("advise", "arrays with a size, or creases left out", "joints to lock only")
+        protected = _Protected(frozenset(joints), frozenset(links), not flaps)
+        return _table(own, freedoms, at, (weights or {}, several), (branch, protected, limit))
+    costs = {joint: float(weight) for joint, weight in (weights or {}).items()}  # type: ignore[arg-type]
+    protected = _Protected(frozenset(joints), frozenset(links), not flaps, costs)
+    sheet = own.drawn if isinstance(own, SheetConfiguration) else None
+    pose = general_pose(own, branch)
     _check_names(pose, protected)
-    every = list(pose.linkage.graph.joints)
-    answer = Advice(at, pose.freedoms, freedoms, pose.branch, tuple(every[place] for place in pose.flaps))
+    answer = _begun(own, pose, freedoms)
     if freedoms > pose.freedoms:
         largest = freedoms - pose.freedoms + _ONE_MORE if size is None else size
         _check_number("size", largest, freedoms - pose.freedoms)
@@ -327,6 +460,98 @@ def advise(
     if leave_out:
         answer = replace(answer, locks=tuple(_with_left_out(lock, sheet) for lock in answer.locks))
     return answer
+
+
+def _begun(at: Configuration, pose: GeneralPose, freedoms: int) -> Advice:
+    """Return the answer before sets are found."""
+    every = list(pose.linkage.graph.joints)
+    return Advice(at, pose.freedoms, freedoms, pose.branch, tuple(every[place] for place in pose.flaps))
+
+
+def _several(weights: Mapping[JointId, Any]) -> int | None:
+    """Return of how many entries arrays of weights are; None of numbers only."""
+    shapes = {np.shape(weight) for weight in weights.values()} - {()}
+    if not shapes:
+        return None
+    if len(shapes) > 1 or len(next(iter(shapes))) != 1:
+        listed = ", ".join(map(str, sorted(shapes)))
+        raise InvariantError("weights", f"arrays of shapes {listed}", "numbers, and arrays float[N] of one length")
+    return int(next(iter(shapes))[0])
+
+
+def _table(
+    own: Configuration,
+    freedoms: int,
+    at: Floats | None,
+    weights: tuple[Mapping[JointId, Any], int | None],
+    options: tuple[int | str | None, _Protected, int],
+) -> AdviceTable:
+    """Return joints to lock for each entry: at a configuration of its own, float[N, J], or with weights of its own."""
+    (by_joint, several), (branch, protected, limit) = weights, options
+    if at is not None:
+        at = np.asarray(at, dtype=float)
+        count = several if several is not None else len(at)
+        if at.ndim != 2 or at.shape != (count, len(own.joints)):
+            expected = f"float[{'N' if several is None else several}, {len(own.joints)}]"
+            raise InvariantError("at", f"an array of shape {at.shape}", expected)
+    else:
+        count = several or 0
+    here = None if at is not None else general_pose(own, branch)
+    answers: dict[int, Advice] = {}
+    why: dict[int, str] = {}
+    for entry in range(count):
+        costs = {joint: float(weight[entry] if np.ndim(weight) else weight) for joint, weight in by_joint.items()}
+        kept = replace(protected, weights=costs)
+        if here is not None:
+            _check_names(here, kept)
+        try:
+            pose = here or general_pose(_in(own, at[entry]), branch)  # type: ignore[index]
+            if freedoms > pose.freedoms:
+                raise UnsolvableError(f"{pose.freedoms} degrees of freedom, and arrays are of joints to lock only")
+            answer = _begun(own, pose, freedoms)
+            answers[entry] = answer if freedoms == pose.freedoms else _with_locks(answer, pose, kept, limit)
+        except (UnsolvableError, NumericalError) as error:
+            why[entry] = str(error)
+    return _as_arrays(own, freedoms, count, answers, why)
+
+
+def _in(own: Configuration, angles: Floats) -> Configuration:
+    """Return the mechanism at other joint angles, float[J]; `UnsolvableError` if its loops are open there."""
+    if not np.isfinite(angles).all():
+        raise UnsolvableError("no configuration: joint angles are no numbers")
+    if (error := own.closure.error(angles)) > DOUBLE.same_configuration:
+        raise UnsolvableError(f"no configuration: the loop-closure residual is {error:.1e}")
+    return configuration_of(own.at(angles))
+
+
+def _as_arrays(
+    own: Configuration, freedoms: int, count: int, answers: Mapping[int, Advice], why: dict[int, str]
+) -> AdviceTable:
+    """Return answers by their entry as arrays."""
+    most = max((len(answer.locks) for answer in answers.values()), default=0)
+    size = max((answer.freedoms - freedoms for answer in answers.values()), default=0)
+    place = {joint: number for number, joint in enumerate(own.joints)}
+    table = AdviceTable(
+        configuration=own,
+        joints=own.joints,
+        wanted=freedoms,
+        freedoms=np.full(count, -1),
+        branch=np.full(count, -1),
+        locks=np.full((count, most, size), -1),
+        weight=np.full((count, most), np.nan),
+        play=np.full((count, most), np.nan),
+        left=np.full((count, most), -1),
+        more=np.zeros(count, dtype=bool),
+        why=why,
+    )
+    for entry, answer in answers.items():
+        table.freedoms[entry], table.more[entry] = answer.freedoms, answer.more
+        table.branch[entry] = -1 if answer.branch is None else answer.branch
+        for row, lock in enumerate(answer.locks):
+            table.locks[entry, row, : len(lock.joints)] = [place[joint] for joint in lock.joints]
+            table.weight[entry, row], table.play[entry, row] = lock.weight, lock.play
+            table.left[entry, row] = -1 if lock.freedoms is None else lock.freedoms
+    return table
 
 
 def _with_locks(answer: Advice, pose: GeneralPose, protected: _Protected, limit: int) -> Advice:

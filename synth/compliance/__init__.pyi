@@ -1,4 +1,15 @@
-from synth.compliance.compliance_states import DrivenJoint as DrivenJoint, States as States, states as states
+from synth.compliance.compliance_states import (
+    DrivenJoint as DrivenJoint,
+    States as States,
+    StateTable as StateTable,
+    states as states,
+)
 from synth.compliance.joint_limits import JointLimits as JointLimits, limits as limits
 from synth.compliance.members import Members as Members, State as State
-from synth.compliance.springs import Mass as Mass, Masses as Masses, Springs as Springs, sheet_masses as sheet_masses
+from synth.compliance.springs import (
+    Mass as Mass,
+    Masses as Masses,
+    SpringArrays as SpringArrays,
+    Springs as Springs,
+    sheet_masses as sheet_masses,
+)

@@ -1,19 +1,20 @@
 """The compliance states of a mechanism, and what springs do to it. Theory: docs/theory/compliance.md."""
 
+from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import degrees
 from sys import float_info
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from scipy.optimize import brentq
 
-from graphs.errors import InvariantError, UnsolvableError, check_argument, numbered, shown
+from graphs.errors import InvariantError, NumericalError, UnsolvableError, check_argument, numbered, shown
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE, canonical_order, leading
-from graphs.types import Floats, JointId, LinkId
+from graphs.types import Flags, Floats, JointId, LinkId
 from synth.compliance.members import Members, State, freedoms_text, number_or_unknown, state_of, states_of_sets
 from synth.compliance.springs import (
     ElasticLinkage,
@@ -21,6 +22,7 @@ from synth.compliance.springs import (
     LoadPath,
     Masses,
     SmallMotion,
+    SpringArrays,
     Springs,
     equilibrium,
     load_path,
@@ -302,6 +304,105 @@ class DrivenJoint:
             raise InvariantError("frames", f"a path of {self.frames} frames", "1 or more")
 
 
+@dataclass(frozen=True, slots=True, repr=False)
+class StateTable(Printed):
+    """What the springs of many copies of one mechanism do: N copies, J joints, F configurations of a load path.
+
+    Attributes
+    ----------
+    configuration : Configuration
+        The input.
+    joints : tuple of joint id
+        The columns of angles.
+    now : tuple of State
+        Of each copy at the input: members are active whose springs are not at rest.
+    angles : float[N, J]
+        Of the equilibria, radians; nan where none was found.
+    energy, least, unbalanced, residuals : float[N]
+        Of the equilibria, as of `Equilibrium`; least curvatures are nan where there are none.
+    stable : bool[N]
+        Whether the energy rises along all motions.
+    frequencies : float[N, M] or None
+        Of small motions, slowest first, in cycles per unit of time; nan where a motion grows. None without masses.
+    driven : joint id or None
+    path : float[N, F, J]
+        Joint angles while the driven joint is driven, radians; nan after the end. F is 0 without it.
+    moments, energies : float[N, F]
+        On the load path: of the driven joint, and of the springs.
+    why : mapping of int to str
+        Of copies without an equilibrium, and those whose load path ends early, why.
+
+    Examples
+    --------
+    >>> from synth.patterns import generate
+    >>> table = states(generate("four-bar").mechanism, springs=SpringArrays({0: [1.0, 2.0], 1: 1.0}, rest={0: 0.1}))
+    >>> table, table.angles.shape, table.stable.tolist()
+    (<StateTable: 2 copies, 2 equilibria>, (2, 4), [True, True])
+    """
+
+    configuration: Configuration
+    joints: tuple[JointId, ...]
+    now: tuple[State, ...]
+    angles: Floats
+    energy: Floats
+    least: Floats
+    unbalanced: Floats
+    residuals: Floats
+    stable: Flags
+    frequencies: Floats | None
+    driven: JointId | None
+    path: Floats
+    moments: Floats
+    energies: Floats
+    why: dict[int, str]
+
+    def __len__(self) -> int:
+        return len(self.angles)
+
+    @property
+    def balanced(self) -> Flags:
+        """Which copies have an equilibrium: bool[N]."""
+        return np.asarray(~np.isnan(self.energy))
+
+    def to_json(self) -> dict[str, Any]:
+        """Return all as plain data, angles in radians; null where there is no number."""
+        arrays = ("angles", "energy", "least", "unbalanced", "residuals", "path", "moments", "energies")
+        return {
+            "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
+            "joints": list(self.joints),
+            "states": [state.to_json() for state in self.now],
+            "stable": self.stable.tolist(),
+            **{name: _numbers(getattr(self, name)) for name in arrays},
+            "frequencies": None if self.frequencies is None else _numbers(self.frequencies),
+            "driven": self.driven,
+            "why": {str(copy): why for copy, why in self.why.items()},
+        }
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        count = Counter((state.kind, stable) for state, stable in zip(self.now, self.stable.tolist(), strict=True))
+        rows = [(kind, "stable" if stable else "not stable", str(number)) for (kind, stable), number in count.items()]
+        found = int(self.balanced.sum())
+        lines: list[Block] = [f"springs of {numbered(len(self), 'copy', 'copies')}; an equilibrium for {found} of them"]
+        if rows:
+            lines.append(TableBlock(("state at this configuration", "equilibrium", "copies"), rows, ["copies"]))
+        if found:
+            lines.append(f"largest loop-closure residual: {np.nanmax(self.residuals):.1e}")
+        return [*lines, *(f"copy {copy}: {why}" for copy, why in list(self.why.items())[:_LISTED])]
+
+    def __repr__(self) -> str:
+        found = numbered(int(self.balanced.sum()), "equilibrium", "equilibria")
+        return f"<StateTable: {numbered(len(self), 'copy', 'copies')}, {found}>"
+
+
+def _numbers(array: Floats) -> list[Any]:
+    """Return numbers as lists, with None for nan."""
+    numbers = array.astype(object)
+    numbers[np.isnan(array)] = None
+    return list(numbers.tolist())
+
+
+@overload
 def states(
     mechanism: Movable,
     *,
@@ -310,7 +411,30 @@ def states(
     springs: Springs | None = None,
     drive: DrivenJoint | None = None,
     masses: Masses | None = None,
-) -> States:
+) -> States: ...
+
+
+@overload
+def states(
+    mechanism: Movable,
+    *,
+    joints: Collection[JointId] = (),
+    links: Collection[LinkId] = (),
+    springs: SpringArrays,
+    drive: DrivenJoint | None = None,
+    masses: Masses | None = None,
+) -> StateTable: ...
+
+
+def states(
+    mechanism: Movable,
+    *,
+    joints: Collection[JointId] = (),
+    links: Collection[LinkId] = (),
+    springs: Springs | SpringArrays | None = None,
+    drive: DrivenJoint | None = None,
+    masses: Masses | None = None,
+) -> States | StateTable:
     """Find the compliance states of a mechanism, and what its springs do.
 
     Parameters
@@ -319,12 +443,17 @@ def states(
         With coordinates; of a sheet with several frames the first that has them.
     joints, links : collection of ids
         Compliant members. Joints with a stiffness are compliant too.
-    springs : Springs, optional
-        At joints, with moments. The search for the equilibrium starts at the input configuration.
+    springs : Springs or SpringArrays, optional
+        At joints, with moments. The search for the equilibrium starts at the input configuration. With arrays it is
+        done for each of N copies, whose equilibria and load paths are returned as arrays.
     drive : DrivenJoint, optional
         A joint whose load path is followed from the equilibrium.
     masses : Masses, optional
         For modes and frequencies of small motions about the equilibrium.
+
+    Returns
+    -------
+    States, or of arrays StateTable
 
     Raises
     ------
@@ -346,26 +475,114 @@ def states(
     check_argument("states", mechanism, Movable)
     at = configuration_of(mechanism)
     linkage = at.linkage
-    stiff = () if springs is None else tuple(joint for joint, value in springs.stiffness.items() if value)
-    compliant = Members(tuple(dict.fromkeys((*joints, *stiff))), tuple(dict.fromkeys(links)))
-    compliant.check_names(linkage.graph)
-    if not len(compliant):
-        raise UnsolvableError(
-            "nothing is compliant; expected one or more compliant joints or links; try --joint, --link or --stiffness"
+    if isinstance(springs, SpringArrays):
+        _check_regular(at)
+        return _of_copies(
+            at, [_compliant(at, joints, links, springs[copy]) for copy in range(len(springs))], springs, drive, masses
         )
+    compliant = _compliant(at, joints, links, springs)
     if springs is None and (drive is not None or masses is not None):
         raise UnsolvableError("a load path and frequencies require springs; expected the stiffness of a joint")
-    if springs is not None and _branches_meet(at):
-        raise UnsolvableError(
-            "springs require a regular configuration, and the sheet lies flat, where motion branches meet; "
-            + _folded(at)
-        )
+    if springs is not None:
+        _check_regular(at)
     sets = tuple(states_of_sets(linkage, compliant))
     analysis = _SpringAnalysis(linkage, compliant, springs or Springs())
     active = analysis.active(linkage.angles)
     now = next(state for state in sets if state.active.within(active) and active.within(state.active))
     elastic = None if springs is None else analysis.elastic(drive, masses)
     return States(at, compliant, now, sets, tuple(_transitions(sets)), elastic)
+
+
+def _compliant(
+    at: Configuration, joints: Collection[JointId], links: Collection[LinkId], springs: Springs | None
+) -> Members:
+    """Return the compliant members: those that are named, and joints with a stiffness."""
+    stiff = () if springs is None else tuple(joint for joint, value in springs.stiffness.items() if value)
+    compliant = Members(tuple(dict.fromkeys((*joints, *stiff))), tuple(dict.fromkeys(links)))
+    compliant.check_names(at.linkage.graph)
+    if not len(compliant):
+        raise UnsolvableError(
+            "nothing is compliant; expected one or more compliant joints or links; try --joint, --link or --stiffness"
+        )
+    return compliant
+
+
+def _check_regular(at: Configuration) -> None:
+    if _branches_meet(at):
+        raise UnsolvableError(
+            "springs require a regular configuration, and the sheet lies flat, where motion branches meet; "
+            + _folded(at)
+        )
+
+
+def _of_copies(
+    at: Configuration,
+    compliant: Sequence[Members],
+    springs: SpringArrays,
+    drive: DrivenJoint | None,
+    masses: Masses | None,
+) -> StateTable:
+    """Return what springs do for each copy, from the same search for branches and with the same closure equations."""
+    linkage, count = at.linkage, len(springs)
+    if any(members.links for members in compliant) and drive is not None:
+        raise UnsolvableError("a load path cannot have compliant links; expected compliant joints only")
+    joints, rows = len(linkage.angles), 0 if drive is None else drive.frames + 1
+    bending = ElasticLinkage(linkage, springs[0]) if count else None
+    balance = {name: np.full(count, np.nan) for name in ("energy", "least", "unbalanced", "residuals")}
+    on_path = {name: np.full((count, rows), np.nan) for name in ("moments", "energies")}
+    table = StateTable(
+        configuration=at,
+        joints=at.joints,
+        now=tuple(_states_at_input(linkage, compliant, springs)),
+        angles=np.full((count, joints), np.nan),
+        stable=np.zeros(count, dtype=bool),
+        frequencies=None if masses is None else np.full((count, bending.freedoms if bending else 0), np.nan),
+        driven=None if drive is None else drive.joint,
+        path=np.full((count, rows, joints), np.nan),
+        why={},
+        **balance,
+        **on_path,
+    )
+    for copy in range(count):
+        assert bending is not None
+        own = bending.with_springs(springs[copy])
+        try:
+            pose = equilibrium(own)
+            _write_pose(table, copy, pose)
+            if table.frequencies is not None and masses is not None:
+                modes = small_motions(own, pose, masses)
+                table.frequencies[copy] = [np.nan if mode.frequency is None else mode.frequency for mode in modes]
+            if drive is not None:
+                _write_path(table, copy, _driven(own, pose, drive))
+        except NumericalError as error:
+            table.why[copy] = str(error)
+    return table
+
+
+def _states_at_input(linkage: PosedLinkage, compliant: Sequence[Members], springs: SpringArrays) -> Iterator[State]:
+    """Yield the state of each copy at the input; copies with the same active members have the same."""
+    known: dict[tuple[Members, Members], State] = {}
+    for copy, members in enumerate(compliant):
+        active = _SpringAnalysis(linkage, members, springs[copy]).active(linkage.angles)
+        if (members, active) not in known:
+            known[members, active] = state_of(linkage, members, active)
+        yield known[members, active]
+
+
+def _write_pose(table: StateTable, copy: int, pose: Equilibrium) -> None:
+    """Write an equilibrium into the row of a copy."""
+    table.angles[copy], table.energy[copy], table.stable[copy] = pose.angles, pose.energy, pose.stable
+    table.least[copy] = np.nan if pose.least is None else pose.least
+    table.unbalanced[copy], table.residuals[copy] = pose.unbalanced, pose.error
+
+
+def _write_path(table: StateTable, copy: int, path: LoadPath) -> None:
+    """Write a load path into the row of a copy."""
+    for row, pose in enumerate(path.poses):
+        table.path[copy, row], table.energies[copy, row] = pose.angles, pose.energy
+        table.moments[copy, row] = pose.held[0]
+    if path.stopped:
+        table.why[copy] = path.stopped
 
 
 def _branches_meet(at: Configuration) -> bool:
@@ -408,9 +625,7 @@ class _SpringAnalysis:
         joints = tuple(self.linkage.graph.joints)
         if drive is None:
             return Elastic(joints, pose, modes=modes)
-        [driver], goal = goals_of(joints, {drive.joint: drive.to}, float_info.max)
-        values = np.linspace(pose.angles[driver], goal[0], drive.frames + 1)[1:]
-        path = load_path(bending, pose.angles, driver, values)
+        path = _driven(bending, pose, drive)
         poses = tuple(
             PathPose(at, state_of(moved(self.linkage, at.angles), self.compliant, self.active(at.angles)))
             for at in path.poses
@@ -433,6 +648,13 @@ class _SpringAnalysis:
 
                 passed = ends[1] if _is_rest(now) else brentq(off, *ends, xtol=DOUBLE.same_configuration)
                 yield RestPassed(joint, passed)
+
+
+def _driven(bending: ElasticLinkage, pose: Equilibrium, drive: DrivenJoint) -> LoadPath:
+    """Return the load path of a driven joint from an equilibrium."""
+    [driver], goal = goals_of(tuple(bending.linkage.graph.joints), {drive.joint: drive.to}, float_info.max)
+    values = np.linspace(pose.angles[driver], goal[0], drive.frames + 1)[1:]
+    return load_path(bending, pose.angles, driver, values)
 
 
 def _is_rest(off: float) -> bool:

@@ -4,6 +4,7 @@ Theory: docs/theory/compliance.md.
 """
 
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass, field
 from math import isfinite, pi
 from typing import NamedTuple
@@ -68,6 +69,58 @@ class Springs:
                 raise InvariantError("joint", f"{shown(joint)} is no joint", known(joints, str(joint)))
 
 
+@dataclass(frozen=True, slots=True)
+class SpringArrays:
+    """Springs and dead moments of many copies of one linkage, as `Springs` has them for one.
+
+    Attributes
+    ----------
+    stiffness, rest, moments : mapping of joint id to float or float[N]
+        A number holds for all copies.
+
+    Raises
+    ------
+    InvariantError
+        If arrays are not of one length, or as of `Springs`.
+
+    Examples
+    --------
+    >>> copies = SpringArrays({0: [1.0, 2.0, 3.0], 2: 1.0}, rest={0: 0.5})
+    >>> len(copies), copies[2]
+    (3, Springs(stiffness={0: 3.0, 2: 1.0}, rest={0: 0.5}, moments={}))
+    """
+
+    stiffness: Mapping[JointId, npt.ArrayLike] = field(default_factory=dict)
+    rest: Mapping[JointId, npt.ArrayLike] = field(default_factory=dict)
+    moments: Mapping[JointId, npt.ArrayLike] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        shapes = {np.shape(value) for given in self._given.values() for value in given.values()} - {()}
+        if len(shapes) > 1 or any(len(shape) > 1 for shape in shapes):
+            listed = ", ".join(map(str, sorted(shapes)))
+            raise InvariantError("springs", f"arrays of shapes {listed}", "numbers, and arrays float[N] of one length")
+
+    @property
+    def _given(self) -> dict[str, Mapping[JointId, npt.ArrayLike]]:
+        return {"stiffness": self.stiffness, "rest": self.rest, "moments": self.moments}
+
+    def __len__(self) -> int:
+        sizes = [np.size(value) for given in self._given.values() for value in given.values() if np.ndim(value)]
+        return sizes[0] if sizes else 1
+
+    def __getitem__(self, number: int) -> Springs:
+        """Return the springs of one copy. A rest angle without a stiffness there says nothing, and is left out."""
+        own = {
+            what: {joint: float(value[number] if np.ndim(value) else value) for joint, value in arrays.items()}
+            for what, arrays in (
+                (what, {joint: np.asarray(value, dtype=float) for joint, value in given.items()})
+                for what, given in self._given.items()
+            )
+        }
+        rest = {joint: angle for joint, angle in own["rest"].items() if own["stiffness"].get(joint)}
+        return Springs(own["stiffness"], rest, own["moments"])
+
+
 class Tangent(NamedTuple):
     """Derivatives of the closure equations at a pose, float[rows, J], and all motions, orthonormal float[J, f]."""
 
@@ -91,15 +144,24 @@ class ElasticLinkage:
     """
 
     def __init__(self, linkage: PosedLinkage, springs: Springs) -> None:
-        joints = tuple(linkage.graph.joints)
-        springs.check_joints(joints)
         self.linkage, self.closure = linkage, ClosureEquations(linkage)
         self.closure.check_closed(linkage.angles)
+        self._set(springs)
+        self.freedoms = _freedoms_of_regular_pose(linkage, self.closure)
+
+    def with_springs(self, springs: Springs) -> "ElasticLinkage":
+        """Return the same linkage with other springs."""
+        other = copy(self)
+        other._set(springs)
+        return other
+
+    def _set(self, springs: Springs) -> None:
+        joints, linkage = tuple(self.linkage.graph.joints), self.linkage
+        springs.check_joints(joints)
         self.stiffness = np.array([springs.stiffness.get(joint, 0.0) for joint in joints])
         zero = zip(joints, linkage.angles.tolist(), strict=True)
         self.rest = np.array([springs.rest.get(joint, angle) for joint, angle in zero])
         self.moments = np.array([springs.moments.get(joint, 0.0) for joint in joints])
-        self.freedoms = _freedoms_of_regular_pose(linkage, self.closure)
 
     def energy(self, angles: Floats) -> float:
         """Return the energy of springs and moments at joint angles, radians."""

@@ -6,7 +6,7 @@ import pytest
 from toy_kernels import make_toy, run
 
 from enumerate.machine_code import kernels
-from enumerate.machine_code.folders import INTERPRETED, compiling, heard_by, on_compiling, to_workers
+from enumerate.machine_code.folders import INTERPRETED, compiled, compiling, heard_by, on_compiling, to_workers
 
 WORKERS = """
 import json, sys
@@ -53,6 +53,45 @@ def test_a_worker_tells_if_nobody_has():
     finally:
         on_compiling(None)
     assert to_workers() is None
+
+
+def test_progress_is_shown_by_the_process_that_tells():
+    """Also of functions that are compiled on the way of others; not by those that did not tell."""
+    told, steps = [], []
+    on_compiling(lambda *word: told.append(word), lambda *counts: steps.append(counts))
+    try:
+        shared = to_workers()
+        heard_by(shared)
+        compiling()
+        compiling()
+        compiled()
+        compiled()
+        heard_by(shared)  # as if in another worker
+        compiling()
+        compiled()
+    finally:
+        on_compiling(None)
+    compiling()
+    compiled()
+    assert (len(told), steps) == (1, [(1, 0), (2, 0), (2, 1), (2, 2)])
+
+
+@pytest.mark.slow
+def test_each_function_that_is_compiled_is_counted(tmp_path):
+    make_toy(tmp_path)
+    counted = """
+import json, sys
+from enumerate.machine_code.folders import on_compiling
+from toy.outer import outer
+
+steps = []
+on_compiling(lambda *word: None, lambda *counts: steps.append(counts))
+outer(4)
+begun, done = steps[-1]
+print(json.dumps([begun == done, begun == sum(1 for one, other in zip([(0, 0), *steps], steps) if other[1] > one[1])]))
+"""
+    values, _ = run(counted, tmp_path, tmp_path / "cache")
+    assert values == [True, True]
 
 
 def test_without_numba_kernels_stay_interpreted_and_the_user_is_told_once(monkeypatch):

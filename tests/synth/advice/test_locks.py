@@ -1,5 +1,7 @@
 """What to lock, against trying all sets of joints."""
 
+import json
+import re
 from itertools import combinations
 
 import networkx as nx
@@ -19,6 +21,7 @@ from graphs.rank.pose import pose_mobility
 from synth.advice.advice import advise
 from synth.advice.locks import general_pose
 from synth.moving.made import configuration_of
+from synth.moving.motion import move
 from synth.patterns.generated import generate
 
 
@@ -180,3 +183,59 @@ def test_as_many_as_there_are_need_nothing(data):
     assert "0 degrees of freedom at this configuration; required: 0" in str(
         advise(read(data / "linkages" / "wampler-cube-locked.json"), 0)
     )
+
+
+def same(table, entry, one):
+    """Whether an entry of a table is what one call advises."""
+    locks = [[one.configuration.joints.index(joint) for joint in lock.joints] for lock in one.locks]
+    many = len(locks)
+    assert table.freedoms[entry] == one.freedoms
+    assert [[place for place in row if place >= 0] for row in table.locks[entry, :many].tolist()] == locks
+    assert (table.locks[entry, many:] == -1).all()
+    np.testing.assert_array_equal(table.weight[entry, :many], [lock.weight for lock in one.locks])
+    np.testing.assert_array_equal(table.play[entry, :many], [lock.play for lock in one.locks])
+    assert table.left[entry, :many].tolist() == [lock.freedoms for lock in one.locks]
+    assert (table.more[entry], table.branch[entry]) == (one.more, -1 if one.branch is None else one.branch)
+
+
+def test_advice_for_many_weights_is_that_for_each(data):
+    sheet = read(data / "patterns" / "bird-base.fold")
+    first, second = configuration_of(sheet).joints[:2]
+    weights = {first: np.array([1.0, 0.0, 7.0]), second: 3.0}
+    table = advise(sheet, 2, weights=weights, limit=3)
+    for entry, cost in enumerate(weights[first].tolist()):
+        same(table, entry, advise(sheet, 2, weights={first: cost, second: 3.0}, limit=3))
+    assert len(table) == 3
+    assert json.loads(json.dumps(table.to_json()))["weight"] == table.weight.tolist()
+    assert "3 entries; required: 2" in str(table)
+
+
+@pytest.mark.parametrize("name", ["five-bar", "waterbomb-base"])
+def test_advice_at_many_configurations_is_that_at_each(name):
+    mechanism = generate(name).mechanism
+    at = configuration_of(mechanism)
+    way = at.branches.branches[0].rates
+    path = move(
+        at, drive={at.joints[int(np.abs(way).argmax())]: at.linkage.angles[np.abs(way).argmax()] + 0.4}, frames=3
+    )
+    angles = np.vstack([path.path.angles[1:], np.full((1, len(at.joints)), 0.3), np.full((1, len(at.joints)), np.nan)])
+    table = advise(mechanism, 0, at=angles, limit=2)
+    for entry, one in enumerate(angles[:3]):
+        same(table, entry, advise(at.at(one), 0, limit=2))
+    assert table.why.keys() == {3, 4}
+    assert table.why[4] == "no configuration: joint angles are no numbers"
+    assert table.freedoms[3:].tolist() == [-1, -1]
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        ({"weights": {0: [1.0, 2.0], 1: [1.0]}}, "arrays of shapes (1,), (2,)"),
+        ({"at": np.zeros((2, 3))}, "an array of shape (2, 3); expected float[N, 5]"),
+        ({"weights": {0: [1.0, -2.0]}}, "the weight of joint 0 is -2"),
+        ({"weights": {0: [1.0]}, "leave_out": True}, "joints to lock only"),
+    ],
+)
+def test_arrays_that_do_not_fit_are_refused(options, told):
+    with pytest.raises(InvariantError, match=re.escape(told)):
+        advise(generate("five-bar").mechanism, 1, **options)

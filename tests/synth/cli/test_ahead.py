@@ -1,14 +1,17 @@
 """Compiling ahead, and the word that is said where it was not done."""
 
+import io
 import json
 import os
 import signal
 import subprocess
 import sys
+import time
 
 import pytest
 
 from enumerate.machine_code import folders
+from synth.cli import __main__ as commands
 from synth.cli.__main__ import run
 
 FIRST = [
@@ -47,6 +50,31 @@ def test_compiling_is_said_once_on_standard_error(tmp_path, monkeypatch, capsys)
         for number, handler in heeded.items():
             signal.signal(number, handler)
     assert capsys.readouterr() == ("", said(tmp_path))
+
+
+class Terminal(io.StringIO):
+    """What a terminal is given."""
+
+    def isatty(self):
+        return True
+
+
+def test_a_terminal_shows_how_many_functions_are_compiled_and_for_how_long(monkeypatch):
+    """While one is compiled the line is written again and again; then it is gone, until the next."""
+    monkeypatch.setattr(commands, "_EVERY", 0.01)
+    monkeypatch.setattr(commands.sys, "stderr", Terminal())
+    line = commands.CompilingLine()
+    for done in (0, 1):
+        line(done + 1, done)
+        deadline = time.monotonic() + 5.0
+        while f"compiling: {done} function{'' if done else 's'} done, 0 s" not in commands.sys.stderr.getvalue():
+            assert time.monotonic() < deadline
+            time.sleep(0.01)
+        line(done + 1, done + 1)
+        assert commands.sys.stderr.getvalue().endswith("\r\x1b[K")
+    monkeypatch.setattr(commands.sys, "stderr", io.StringIO())
+    commands._show_compiling(1, 0)
+    assert commands._line == []
 
 
 def test_compiling_ahead_can_be_stopped(tmp_path):

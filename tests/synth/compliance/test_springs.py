@@ -1,5 +1,7 @@
 """Springs: equilibria, load paths and frequencies against closed forms of a planar four-bar and of pendulums."""
 
+import json
+import re
 from dataclasses import replace
 from math import pi, radians
 
@@ -13,7 +15,7 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from synth.compliance import DrivenJoint, Mass, Masses, Springs, sheet_masses
+from synth.compliance import DrivenJoint, Mass, Masses, SpringArrays, Springs, sheet_masses, states
 from synth.compliance.springs import ElasticLinkage, equilibrium, load_path, mass_matrix, small_motions
 from synth.motion.linkage import linkage_of_axes
 from synth.moving.made import configuration_of
@@ -235,3 +237,55 @@ def test_what_springs_refuse():
         ElasticLinkage(rigid, Springs({0: 1.0}))
     with pytest.raises(InvariantError, match="more than 0"):
         synth.states(four_bar(), springs=Springs({0: 1.0}), masses=Masses((Mass(1, -1.0, (0.0, 0.0, 0.0)),)))
+
+
+def test_springs_of_many_copies_are_those_of_each():
+    """Arrays of stiffness, rest and moments; a copy without a spring at a joint, and a driven joint."""
+    mechanism, chance = generate("five-bar").mechanism, np.random.default_rng(3)
+    stiffness, rest = chance.uniform(0.5, 2.0, (3, 4)), chance.uniform(-0.4, 0.4, (2, 4))
+    stiffness[2, 1] = 0.0
+    copies = SpringArrays(
+        dict(enumerate(stiffness)), rest={0: rest[0], 2: rest[1]}, moments={3: chance.uniform(-0.2, 0.2, 4), 4: 0.1}
+    )
+    masses = Masses([Mass(link, 1.0, (0.3 * link, 1.0, 0.2)) for link in range(5)])
+    drive = DrivenJoint(0, 0.3, frames=3)
+    table = states(mechanism, springs=copies, drive=drive, masses=masses)
+    assert (len(table), table.path.shape, table.why) == (4, (4, 4, 5), {})
+    for copy in range(4):
+        one = states(mechanism, springs=copies[copy], drive=drive, masses=masses)
+        pose = one.elastic.pose
+        np.testing.assert_array_equal(table.angles[copy], pose.angles)
+        assert (table.energy[copy], table.least[copy], table.stable[copy]) == (pose.energy, pose.least, pose.stable)
+        np.testing.assert_array_equal(table.path[copy], [point.pose.angles for point in one.elastic.path])
+        np.testing.assert_array_equal(table.moments[copy], [point.pose.held[0] for point in one.elastic.path])
+        np.testing.assert_array_equal(table.frequencies[copy], [mode.frequency for mode in one.elastic.modes])
+        now = table.now[copy]
+        assert (set(now.active.joints), now.freedoms) == (set(one.now.active.joints), one.now.freedoms)
+    assert (table.balanced.all(), table.residuals.max() < 1e-12) == (True, True)
+    assert json.loads(json.dumps(table.to_json()))["energy"] == table.energy.tolist()
+    assert "an equilibrium for 4 of them" in str(table)
+
+
+def test_a_copy_whose_load_path_ends_says_so():
+    table = states(
+        generate("four-bar").mechanism,
+        springs=SpringArrays({0: [1.0, 2.0]}, rest={0: [0.0, 0.2]}),
+        drive=DrivenJoint(1, 3.0, frames=6),
+    )
+    one = states(generate("four-bar").mechanism, springs=Springs({0: 1.0}, rest={0: 0.0}), drive=DrivenJoint(1, 3.0, 6))
+    reached = len(one.elastic.path)
+    assert table.why[0] == one.elastic.stopped != ""
+    assert (~np.isnan(table.moments[0])).sum() == reached < 7
+    assert f"copy 0: {table.why[0]}" in str(table)
+
+
+@pytest.mark.parametrize(
+    ("springs", "told"),
+    [
+        (lambda: SpringArrays({0: [1.0, 2.0], 1: [1.0]}), "arrays of shapes (1,), (2,)"),
+        (lambda: SpringArrays({0: [1.0, -2.0]})[1], "joint 0 has -2.0"),
+    ],
+)
+def test_arrays_that_do_not_fit_are_refused(springs, told):
+    with pytest.raises(InvariantError, match=re.escape(told)):
+        springs()
