@@ -78,7 +78,6 @@ EXEMPT = {
     ("synth/motion/derivatives.py", "_NUDGE"): "step of differences",
     ("synth/motion/tangent.py", "REGULAR"): "regularisation of a step",
     ("synth/motion/tangent.py", "_LEFT"): "end of an iteration",
-    ("synth/thickening/collisions.py", "_FINEST"): "length of a step",
     ("synth/motion/tangent.py", "_SETTLED"): "end of an iteration",
     ("synth/motion/tangent.py", "_UNSETTLED"): "end of an iteration",
     ("synth/motion/singular/second_order.py", "_GAINS"): "end of an iteration",

@@ -256,11 +256,7 @@ def _ratios(frames: Floats) -> Floats | None:
         return None
     ratios = halves[turned] / halves[turned][:, [driver]]
     middle = ratios[len(ratios) // 2]
-<<<<<<< HEAD
-    return middle if np.abs(ratios - middle).max() < DOUBLE.parallel else None
-=======
     return middle if np.abs(ratios - middle).max() < DOUBLE.same_point else None
->>>>>>> e6e7c545 (Guide: make it of wood; theory page of thick panels with a drawing; files, native JSON, changes)
 
 
 @dataclass(frozen=True)
