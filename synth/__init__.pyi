@@ -38,6 +38,7 @@ from synth.candidates.listing import (
 )
 from synth.compliance.compliance_states import DrivenJoint as DrivenJoint, states as states
 from synth.compliance.springs import Mass as Mass, Masses as Masses, SpringArrays as SpringArrays, Springs as Springs
+from synth.designing.cone_design import design_on_cone as design_on_cone
 from synth.designing.designs import design as design
 from synth.drawing.mechanisms.pictures import draw as draw
 from synth.editing import edit as edit
@@ -50,7 +51,6 @@ from synth.guidance.order import analyse_order as analyse_order
 from synth.guidance.orientations import Orientations as Orientations
 from synth.layering.answer import layers as layers
 from synth.members.sweeping import sweep as sweep
-from synth.moving.cone_design import design_on_cone as design_on_cone
 from synth.moving.motion import in_configuration as in_configuration, move as move
 from synth.notebook import load_ipython_extension as load_ipython_extension
 from synth.overconstraint.explanation import explain as explain

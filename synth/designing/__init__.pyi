@@ -1,3 +1,8 @@
+from synth.designing.cone_design import (
+    ConeDesign as ConeDesign,
+    ConeDesigns as ConeDesigns,
+    design_on_cone as design_on_cone,
+)
 from synth.designing.designs import Design as Design, Designs as Designs, DesignSearch as DesignSearch, design as design
 from synth.designing.dimensions import Dimensions as Dimensions, dimensions_of as dimensions_of
 from synth.designing.poses import DesignPoint as DesignPoint

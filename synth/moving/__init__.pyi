@@ -1,9 +1,4 @@
 from synth.motion.path import circuit_through as circuit_through
-from synth.moving.cone_design import (
-    ConeDesign as ConeDesign,
-    ConeDesigns as ConeDesigns,
-    design_on_cone as design_on_cone,
-)
 from synth.moving.made import (
     configuration_of as configuration_of,
     linkage_of_rods as linkage_of_rods,

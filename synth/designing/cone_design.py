@@ -1,7 +1,9 @@
 """Linkages designed for a cone of a stated half angle: which of them stay outside, or inside, for a stated turn.
 
 Places of joints on a grid are sorted by their first-order behaviour, all at once; those that leave the surface on
-the wanted side are moved all round their circuits. Theory: docs/theory/behaviour.md, docs/theory/moving.md.
+the wanted side are moved all round their circuits. Where none of them keeps to the side for the turn, azimuths of
+others change by the search of this room until they do: points of links at angles of the driving joint are to be on that
+side. Theory: docs/theory/behaviour.md, docs/theory/moving.md.
 """
 
 from collections.abc import Collection, Iterator, Sequence
@@ -16,13 +18,20 @@ from enumerate.chains.names import chain_named
 from graphs.edit.named import link_named
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, numbered, shown
 from graphs.files.formats import read
+from graphs.geometry import crossing
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import Cone, ring
 from graphs.printing import Block, Printed, TableBlock, plain
+from graphs.tolerances import DOUBLE
 from graphs.types import Flags, Floats, Ints, LinkId
 from synth.conformed.behaviours import Way, behaviour, link_arcs
 from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain
+from synth.designing.dimensions import ConeDimensions
+from synth.designing.poses import Derived, DesignFrame, PosedDesign, stacked
+from synth.designing.problem import DesignProblem
+from synth.designing.search import found_from, seeded
+from synth.designing.wishes import Goal, GoalWish, Wish, WishedConfiguration, Wishes
 from synth.moving.on_surface import Sense, SurfaceMotion, move_on_surface
 
 _SLOTS, _LEAST_GAP = 36, 2
@@ -34,8 +43,76 @@ _SAMPLES = 20_000
 """Candidates of a chain with more joints than can be listed."""
 _ERRORS = (1.0, 2.0, 3.0, 4.0, 5.0)
 """Errors of azimuths, degrees, up to which behaviour is tested."""
+_CHANGED = 2
+"""Linkages whose azimuths change, at most: those that come nearest to the turn."""
+_ALONG = (0.25, 0.5, 0.75)
+"""Parts of the arcs of links at which the search looks."""
+_AT, _SPARE = 4, radians(0.3)
+"""Angles of the driving joint at which the search looks, and by how much points are to be on the side."""
 _CHAINS = {4: ("four-bar",), 6: ("watt", "stephenson")}
 Side = Literal["outside", "inside"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConeSide(GoalWish):
+    """The angle of points of a link from the axis of the cone, radians: at least the half angle outside.
+
+    Attributes
+    ----------
+    at : str
+        Name of a configuration.
+    ends : (str, str)
+        The joints at the ends of the arc of the link.
+    link : str
+    parts : tuple of float
+        Parts of the arc at which points are.
+    goal : Goal
+        Radians.
+    weight : float
+        As of `Wish`.
+
+    Examples
+    --------
+    >>> print(ConeSide(at="turned", link="2", ends=("1", "2"), parts=(0.5,), goal=Goal(at_least=0.5)))
+    side of link 2 at turned
+    """
+
+    link: str
+    ends: tuple[str, str]
+    parts: tuple[float, ...]
+    unit = "angle"
+
+    def check(self, frame: DesignFrame) -> None:
+        """Check the link and the joints."""
+        frame.row(self.link)
+        for joint in self.ends:
+            frame.joint(joint)
+
+    def measured(self, pose: PosedDesign) -> Derived:
+        """Return the angles."""
+        frame, design = pose.frame, pose.design
+        lines, by_lines = design.linkage.directions, design.dependence.arrays[0]
+        azimuths, slopes = [], []
+        for name in self.ends:
+            joint = frame.joint(name)
+            x, _, z = lines[joint]
+            by = -crossing(lines[joint]) @ by_lines[6 * joint : 6 * joint + 3]
+            azimuths.append(np.arctan2(x, z))
+            slopes.append((z * by[0] - x * by[2]) / (x * x + z * z))
+        span = np.remainder(azimuths[1] - azimuths[0] + pi, tau) - pi
+        height, rim = lines[frame.joint(self.ends[0]), 1], float(np.hypot(x, z))
+        rows = []
+        for part in self.parts:
+            azimuth, by = azimuths[0] + part * span, (1.0 - part) * slopes[0] + part * slopes[1]
+            place = np.array([rim * np.sin(azimuth), height, rim * np.cos(azimuth)])
+            along = np.array([rim * np.cos(azimuth), 0.0, -rim * np.sin(azimuth)])
+            there = pose.direction(frame.row(self.link), place, along[:, None] * by)
+            across = float(np.hypot(there.values[0], there.values[2]))
+            rows.append(there.through(np.array([np.arccos(-there.values[1])]), np.array([[0.0, 1.0 / across, 0.0]])))
+        return stacked(rows)
+
+    def __str__(self) -> str:
+        return f"side of link {self.link} at {self.at}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +183,8 @@ class ConeDesigns(Printed):
         Those with the largest margins first.
     possible, moved : int
         Number of candidates that leave on that side to first order, and of those that were moved.
+    changed : int
+        Number of those whose azimuths changed until they kept to the side.
 
     Examples
     --------
@@ -121,6 +200,7 @@ class ConeDesigns(Printed):
     designs: tuple[ConeDesign, ...]
     possible: int
     moved: int
+    changed: int = 0
 
     @property
     def rim(self) -> float:
@@ -138,6 +218,8 @@ class ConeDesigns(Printed):
             f"moved {self.moved} of {numbered(self.possible, 'linkage')} on a grid of {degrees(_GRID):g}° that leave "
             f"the cone {'outward' if self.side == 'outside' else 'inward'} to first order; others may do it too"
         )
+        if self.changed:
+            search += f"; changed azimuths of {self.changed} until links kept to the side"
         heads = (
             "no", "chain", "joint azimuths (deg)", "link sizes at the rim (mm)", "driver", self.side + " to",
             "to spare", "range", "joints apart (mm)", "holds to", "note",
@@ -147,7 +229,7 @@ class ConeDesigns(Printed):
         return [first, sizes, *table, search]
 
     def _row(self, number: int, design: ConeDesign) -> tuple[str, ...]:
-        azimuths = " ".join(f"{degrees(place):.0f}" for place in design.linkage.places)
+        azimuths = " ".join(f"{round(degrees(place), 1):g}" for place in design.linkage.places)
         sizes = ", ".join(f"{plain(link)}: {self.rim * arc:.1f}" for link, arc in design.arcs.items())
         holds = "less than 1°" if design.holds < _ERRORS[0] else f"±{design.holds:g}°"
         turns = ", ".join(f"{degrees(turn):.1f}°" for turn in design.meets)
@@ -170,6 +252,7 @@ class ConeDesigns(Printed):
             "links": list(self.links),
             "possible": self.possible,
             "moved": self.moved,
+            "changed": self.changed,
             "designs": [
                 {
                     "chain": design.chain,
@@ -232,7 +315,8 @@ def design_on_cone(
     Returns
     -------
     ConeDesigns
-        Azimuths of joints are multiples of ten degrees, no two nearer than twenty.
+        Azimuths of joints are multiples of ten degrees, no two nearer than twenty; where no such linkage keeps
+        to the side, there are some whose azimuths were changed until they did.
 
     Raises
     ------
@@ -248,7 +332,8 @@ def design_on_cone(
     _check(half_angle, turn, links, side, size, min(count, tries))
     cone, sign = Cone(pi / 2 - half_angle), Way.OUTWARD if side == "outside" else Way.INWARD
     designs: list[ConeDesign] = []
-    possible = moved = 0
+    short: list[tuple[ConeDesign, ConformedChain, list[int]]] = []
+    possible = moved = changed = 0
     chains = list(_chains(links, keeping))
     share = max(1, tries // len(chains))
     for name, chain in chains:
@@ -260,12 +345,62 @@ def design_on_cone(
         for row in _spread(leaving, share):
             moved += 1
             design = _moved(name, OnSurface(chain, (row * _GRID).tolist(), cone), prepared, numbers, sign)
-            if design is not None and abs(design.reach) >= turn and design.range >= least_range:
+            if design is None or design.range < least_range:
+                continue
+            if abs(design.reach) >= turn:
                 designs.append(design)
-    designs.sort(
-        key=lambda design: (bool(design.meets), -design.holds, -round(design.gap, 9), -round(abs(design.reach), 9))
+            elif design.reach:
+                short.append((design, prepared, numbers))
+    designs.sort(key=_order)
+    short.sort(key=lambda one: -round(abs(one[0].reach), 9))
+    for design, prepared, numbers in [] if designs else short[: min(_CHANGED, count)]:
+        better = _changed(design, prepared, numbers, sign, turn)
+        if better is not None and abs(better.reach) >= turn and better.range >= least_range:
+            changed += 1
+            designs.append(better)
+    return ConeDesigns(half_angle, size, side, turn, tuple(keeping), tuple(designs[:count]), possible, moved, changed)
+
+
+def _changed(
+    design: ConeDesign, chain: ConformedChain, numbers: Sequence[int], way: Way, turn: float
+) -> ConeDesign | None:
+    """Return a linkage nearby whose links keep to the side for the turn, by least squares; None if there is none."""
+    cone, places = design.linkage.surface, np.asarray(design.linkage.places)
+    assert isinstance(cone, Cone)
+    half = pi / 2 - cone.angle
+    goal = Goal(at_least=half + _SPARE) if way == Way.OUTWARD else Goal(at_most=half - _SPARE)
+    angles = np.copysign(turn, design.reach) * np.arange(1, _AT + 1) / _AT
+    driver = str(design.motion.driver)
+    names = [f"turned {number}" for number in range(_AT)]
+    configurations = tuple(
+        WishedConfiguration(name, {driver: angle}) for name, angle in zip(names, angles.tolist(), strict=True)
     )
-    return ConeDesigns(half_angle, size, side, turn, tuple(keeping), tuple(designs[:count]), possible, moved)
+    arcs = link_arcs(chain, places)
+    wishes: list[Wish] = []
+    for number in numbers or range(1, len(chain.links)):
+        joints = list(chain.joints_of[number])
+        first, last = (
+            joints[int(np.abs(_wrapped(places[joints] - azimuth)).argmin())]
+            for azimuth in (arcs[number, 0], arcs[number].sum())
+        )
+        ends = (str(chain.joints[first]), str(chain.joints[last]))
+        wishes += [
+            ConeSide(at=one.name, link=str(chain.links[number]), ends=ends, parts=_ALONG, goal=goal)
+            for one in configurations
+        ]
+    family = ConeDimensions(design.linkage, fixed=["cone_angle", str(chain.joints[0])])
+    problem = DesignProblem(family, Wishes(tuple(wishes), configurations, driver=driver))
+    found = found_from(problem, family.start, seeded("cone", 0))
+    if found is None or found.error > DOUBLE.closed:
+        return None
+    moved = [float(places[0]), *found.numbers.tolist()]
+    if _least_gap(np.array(moved)) < _LEAST_GAP * _GRID / 2:
+        return None
+    return _moved(design.chain, OnSurface(design.linkage.chain, moved, cone), chain, numbers, way)
+
+
+def _wrapped(angles: Floats) -> Floats:
+    return np.asarray(np.remainder(angles + pi, tau) - pi)
 
 
 def _order(design: ConeDesign) -> tuple[float, ...]:

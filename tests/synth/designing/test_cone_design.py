@@ -9,6 +9,10 @@ from commands import run
 import synth
 from graphs.errors import InvariantError
 from graphs.files.formats import read
+from synth.designing.cone_design import ConeSide
+from synth.designing.dimensions import ConeDimensions
+from synth.designing.problem import DesignProblem
+from synth.designing.wishes import Goal, WishedConfiguration, Wishes
 from synth.moving.on_surface import LinkPoint, move_on_surface
 
 
@@ -43,6 +47,35 @@ def test_links_keep_to_their_side_by_points_in_space(side, turn):
             off = sign * heights(design, half_angle, link, azimuths, turns)
             assert off.min() > -1e-9
             assert off.max() > 1e-3
+
+
+@pytest.mark.slow
+def test_azimuths_change_until_links_keep_to_the_side_where_the_grid_has_none():
+    half_angle, turn = np.radians(25), np.radians(40)
+    answer = synth.design_on_cone(half_angle, turn, side="inside", tries=6)
+    assert answer.changed == len(answer.designs) > 0
+    for design in answer.designs:
+        places, chain = np.array(design.linkage.places), design.motion.chain
+        assert abs(design.reach) >= turn
+        assert np.abs(places / np.radians(10) - np.round(places / np.radians(10))).max() > 0.01
+        for link, (first, last) in zip(chain.links[1:], chain.joints_of[1:], strict=True):
+            step = np.remainder(places[last] - places[first] + np.pi, 2 * np.pi) - np.pi
+            azimuths = places[first] + step * np.linspace(0, 1, 5)
+            turns = np.sign(design.reach) * turn * np.linspace(0.1, 0.99, 5)
+            assert heights(design, half_angle, link, azimuths, turns).max() < 1e-9
+
+
+def test_the_side_of_a_link_has_exact_derivatives(rng):
+    family = ConeDimensions(synth.design_on_cone(np.radians(25), 1.0, tries=2).designs[0].linkage, fixed=["cone_angle"])
+    joints = [str(joint) for joint in family.chain.joints]
+    wish = ConeSide(at="turned", link="2", ends=(joints[0], joints[1]), parts=(0.2, 0.7), goal=Goal(at_least=3.0))
+    problem = DesignProblem(family, Wishes((wish,), (WishedConfiguration("turned", {joints[0]: 0.4}),)))
+    at, along = problem.start + 0.1 * rng.normal(size=problem.size), rng.normal(size=problem.size)
+    slopes = [
+        (problem.evaluated(at + h * along).wishes - problem.evaluated(at - h * along).wishes) / (2 * h)
+        for h in (1e-3, 5e-4)
+    ]
+    np.testing.assert_allclose(problem.evaluated(at).by_wishes @ along, (4 * slopes[1] - slopes[0]) / 3, atol=1e-8)
 
 
 def test_margins_and_sizes():
