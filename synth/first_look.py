@@ -121,7 +121,8 @@ def _kind(mechanism: Mechanism, answer: JudgedMobility) -> str:
         others = mechanism.frames.others if mechanism.frames is not None else 0
         return _kind_of_sheet(sheet_in_frame(mechanism, None), others)
     if isinstance(mechanism, SurfaceLinkage):
-        return f"A linkage on a {mechanism.kind}: {_parts(answer)}{_named(mechanism, answer)}."
+        axes = "all axes meet at its apex" if mechanism.kind == "cone" else "all axes are parallel"
+        return f"A linkage on a {mechanism.kind}: {_parts(answer, centres=False)}; {axes}{_named(mechanism, answer)}."
     if isinstance(mechanism, HingedSolids):
         return f"Rigid bodies in space, hinged along axes: {_parts(answer)}."
     if isinstance(mechanism, JointedLinkage):
@@ -161,13 +162,14 @@ def _kind_of_sheet(sheet: Sheet, others: int) -> str:
     return f"{state}: {numbered(len(sheet.faces), 'panel')}; lines: {lines}; extent {extent}{more}."
 
 
-def _parts(answer: JudgedMobility) -> str:
+def _parts(answer: JudgedMobility, *, centres: bool = True) -> str:
+    """Return the numbers of links, joints, vertices, and if asked for of centres."""
     vertices = answer.counts.get("vertices") if answer.links is None else None
     numbers = (("link", answer.links), ("joint", answer.joints), ("vertex", vertices), ("centre", answer.centres))
     return ", ".join(
         numbered(number, noun, "vertices" if noun == "vertex" else "")
         for noun, number in numbers
-        if number is not None and (number or noun != "centre")
+        if number is not None and (noun != "centre" or (number and centres))
     )
 
 

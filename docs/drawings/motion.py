@@ -43,7 +43,7 @@ _POSE = 2
 _STILL = 1e-6
 _HALF_FOLDED, _CORNERS, _ARROW = 3, [0, 8], 18.0
 """The frame of which derivatives are drawn, the corners between which a distance is, and points per unit."""
-_ASLANT, _LARGER = 0.4, 300
+_ASLANT, _LARGER = 0.5, 300
 """How far a sheet is turned before its coordinates are rounded; how much larger the errors are drawn."""
 
 

@@ -220,7 +220,9 @@ def thick_plates(
         width = 2.0 * shapely.maximum_inscribed_circle(outline).length
         if thickness > width:
             allowed = f"panel {panel} allows at most {width:.6g} mm, the diameter of its inscribed circle"
-            raise UnsolvableError(f"thickness {thickness:g} mm: {allowed}; try a smaller --thickness")
+            raise UnsolvableError(
+                f"thickness {thickness:g} mm: {allowed}; try a smaller --thickness, or a larger --scale"
+            )
         base = heights.undersides[panel]
         parts[panel] = [(base, base + 1.0, outline)]
     for joint, links in mechanism.sc.joints.items():

@@ -16,7 +16,7 @@ MECHANISMS = {
     "data/wiener/miura-3x3.fold": "A crease pattern folded in space: 9 panels; lines: 6 mountain, 6 valley",
     "data/linkages/bennett.json": "Rigid bodies in space, hinged along axes: 4 links, 4 joints.",
     "data/linkages/stewart.json": "A linkage of several kinds of joints",
-    "data/surfaces/fig11-stephenson.json": "A linkage on a cone: 6 links, 7 joints, 1 centre; its chain is named stephenson.",
+    "data/surfaces/fig11-stephenson.json": "A linkage on a cone: 6 links, 7 joints; all axes meet at its apex; its chain is named stephenson.",
     "data/wiener/six-bar.json": "An SCD graph, a type without coordinates: 6 links, 7 joints, 2 centres; its chain is named watt.",
     "data/wampler/crs-platform.json": "A polyhedron model, a type without coordinates: 10 vertices",
     "k1:Cr": "A kinematic chain, a type without coordinates and centres: 4 links, 4 joints; its chain is named four-bar.",
