@@ -80,13 +80,14 @@ def compliance() -> Scene:
     rest = equilibrium(elastic)
     start = rest.angles
     path = load_path(elastic, start, 0, start[0] + np.linspace(0.0, 2.0 * np.pi, 61)[1:])
-    turned = np.degrees(path.driven - start[0])
+    turned = np.degrees(np.array([pose.angles[path.driver] for pose in path.poses]) - start[0])
+    moments = np.array([float(pose.held[0]) for pose in path.poses])
     energies = np.array([pose.energy for pose in path.poses])
-    balanced = [(0.0, rest.stable), *_balances(turned, path.moments)]
+    balanced = [(0.0, rest.stable), *_balances(turned, moments)]
     energy = _curve(
         turned, energies, "energy", [(at, float(np.interp(at, turned, energies)), ok) for at, ok in balanced]
     )
-    moment = _curve(turned, path.moments, "moment that holds the crank", [(at, 0.0, ok) for at, ok in balanced])
+    moment = _curve(turned, moments, "moment that holds the crank", [(at, 0.0, ok) for at, ok in balanced])
     return said(
         above(energy, moment, gap=6.0), "where no moment is needed it is in balance: stable (full) or not (empty)"
     )
