@@ -50,8 +50,8 @@ class ConvexPieces:
     --------
     >>> cube = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
     >>> pieces = pieces_of([cube, cube + np.array([3.0, 4.0, 0.0])], [0, 1])
-    >>> float(distances(pieces, np.array([0]), np.array([1]), np.eye(3)[None], np.zeros((1, 3)))[0]) ** 2
-    13.0
+    >>> float(distances(pieces, np.array([0]), np.array([1]), np.eye(3)[None], np.zeros((1, 3)))[0].round(9))
+    3.605551275
     """
 
     bodies: Ints
@@ -440,8 +440,8 @@ class MovingPieces:
             folded = np.abs(self.course.at(stretches[:, 1]))
             at_hinge = np.where(hinge[pair] >= 0, folded[rows, hinge[pair]], np.inf)
             undone = at_hinge > clear[pair] + DOUBLE.parallel
-            pair, rows, a, b = pair[undone], rows[undone], a[undone], b[undone]
-            low, high, most = low[undone], high[undone], most[undone]
+            pair, rows, a, b = (one[undone] for one in (pair, rows, a, b))
+            low, high, most = (one[undone] for one in (low, high, most))
             # Rates of the joints of the chain, 0 for the joint that fills it up.
             turned, bent = (
                 np.column_stack([one, np.zeros(len(one))])[rows[:, None], joints[b]] for one in (turned, bent)

@@ -364,8 +364,8 @@ def parts_of(
             work = f"glue {len(names)} plies on each other" if solid else "one board, sides sawn between outlines"
         steps.append(f"Panel {panel}: {work}, {'; '.join(names)}.")
     for seat in seats:
-        sign = "valley" if seat.valley else "mountain"
-        text = f"Crease {seat.joint}, {sign}, panels {seat.panels[0]} and {seat.panels[1]}: "
+        folded = "valley" if seat.valley else "mountain"
+        text = f"Crease {seat.joint}, {folded}, panels {seat.panels[0]} and {seat.panels[1]}: "
         text += f"axis at {_written(seat.height)}, {seat.length:.4g} long"
         if seat.bevel:
             text += f", sides bevelled by {degrees(seat.bevel):.4g} degrees from upright"
