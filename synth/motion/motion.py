@@ -286,7 +286,7 @@ class SheetMotion(Motion):
     --------
     >>> import synth
     >>> synth.fold(synth.generate("miura").mechanism, frames=1).frames()[-1]
-    <Sheet: 16 faces, 24 creases, 25 vertices>
+    <Sheet: 9 faces, 12 creases, 16 vertices, in space>
     """
 
     def frames(self) -> list[Sheet]:

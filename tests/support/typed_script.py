@@ -57,6 +57,7 @@ springs = synth.Springs({0: 2.0})
 masses = synth.Masses((synth.Mass(1, 0.2, (0.0, 0.0, 0.0)),))
 state = synth.states(solids, joints=[1], springs=springs, drive=synth.DrivenJoint(0, to=1.0), masses=masses)
 reveal_type((state, state.now, state.sets, state.classes))
+reveal_type(synth.states(solids, joints=[1], springs=synth.SpringArrays({0: [1.0, 2.0]})))
 
 # Lists
 for found in synth.chains(links=6, dof=1):
