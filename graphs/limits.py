@@ -47,6 +47,12 @@ def check_extent(points: Sequence[Sequence[float]]) -> float:
 
     Points have two or three coordinates; a single place has no extent. The `InvariantError` has the range.
     """
+    if len(points) > _MANY:
+        import numpy as np  # slow to load
+
+        array = np.array(points, dtype=float)
+        if np.abs(array).max() <= MOST and (extent := float(np.ptp(array, axis=0).max())) >= LEAST:
+            return extent
     if not in_reach(chain.from_iterable(points)):
         farthest = next(x for x in chain.from_iterable(points) if not in_reach((x,)))
         raise InvariantError("extent", f"a coordinate is {farthest:g}", _RANGE)
@@ -56,9 +62,28 @@ def check_extent(points: Sequence[Sequence[float]]) -> float:
     return extent
 
 
+_MANY = 1000
+"""More points are looked at as an array first."""
+
+
+def _has_area(points: Sequence[Sequence[float]]) -> bool:
+    """Return whether points are clearly in no line, by twice the tolerance."""
+    import numpy as np  # slow to load
+
+    offsets = np.array(points, dtype=float)
+    offsets -= offsets[0]
+    sizes = np.hypot.reduce(offsets, axis=1)
+    length = float(sizes.max())
+    if length == 0.0:
+        return False
+    unit = offsets[int(sizes.argmax())] / length
+    beside = offsets - np.outer(offsets @ unit, unit)
+    return bool(np.abs(beside).max() > 2.0 * _THIN * length)
+
+
 def check_area(points: Sequence[Sequence[float]]) -> None:
     """Refuse points that all lie in one line, with `InvariantError`; `check_extent` has accepted them."""
-    if not points:
+    if not points or (len(points) > _MANY and _has_area(points)):
         return
     first = points[0]
     offsets = [tuple(x - y for x, y in zip(point, first, strict=True)) for point in points]

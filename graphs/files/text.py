@@ -92,24 +92,32 @@ def load_json(path: Path) -> Any:
         raise FileError(path, "", f"not JSON: {error}", "a JSON document") from None
 
 
+_ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
+
+
 def json_text(document: Mapping[str, Any]) -> str:
     """Return the text of a JSON document: one line per key, and per item of lists of lists or objects."""
-
-    def compact(value: Any) -> str:
-        return json.dumps(value, ensure_ascii=False, allow_nan=False)
-
+    compact = _ENCODER.encode
     rows = []
     for key, value in document.items():
         if isinstance(value, list) and value and isinstance(value[0], list | dict):
-            items, brackets = [compact(item) for item in value], "[]"
+            inner, brackets = _lines_of_items(value), "[]"
         elif isinstance(value, dict) and value and isinstance(next(iter(value.values())), list):
             items, brackets = [f"{compact(k)}: {compact(v)}" for k, v in value.items()], "{}"
+            inner = ",\n".join("    " + item for item in items)
         else:
             rows.append(f"  {compact(key)}: {compact(value)}")
             continue
-        inner = ",\n".join("    " + item for item in items)
         rows.append(f"  {compact(key)}: {brackets[0]}\n{inner}\n  {brackets[1]}")
     return "{\n" + ",\n".join(rows) + "\n}\n"
+
+
+def _lines_of_items(items: list[Any]) -> str:
+    """Return the items of a list, one per line; if all are lists of numbers they are written in one go."""
+    whole = _ENCODER.encode(items)
+    if whole.count("[") == len(items) + 1 and not set('"{') & set(whole) and all(isinstance(x, list) for x in items):
+        return "    " + whole[1:-1].replace("], [", "],\n    [")
+    return ",\n".join("    " + _ENCODER.encode(item) for item in items)
 
 
 def in_degrees(angle: float) -> float:

@@ -16,6 +16,7 @@ from typing import Any, Literal, Protocol, TypeAlias, TypeVar
 from graphs.errors import InvariantError, numbered, shown
 from graphs.limits import check_area, check_extent
 from graphs.mechanism.polyhedron import PolyhedronModel
+from graphs.types import Floats
 
 Place: TypeAlias = tuple[tuple[float, ...], ...]
 """A point, both ends of a line, or the corners of a face, in the coordinates of the sheet."""
@@ -219,6 +220,21 @@ class Sheet:
         """Return the sheet with the frames of its file; what was checked is not checked again."""
         sheet = copy(self)
         object.__setattr__(sheet, "frames", frames)
+        return sheet
+
+    def placed(self, coordinates: Floats, fold_angles: Sequence[float | None] | None) -> Sheet:
+        """Return the sheet with vertices elsewhere, float[V, 2 or 3], and no frames; creases and faces are the same.
+
+        These are not checked again.
+        """
+        sheet = copy(self)
+        places = tuple(map(tuple, coordinates.tolist()))
+        check_extent(places)
+        if self.faces:
+            check_area(places)
+        object.__setattr__(sheet, "coordinates", places)
+        object.__setattr__(sheet, "fold_angles", None if fold_angles is None else tuple(fold_angles))
+        object.__setattr__(sheet, "frames", None)
         return sheet
 
     def __repr__(self) -> str:

@@ -180,10 +180,10 @@ class SheetConfiguration(Configuration):
     def at(self, angles: Floats, points: Floats | None = None) -> Sheet:
         """Return the sheet at fold angles float[J], radians; its vertices there, float[V, 3], may be handed in."""
         there = self.placed(angles[None]).points[0] if points is None else points
-        column = {joint: place for place, joint in enumerate(self.joints)}
-        edges = range(len(self.sheet.edges))
-        turned = tuple(float(angles[column[edge]]) if edge in column else None for edge in edges)
-        return replace(self.sheet, coordinates=tuple(map(tuple, there.tolist())), fold_angles=turned, frames=None)
+        turned: list[float | None] = [None] * len(self.sheet.edges)
+        for edge, angle in zip(self.joints, angles.tolist(), strict=True):
+            turned[edge] = angle  # type: ignore[call-overload]  # joints are numbers of edges
+        return self.sheet.placed(there, turned)
 
     def passed(self, path: Path, points: Floats, driver: int) -> PassedPanels:
         """Return where panels pass through each other on a path, and how they lie at its end.

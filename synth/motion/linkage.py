@@ -5,8 +5,10 @@ of other joints, from this configuration. Lengths are in units of the extent, ab
 Theory: docs/theory/folding.md.
 """
 
+from collections import deque
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import networkx as nx
 import numpy as np
@@ -218,8 +220,12 @@ class Creases:
 
     def area_vectors(self, corners: Floats) -> Floats:
         """Return twice the area vectors of the faces (Newell): float[faces, 3]."""
-        ends = np.array([side for face in self.faces for side in sides_of_face(face)]).reshape(-1, 2)
-        of = np.repeat(np.arange(len(self.faces)), [len(face) for face in self.faces])
+        sizes = np.array([len(face) for face in self.faces], dtype=np.int64)
+        first = np.fromiter(chain.from_iterable(self.faces), dtype=np.int64, count=int(sizes.sum()))
+        last = np.cumsum(sizes) - 1
+        second = np.roll(first, -1)
+        second[last] = first[last - sizes + 1]
+        ends, of = np.stack([first, second], axis=1), np.repeat(np.arange(len(sizes)), sizes)
         vectors = np.zeros((len(self.faces), 3))
         np.add.at(vectors, of, np.cross(corners[ends[:, 0]], corners[ends[:, 1]]))
         return vectors
@@ -228,11 +234,19 @@ class Creases:
 def creases_of(sheet: Sheet, mechanism: SheetMechanism) -> Creases:
     """Return where the creases of a sheet are between its panels."""
     beside: dict[tuple[int, int], list[int]] = {}
+    passed: dict[tuple[int, int], int] = {}
+    number_of_sides = 0
     for number, face in enumerate(sheet.faces):
-        for a, b in sides_of_face(face):
-            beside.setdefault((min(a, b), max(a, b)), []).append(number)
-    faces = _turned(sheet, beside)
-    passed = [set(sides_of_face(face)) for face in faces]
+        sides_here = sides_of_face(face)
+        number_of_sides += len(sides_here)
+        for a, b in sides_here:
+            passed[a, b] = number
+            beside.setdefault((a, b) if a < b else (b, a), []).append(number)
+    faces = list(sheet.faces)
+    turned: list[set[tuple[int, int]]] | None = None
+    if len(passed) < number_of_sides:  # two faces pass a side in the same direction
+        faces = _turned(sheet, beside)
+        turned = [set(sides_of_face(face)) for face in faces]
     joints: Mapping[int, tuple[int, int]] = mechanism.sc.joints  # type: ignore[assignment]  # numbers of edges and panels
     ends, sides, ways = [], [], []
     for joint, (_, second) in joints.items():
@@ -240,7 +254,9 @@ def creases_of(sheet: Sheet, mechanism: SheetMechanism) -> Creases:
         one, other = beside[min(a, b), max(a, b)]
         sides.append((one, other) if other in mechanism.panels[second] else (other, one))
         ends.append((a, b))
-        ways.append(1.0 if (a, b) in passed[sides[-1][1]] else -1.0)
+        beyond = sides[-1][1]
+        along = passed.get((a, b)) == beyond if turned is None else (a, b) in turned[beyond]
+        ways.append(1.0 if along else -1.0)
     as_pairs = [np.array(pairs, dtype=np.int64).reshape(-1, 2) for pairs in (ends, sides)]
     return Creases(tuple(joints), as_pairs[0], np.array(ways, dtype=float), as_pairs[1], tuple(faces))
 
@@ -329,19 +345,22 @@ def joints_outwards(linkage: PosedLinkage, ground: LinkId | None = None) -> Iter
     """Yield from the fixed link outwards: a link, the one it carries, the place of their joint, and its sense."""
     graph = linkage.graph
     column = {joint: place for place, joint in enumerate(graph.joints)}
-    between = nx.Graph()
-    between.add_nodes_from(graph.nodes)
+    beside: dict[LinkId, dict[LinkId, JointId]] = {link: {} for link in graph.nodes}
     for joint, (first, second) in graph.joints.items():
-        between.add_edge(first, second, joint=joint)
+        beside[first][second] = beside[second][first] = joint
     carried: set[LinkId] = set()
     for root in [*([] if ground is None else [ground]), *graph.nodes]:
         if root in carried:
             continue
         carried.add(root)
-        for near, far in nx.bfs_edges(between, root):
-            carried.add(far)
-            joint = between[near][far]["joint"]
-            yield near, far, column[joint], 1.0 if graph.joints[joint][0] == near else -1.0
+        waiting = deque([root])
+        while waiting:
+            near = waiting.popleft()
+            for far, joint in beside[near].items():
+                if far not in carried:
+                    carried.add(far)
+                    waiting.append(far)
+                    yield near, far, column[joint], 1.0 if graph.joints[joint][0] == near else -1.0
 
 
 def moved(linkage: PosedLinkage, angles: Floats) -> PosedLinkage:

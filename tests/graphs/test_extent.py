@@ -2,12 +2,13 @@
 
 import json
 
+import numpy as np
 import pytest
 from sizes import slow
 
 import synth
 from graphs.errors import FileError, InvariantError
-from graphs.limits import LEAST, MOST
+from graphs.limits import LEAST, MOST, check_area, check_extent
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
@@ -77,3 +78,23 @@ def test_no_object_is_out_of_range(make):
 def test_what_is_narrow_or_without_faces_is_not_refused():
     assert square((0, 0), (1e9, 0), (1e9, 1), (0, 1)).coordinates is not None
     assert Sheet(2, ((0, 1),), "B", (), ((0, 0), (1, 0))).faces == ()
+
+
+def test_many_points_are_checked_as_few_are():
+    """An array of them decides only what is clear."""
+    chance = np.random.default_rng(0)
+    plane = chance.uniform(-3.0, 5.0, (2000, 2))
+    for points in (plane, plane * 1e40, plane * 1e-40, np.hstack([plane, plane[:, :1]])):
+        rows = list(map(tuple, points.tolist()))
+        assert check_extent(rows) == pytest.approx(np.ptp(points, axis=0).max(), rel=1e-15)
+        check_area(rows)
+    line = list(map(tuple, (plane[:, :1] * [1.0, 2.0]).tolist()))
+    with pytest.raises(InvariantError, match="all its vertices lie in one line"):
+        check_area(line)
+    with pytest.raises(InvariantError, match="all its vertices lie in one place"):
+        check_area([(1.0, 1.0)] * 2000)
+    for wrong in (1e60, float("inf"), float("nan")):
+        with pytest.raises(InvariantError, match="a coordinate is"):
+            check_extent([*line, (wrong, 0.0)])
+    with pytest.raises(InvariantError, match="the extent is"):
+        check_extent(list(map(tuple, (plane * 1e-60).tolist())))

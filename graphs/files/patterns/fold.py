@@ -5,11 +5,10 @@ demands, and named when the sheet is written. A frame with ``frame_inherit`` tak
 ``frame_parent``, the key frame (0) or an earlier or later one.
 """
 
-import json
 from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
-from math import isclose, radians
+from math import inf, isclose, nan, radians
 from pathlib import Path
 from typing import Any, cast
 
@@ -17,7 +16,7 @@ import numpy as np
 
 from graphs.convert.faces import creases_on_no_face, joins_faces, traced_anew, with_simple_faces
 from graphs.errors import FileError, numbered
-from graphs.files.text import Checker, in_degrees, json_text, load_json
+from graphs.files.text import Checker, json_text, load_json
 from graphs.limits import most
 from graphs.mechanism.precision import flattened, lies_flat, written_by
 from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, WrittenPrecision
@@ -277,6 +276,11 @@ def _with_all_creases(sheet: Sheet, check: Checker) -> Sheet:
 
 def fold_text(sheet: Sheet) -> str:
     """Return the text of a FOLD 1.2 file; without coordinates the frame is marked abstract."""
+    return json_text(_document(sheet))
+
+
+def _document(sheet: Sheet) -> dict[str, Any]:
+    """Return the keys of a FOLD file of a sheet."""
     document: dict[str, Any] = {"file_spec": 1.2, "file_creator": "synthedra", "file_classes": ["singleModel"]}
     if sheet.title:
         document["frame_title"] = sheet.title
@@ -294,7 +298,7 @@ def fold_text(sheet: Sheet) -> str:
     if sheet.fold_angles is not None:
         document["edges_foldAngle"] = _in_degrees(sheet.fold_angles)
     document["faces_vertices"] = [list(face) for face in sheet.faces]
-    return json_text(document)
+    return document
 
 
 def _hides_precision(sheet: Sheet) -> bool:
@@ -375,7 +379,15 @@ def _fold_angles(value: dict[str, Any], edges: int, check: Checker) -> tuple[flo
 
 
 def _in_degrees(angles: Iterable[float | None]) -> list[float | None]:
-    return [None if angle is None else in_degrees(angle) for angle in angles]
+    """Return fold angles in degrees, each as `in_degrees` does."""
+    given = list(angles)
+    radian = np.array([nan if angle is None else angle for angle in given], dtype=float)
+    near = np.degrees(radian)
+    short = np.array([float(f"{angle:.15g}") for angle in near.tolist()])
+    result = near.copy()
+    for candidate in (np.nextafter(near, inf), np.nextafter(near, -inf), near, short):  # the last that fits counts
+        result = np.where(np.radians(candidate) == radian, candidate, result)
+    return [None if angle is None else degree for angle, degree in zip(given, result.tolist(), strict=True)]
 
 
 def fold_text_of_poses(sheet: Sheet, poses: Sequence[Sheet]) -> str:
@@ -384,7 +396,7 @@ def fold_text_of_poses(sheet: Sheet, poses: Sequence[Sheet]) -> str:
     Where the last pose lies flat, the key frame is the sheet: of panels that lie on each other no pattern is read.
     """
     folded = bool(poses) and not lies_flat(poses[-1])
-    document = json.loads(fold_text(replace(poses[-1], title=sheet.title) if folded else sheet))
+    document = _document(replace(poses[-1], title=sheet.title) if folded else sheet)
     document["file_classes"] = ["animation"]
     document["file_frames"] = [
         {

@@ -1,14 +1,18 @@
 """FOLD: frames, inheritance, old names, nulls, angles; writing what other programs read."""
 
 import json
+import math
 from math import radians
 
+import numpy as np
 import pytest
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.errors import FileError, UnsolvableError
 from graphs.files.formats import read, write
+from graphs.files.patterns import fold
 from graphs.files.patterns.fold import fold_text, sheet_from_fold
+from graphs.files.text import in_degrees, json_text
 from graphs.mechanism import precision
 from graphs.mechanism.sheet import Sheet
 
@@ -117,3 +121,29 @@ def test_a_pattern_that_is_read_is_checked_once(tmp_path, monkeypatch):
     sheet = read(tmp_path / "a.fold")
     assert (sheet.frames.others, len(checked)) == (0, 1)
     assert not measured  # a sheet that stands on an axis is flat, however precise it is
+
+
+def test_fold_angles_are_written_in_degrees_all_at_once_as_each_is():
+    chance = np.random.default_rng(1)
+    written = np.radians(np.round(chance.uniform(-180.0, 180.0, 500), 3))
+    angles = [*written.tolist(), *chance.uniform(-4.0, 4.0, 500).tolist(), None, 0.0, math.pi, -math.pi, 1e-300]
+    assert fold._in_degrees(angles) == [None if angle is None else in_degrees(angle) for angle in angles]
+
+
+@pytest.mark.parametrize(
+    "items",
+    [
+        [[0.1, -2.0], [3, None]],
+        [[], [1.0]],
+        [["], ["], ["a"]],
+        [[1.0], {"a": [2.0]}],
+        [[1.0, [2.0, 3.0]], 4.0],
+        [[[1.0], [2.0]]],
+        [[1.0], 2.0, [3.0]],
+        [[True, False], [1e-300]],
+    ],
+)
+def test_items_of_lists_are_written_one_per_line(items):
+    lines = ",\n".join(f"    {json.dumps(item)}" for item in items)
+    assert json_text({"key": items}) == f'{{\n  "key": [\n{lines}\n  ]\n}}\n'
+    assert json.loads(json_text({"key": items})) == {"key": items}
