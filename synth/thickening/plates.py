@@ -79,7 +79,7 @@ class Plates:
 
     @property
     def volume(self) -> float:
-        """Of all panels, cubic millimetres."""
+        """Volume of all panels in cubic millimetres."""
         raise NotImplementedError
 
     @property
@@ -137,7 +137,7 @@ class ThickPlates(Plates):
 
     @cached_property
     def volume(self) -> float:
-        """Of all panels, cubic millimetres."""
+        """Volume of all panels in cubic millimetres."""
         return sum(ply.volume for ply in self.plies)
 
     @cached_property

@@ -96,7 +96,7 @@ class TaperedPlates(Plates):
 
     @cached_property
     def volume(self) -> float:
-        """Of all panels, cubic millimetres."""
+        """Volume of all panels in cubic millimetres."""
         return float(sum(scipy.spatial.ConvexHull(corners).volume for _, corners in self.parts))
 
     def pieces(self) -> tuple[ConvexPieces, Ints]:
@@ -310,7 +310,7 @@ class HingeSeat:
 
     @property
     def length(self) -> float:
-        """Of all parts together, millimetres."""
+        """Length of all parts together in millimetres."""
         return float(sum(np.linalg.norm(end - start) for start, end in self.lines))
 
     def holes(self, outline: Any, setback: float, diameter: float) -> list[Floats]:
