@@ -19,7 +19,7 @@ help:
 	@echo "make test       all tests except the slow ones"
 	@echo "make test-unit  the quickest of these tests, on single functions and classes: half a minute"
 	@echo "make test-slow  the slow tests too, at full size: at most 90 minutes on two idle cores"
-	@echo "make test-night the slow tests that take more than five minutes each"
+	@echo "make test-night the slow tests that take more than five minutes each, and all specimens through all verbs"
 	@echo "make durations  run all tests except those of the night and the web, and write their durations to tests/durations.json"
 	@echo "make test-web   run a notebook and test its displays, and test the page of synth view in node and in Chromium"
 	@echo "make test-simulators  install MuJoCo, usd-core, gmsh and check_urdf, and test models for simulators with them"

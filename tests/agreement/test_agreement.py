@@ -129,6 +129,7 @@ def test_all_verbs_agree_on_a_sample(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.night
 @pytest.mark.parametrize("specimen", list(named_specimens()), ids=lambda one: one.name)
 def test_all_verbs_agree_on(specimen, tmp_path):
     """As `python -m tests.agreement` asks, less what takes longer; a table is printed with `pytest -s`."""

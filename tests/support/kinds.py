@@ -19,7 +19,7 @@ KINDS = ("unit", "law", "world")
 DURATIONS = Path(__file__).resolve().parent.parent / "durations.json"
 """Seconds of processor time: of each test from `STORED_FROM` on, and of all tests of a kind that are not slow."""
 NIGHT = 300.0
-"""Slow tests that take longer, in seconds of processor time, run with `make test-night` only."""
+"""Slow tests that take longer, in seconds of processor time, run with `make test-night` only, as do those marked so."""
 STORED_FROM = 0.1
 """Tests that take longer, in seconds of processor time, are no unit tests."""
 
