@@ -1,0 +1,564 @@
+"""The table of motions of an atlas: random members of each chain, and the search for those that move like a motion.
+
+Rotations of links depend on the directions of axes alone. So all SC graphs of one chain without spatial and planar
+loops share their motions, wherever their centres are, and members are taken of chains, as spherical linkages: axes
+and a point of each link are random directions. Of each circuit the table has the signatures (`synth.atlas.signatures`)
+of all pairs of links that share no joint, and of the paths of points of one link on the other.
+
+The table ``motions`` has a row for each unit of members, its arrays as blobs that end with a checksum. A search
+reads one kind of array of all units, one after the other, and keeps the nearest; so it needs little memory. They are
+traced anew and compared exactly. Theory: docs/theory/motion-signatures.md.
+"""
+
+from __future__ import annotations
+
+import heapq
+import json
+import sqlite3
+import zlib
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from itertools import combinations, permutations
+from math import degrees
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from enumerate.runner.store_units import naming, reading
+from graphs.errors import FileError, InvariantError, StoreError, UnsolvableError, numbered, shown
+from graphs.files.formats import mechanism_of_id, read
+from graphs.files.native import holds_orientations
+from graphs.files.text import read_text
+from graphs.geometry import rigid_motion, unit
+from graphs.mechanism.precision import in_space
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.solids import HingedSolids
+from graphs.printing import Block, Printed, TableBlock, plain
+from graphs.types import Floats, LinkId
+from synth.atlas.opened import Atlas
+from synth.atlas.signatures import CIRCUIT, WINDOW, WINDOWS, MotionCurve, difference, nearest, signatures_of
+from synth.guidance.orientations import Orientations, read_orientations
+from synth.members.circuits import Circuits, circuits_of, product, relative, spherical_of
+
+_VERSION = 1
+"""Version of the table, and of what its numbers mean."""
+_UNIT = 256
+"""Members of a unit: a row of the table."""
+_CANDIDATES, _PLACES = 32, 24
+"""Candidates by signature that are compared exactly; places of a window on an arc, each way."""
+_AT_ONCE = 1 << 15
+"""Signatures that are compared at a time."""
+_TRIED = "try `synth atlas motions ATLAS.sqlite`"
+
+
+class _Pair(NamedTuple):
+    """Two links that share no joint: the motion of the second against the first, or the path of a point of it."""
+
+    first: LinkId
+    second: LinkId
+
+
+def _pairs(chain: SCGraph, *, points: bool) -> list[_Pair]:
+    """Return the pairs of links without a common joint; for points in both orders."""
+    chosen = permutations(chain.nodes, 2) if points else combinations(chain.nodes, 2)
+    return [_Pair(first, second) for first, second in chosen if not chain.has_edge(first, second)]
+
+
+@dataclass(frozen=True, slots=True)
+class MotionTable(Printed):
+    """What a table of motions holds, or will hold.
+
+    Attributes
+    ----------
+    chains : tuple of str
+        Ids of the chains of which there are members.
+    members, motions, paths : int
+        Members of all chains; relative motions of two links; paths of points.
+    megabytes : float
+        Size of the arrays in the file.
+    """
+
+    chains: tuple[str, ...]
+    members: int
+    motions: int
+    paths: int
+    megabytes: float
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on."""
+        return {
+            "chains": list(self.chains), "members": self.members, "motions": self.motions, "paths": self.paths,
+            "megabytes": round(self.megabytes, 3),
+        }  # fmt: skip
+
+    def blocks(self) -> list[Block]:
+        """Return the line that is printed."""
+        of = f"{numbered(self.members, 'member')} of {numbered(len(self.chains), 'chain')}"
+        return [
+            f"{of}: {numbered(self.motions, 'motion')} of two links, {numbered(self.paths, 'path')} of points, "
+            f"{self.megabytes:.1f} MB"
+        ]
+
+
+_BYTES = 4 * (CIRCUIT + WINDOWS * WINDOW)
+
+
+def planned_motions(atlas: Atlas, members: int, *, max_links: int = 8) -> MotionTable:
+    """Return what `add_motions` will store, before it starts, if all circuits close."""
+    chains = _chains(atlas, max_links)
+    table = MotionTable((), 0, 0, 0, 0.0)
+    for code in chains:
+        chain = mechanism_of_id(code)
+        motions, paths = len(_pairs(chain, points=False)), len(_pairs(chain, points=True))
+        size = members * (_BYTES * (motions + paths) + 24 * (len(chain) + len(chain.joints)))
+        table = MotionTable(
+            chains, table.members + members, table.motions + members * motions, table.paths + members * paths,
+            table.megabytes + size / 1e6,
+        )  # fmt: skip
+    return table
+
+
+def add_motions(
+    atlas: Atlas,
+    *,
+    members: int = 1000,
+    max_links: int = 8,
+    seed: int = 0,
+    force: bool = False,
+    report: Callable[[int], None] | None = None,
+) -> MotionTable:
+    """Add the motions of random members of each chain to an atlas, or continue a table that is not complete.
+
+    Parameters
+    ----------
+    atlas : Atlas
+        Its chains with one degree of freedom are taken; those with no SC graph in the atlas too.
+    members : int, optional
+        Of each chain. Members whose circuit does not close are left out.
+    max_links : int, optional
+        Largest number of links of a chain.
+    seed : int, optional
+        Random seed of the axes and points.
+    force : bool, optional
+        Replace the motions of another seed.
+    report : callable, optional
+        Called with the number of members that are done.
+
+    Returns
+    -------
+    MotionTable
+
+    Raises
+    ------
+    StoreError
+        If the atlas cannot be written, or has motions of another seed.
+    UnsolvableError
+        If it has no such chains.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from synth.atlas import AtlasPlan, build_atlas, open_atlas
+    >>> with TemporaryDirectory() as folder:
+    ...     _ = build_atlas(f"{folder}/a.sqlite", AtlasPlan(4, creases=0, orders_of=(), realised=False))
+    ...     table = add_motions(open_atlas(f"{folder}/a.sqlite"), members=20)
+    >>> table.members, table.motions
+    (20, 40)
+    """
+    if members < 1:
+        raise InvariantError("motions", numbered(members, "member"), "1 or more")
+    chains = _chains(atlas, max_links)
+    if not chains:
+        raise UnsolvableError(f"the atlas has no chain with 1 degree of freedom and at most {max_links} links")
+    done = 0
+    with naming(atlas.path), closing(sqlite3.connect(atlas.path, isolation_level=None)) as connection:
+        _make_table(connection, atlas.path, seed, force=force)
+        for code in chains:
+            chain = mechanism_of_id(code)
+            for number, first in enumerate(range(0, members, _UNIT)):
+                count = min(_UNIT, members - first)
+                query = "SELECT wanted FROM motions WHERE chain = ? AND unit = ?"
+                there = connection.execute(query, (code, number)).fetchone()
+                if there is None or there[0] < count:
+                    row = _unit_row(chain, code, number, count, seed)
+                    connection.execute("INSERT OR REPLACE INTO motions VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)", row)
+                done += count
+                if report is not None:
+                    report(done)
+    return stored_motions(atlas)
+
+
+def _chains(atlas: Atlas, max_links: int) -> tuple[str, ...]:
+    rows = atlas.query(f"kind = chain and dof = 1 and links <= {int(max_links)}", columns=["id"], limit=1_000_000)
+    return tuple(row["id"] for row in rows)
+
+
+def _make_table(connection: sqlite3.Connection, path: Path, seed: int, *, force: bool) -> None:
+    connection.execute(
+        "CREATE TABLE IF NOT EXISTS motions (chain TEXT, unit INTEGER, version INTEGER, seed INTEGER, wanted INTEGER, "
+        "axes BLOB, motion_circuits BLOB, motion_windows BLOB, path_circuits BLOB, path_windows BLOB, "
+        "PRIMARY KEY (chain, unit))"
+    )
+    other = connection.execute(
+        "SELECT version, seed FROM motions WHERE version <> ? OR seed <> ? LIMIT 1", (_VERSION, seed)
+    ).fetchone()
+    if other is None:
+        return
+    if not force:
+        what = f"has motions of version {shown(other[0])} and seed {shown(other[1])}"
+        raise StoreError(f"{plain(path, 4096)}: {what}; expected version {_VERSION} and seed {seed}; try --force")
+    connection.execute("DELETE FROM motions")
+
+
+def _unit_row(chain: SCGraph, code: str, number: int, count: int, seed: int) -> tuple[Any, ...]:
+    """Return the row of the table with members that are drawn by the seed, the chain and the number of the unit."""
+    joints = len(chain.joints)
+    random = np.random.default_rng([seed, zlib.crc32(code.encode()), number])
+    directions = unit(random.normal(size=(_UNIT, joints + len(chain), 3))[:count])
+    circuits = circuits_of(chain, directions[:, :joints])
+    kept = circuits.closed
+    rotations = Circuits(circuits.chain, circuits.axes[kept], circuits.angles[kept], kept[kept]).rotations()
+    arrays: list[npt.NDArray[Any]] = [directions[kept]]
+    for points in (False, True):
+        pairs = _pairs(chain, points=points)
+        rows = np.stack([_curve(chain, rotations, pair, directions[kept], points=points) for pair in pairs], axis=1)
+        arrays += signatures_of(rows.reshape(-1, *rows.shape[2:]))
+    return (code, number, _VERSION, seed, count, *map(_blob, arrays))
+
+
+def _curve(
+    chain: SCGraph, rotations: dict[LinkId, Floats], pair: _Pair, directions: Floats, *, points: bool
+) -> Floats:
+    """Return the motion of the second link against the first, float[n, M, 4], or the path of its point, [n, M, 3]."""
+    turns = relative(rotations[pair.first], rotations[pair.second])
+    if not points:
+        return turns
+    point = directions[:, len(chain.joints) + list(chain.nodes).index(pair.second)]
+    still = np.concatenate([np.zeros((len(point), 1)), point], axis=1)[:, None]
+    return product(product(turns, np.broadcast_to(still, turns.shape)), turns * [1.0, -1.0, -1.0, -1.0])[..., 1:]
+
+
+def _blob(array: npt.NDArray[Any]) -> bytes:
+    content = np.ascontiguousarray(array).tobytes()
+    return content + zlib.crc32(content).to_bytes(4, "little")
+
+
+def _array(path: Path, blob: object, kind: type, shape: tuple[int, ...]) -> npt.NDArray[Any]:
+    """Return an array of a blob; StoreError if it is not as it was written."""
+    if isinstance(blob, bytes) and len(blob) >= 4:
+        content = memoryview(blob)[:-4]
+        size = np.dtype(kind).itemsize * int(np.prod(shape[1:]))
+        if len(content) % size == 0 and zlib.crc32(content) == int.from_bytes(blob[-4:], "little"):
+            return np.frombuffer(content, kind).reshape(-1, *shape[1:])
+    raise StoreError(f"{plain(path, 4096)}: the table of motions is damaged; try synth atlas motions --force")
+
+
+def stored_motions(atlas: Atlas) -> MotionTable:
+    """Return what the table of motions of an atlas holds; StoreError, with what to do, if there is none."""
+    chains: dict[str, SCGraph] = {}
+    members = motions = paths = size = 0
+    with reading(atlas.path) as connection:
+        _check_table(connection, atlas.path)
+        lengths = " + ".join(
+            f"length({name})" for name in ("axes", "motion_circuits", "motion_windows", "path_circuits", "path_windows")
+        )
+        for code, length, whole in connection.execute(f"SELECT chain, length(axes), {lengths} FROM motions"):
+            chain = chains.setdefault(code, mechanism_of_id(code))
+            count = length // (24 * (len(chain) + len(chain.joints)))
+            members += count
+            motions += count * len(_pairs(chain, points=False))
+            paths += count * len(_pairs(chain, points=True))
+            size += whole
+    return MotionTable(tuple(chains), members, motions, paths, size / 1e6)
+
+
+def _check_table(connection: sqlite3.Connection, path: Path) -> None:
+    there = connection.execute("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'motions'").fetchone()
+    version = connection.execute("SELECT version FROM motions LIMIT 1").fetchone() if there else None
+    if version is None:
+        raise StoreError(f"{plain(path, 4096)}: the atlas has no table of motions; {_TRIED}")
+    if version[0] != _VERSION:
+        what = f"the table of motions has version {shown(version[0])}; expected {_VERSION}; {_TRIED} --force"
+        raise StoreError(f"{plain(path, 4096)}: {what}")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NearMotion:
+    """A member of a chain that moves like a motion.
+
+    Attributes
+    ----------
+    distance : float
+        Root mean square of differences of relative angles, radians (`synth.atlas.signatures.difference`).
+    chain, name : str, str or None
+        Id of the chain, and its name in the literature.
+    types : tuple of str
+        Ids of the SC graphs of the atlas with this chain whose loops all have a finite centre.
+    links : tuple of two link ids
+        The motion is that of the second against the first.
+    axes : mapping of joint id to tuple of 3 floats
+        Directions, where the member was drawn.
+    point : tuple of 3 floats, optional
+        Direction of the point of the second link whose path was compared.
+    """
+
+    distance: float
+    chain: str
+    name: str | None
+    types: tuple[str, ...]
+    links: tuple[LinkId, LinkId]
+    axes: dict[Any, tuple[float, ...]]
+    point: tuple[float, ...] | None
+
+    @property
+    def linkage(self) -> HingedSolids:
+        """The member as a linkage about a centre, as `synth.design` takes it."""
+        chain = spherical_of(mechanism_of_id(self.chain))
+        return HingedSolids(chain, {joint: (axis, axis) for joint, axis in self.axes.items()})  # type: ignore[misc]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {
+            "distance_deg": degrees(self.distance), "chain": self.chain, "name": self.name, "types": list(self.types),
+            "links": list(self.links),
+            "axes": [{"joint": joint, "direction": list(axis)} for joint, axis in self.axes.items()],
+            "point": None if self.point is None else list(self.point),
+        }  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NearMotions(Printed):
+    """The members of an atlas that move most like a motion, nearest first; `compared` is the number of signatures."""
+
+    motion: MotionCurve
+    rows: tuple[NearMotion, ...]
+    compared: int
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on."""
+        return {
+            "motion": {
+                "of": "two links" if self.motion.rotates else "a point", "closed": self.motion.closed,
+                "length_deg": degrees(self.motion.length),
+            },
+            "compared": self.compared,
+            "nearest": [row.to_json() for row in self.rows],
+        }  # fmt: skip
+
+    def blocks(self) -> list[Block]:
+        """Return the lines and the table that are printed."""
+        kind = "a circuit" if self.motion.closed else "an arc"
+        of = "the motion of two links" if self.motion.rotates else "the path of a point"
+        along = f"{of} is {kind} of {degrees(self.motion.length):.1f}°, compared with {self.compared} of the atlas"
+        if not self.rows:
+            return [f"no member of the atlas moves so far: {along}"]
+        best = self.rows[0]
+        first = f"nearest: {best.name or best.chain}, {degrees(best.distance):.3g}° off (root mean square); {along}"
+        table = [
+            (f"{degrees(row.distance):.3g}", row.chain, row.name or "", ",".join(map(str, row.links)),
+             " ".join(row.types))
+            for row in self.rows
+        ]  # fmt: skip
+        return [first, TableBlock(("degrees off", "chain", "name", "links", "SC graphs"), table, ["degrees off"])]
+
+
+Motion = str | Path | Sheet | Orientations | MotionCurve
+
+
+def like(
+    atlas: Atlas,
+    motion: Motion | npt.ArrayLike,
+    *,
+    links: Sequence[int] = (),
+    closed: bool | None = None,
+    limit: int = 10,
+) -> NearMotions:
+    """Find the members in the table of motions of an atlas that move most like a motion, as starts for design.
+
+    Parameters
+    ----------
+    atlas : Atlas
+        With a table of motions (`add_motions`).
+    motion : path, Sheet, Orientations, MotionCurve or array
+        A FOLD file or sheet with frames; orientations of one link in the frame of another, or quaternions
+        float[n, 4], scalar first; the path of a point on a sphere, float[n, 3]; poses of two links, float[n, 8],
+        quaternions of both. Frames of reference, direction and speed have no meaning.
+    links : sequence of two int, optional
+        The faces of a sheet, numbered from 0, whose motion against each other it is; required for a sheet.
+    closed : bool, optional
+        Whether the motion is a circuit; by default if its last row is its first one again. An arc of a third of a
+        circuit or more is found in it.
+    limit : int, optional
+        Largest number of members.
+
+    Returns
+    -------
+    NearMotions
+        Of the 32 members nearest by signature those that differ least; each pair of links of a member is one.
+
+    Raises
+    ------
+    StoreError
+        If the atlas has no table of motions.
+    InvariantError
+        If there are fewer than three different rows, or no such faces.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from synth.atlas import AtlasPlan, add_motions, build_atlas, open_atlas
+    >>> with TemporaryDirectory() as folder:
+    ...     _ = build_atlas(f"{folder}/a.sqlite", AtlasPlan(4, creases=0, orders_of=(), realised=False))
+    ...     _ = add_motions(open_atlas(f"{folder}/a.sqlite"), members=20)
+    ...     nearest = like(open_atlas(f"{folder}/a.sqlite"), "data/orientations/tipparthi.json")
+    >>> nearest.rows[0].name, nearest.compared
+    ('four-bar chain', 40)
+    """
+    curve = motion_curve(motion, links=links, closed=closed)
+    kind = "motion" if curve.rotates else "path"
+    if curve.closed:
+        goals = {0.0: curve.circuit_numbers()[None]}
+    else:
+        goals = {wide: curve.sliding(wide, _PLACES) for wide in curve.window_lengths()}
+    best: list[tuple[float, str, int, int]] = []
+    compared = 0
+    with reading(atlas.path) as connection:
+        _check_table(connection, atlas.path)
+        column = f"{kind}_{'circuits' if curve.closed else 'windows'}"
+        for code, number, blob in connection.execute(f"SELECT chain, unit, {column} FROM motions ORDER BY rowid"):
+            shape = (-1, CIRCUIT) if curve.closed else (-1, WINDOWS, WINDOW)
+            distances = _distances(_array(atlas.path, blob, np.float32, shape), goals)
+            compared += len(distances)
+            few = np.argsort(distances, kind="stable")[:_CANDIDATES]
+            found = [(float(distances[place]), code, number, int(place)) for place in few if distances[place] < 100.0]
+            best = heapq.nsmallest(_CANDIDATES, [*best, *found])
+        rows = _compared(atlas, connection, curve, best)
+    return NearMotions(curve, tuple(rows[:limit]), compared)
+
+
+def _distances(numbers: npt.NDArray[np.float32], goals: dict[float, Floats]) -> Floats:
+    """Return the distance of each signature of a unit to the goals; that of windows is the least of a circuit."""
+    if numbers.ndim == 2:
+        return nearest(numbers, goals[0.0])
+    least = np.full(numbers.shape[:2], np.inf)
+    for wide, wanted in goals.items():  # windows of another length are another part of a motion
+        there = np.abs(numbers[..., 0] * (2.0 * np.pi) / wide - 1.0) < 0.25
+        least[there] = nearest(numbers[there], wanted)
+    return np.asarray(least.min(axis=1))
+
+
+def _compared(
+    atlas: Atlas, connection: sqlite3.Connection, curve: MotionCurve, best: Sequence[tuple[float, str, int, int]]
+) -> list[NearMotion]:
+    """Trace candidates anew, and return them in the order in which they differ from a motion."""
+    rows = []
+    for code in dict.fromkeys(code for _, code, _, _ in best):
+        chain = mechanism_of_id(code)
+        pairs = _pairs(chain, points=not curve.rotates)
+        places = [(number, *divmod(place, len(pairs))) for _, of, number, place in best if of == code]
+        shape = (-1, len(chain.joints) + len(chain), 3)
+        query = "SELECT axes FROM motions WHERE chain = ? AND unit = ?"
+        units = {
+            number: _array(atlas.path, connection.execute(query, (code, number)).fetchone()[0], float, shape)
+            for number in {number for number, _, _ in places}
+        }
+        directions = np.stack([units[number][member] for number, member, _ in places])
+        circuits = circuits_of(chain, directions[:, : len(chain.joints)])
+        rotations = circuits.rotations()
+        name, types = _named(atlas, code)
+        for place, (_, _, number) in enumerate(places):
+            pair = pairs[number]
+            own = directions[[place]]
+            turned = {link: rotations[link][[place]] for link in pair}
+            traced = MotionCurve.of(_curve(chain, turned, pair, own, points=not curve.rotates)[0], closed=True)
+            axes = dict(zip(chain.joints, map(tuple, own[0].tolist()), strict=False))
+            point = None if curve.rotates else tuple(own[0, len(chain.joints) + list(chain).index(pair.second)].tolist())
+            off = difference(curve, traced)
+            if np.isfinite(off):
+                rows.append(NearMotion(off, code, name, types, tuple(pair), axes, point))
+    return sorted(rows, key=lambda row: (round(row.distance, 9), len(row.axes), row.chain))
+
+
+def _named(atlas: Atlas, code: str) -> tuple[str | None, tuple[str, ...]]:
+    """Return the name of a chain, and the ids of SC graphs that have it and move as its spherical linkage."""
+    quoted = code.replace("'", "''")
+    chain = atlas.query(f"id = '{quoted}'", columns=["name"]).rows
+    kinds = f"kind = sc and chain_id = '{quoted}' and spatial = 0 and infinite = 0"
+    types = atlas.query(kinds, columns=["id"]).rows
+    return (chain[0]["name"] if chain else None), tuple(row["id"] for row in types)
+
+
+def motion_curve(
+    motion: Motion | npt.ArrayLike, *, links: Sequence[int] = (), closed: bool | None = None
+) -> MotionCurve:
+    """Return what `like` compares: the curve of a file, a sheet with frames, orientations or an array."""
+    if isinstance(motion, MotionCurve):
+        return motion
+    if isinstance(motion, Orientations):
+        return MotionCurve.of(motion.quaternions, closed=closed)
+    if isinstance(motion, Sheet):
+        return MotionCurve.of(_of_frames(motion, links), closed=closed)
+    if isinstance(motion, str | Path):
+        path = Path(motion)
+        try:
+            return MotionCurve.of(_rows_of_file(path, links), closed=closed)
+        except InvariantError as error:
+            raise FileError(path, "", error.offender, error.expected) from None
+    rows = np.asarray(motion, dtype=float)
+    return MotionCurve.of(_of_two(rows) if rows.ndim == 2 else rows, closed=closed)
+
+
+def _rows_of_file(path: Path, links: Sequence[int]) -> Floats:
+    if holds_orientations(path):
+        return read_orientations(path).quaternions
+    if path.suffix.lower() in (".csv", ".txt"):
+        return _of_two(_table_of(path))
+    mechanism = read(path)
+    if not isinstance(mechanism, Sheet):
+        expected = "FOLD with frames, JSON of orientations, or CSV of 3, 4 or 8 numbers a row"
+        raise FileError(path, "", "the file holds no motion", expected)
+    return _of_frames(mechanism, links)
+
+
+def _table_of(path: Path) -> Floats:
+    """Return the numbers of a table, parted by commas, semicolons or spaces; a line of words may head it."""
+    rows: list[list[float]] = []
+    for number, line in enumerate(read_text(path).splitlines(), start=1):
+        words = line.partition("#")[0].replace(",", " ").replace(";", " ").split()
+        try:
+            values = list(map(float, words))
+        except ValueError:
+            if rows or number > 1:
+                raise FileError(path, f"line {number}", f"{shown(line[:40])} is no row of numbers", "numbers") from None
+            continue
+        if values and (len(values) not in (3, 4, 8) or (rows and len(values) != len(rows[0]))):
+            expected = "3 (a point), 4 (a quaternion) or 8 (two quaternions), as many in each row"
+            raise FileError(path, f"line {number}", numbered(len(values), "number"), expected)
+        rows += [values] * bool(values)
+    return np.array(rows, dtype=float).reshape(len(rows), -1)
+
+
+def _of_two(rows: Floats) -> Floats:
+    """Return the orientations of a second link in the frame of a first one, of rows of two quaternions."""
+    return relative(unit(rows[:, :4]), unit(rows[:, 4:])) if rows.shape[1] == 8 else rows
+
+
+def _of_frames(sheet: Sheet, links: Sequence[int]) -> Floats:
+    """Return the rotations of a face against another in the frames of a sheet, as quaternions float[n, 4]."""
+    from scipy.spatial.transform import Rotation
+
+    if len(links) != 2 or links[0] == links[1] or not all(0 <= link < len(sheet.faces) for link in links):
+        what = f"links {', '.join(map(str, links))}" if links else "no links"
+        expected = f"two different faces from 0 to {len(sheet.faces) - 1}, by links (--links A,B)"
+        raise InvariantError("links", what, expected)
+    if sheet.frames is None or not sheet.frames.others:
+        raise InvariantError("frames", "the sheet has no frames", "a FOLD file with frames, as synth fold writes")
+    frames = [sheet.frames.frame(number) for number in range(sheet.frames.others + 1)]
+    places = np.array([in_space(frame.coordinates) for frame in frames if frame.coordinates is not None])
+    turns = [rigid_motion(places[0][list(sheet.faces[link])], places[:, list(sheet.faces[link])])[0] for link in links]
+    between = np.swapaxes(turns[0], -1, -2) @ turns[1]
+    return np.asarray(Rotation.from_matrix(between).as_quat(scalar_first=True))

@@ -1,0 +1,371 @@
+"""Motion signatures: 64 numbers of the relative motion of two links, and the exact comparison of two motions.
+
+A motion is a curve R(s) of rotations of one link in the frame of another, s its arc length (the angle turned
+through), or the path p(s) of a point of one link on the sphere of the other. Frames fixed in the two links make A
+R(s) B of it, and the angle between R(s) and R(t), that of the rotation R(s)^-1 R(t), is the same for all A and B; so
+is that of two points of a path. It is the same too for R^-1, so the order of the links has no meaning, and for the
+mirror image. Arc length does away with speed.
+
+A circuit of length L has 16 numbers: L / 4 pi, and magnitudes of Fourier coefficients of f(s) = sin^2 of half the
+angle between R(s) and R(s + d), which is smooth, for d of one, two, three and four eighths of L. Where the circuit
+begins, and which way it goes, changes phases alone. 6 windows of it have 8 numbers each: the length w, and ratios of
+angles to arc lengths, which are 1 for a rotation about one axis, of 5 points of the window. Windows begin at sixths
+of the circuit; w is the longest of 2 pi, pi, pi / 2, ... that is no longer than a sixth. So an arc of a third of
+the circuit or more holds one of them whole, wherever it begins, and is found by sliding a window along it, both
+ways. Signatures with one distance are not yet motions that agree: candidates are compared by `difference`.
+
+Theory: docs/theory/motion-signatures.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import floor, log2
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from graphs.errors import InvariantError
+from graphs.tolerances import DOUBLE, MARGIN
+from graphs.types import Floats, Ints
+
+CIRCUIT, WINDOWS, WINDOW = 16, 6, 8
+"""Numbers of a circuit; windows of it; numbers of a window."""
+_PLACES, _POINTS = 48, 5
+"""Places of a circuit whose angles are taken, a multiple of 24; points of a window."""
+_HARMONICS = {24: (0, 2, 4), 12: (0, 1, 2, 3), 6: (0, 1, 2, 3), 18: (0, 1, 2, 3)}
+"""Fourier coefficients that are kept, for each distance in places; odd ones of half a circuit vanish."""
+_SHORTEST = 1e-2
+"""A motion of fewer radians has no signature: the links hardly move against each other."""
+FAR = np.float32(1e3)
+"""The numbers of a motion that has no signature: it is far from all others."""
+
+_FEW = 12
+"""Rows below which chords are the parameter of the spline."""
+_COMPARED, _SHIFTS = 24, 8
+"""Places of a motion that are compared with another; shifts of the other between two of them."""
+
+
+class Signatures(NamedTuple):
+    """Numbers of circuits, float32[n, 16], and of their windows, float32[n, 6, 8]."""
+
+    circuits: npt.NDArray[np.float32]
+    windows: npt.NDArray[np.float32]
+
+
+def angles_between(first: Floats, second: Floats) -> Floats:
+    """Return the angles between rotations, float[..., 4], or unit vectors, float[..., 3], radians."""
+    if first.shape[-1] == 4:
+        gap = np.minimum(np.linalg.norm(first - second, axis=-1), np.linalg.norm(first + second, axis=-1))
+        return np.asarray(4.0 * np.arcsin(np.minimum(gap / 2.0, 1.0)))
+    return np.asarray(2.0 * np.arcsin(np.minimum(np.linalg.norm(first - second, axis=-1) / 2.0, 1.0)))
+
+
+def signatures_of(rows: Floats) -> Signatures:
+    """Return the signatures of circuits by frames: unit quaternions float[n, M, 4], or points float[n, M, 3].
+
+    Frames are equally far apart by any smooth parameter, 24 or more, and the last one is not the first one again.
+
+    Examples
+    --------
+    >>> turn = np.linspace(0, 2 * np.pi, 256, endpoint=False)
+    >>> about_z = np.stack([np.cos(turn / 2), 0 * turn, 0 * turn, np.sin(turn / 2)], axis=1)
+    >>> numbers = signatures_of(about_z[None]).circuits[0]
+    >>> numbers[:2].round(4).tolist()  # half a turn, and at half the circuit the angle 180 degrees
+    [0.5, 1.0]
+    """
+    around = _Around(rows)
+    moving = around.lengths >= _SHORTEST
+    lengths = np.where(moving, around.lengths, 1.0)
+    wide = window_lengths(lengths)
+    begin = np.arange(WINDOWS) / WINDOWS
+    inside = (wide / lengths)[:, None, None] * np.linspace(0.0, 1.0, _POINTS)
+    parts = (begin[:, None] + inside).reshape(len(lengths), -1)
+    every = np.broadcast_to(np.arange(_PLACES) / _PLACES, (len(lengths), _PLACES))
+    at = around.at(np.concatenate([every, parts], axis=1))
+    circuits = _circuit_numbers(lengths, at[:, :_PLACES])
+    points = at[:, _PLACES:].reshape(len(lengths), WINDOWS, _POINTS, -1)
+    windows = window_numbers(np.broadcast_to(wide[:, None], (len(lengths), WINDOWS)), points)
+    circuits[~moving], windows[~moving] = FAR, FAR
+    return Signatures(circuits.astype(np.float32), windows.astype(np.float32))
+
+
+def window_lengths(lengths: Floats) -> Floats:
+    """Return the length of a window of circuits, radians: of 2 pi, pi, pi / 2, ... the longest of a sixth or less."""
+    return np.asarray(2.0 * np.pi * 2.0 ** np.minimum(0.0, np.floor(np.log2(lengths / (2.0 * np.pi * WINDOWS)))))
+
+
+def _circuit_numbers(lengths: Floats, at: Floats) -> Floats:
+    """Return the numbers of circuits by equidistant places, float[n, 48, d]."""
+    columns = [lengths / (4.0 * np.pi)]
+    for apart, harmonics in _HARMONICS.items():
+        dots = (at * np.roll(at, -apart, axis=1)).sum(axis=-1)
+        halves = 1.0 - dots * dots if at.shape[-1] == 4 else (1.0 - dots) / 2.0
+        sizes = np.abs(np.fft.rfft(halves, axis=1)) / _PLACES
+        columns += [sizes[:, number] * (2.0 if number else 1.0) for number in harmonics]
+    return np.stack(columns, axis=1)
+
+
+def window_numbers(wide: Floats, points: Floats) -> Floats:
+    """Return the numbers of windows of lengths float[...] by 5 equidistant points, float[..., 5, d]: float[..., 8].
+
+    They are w / 2 pi, ratios of points 2 apart (three), 3 apart (two) and 4 apart, and the mean of neighbours.
+    """
+    columns = [wide / (2.0 * np.pi)]
+    for apart in (2, 3, 4, 1):
+        ratios = angles_between(points[..., :-apart, :], points[..., apart:, :]) / (
+            wide[..., None] * apart / (_POINTS - 1)
+        )
+        columns += [ratios.mean(axis=-1)] if apart == 1 else list(np.moveaxis(ratios, -1, 0))
+    return np.stack(columns, axis=-1)
+
+
+class _Around:
+    """Circuits by frames float[n, M, d], read at parts of their lengths."""
+
+    def __init__(self, rows: Floats) -> None:
+        self._rows, self._frames = rows, rows.shape[1]
+        derivative = np.zeros_like(rows)
+        for apart, factor in ((1, 0.75), (2, -0.15), (3, 1.0 / 60.0)):
+            derivative += factor * (self._beside(apart) - self._beside(-apart))
+        self._speed = np.linalg.norm(derivative, axis=-1) * (2.0 if rows.shape[-1] == 4 else 1.0)
+        before, after = np.roll(self._speed, 1, axis=1), np.roll(self._speed, -1, axis=1)
+        later = np.roll(self._speed, -2, axis=1)
+        steps = np.maximum((13.0 * (self._speed + after) - before - later) / 24.0, (self._speed + after) / 8.0)
+        self._along = np.concatenate([np.zeros((len(rows), 1)), np.cumsum(steps, axis=1)], axis=1)
+        self.lengths = self._along[:, -1]
+
+    def _beside(self, apart: int) -> Floats:
+        """Return the frames some places on, of two quaternions of a rotation the nearer one."""
+        other = np.roll(self._rows, -apart, axis=1)
+        if self._rows.shape[-1] == 4:
+            other = np.where((other * self._rows).sum(axis=-1, keepdims=True) < 0.0, -other, other)
+        return other
+
+    def at(self, parts: Floats) -> Floats:
+        """Return unit vectors at parts of the lengths, float[n, P]: by cubics in time, by quintics in place."""
+        count = len(parts)
+        member = np.arange(count)[:, None]
+        scale = np.maximum(self.lengths, DOUBLE.precision)[:, None]
+        parts = np.remainder(parts, 1.0)
+        knots = (self._along[:, :-1] / scale + member).ravel()
+        place = np.searchsorted(knots, (parts + member).ravel(), side="right").reshape(parts.shape)
+        place = np.clip(place - 1 - member * self._frames, 0, self._frames - 1)
+        after = (place + 1) % self._frames
+        low, high = self._along[member, place], self._along[member, place + 1]
+        first, last, want = self._speed[member, place], self._speed[member, after], parts * scale
+        rise = np.maximum(high - low, DOUBLE.precision)
+        time = np.clip((want - low) / rise, 0.0, 1.0)
+        for _ in range(3):
+            square, cube = time * time, time * time * time
+            value = low + rise * (3 * square - 2 * cube) + first * (cube - 2 * square + time) + last * (cube - square)
+            slope = 6 * rise * (time - square) + first * (3 * square - 4 * time + 1) + last * (3 * square - 2 * time)
+            time = np.clip(time - (value - want) / np.maximum(slope, 0.05 * rise), 0.0, 1.0)
+        return self._between(member, place, time)
+
+    def _between(self, member: Ints, place: Ints, time: Floats) -> Floats:
+        """Return unit vectors a part of the way from a frame to the next, by polynomials through six frames."""
+        nodes = np.arange(-2, 4)
+        total = np.zeros((*place.shape, self._rows.shape[-1]))
+        middle = self._rows[member, place]
+        for node in nodes.tolist():
+            others = nodes[nodes != node]
+            weight = np.prod([(time - other) / (node - other) for other in others.tolist()], axis=0)
+            row = self._rows[member, (place + node) % self._frames]
+            if row.shape[-1] == 4:
+                weight = weight * np.where((row * middle).sum(axis=-1) < 0.0, -1.0, 1.0)
+            total += weight[..., None] * row
+        return np.asarray(total / np.linalg.norm(total, axis=-1, keepdims=True))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MotionCurve:
+    """A relative motion as a curve by arc length.
+
+    Attributes
+    ----------
+    rows : float[n, 4] or float[n, 3]
+        Unit quaternions, scalar first, of rotations; or unit vectors of the path of a point. Of a circuit the last
+        row is not the first one again.
+    closed : bool
+        Whether it is a circuit.
+    """
+
+    rows: Floats
+    closed: bool
+    _along: Floats
+    _spline: object
+    _length: float
+
+    @classmethod
+    def of(cls, rows: Floats, *, closed: bool | None = None) -> MotionCurve:
+        """Return the curve through rotations, float[n, 4], or points of a sphere, float[n, 3], of any lengths.
+
+        Equal rows that follow each other are one. Without `closed` the curve is a circuit if its last row is its
+        first one again. InvariantError if there are fewer than three different rows, or one of them is zero.
+        """
+        vectors = np.array(rows, dtype=float)
+        if vectors.ndim != 2 or vectors.shape[1] not in (3, 4) or not np.isfinite(vectors).all():
+            expected = "finite numbers: n quaternions, scalar first, or n points of a sphere"
+            raise InvariantError("motion", f"an array of shape {vectors.shape}", expected)
+        sizes = np.linalg.norm(vectors, axis=1)
+        if (sizes == 0.0).any():
+            raise InvariantError("motion", f"row {int(sizes.argmin()) + 1} is zero", "a rotation or a direction")
+        vectors /= sizes[:, None]
+        again = np.concatenate([[np.inf], angles_between(vectors[:-1], vectors[1:])]) <= DOUBLE.parallel
+        vectors = vectors[~again]
+        ends_meet = len(vectors) > 1 and bool(angles_between(vectors[0], vectors[-1]) <= DOUBLE.same_configuration)
+        whole = ends_meet if closed is None else closed
+        if whole and ends_meet:
+            vectors = vectors[:-1]
+        if len(vectors) < 3:
+            raise InvariantError("motion", f"{len(vectors)} different rows", "3 or more")
+        return cls(vectors, whole, *_by_arc_length(vectors, closed=whole))
+
+    @property
+    def length(self) -> float:
+        """Arc length, radians."""
+        return self._length
+
+    @property
+    def rotates(self) -> bool:
+        """Whether it is a motion of two links; else it is the path of a point."""
+        return self.rows.shape[1] == 4
+
+    def at(self, along: Floats) -> Floats:
+        """Return unit vectors at arc lengths; of a circuit they may be of any size."""
+        if self.closed:
+            along = np.remainder(along, self._length)
+        where = np.clip(along, 0.0, self._length)
+        rows = self._spline(np.interp(where, *self._along))  # type: ignore[operator]
+        return np.asarray(rows / np.linalg.norm(rows, axis=-1, keepdims=True))
+
+    def circuit_numbers(self) -> Floats:
+        """Return the 16 numbers of a circuit."""
+        at = self.at(self._length * np.arange(_PLACES) / _PLACES)
+        return np.asarray(_circuit_numbers(np.array([self._length]), at[None])[0])
+
+    def window_lengths(self) -> list[float]:
+        """Return the lengths of windows that a circuit may have of which this is an arc of a third or more."""
+        longest, shortest = self._length, self._length / (2.0 * WINDOWS)
+        if self.closed:
+            longest = self._length / WINDOWS
+        first = min(0, floor(log2(longest / (2.0 * np.pi))))
+        return [w for k in range(first, first - 6, -1) if shortest <= (w := 2.0 * np.pi * 2.0**k)][:4]
+
+    def sliding(self, wide: float, places: int) -> Floats:
+        """Return the numbers of windows of a length at so many places, first onwards, then backwards."""
+        last = self._length if self.closed else self._length - wide
+        begin = np.linspace(0.0, last, places, endpoint=not self.closed)
+        points = self.at(begin[:, None] + wide * np.linspace(0.0, 1.0, _POINTS))
+        both = np.concatenate([points, points[:, ::-1]])
+        return window_numbers(np.full(len(both), wide), both)
+
+
+def _by_arc_length(rows: Floats, *, closed: bool) -> tuple[tuple[Floats, Floats], object, float]:
+    """Return arc lengths with the parameter there, a spline by that parameter, and the whole length."""
+    from scipy.interpolate import CubicSpline
+
+    vectors, turns = rows, 1
+    if rows.shape[1] == 4:  # of the two quaternions of a rotation that nearer to the last one
+        signs = np.where((rows[1:] * rows[:-1]).sum(axis=1) < 0.0, -1.0, 1.0)
+        vectors = rows * np.cumprod(np.concatenate([[1.0], signs]))[:, None]
+    if closed:
+        if rows.shape[1] == 4 and vectors[-1] @ vectors[0] < 0.0:  # back after two rounds only
+            vectors, turns = np.concatenate([vectors, -vectors]), 2
+        vectors = np.concatenate([vectors, vectors[:1]])
+    knots = _knots(vectors, closed=closed)
+    spline = CubicSpline(knots, vectors, bc_type="periodic" if closed else "not-a-knot")
+    end = knots[len(rows) if closed else -1]
+    fine = np.linspace(0.0, end, max(4096, 8 * len(rows)) + 1)
+    middle = (fine[:-1] + fine[1:]) / 2.0
+    speeds = [np.linalg.norm(spline(at, 1) - _radial(spline, at), axis=1) for at in (fine[:-1], middle, fine[1:])]
+    arcs = (speeds[0] + 4.0 * speeds[1] + speeds[2]) * np.diff(fine) / 6.0 * (2.0 if rows.shape[1] == 4 else 1.0)
+    along = np.concatenate([[0.0], np.cumsum(arcs)])
+    return (along, fine), spline, float(along[-1])
+
+
+def _knots(vectors: Floats, *, closed: bool) -> Floats:
+    """Return the parameter of a spline: numbers of rows, or sums of chords, whichever foretells left-out rows better.
+
+    Frames at equal times are smooth by their numbers, also where the motion stops and turns back, which by chords is
+    a corner; rows at any distances are smooth by chords.
+    """
+    from scipy.interpolate import CubicSpline
+
+    chords = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(vectors, axis=0), axis=1))])
+    if len(vectors) < _FEW:
+        return chords
+    kept = np.arange(len(vectors)) % 2 == 0
+    kept[-1] = True
+    off = []
+    for knots in (chords, np.arange(len(vectors), dtype=float)):
+        spline = CubicSpline(knots[kept], vectors[kept], bc_type="periodic" if closed else "not-a-knot")
+        off.append(float(np.abs(spline(knots[~kept]) - vectors[~kept]).max()))
+    return np.arange(len(vectors), dtype=float) if off[1] < (1.0 - MARGIN) * off[0] else chords
+
+
+def _radial(spline: object, at: Floats) -> Floats:
+    """Return the part of derivatives along the vectors themselves, which turns nothing."""
+    vectors, rates = spline(at), spline(at, 1)  # type: ignore[operator]
+    return np.asarray(vectors * (vectors * rates).sum(axis=1, keepdims=True) / (vectors**2).sum(axis=1, keepdims=True))
+
+
+def difference(motion: MotionCurve, circuit: MotionCurve) -> float:
+    """Return by how much a motion differs from the best arc of a circuit: radians, root mean square.
+
+    What is compared are angles between all pairs of 24 places of the motion, equally far apart, with those of an arc
+    of the same length, which begins anywhere and goes either way; a circuit is compared with the whole of another.
+    It is infinite if the circuit is shorter than the motion, by more than a hundredth.
+
+    Examples
+    --------
+    >>> turn = np.linspace(0, 4, 50)
+    >>> path = np.stack([np.cos(turn), np.sin(turn), 0.5 * np.cos(2 * turn)], axis=1)
+    >>> circle = MotionCurve.of(np.stack([np.cos(turn), np.sin(turn), 0 * turn + 1], axis=1)[:30])
+    >>> round(difference(circle, MotionCurve.of(path)), 3) > 0.01
+    True
+    """
+    from scipy.optimize import minimize_scalar
+
+    if motion.length > 1.01 * circuit.length:
+        return float("inf")
+    whole = motion.closed and circuit.closed
+    places = np.arange(_COMPARED) / (_COMPARED if whole else _COMPARED - 1)
+    one, other = np.triu_indices(_COMPARED, 1)
+    mine = motion.at(motion.length * places)
+    wanted = angles_between(mine[one], mine[other])
+    reach = circuit.length if whole else min(motion.length, circuit.length)
+    free = circuit.length if circuit.closed else circuit.length - reach
+
+    def off(begin: Floats, way: float) -> Floats:
+        at = circuit.at(begin[:, None] + way * reach * places)
+        return np.asarray(np.sqrt(((angles_between(at[:, one], at[:, other]) - wanted) ** 2).mean(axis=1)))
+
+    count = _COMPARED * _SHIFTS
+    gap = free / count
+    best = np.inf
+    for way in (1.0, -1.0):
+        begin = gap * np.arange(count + 1) + (0.0 if way > 0.0 or circuit.closed else reach)
+        coarse = off(begin, way)
+        start = float(begin[int(coarse.argmin())])
+        refined = minimize_scalar(
+            lambda at, way=way: float(off(np.array([at]), way)[0]),
+            bounds=(start - gap, start + gap), method="bounded", options={"xatol": 1e-9 * circuit.length},
+        ) if gap > 0.0 else None  # fmt: skip
+        best = min(best, float(coarse.min()), np.inf if refined is None else float(refined.fun))
+    return float(best)
+
+
+def nearest(numbers: npt.NDArray[np.float32], goals: Floats) -> Floats:
+    """Return the distance of each signature, float32[n, d], to the nearest of some goals, float[Q, d]: float[n]."""
+    shifted = numbers - goals[0].astype(np.float32)  # near goals only differences keep their digits
+    others = (goals - goals[0]).astype(np.float32)
+    squares = (shifted * shifted).sum(axis=1)
+    if len(others) > 1:
+        mixed = shifted @ others.T
+        mixed *= -2.0
+        mixed += (others * others).sum(axis=1)
+        squares += mixed.min(axis=1)
+    return np.asarray(np.sqrt(np.maximum(squares, 0.0)))
