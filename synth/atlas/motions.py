@@ -7,22 +7,21 @@ of all pairs of links that share no joint, and of the paths of points of one lin
 
 The table ``motions`` has a row for each unit of members, its arrays as blobs that end with a checksum. A search
 reads one kind of array of all units, one after the other, and keeps the nearest; so it needs little memory. They are
-traced anew and compared exactly. Theory: docs/theory/motion-signatures.md.
+traced anew and compared exactly. Theory: docs/theory/atlas.md.
 """
 
 from __future__ import annotations
 
 import heapq
-import json
 import sqlite3
 import zlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from itertools import combinations, permutations
 from math import degrees
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -33,12 +32,13 @@ from graphs.files.formats import mechanism_of_id, read
 from graphs.files.native import holds_orientations
 from graphs.files.text import read_text
 from graphs.geometry import rigid_motion, unit
+from graphs.joints.linkage import Vector, plain_vector
 from graphs.mechanism.precision import in_space
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.printing import Block, Printed, TableBlock, plain
-from graphs.types import Floats, LinkId
+from graphs.types import Floats, JointId, LinkId
 from synth.atlas.opened import Atlas
 from synth.atlas.signatures import CIRCUIT, WINDOW, WINDOWS, MotionCurve, difference, nearest, signatures_of
 from synth.guidance.orientations import Orientations, read_orientations
@@ -50,8 +50,6 @@ _UNIT = 256
 """Members of a unit: a row of the table."""
 _CANDIDATES, _PLACES = 32, 24
 """Candidates by signature that are compared exactly; places of a window on an arc, each way."""
-_AT_ONCE = 1 << 15
-"""Signatures that are compared at a time."""
 _TRIED = "try `synth atlas motions ATLAS.sqlite`"
 
 
@@ -92,7 +90,7 @@ class MotionTable(Printed):
         """Return the keys that scripts rely on."""
         return {
             "chains": list(self.chains), "members": self.members, "motions": self.motions, "paths": self.paths,
-            "megabytes": round(self.megabytes, 3),
+            "megabytes": round(self.megabytes, 2),
         }  # fmt: skip
 
     def blocks(self) -> list[Block]:
@@ -230,9 +228,7 @@ def _unit_row(chain: SCGraph, code: str, number: int, count: int, seed: int) -> 
     return (code, number, _VERSION, seed, count, *map(_blob, arrays))
 
 
-def _curve(
-    chain: SCGraph, rotations: dict[LinkId, Floats], pair: _Pair, directions: Floats, *, points: bool
-) -> Floats:
+def _curve(chain: SCGraph, rotations: dict[LinkId, Floats], pair: _Pair, directions: Floats, *, points: bool) -> Floats:
     """Return the motion of the second link against the first, float[n, M, 4], or the path of its point, [n, M, 3]."""
     turns = relative(rotations[pair.first], rotations[pair.second])
     if not points:
@@ -300,7 +296,7 @@ class NearMotion:
         Ids of the SC graphs of the atlas with this chain whose loops all have a finite centre.
     links : tuple of two link ids
         The motion is that of the second against the first.
-    axes : mapping of joint id to tuple of 3 floats
+    axes : mapping of joint id to 3 floats
         Directions, where the member was drawn.
     point : tuple of 3 floats, optional
         Direction of the point of the second link whose path was compared.
@@ -311,14 +307,14 @@ class NearMotion:
     name: str | None
     types: tuple[str, ...]
     links: tuple[LinkId, LinkId]
-    axes: dict[Any, tuple[float, ...]]
-    point: tuple[float, ...] | None
+    axes: dict[JointId, Vector]
+    point: Vector | None
 
     @property
     def linkage(self) -> HingedSolids:
         """The member as a linkage about a centre, as `synth.design` takes it."""
         chain = spherical_of(mechanism_of_id(self.chain))
-        return HingedSolids(chain, {joint: (axis, axis) for joint, axis in self.axes.items()})  # type: ignore[misc]
+        return HingedSolids(chain, {joint: ((0.0, 0.0, 0.0), axis) for joint, axis in self.axes.items()})
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
@@ -366,12 +362,12 @@ class NearMotions(Printed):
         return [first, TableBlock(("degrees off", "chain", "name", "links", "SC graphs"), table, ["degrees off"])]
 
 
-Motion = str | Path | Sheet | Orientations | MotionCurve
+MotionLike: TypeAlias = str | Path | Sheet | Orientations | MotionCurve
 
 
 def like(
     atlas: Atlas,
-    motion: Motion | npt.ArrayLike,
+    motion: MotionLike | npt.ArrayLike,
     *,
     links: Sequence[int] = (),
     closed: bool | None = None,
@@ -475,11 +471,11 @@ def _compared(
             own = directions[[place]]
             turned = {link: rotations[link][[place]] for link in pair}
             traced = MotionCurve.of(_curve(chain, turned, pair, own, points=not curve.rotates)[0], closed=True)
-            axes = dict(zip(chain.joints, map(tuple, own[0].tolist()), strict=False))
-            point = None if curve.rotates else tuple(own[0, len(chain.joints) + list(chain).index(pair.second)].tolist())
-            off = difference(curve, traced)
+            axes = dict(zip(chain.joints, map(plain_vector, own[0]), strict=False))  # points follow the axes
+            point = None if curve.rotates else plain_vector(own[0, len(chain.joints) + list(chain).index(pair.second)])
+            off = float(difference(curve, traced))
             if np.isfinite(off):
-                rows.append(NearMotion(off, code, name, types, tuple(pair), axes, point))
+                rows.append(NearMotion(off, code, name, types, (pair.first, pair.second), axes, point))
     return sorted(rows, key=lambda row: (round(row.distance, 9), len(row.axes), row.chain))
 
 
@@ -493,7 +489,7 @@ def _named(atlas: Atlas, code: str) -> tuple[str | None, tuple[str, ...]]:
 
 
 def motion_curve(
-    motion: Motion | npt.ArrayLike, *, links: Sequence[int] = (), closed: bool | None = None
+    motion: MotionLike | npt.ArrayLike, *, links: Sequence[int] = (), closed: bool | None = None
 ) -> MotionCurve:
     """Return what `like` compares: the curve of a file, a sheet with frames, orientations or an array."""
     if isinstance(motion, MotionCurve):
@@ -548,7 +544,10 @@ def _of_two(rows: Floats) -> Floats:
 
 
 def _of_frames(sheet: Sheet, links: Sequence[int]) -> Floats:
-    """Return the rotations of a face against another in the frames of a sheet, as quaternions float[n, 4]."""
+    """Return the rotations of a face against another in the frames of a sheet, as quaternions float[n, 4].
+
+    The key frame, which is the pattern or repeats one of the others, is left out.
+    """
     from scipy.spatial.transform import Rotation
 
     if len(links) != 2 or links[0] == links[1] or not all(0 <= link < len(sheet.faces) for link in links):
@@ -557,7 +556,7 @@ def _of_frames(sheet: Sheet, links: Sequence[int]) -> Floats:
         raise InvariantError("links", what, expected)
     if sheet.frames is None or not sheet.frames.others:
         raise InvariantError("frames", "the sheet has no frames", "a FOLD file with frames, as synth fold writes")
-    frames = [sheet.frames.frame(number) for number in range(sheet.frames.others + 1)]
+    frames = [sheet.frames.frame(number) for number in range(1, sheet.frames.others + 1)]
     places = np.array([in_space(frame.coordinates) for frame in frames if frame.coordinates is not None])
     turns = [rigid_motion(places[0][list(sheet.faces[link])], places[:, list(sheet.faces[link])])[0] for link in links]
     between = np.swapaxes(turns[0], -1, -2) @ turns[1]

@@ -14,7 +14,7 @@ of the circuit; w is the longest of 2 pi, pi, pi / 2, ... that is no longer than
 the circuit or more holds one of them whole, wherever it begins, and is found by sliding a window along it, both
 ways. Signatures with one distance are not yet motions that agree: candidates are compared by `difference`.
 
-Theory: docs/theory/motion-signatures.md.
+Theory: docs/theory/atlas.md.
 """
 
 from __future__ import annotations
@@ -194,7 +194,7 @@ class MotionCurve:
 
     rows: Floats
     closed: bool
-    _along: Floats
+    _along: tuple[Floats, Floats]
     _spline: object
     _length: float
 
@@ -231,7 +231,7 @@ class MotionCurve:
     @property
     def rotates(self) -> bool:
         """Whether it is a motion of two links; else it is the path of a point."""
-        return self.rows.shape[1] == 4
+        return bool(self.rows.shape[1] == 4)
 
     def at(self, along: Floats) -> Floats:
         """Return unit vectors at arc lengths; of a circuit they may be of any size."""
@@ -267,13 +267,13 @@ def _by_arc_length(rows: Floats, *, closed: bool) -> tuple[tuple[Floats, Floats]
     """Return arc lengths with the parameter there, a spline by that parameter, and the whole length."""
     from scipy.interpolate import CubicSpline
 
-    vectors, turns = rows, 1
+    vectors = rows
     if rows.shape[1] == 4:  # of the two quaternions of a rotation that nearer to the last one
         signs = np.where((rows[1:] * rows[:-1]).sum(axis=1) < 0.0, -1.0, 1.0)
         vectors = rows * np.cumprod(np.concatenate([[1.0], signs]))[:, None]
     if closed:
         if rows.shape[1] == 4 and vectors[-1] @ vectors[0] < 0.0:  # back after two rounds only
-            vectors, turns = np.concatenate([vectors, -vectors]), 2
+            vectors = np.concatenate([vectors, -vectors])
         vectors = np.concatenate([vectors, vectors[:1]])
     knots = _knots(vectors, closed=closed)
     spline = CubicSpline(knots, vectors, bc_type="periodic" if closed else "not-a-knot")
@@ -348,7 +348,7 @@ def difference(motion: MotionCurve, circuit: MotionCurve) -> float:
     best = np.inf
     for way in (1.0, -1.0):
         begin = gap * np.arange(count + 1) + (0.0 if way > 0.0 or circuit.closed else reach)
-        coarse = off(begin, way)
+        coarse = off(np.asarray(begin, dtype=float), way)
         start = float(begin[int(coarse.argmin())])
         refined = minimize_scalar(
             lambda at, way=way: float(off(np.array([at]), way)[0]),

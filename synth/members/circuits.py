@@ -2,7 +2,7 @@
 
 The driven joint changes on the way: in each segment it is the joint that turned most in the last step, so that the
 circuit goes on through the turning points of every other joint. Segments are taken by the compiled kernel
-(`synth.members.kernel`), all members with the same driven joint at once. Theory: docs/theory/motion-signatures.md.
+(`synth.members.kernel`), all members with the same driven joint at once. Theory: docs/theory/members.md.
 """
 
 from __future__ import annotations
@@ -27,6 +27,8 @@ _STEP, _AT_ONCE, _MOST = 0.05, 8, 1280
 """Radians that the driven joint turns in a frame; frames of a segment; frames of a circuit, 64 radians, at most."""
 _FIRST, _SHORTEST = 1e-3, 1e-5
 """Radians of the step that finds the rates at the start; steps of a member below the second end its circuit."""
+_BEYOND = 8
+"""Frames beyond its ends by which a circuit is continued for a spline."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +108,7 @@ def circuits_of(chain: SCGraph, axes: npt.ArrayLike, *, frames: int = 256) -> Ci
     Returns
     -------
     Circuits
-        Frames come by a periodic cubic spline through configurations 0.05 radians apart. A member whose circuit
+        Frames come by a quintic spline through configurations 0.05 radians apart. A member whose circuit
         passes a singular configuration, or is longer than 1280 of these steps, is not closed.
 
     Raises
@@ -218,21 +220,23 @@ class _Tracing:
         passed = was_near & is_near & (before < 0.0) & (after >= 0.0) & (place > 2)
         for member, last in zip(who[passed], place[passed], strict=True):
             wound = 2.0 * np.pi * np.round(self.angles[member, last] / (2.0 * np.pi))
-            # a frame that is all but the first one again would be a knot of no length
-            while np.abs(self.angles[member, last - 1] - wound).max() < 0.1 * _STEP:
-                last -= 1
-            self.angles[member, last], self.count[member] = wound, last + 1
+            # frames that are all but the first one again would be knots of no length
+            off = np.abs(self.angles[member, last - 3 : last] - wound).max(axis=1)
+            end = last - int((off < 0.1 * _STEP).sum())
+            self.angles[member, end], self.count[member] = wound, end + 1
             self.closed[member] = True
 
 
 def _resampled(angles: Floats, frames: int) -> Floats:
     """Return frames equally far apart along a closed circuit whose last configuration is its first one again."""
-    from scipy.interpolate import CubicSpline
+    from scipy.interpolate import make_interp_spline
 
     steps = np.linalg.norm(np.diff(angles, axis=0), axis=1)
     along = np.concatenate([[0.0], np.cumsum(steps)]) / steps.sum()
-    wound = along[:, None] * angles[-1]
-    around = angles - wound
+    around = angles - along[:, None] * angles[-1]
     around[-1] = around[0]
+    # a quintic that goes on beyond both ends is periodic but for rounding
+    knots = np.concatenate([along[-_BEYOND - 1 : -1] - 1.0, along, along[1 : _BEYOND + 1] + 1.0])
+    values = np.concatenate([around[-_BEYOND - 1 : -1], around, around[1 : _BEYOND + 1]])
     at = np.arange(frames) / frames
-    return np.asarray(CubicSpline(along, around, bc_type="periodic")(at) + at[:, None] * angles[-1])
+    return np.asarray(make_interp_spline(knots, values, k=5)(at) + at[:, None] * angles[-1])

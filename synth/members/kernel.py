@@ -12,6 +12,7 @@ import ctypes
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import nullcontext
 from ctypes import c_int, c_int64, c_void_p
 from dataclasses import dataclass
 from pathlib import Path
@@ -361,7 +362,7 @@ def _in_library(
     arrays += [axes, normals, bends, start, given]
     places = [None if one is None else one.ctypes.data for one in arrays]
     outputs = [one.ctypes.data for one in answer]
-    threads = min(_cores(), -(-count // _AT_ONCE))
+    threads = min(_cores(), -(-count // _AT_ONCE))  # one has no use for a pool
 
     def part(first: int) -> int:
         last: int = min(first + _AT_ONCE, count)
@@ -369,8 +370,9 @@ def _in_library(
             raise MemoryError("no memory for a member of so many joints")
         return last
 
-    with ThreadPoolExecutor(threads) as pool:
-        for last in pool.map(part, range(0, count, _AT_ONCE)):
+    with ThreadPoolExecutor(threads) if threads > 1 else nullcontext() as pool:
+        firsts = range(0, count, _AT_ONCE)
+        for last in map(part, firsts) if pool is None else pool.map(part, firsts):
             if report is not None:
                 report(last)
 

@@ -19,6 +19,14 @@ from synth.cli.runner import RunOptions, run_resumable, run_whole, runner_option
 _ATLAS = click.argument("atlas", metavar="ATLAS.sqlite", type=options.FILE_NAME)
 
 
+def _faces(word: str) -> tuple[int, ...]:
+    """Return two numbers of faces, such as ``0,3``."""
+    numbers = word.split(",")
+    if len(numbers) != 2 or not all(number.isascii() and number.isdigit() and len(number) < 10 for number in numbers):
+        raise ValueError(f"{plain(word)!r} is not two faces, such as 0,3")
+    return tuple(map(int, numbers))
+
+
 def _own_column(word: str) -> tuple[str, Callable[[Any], Any]]:
     """Return the name and the function of a column, ``NAME=MODULE:FUNCTION``."""
     name, equals, place = word.partition("=")
@@ -46,6 +54,8 @@ def atlas_group() -> None:
       synth atlas query atlas.sqlite "links = 8 and dof = 1 and centres >= 3 and all_explicit"
       synth atlas show atlas.sqlite "Watt chain"
       synth atlas find atlas.sqlite data/wiener/fortune-teller.json
+      synth atlas motions atlas.sqlite --members 1000
+      synth atlas like data/orientations/tipparthi.json atlas.sqlite
     """
 
 
@@ -222,3 +232,77 @@ def find(atlas: str, files: tuple[str, ...], as_json: bool) -> None:
         click.echo(failure, err=True)
     if failures:
         click.get_current_context().exit(2)
+
+
+@atlas_group.command(short_help="Add motions of random members, for `synth atlas like`.")
+@_ATLAS
+@options.number("--members", "N", "Number of random members of each chain.", most=10_000_000, default=1000)
+@options.number("--max-links", "N", "Largest number of links of a chain.", 4, default=8)
+@options.number("--seed", "N", "Random seed; another seed gives other members.", 0, default=0)
+@options.flag("--force", "Replace the motions of another seed or version.")
+@options.JSON
+def motions(atlas: str, members: int, max_links: int, seed: int, force: bool, as_json: bool) -> None:
+    """Add the motions of random members of each chain with 1 degree of freedom to an atlas.
+
+    Each member is a spherical linkage with random axes; its circuit is traced, and 64 numbers are stored for each
+    pair of links without a common joint, and for the path of a point of each of them. A run that was stopped goes on
+    where it was; a larger --members adds members.
+
+    \b
+    Example:
+      synth atlas motions atlas.sqlite --members 1000
+    """
+    opened = synth.atlas.open_atlas(atlas)
+    size = synth.atlas.planned_motions(opened, members, max_links=max_links)
+    click.echo(f"tracing {size.blocks()[0]} in the file, about 150 MB of memory", err=True)
+    with out.progress_line() as show:
+        table = synth.atlas.add_motions(
+            opened, members=members, max_links=max_links, seed=seed, force=force,
+            report=lambda done: show(f"{done} of {size.members} members"),
+        )  # fmt: skip
+    out.print_result(table, {"atlas": atlas}, as_json=as_json)
+
+
+@atlas_group.command(short_help="Find the members that move like a motion.")
+@click.argument("motion", metavar="MOTION", type=options.FILE_NAME)
+@_ATLAS
+@options.value(
+    "--links", "A,B", "Faces, numbered from 0, whose motion against each other is compared; required for a .fold file.",
+    type=options.WordType("faces", _faces), default=(), show_default=False,
+)  # fmt: skip
+@options.flag(
+    "--closed/--open closed",
+    "Whether the motion is a whole circuit or an arc. By default it is a circuit if it ends where it begins.",
+)
+@options.number("--best", "K", "Largest number of members to list.", most=32, default=10)
+@options.output("Write the nearest member as a linkage about a centre, a start for `synth design`.", "OUT.json")
+@options.FORCE
+@options.JSON
+def like(
+    motion: str, atlas: str, links: tuple[int, ...], closed: bool | None, best: int, output: str | None, force: bool,
+    as_json: bool,
+) -> None:  # fmt: skip
+    """Find the members of an atlas in which two links move most like a motion, or a point most along a path.
+
+    MOTION is a FOLD file with frames, orientations (docs/native-json.md), or a table (.csv) with 3 numbers in a row
+    (a point of a sphere), 4 (a quaternion, scalar first: one link in the frame of the other) or 8 (quaternions of
+    both links). Frames of reference, direction and speed have no meaning, nor has the order of the links. An arc is
+    found in circuits up to three times as long. The atlas requires a table of motions: `synth atlas motions`.
+
+    \b
+    Examples:
+      synth atlas like data/orientations/tipparthi.json atlas.sqlite
+      synth atlas like folded.fold atlas.sqlite --links 0,2 -o start.json
+    """
+    out.check_output(output, force=force)
+    opened = synth.atlas.open_atlas(atlas)
+    size = synth.atlas.stored_motions(opened)
+    click.echo(f"searching {size.blocks()[0]} in the file, at most 150 MB of memory", err=True)
+    answer = synth.atlas.like(opened, motion, links=links, closed=closed, limit=best)
+    if output is not None:
+        if not answer.rows:
+            raise UnsolvableError("-o requires a member that moves so far, and the atlas has none")
+        from graphs.files.formats import write
+
+        write(answer.rows[0].linkage, output, force=force)
+    out.print_result(answer, {"file": motion, "output": output}, as_json=as_json, written=[output])

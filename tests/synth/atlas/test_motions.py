@@ -1,0 +1,230 @@
+"""Search by motion: signatures that frames, speed and direction do not change, and members found by their motions."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sqlite3
+from contextlib import closing
+from pathlib import Path
+
+import numpy as np
+import pytest
+from commands import run
+
+import synth
+from graphs.errors import FileError, InvariantError, StoreError
+from graphs.files.formats import mechanism_of_id
+from graphs.geometry import unit
+from graphs.types import Floats
+from synth.atlas.motions import add_motions, like, motion_curve, planned_motions, stored_motions
+from synth.atlas.opened import Atlas, open_atlas
+from synth.atlas.signatures import MotionCurve, difference, nearest, signatures_of
+from synth.guidance.orientations import write_orientations
+from synth.members.circuits import circuits_of, product, relative
+
+ROOT = Path(__file__).resolve().parents[3]
+MEMBERS = 40
+
+
+@pytest.fixture(scope="session")
+def moving_atlas(small_atlas: Atlas, tmp_path_factory: pytest.TempPathFactory) -> Atlas:
+    """Return an atlas with motions of a few members of the chains of up to six links."""
+    place = tmp_path_factory.mktemp("motions") / "moving.sqlite"
+    shutil.copy(small_atlas.path, place)
+    atlas = open_atlas(place)
+    table = add_motions(atlas, members=MEMBERS)
+    assert table.to_json() == planned_motions(atlas, MEMBERS).to_json()
+    return atlas
+
+
+def smooth(parameter: Floats) -> Floats:
+    """Rotations of a circuit, at any parameters from 0 to 1."""
+    turn = 2.0 * np.pi * parameter[:, None]
+    vectors = np.hstack([np.cos(turn), np.sin(turn), 0.4 * np.cos(2 * turn), 0.3 * np.sin(3 * turn) + 0.5])
+    return np.asarray(unit(vectors))
+
+
+def elsewhere(rows: Floats, seed: int) -> Floats:
+    """The same motion, in other frames of both links."""
+    left, right = unit(np.random.default_rng(seed).normal(size=(2, 4)))
+    return product(product(np.broadcast_to(left, rows.shape), rows), np.broadcast_to(right, rows.shape))
+
+
+def test_a_signature_is_that_of_the_motion_in_other_frames_backwards_and_at_another_speed() -> None:
+    every = np.arange(256) / 256
+    own = signatures_of(smooth(every)[None])
+    moved = 0.37 + every + 0.1 * np.sin(2.0 * np.pi * every)
+    other = signatures_of(elsewhere(smooth(moved[::-1]), 1)[None])
+    assert np.abs(own.circuits - other.circuits).max() < 1e-6
+    curve = MotionCurve.of(elsewhere(smooth(moved), 2), closed=True)
+    assert np.abs(curve.circuit_numbers() - own.circuits[0]).max() < 1e-6
+    assert difference(curve, MotionCurve.of(smooth(every), closed=True)) < 1e-6
+
+
+def test_numbers_of_known_motions() -> None:
+    """A rotation about one axis: the angle of two places is the arc between them, so all ratios are 1."""
+    turn = np.linspace(0.0, 2.0 * np.pi, 300, endpoint=False)
+    about_z = np.stack([np.cos(turn / 2), 0.0 * turn, 0.0 * turn, np.sin(turn / 2)], axis=1)
+    found = signatures_of(about_z[None])
+    assert found.circuits[0, 0] == pytest.approx(0.5)
+    # sin^2 of half of 180, 90, 45 and 135 degrees, and no harmonics
+    means = (np.sin(np.pi / 4) ** 2, np.sin(np.pi / 8) ** 2, np.sin(3 * np.pi / 8) ** 2)
+    assert found.circuits[0, 1:] == pytest.approx(
+        [1, 0, 0, means[0], 0, 0, 0, means[1], 0, 0, 0, means[2], 0, 0, 0], abs=1e-6
+    )
+    assert found.windows[0] == pytest.approx(np.tile([0.125, *[1.0] * 7], (6, 1)), abs=1e-6)
+    circle = np.stack([np.cos(turn), np.sin(turn), 0.0 * turn], axis=1)  # a great circle is the same path of a point
+    assert signatures_of(circle[None]).circuits == pytest.approx(found.circuits, abs=1e-6)
+
+
+@pytest.mark.parametrize("begin", [0.0, 0.21, 0.55, 0.93])
+def test_a_third_of_a_circuit_holds_a_window_of_it(begin: float) -> None:
+    whole = MotionCurve.of(smooth(np.arange(500) / 500), closed=True)
+    windows = signatures_of(smooth(np.arange(256) / 256)[None]).windows[0]
+    at = whole.length * (begin + np.linspace(0.0, 0.36, 200))
+    arc = MotionCurve.of(elsewhere(whole.at(at)[::-1], 3))
+    assert not arc.closed
+    misses = [nearest(windows, arc.sliding(wide, 200)).min() for wide in arc.window_lengths()]
+    assert min(misses) < 2e-3
+    assert difference(arc, whole) < 1e-6
+    assert difference(whole, arc) == np.inf
+
+
+def test_members_are_found_by_their_own_motions(moving_atlas: Atlas) -> None:
+    with closing(sqlite3.connect(moving_atlas.path)) as connection:
+        rows = dict(connection.execute("SELECT chain, axes FROM motions"))
+    for code, first, second, points in (("k1:Cr", 0, 3, False), ("k1:E`hW", 0, 2, False), ("k1:E`hW", 3, 4, True)):
+        chain = mechanism_of_id(code)
+        joints = len(chain.joints)
+        directions = np.frombuffer(rows[code][:-4]).reshape(-1, joints + len(chain), 3)[[17]]
+        turned = circuits_of(chain, directions[:, :joints], frames=500).rotations()
+        motion = relative(turned[first], turned[second])[0]
+        if points:
+            still = np.concatenate([[0.0], directions[0, joints + list(chain).index(second)]])
+            moved = product(product(motion, np.broadcast_to(still, motion.shape)), motion * [1, -1, -1, -1])
+            motion = (moved[:, 1:] @ np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0])[::-1]
+        else:
+            motion = elsewhere(motion, 5)[::-1]
+        for rows_of_it, closed in ((np.roll(motion, 100, axis=0), True), (motion[40:260], None)):
+            best = like(moving_atlas, rows_of_it, closed=closed).rows[0]
+            assert best.distance < 2e-5, (code, closed)
+            assert (best.chain, set(best.links)) == (code, {first, second})
+            assert np.abs(np.array(list(best.axes.values())) - directions[0, :joints]).max() < 1e-12
+            assert (best.point is None) != points
+
+
+def test_what_is_found_names_the_types_and_is_a_linkage(moving_atlas: Atlas) -> None:
+    answer = like(moving_atlas, ROOT / "data" / "orientations" / "tipparthi.json", limit=4)
+    assert answer.compared == stored_motions(moving_atlas).motions == MEMBERS * 18
+    assert [row.distance for row in answer.rows] == sorted(row.distance for row in answer.rows)
+    for row in answer.rows:
+        for code in row.types:
+            assert moving_atlas.show(code).values["chain_id"] == row.chain
+        assert synth.move(row.linkage, frames=3).path.angles.shape[1] == len(row.axes)
+
+
+def test_more_members_are_added_and_are_the_same_however_often_it_began(moving_atlas: Atlas, tmp_path: Path) -> None:
+    place = tmp_path / "more.sqlite"
+    shutil.copy(moving_atlas.path, place)
+    atlas = open_atlas(place)
+    add_motions(atlas, members=MEMBERS + 5, max_links=4)
+    with closing(sqlite3.connect(place)) as one, closing(sqlite3.connect(moving_atlas.path)) as other:
+        query = "SELECT motion_circuits FROM motions WHERE chain = 'k1:Cr'"
+        more, few = one.execute(query).fetchone()[0], other.execute(query).fetchone()[0]
+    assert more[: len(few) - 4] == few[:-4]
+    with pytest.raises(StoreError, match="seed 0; expected version 1 and seed 1; try --force"):
+        add_motions(atlas, members=5, seed=1)
+    assert add_motions(atlas, members=5, max_links=4, seed=1, force=True).members == 5
+
+
+def test_an_atlas_without_motions_or_with_damaged_ones_says_what_to_do(
+    small_atlas: Atlas, moving_atlas: Atlas, tmp_path: Path
+) -> None:
+    with pytest.raises(StoreError, match="the atlas has no table of motions; try `synth atlas motions"):
+        like(small_atlas, smooth(np.arange(20) / 20))
+    place = tmp_path / "damaged.sqlite"
+    shutil.copy(moving_atlas.path, place)
+    with closing(sqlite3.connect(place)) as connection, connection:
+        connection.execute("UPDATE motions SET motion_windows = substr(motion_windows, 5)")
+    with pytest.raises(StoreError, match="the table of motions is damaged; try synth atlas motions --force"):
+        like(open_atlas(place), smooth(np.arange(20) / 50))
+
+
+def test_frames_of_a_sheet_give_the_fold_angle_of_a_crease(tmp_path: Path) -> None:
+    place = tmp_path / "folded.fold"
+    run("fold", ROOT / "data/patterns/four-bar-vertex.fold", "--frames", "40", "-o", place)
+    sheet = synth.read(place)
+    frames = json.loads(place.read_text())["file_frames"]
+    turns = [
+        abs(np.radians(frames[-1]["edges_foldAngle"][edge] - frames[0]["edges_foldAngle"][edge]))
+        for edge in (0, 2, 4, 6)
+    ]
+    lengths = [motion_curve(place, links=pair).length for pair in ((0, 1), (1, 2), (2, 3), (0, 3))]
+    assert sorted(lengths) == pytest.approx(sorted(turns), abs=1e-3)
+    with pytest.raises(FileError, match="no links; expected two different faces from 0 to 3"):
+        motion_curve(place)
+    with pytest.raises(InvariantError, match="links 0, 9"):
+        motion_curve(sheet, links=(0, 9))
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("1,2\n", "line 1: 2 numbers; expected 3 \\(a point\\), 4 \\(a quaternion\\) or 8"),
+        ("x,y,z\n0,0,1\n0,1\n", "line 3: 2 numbers"),
+        ("0 0 1\nabc\n", "line 2: .*abc.* is no row of numbers"),
+        ("0 0 1\n0 1 0\n0 1 0\n", "2 different rows; expected 3 or more"),
+        ("0 0 1\n0 0 0\n0 1 0\n", "row 2 is zero"),
+    ],
+)
+def test_tables_that_are_no_motion_are_refused(text: str, message: str, tmp_path: Path) -> None:
+    place = tmp_path / "motion.csv"
+    place.write_text(text)
+    with pytest.raises(FileError, match=message):
+        motion_curve(place)
+
+
+def test_poses_of_two_links_are_their_relative_motion(tmp_path: Path) -> None:
+    own = smooth(np.arange(40) / 40)
+    ground = unit(np.random.default_rng(1).normal(size=(40, 4)))
+    place = tmp_path / "poses.csv"
+    both = np.hstack([ground, product(ground, own)])
+    place.write_text("\n".join(["# quaternions of both", *(",".join(map(repr, row)) for row in both.tolist())]))
+    assert motion_curve(place, closed=True).length == pytest.approx(MotionCurve.of(own, closed=True).length)
+
+
+def test_the_commands_answer_as_python_does(moving_atlas: Atlas, tmp_path: Path) -> None:
+    place, start = tmp_path / "motion.json", tmp_path / "start.json"
+    write_orientations(smooth(np.arange(40) / 40), place)
+    words = ("atlas", "like", str(place), str(moving_atlas.path), "--closed", "-o", str(start), "--json")
+    result = run(*words)
+    assert result.exit_code == 0, result.output
+    assert json.loads(result.stdout)["nearest"] == json.loads(
+        json.dumps(like(moving_atlas, place, closed=True).to_json()["nearest"])
+    )
+    assert "at most 150 MB of memory" in result.stderr
+    assert len(synth.read(start).axes) in (4, 7)
+    result = run("atlas", "motions", str(moving_atlas.path), "--members", str(MEMBERS))
+    assert f"{3 * MEMBERS} members of 3 chains" in result.stdout
+
+
+@pytest.mark.slow
+def test_hidden_members_come_near_members_of_the_atlas(moving_atlas: Atlas, tmp_path: Path) -> None:
+    """Their own chain, or one with no more links, is among the nearest ten, to some degrees."""
+    place = tmp_path / "many.sqlite"
+    shutil.copy(moving_atlas.path, place)
+    atlas = open_atlas(place)
+    add_motions(atlas, members=2000)
+    found, off = 0, []
+    for number in range(30):
+        chain = mechanism_of_id(("k1:Cr", "k1:E`hW", "k1:E@zO")[number % 3])
+        axes = np.random.default_rng([2024, number]).normal(size=(1, len(chain.joints), 3))
+        turned = circuits_of(chain, axes).rotations()
+        pairs = [(a, b) for a in chain for b in chain if a < b and not chain.has_edge(a, b)]
+        first, second = pairs[number % len(pairs)]
+        rows = like(atlas, elsewhere(relative(turned[first], turned[second])[0], number), closed=True).rows
+        found += any(len(mechanism_of_id(row.chain)) <= len(chain) for row in rows)
+        off.append(rows[0].distance)
+    assert found == 30
+    assert np.median(off) < np.radians(6.0)
