@@ -15,7 +15,7 @@ from __future__ import annotations
 import heapq
 import sqlite3
 import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from itertools import combinations, permutations
@@ -40,7 +40,17 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.types import Floats, JointId, LinkId
 from synth.atlas.opened import Atlas
-from synth.atlas.signatures import CIRCUIT, WINDOW, WINDOWS, MotionCurve, difference, nearest, signatures_of
+from synth.atlas.signatures import (
+    CIRCUIT,
+    ROUND,
+    SPANS,
+    MotionCurve,
+    Signatures,
+    arc_distances,
+    difference,
+    nearest,
+    signatures_of,
+)
 from synth.guidance.orientations import Orientations, read_orientations
 from synth.members.circuits import Circuits, circuits_of, product, relative, spherical_of
 
@@ -48,8 +58,12 @@ _VERSION = 1
 """Version of the table, and of what its numbers mean."""
 _UNIT = 256
 """Members of a unit: a row of the table."""
-_CANDIDATES, _PLACES = 32, 24
-"""Candidates by signature that are compared exactly; places of a window on an arc, each way."""
+_CANDIDATES = 32
+"""Candidates by signature that are compared exactly."""
+_NOWHERE = 100.0
+"""Distances beyond are those of motions that have no signature."""
+_AT_ONCE = 1 << 15
+"""Signatures of a block, which are compared at a time."""
 _TRIED = "try `synth atlas motions ATLAS.sqlite`"
 
 
@@ -102,7 +116,7 @@ class MotionTable(Printed):
         ]
 
 
-_BYTES = 4 * (CIRCUIT + WINDOWS * WINDOW)
+_BYTES = 4 * (CIRCUIT + ROUND * len(SPANS))
 
 
 def planned_motions(atlas: Atlas, members: int, *, max_links: int = 8) -> MotionTable:
@@ -198,7 +212,7 @@ def _chains(atlas: Atlas, max_links: int) -> tuple[str, ...]:
 def _make_table(connection: sqlite3.Connection, path: Path, seed: int, *, force: bool) -> None:
     connection.execute(
         "CREATE TABLE IF NOT EXISTS motions (chain TEXT, unit INTEGER, version INTEGER, seed INTEGER, wanted INTEGER, "
-        "axes BLOB, motion_circuits BLOB, motion_windows BLOB, path_circuits BLOB, path_windows BLOB, "
+        "axes BLOB, motion_circuits BLOB, motion_spans BLOB, path_circuits BLOB, path_spans BLOB, "
         "PRIMARY KEY (chain, unit))"
     )
     other = connection.execute(
@@ -260,7 +274,7 @@ def stored_motions(atlas: Atlas) -> MotionTable:
     with reading(atlas.path) as connection:
         _check_table(connection, atlas.path)
         lengths = " + ".join(
-            f"length({name})" for name in ("axes", "motion_circuits", "motion_windows", "path_circuits", "path_windows")
+            f"length({name})" for name in ("axes", "motion_circuits", "motion_spans", "path_circuits", "path_spans")
         )
         for code, length, whole in connection.execute(f"SELECT chain, length(axes), {lengths} FROM motions"):
             chain = chains.setdefault(code, mechanism_of_id(code))
@@ -415,47 +429,70 @@ def like(
     ('four-bar chain', 40)
     """
     curve = motion_curve(motion, links=links, closed=closed)
-    kind = "motion" if curve.rotates else "path"
-    if curve.closed:
-        goals = {0.0: curve.circuit_numbers()[None]}
-    else:
-        goals = {wide: curve.sliding(wide, _PLACES) for wide in curve.window_lengths()}
-    best: list[tuple[float, str, int, int]] = []
+    best: list[_Candidate] = []
     compared = 0
     with reading(atlas.path) as connection:
         _check_table(connection, atlas.path)
-        column = f"{kind}_{'circuits' if curve.closed else 'windows'}"
-        for code, number, blob in connection.execute(f"SELECT chain, unit, {column} FROM motions ORDER BY rowid"):
-            shape = (-1, CIRCUIT) if curve.closed else (-1, WINDOWS, WINDOW)
-            distances = _distances(_array(atlas.path, blob, np.float32, shape), goals)
+        goals = [] if curve.closed else curve.goals()
+        for units, signatures in _blocks(atlas.path, connection, "motion" if curve.rotates else "path"):
+            if curve.closed:
+                distances = nearest(signatures.circuits, curve.circuit_numbers()[None])
+            else:
+                distances = arc_distances(signatures, goals)
             compared += len(distances)
             few = np.argsort(distances, kind="stable")[:_CANDIDATES]
-            found = [(float(distances[place]), code, number, int(place)) for place in few if distances[place] < 100.0]
-            best = heapq.nsmallest(_CANDIDATES, [*best, *found])
+            first = np.cumsum([0, *(count for _, _, count in units)])
+            for place in few[distances[few] < _NOWHERE].tolist():
+                unit_of_it = int(np.searchsorted(first, place, side="right")) - 1
+                code, number, _ = units[unit_of_it]
+                best.append(_Candidate(float(distances[place]), code, number, place - int(first[unit_of_it])))
+            best = heapq.nsmallest(_CANDIDATES, best)
         rows = _compared(atlas, connection, curve, best)
     return NearMotions(curve, tuple(rows[:limit]), compared)
 
 
-def _distances(numbers: npt.NDArray[np.float32], goals: dict[float, Floats]) -> Floats:
-    """Return the distance of each signature of a unit to the goals; that of windows is the least of a circuit."""
-    if numbers.ndim == 2:
-        return nearest(numbers, goals[0.0])
-    least = np.full(numbers.shape[:2], np.inf)
-    for wide, wanted in goals.items():  # windows of another length are another part of a motion
-        there = np.abs(numbers[..., 0] * (2.0 * np.pi) / wide - 1.0) < 0.25
-        least[there] = nearest(numbers[there], wanted)
-    return np.asarray(least.min(axis=1))
+class _Candidate(NamedTuple):
+    """A signature: its distance, the chain and the number of its unit, and its place there."""
+
+    distance: float
+    chain: str
+    unit: int
+    place: int
+
+
+_Unit = tuple[str, int, int]
+"""The chain and the number of a unit, and how many signatures it has."""
+
+
+def _blocks(path: Path, connection: sqlite3.Connection, kind: str) -> Iterator[tuple[list[_Unit], Signatures]]:
+    """Yield the signatures of all units, some units at a time, so that memory is bounded."""
+    units: list[_Unit] = []
+    arrays: list[Signatures] = []
+    query = f"SELECT chain, unit, {kind}_circuits, {kind}_spans FROM motions ORDER BY chain, unit"
+    for code, number, circuits, spans in connection.execute(query):
+        arrays.append(
+            Signatures(
+                _array(path, circuits, np.float32, (-1, CIRCUIT)),
+                _array(path, spans, np.float32, (-1, ROUND, len(SPANS))),
+            )
+        )
+        units.append((code, number, len(arrays[-1].circuits)))
+        if sum(count for _, _, count in units) >= _AT_ONCE:
+            yield units, Signatures(*map(np.concatenate, zip(*arrays, strict=True)))
+            units, arrays = [], []
+    if units:
+        yield units, Signatures(*map(np.concatenate, zip(*arrays, strict=True)))
 
 
 def _compared(
-    atlas: Atlas, connection: sqlite3.Connection, curve: MotionCurve, best: Sequence[tuple[float, str, int, int]]
+    atlas: Atlas, connection: sqlite3.Connection, curve: MotionCurve, best: Sequence[_Candidate]
 ) -> list[NearMotion]:
     """Trace candidates anew, and return them in the order in which they differ from a motion."""
     rows = []
-    for code in dict.fromkeys(code for _, code, _, _ in best):
+    for code in dict.fromkeys(candidate.chain for candidate in best):
         chain = mechanism_of_id(code)
         pairs = _pairs(chain, points=not curve.rotates)
-        places = [(number, *divmod(place, len(pairs))) for _, of, number, place in best if of == code]
+        places = [(each.unit, *divmod(each.place, len(pairs))) for each in best if each.chain == code]
         shape = (-1, len(chain.joints) + len(chain), 3)
         query = "SELECT axes FROM motions WHERE chain = ? AND unit = ?"
         units = {

@@ -8,19 +8,19 @@ mirror image. Arc length does away with speed.
 
 A circuit of length L has 16 numbers: L / 4 pi, and magnitudes of Fourier coefficients of f(s) = sin^2 of half the
 angle between R(s) and R(s + d), which is smooth, for d of one, two, three and four eighths of L. Where the circuit
-begins, and which way it goes, changes phases alone. 6 windows of it have 8 numbers each: the length w, and ratios of
-angles to arc lengths, which are 1 for a rotation about one axis, of 5 points of the window. Windows begin at sixths
-of the circuit; w is the longest of 2 pi, pi, pi / 2, ... that is no longer than a sixth. So an arc of a third of
-the circuit or more holds one of them whole, wherever it begins, and is found by sliding a window along it, both
-ways. Signatures with one distance are not yet motions that agree: candidates are compared by `difference`.
+begins, and which way it goes, changes phases alone. 48 more are for arcs of it: for each of 24 places the angles to
+the places 3 and 6 later, divided by the arc lengths between; the ratio is 1 where the motion turns about one axis.
+An arc of which the circuit would have some length L is laid on the 24 places in 8 phases, both ways; of a third of
+the circuit that are 8 places, so 5 and 2 angles are compared. Signatures that agree are not yet motions that agree:
+candidates are compared by `difference`.
 
 Theory: docs/theory/atlas.md.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import floor, log2
 from typing import NamedTuple
 
 import numpy as np
@@ -30,10 +30,13 @@ from graphs.errors import InvariantError
 from graphs.tolerances import DOUBLE, MARGIN
 from graphs.types import Floats, Ints
 
-CIRCUIT, WINDOWS, WINDOW = 16, 6, 8
-"""Numbers of a circuit; windows of it; numbers of a window."""
-_PLACES, _POINTS = 48, 5
-"""Places of a circuit whose angles are taken, a multiple of 24; points of a window."""
+CIRCUIT, ROUND, SPANS = 16, 24, (3, 6)
+"""Numbers of a circuit; places round it, and numbers of places from each to those to which it has angles."""
+_PLACES = 2 * ROUND
+"""Places of a circuit whose angles are taken for Fourier coefficients."""
+_PHASES, _LADDER, _PART = 8, 48, 3.05
+"""Phases in which an arc is laid on the places of a circuit; lengths of circuits that are tried, for each factor of 2;
+the longest circuit in which an arc is looked for, in lengths of the arc."""
 _HARMONICS = {24: (0, 2, 4), 12: (0, 1, 2, 3), 6: (0, 1, 2, 3), 18: (0, 1, 2, 3)}
 """Fourier coefficients that are kept, for each distance in places; odd ones of half a circuit vanish."""
 _SHORTEST = 1e-2
@@ -48,10 +51,10 @@ _COMPARED, _SHIFTS = 24, 8
 
 
 class Signatures(NamedTuple):
-    """Numbers of circuits, float32[n, 16], and of their windows, float32[n, 6, 8]."""
+    """Numbers of circuits, float32[n, 16], and ratios of angles to arc lengths round them, float32[n, 24, 2]."""
 
     circuits: npt.NDArray[np.float32]
-    windows: npt.NDArray[np.float32]
+    spans: npt.NDArray[np.float32]
 
 
 def angles_between(first: Floats, second: Floats) -> Floats:
@@ -78,22 +81,13 @@ def signatures_of(rows: Floats) -> Signatures:
     around = _Around(rows)
     moving = around.lengths >= _SHORTEST
     lengths = np.where(moving, around.lengths, 1.0)
-    wide = window_lengths(lengths)
-    begin = np.arange(WINDOWS) / WINDOWS
-    inside = (wide / lengths)[:, None, None] * np.linspace(0.0, 1.0, _POINTS)
-    parts = (begin[:, None] + inside).reshape(len(lengths), -1)
-    every = np.broadcast_to(np.arange(_PLACES) / _PLACES, (len(lengths), _PLACES))
-    at = around.at(np.concatenate([every, parts], axis=1))
-    circuits = _circuit_numbers(lengths, at[:, :_PLACES])
-    points = at[:, _PLACES:].reshape(len(lengths), WINDOWS, _POINTS, -1)
-    windows = window_numbers(np.broadcast_to(wide[:, None], (len(lengths), WINDOWS)), points)
-    circuits[~moving], windows[~moving] = FAR, FAR
-    return Signatures(circuits.astype(np.float32), windows.astype(np.float32))
-
-
-def window_lengths(lengths: Floats) -> Floats:
-    """Return the length of a window of circuits, radians: of 2 pi, pi, pi / 2, ... the longest of a sixth or less."""
-    return np.asarray(2.0 * np.pi * 2.0 ** np.minimum(0.0, np.floor(np.log2(lengths / (2.0 * np.pi * WINDOWS)))))
+    at = around.at(np.broadcast_to(np.arange(_PLACES) / _PLACES, (len(lengths), _PLACES)))
+    circuits = _circuit_numbers(lengths, at)
+    coarse = at[:, :: _PLACES // ROUND]
+    turns = [angles_between(coarse, np.roll(coarse, -apart, axis=1)) / apart for apart in SPANS]
+    spans = np.stack(turns, axis=-1) * (ROUND / lengths)[:, None, None]
+    circuits[~moving], spans[~moving] = FAR, FAR
+    return Signatures(circuits.astype(np.float32), spans.astype(np.float32))
 
 
 def _circuit_numbers(lengths: Floats, at: Floats) -> Floats:
@@ -105,20 +99,6 @@ def _circuit_numbers(lengths: Floats, at: Floats) -> Floats:
         sizes = np.abs(np.fft.rfft(halves, axis=1)) / _PLACES
         columns += [sizes[:, number] * (2.0 if number else 1.0) for number in harmonics]
     return np.stack(columns, axis=1)
-
-
-def window_numbers(wide: Floats, points: Floats) -> Floats:
-    """Return the numbers of windows of lengths float[...] by 5 equidistant points, float[..., 5, d]: float[..., 8].
-
-    They are w / 2 pi, ratios of points 2 apart (three), 3 apart (two) and 4 apart, and the mean of neighbours.
-    """
-    columns = [wide / (2.0 * np.pi)]
-    for apart in (2, 3, 4, 1):
-        ratios = angles_between(points[..., :-apart, :], points[..., apart:, :]) / (
-            wide[..., None] * apart / (_POINTS - 1)
-        )
-        columns += [ratios.mean(axis=-1)] if apart == 1 else list(np.moveaxis(ratios, -1, 0))
-    return np.stack(columns, axis=-1)
 
 
 class _Around:
@@ -246,21 +226,25 @@ class MotionCurve:
         at = self.at(self._length * np.arange(_PLACES) / _PLACES)
         return np.asarray(_circuit_numbers(np.array([self._length]), at[None])[0])
 
-    def window_lengths(self) -> list[float]:
-        """Return the lengths of windows that a circuit may have of which this is an arc of a third or more."""
-        longest, shortest = self._length, self._length / (2.0 * WINDOWS)
-        if self.closed:
-            longest = self._length / WINDOWS
-        first = min(0, floor(log2(longest / (2.0 * np.pi))))
-        return [w for k in range(first, first - 6, -1) if shortest <= (w := 2.0 * np.pi * 2.0**k)][:4]
+    def goals(self) -> list[ArcGoal]:
+        """Return what an arc has in common with circuits of all lengths of which it is a third or more."""
+        steps = np.arange(
+            np.floor(_LADDER * np.log2(self._length)), np.ceil(_LADDER * np.log2(_PART * self._length)) + 1
+        )
+        return [self._goal(float(length)) for length in 2.0 ** (steps / _LADDER)]
 
-    def sliding(self, wide: float, places: int) -> Floats:
-        """Return the numbers of windows of a length at so many places, first onwards, then backwards."""
-        last = self._length if self.closed else self._length - wide
-        begin = np.linspace(0.0, last, places, endpoint=not self.closed)
-        points = self.at(begin[:, None] + wide * np.linspace(0.0, 1.0, _POINTS))
-        both = np.concatenate([points, points[:, ::-1]])
-        return window_numbers(np.full(len(both), wide), both)
+    def _goal(self, length: float) -> ArcGoal:
+        gap = length / ROUND
+        count = min(ROUND, int(self._length / gap))  # places that it holds in any phase
+        begin = np.linspace(0.0, min(gap, self._length - gap * (count - 1)), _PHASES)
+        points = self.at(begin[:, None] + gap * np.arange(count))
+        points = np.concatenate([points, points[:, ::-1]])
+        numbers, places = [], []
+        for column, apart in enumerate(SPANS):
+            numbers.append(angles_between(points[:, : count - apart], points[:, apart:]) / (gap * apart))
+            places += [(place, column) for place in range(count - apart)]
+        half = 0.5 / _LADDER
+        return ArcGoal(length * 2.0**-half, length * 2.0**half, np.concatenate(numbers, axis=1), np.array(places))
 
 
 def _by_arc_length(rows: Floats, *, closed: bool) -> tuple[tuple[Floats, Floats], object, float]:
@@ -356,6 +340,30 @@ def difference(motion: MotionCurve, circuit: MotionCurve) -> float:
         ) if gap > 0.0 else None  # fmt: skip
         best = min(best, float(coarse.min()), np.inf if refined is None else float(refined.fun))
     return float(best)
+
+
+class ArcGoal(NamedTuple):
+    """An arc laid on circuits of lengths from `least` to `most`: ratios float[Q, m], of places and spans int[m, 2]."""
+
+    least: float
+    most: float
+    numbers: Floats
+    places: Ints
+
+
+def arc_distances(signatures: Signatures, goals: Sequence[ArcGoal]) -> Floats:
+    """Return how far each circuit, in its nearest place, is from holding an arc: root mean square, float[n]."""
+    lengths = signatures.circuits[:, 0] * 4.0 * np.pi
+    found = np.full(len(lengths), np.inf)
+    for goal in goals:
+        who = np.flatnonzero((lengths >= goal.least) & (lengths < goal.most))
+        if not len(who):
+            continue
+        place, column = goal.places.T
+        there = signatures.spans[who][:, (np.arange(ROUND)[:, None] + place) % ROUND, column]
+        misses = nearest(there.reshape(-1, len(place)), goal.numbers).reshape(len(who), ROUND)
+        found[who] = misses.min(axis=1) / np.sqrt(len(place))
+    return found
 
 
 def nearest(numbers: npt.NDArray[np.float32], goals: Floats) -> Floats:

@@ -19,12 +19,12 @@ from graphs.geometry import unit
 from graphs.types import Floats
 from synth.atlas.motions import add_motions, like, motion_curve, planned_motions, stored_motions
 from synth.atlas.opened import Atlas, open_atlas
-from synth.atlas.signatures import MotionCurve, difference, nearest, signatures_of
+from synth.atlas.signatures import MotionCurve, arc_distances, difference, signatures_of
 from synth.guidance.orientations import write_orientations
 from synth.members.circuits import circuits_of, product, relative
 
 ROOT = Path(__file__).resolve().parents[3]
-MEMBERS = 40
+MEMBERS = 24
 
 
 @pytest.fixture(scope="session")
@@ -73,20 +73,21 @@ def test_numbers_of_known_motions() -> None:
     assert found.circuits[0, 1:] == pytest.approx(
         [1, 0, 0, means[0], 0, 0, 0, means[1], 0, 0, 0, means[2], 0, 0, 0], abs=1e-6
     )
-    assert found.windows[0] == pytest.approx(np.tile([0.125, *[1.0] * 7], (6, 1)), abs=1e-6)
+    assert found.spans[0] == pytest.approx(np.ones((24, 2)), abs=1e-6)
     circle = np.stack([np.cos(turn), np.sin(turn), 0.0 * turn], axis=1)  # a great circle is the same path of a point
     assert signatures_of(circle[None]).circuits == pytest.approx(found.circuits, abs=1e-6)
 
 
 @pytest.mark.parametrize("begin", [0.0, 0.21, 0.55, 0.93])
-def test_a_third_of_a_circuit_holds_a_window_of_it(begin: float) -> None:
+def test_a_third_of_a_circuit_is_found_in_it(begin: float) -> None:
     whole = MotionCurve.of(smooth(np.arange(500) / 500), closed=True)
-    windows = signatures_of(smooth(np.arange(256) / 256)[None]).windows[0]
-    at = whole.length * (begin + np.linspace(0.0, 0.36, 200))
+    others = MotionCurve.of(unit(smooth(np.arange(500) / 500) * [1.0, 0.4, 2.0, 1.0]), closed=True)
+    at = whole.length * (begin + np.linspace(0.0, 1.0 / 3.0, 200))
     arc = MotionCurve.of(elsewhere(whole.at(at)[::-1], 3))
     assert not arc.closed
-    misses = [nearest(windows, arc.sliding(wide, 200)).min() for wide in arc.window_lengths()]
-    assert min(misses) < 2e-3
+    every = np.stack([whole.at(whole.length * np.arange(256) / 256), others.at(others.length * np.arange(256) / 256)])
+    right, wrong = arc_distances(signatures_of(every), arc.goals())
+    assert right < 0.01 < wrong
     assert difference(arc, whole) < 1e-6
     assert difference(whole, arc) == np.inf
 
@@ -146,7 +147,7 @@ def test_an_atlas_without_motions_or_with_damaged_ones_says_what_to_do(
     place = tmp_path / "damaged.sqlite"
     shutil.copy(moving_atlas.path, place)
     with closing(sqlite3.connect(place)) as connection, connection:
-        connection.execute("UPDATE motions SET motion_windows = substr(motion_windows, 5)")
+        connection.execute("UPDATE motions SET motion_spans = substr(motion_spans, 5)")
     with pytest.raises(StoreError, match="the table of motions is damaged; try synth atlas motions --force"):
         like(open_atlas(place), smooth(np.arange(20) / 50))
 
@@ -200,9 +201,11 @@ def test_the_commands_answer_as_python_does(moving_atlas: Atlas, tmp_path: Path)
     words = ("atlas", "like", str(place), str(moving_atlas.path), "--closed", "-o", str(start), "--json")
     result = run(*words)
     assert result.exit_code == 0, result.output
-    assert json.loads(result.stdout)["nearest"] == json.loads(
-        json.dumps(like(moving_atlas, place, closed=True).to_json()["nearest"])
-    )
+    answer = json.loads(result.stdout)["nearest"]
+    expected = like(moving_atlas, place, closed=True).to_json()["nearest"]
+    for key in ("chain", "links", "types", "name", "point"):
+        assert [row[key] for row in answer] == [row[key] for row in expected]
+    assert [row["distance_deg"] for row in answer] == pytest.approx([row["distance_deg"] for row in expected])
     assert "at most 150 MB of memory" in result.stderr
     assert len(synth.read(start).axes) in (4, 7)
     result = run("atlas", "motions", str(moving_atlas.path), "--members", str(MEMBERS))
