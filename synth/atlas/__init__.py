@@ -1,7 +1,8 @@
 """The atlas: all types up to a size in one file, queried in plain words.
 
 Building: `AtlasPlan` says which types, `build_atlas` lists them, resumably. Queries: `open_atlas`; `Atlas.query`
-by conditions on `COLUMNS`, `Atlas.sql`, `Atlas.show`, `find_type`. Theory: docs/theory/atlas.md.
+by conditions on `COLUMNS`, `Atlas.sql`, `Atlas.show`, `find_type`. Search by motion: `add_motions`, `like`. Theory:
+docs/theory/atlas.md.
 """
 
 from graphs.lazy import offered
