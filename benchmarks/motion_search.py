@@ -27,8 +27,8 @@ import numpy as np
 from graphs.files.formats import mechanism_of_id
 from graphs.geometry import unit
 from graphs.mechanism.solids import HingedSolids
-from synth.atlas import AtlasPlan, add_motions, build_atlas, like, open_atlas, stored_motions
-from synth.atlas.motions import _blob
+from synth.atlas import AtlasPlan, add_motions, build_atlas, like, open_atlas
+from synth.atlas.motions import _blob, stored_motions
 from synth.members import circuits_of, sweep
 from synth.members.circuits import relative, spherical_of
 
@@ -86,7 +86,9 @@ def swept(members: int) -> dict[str, Any]:
     """Return what so many six-bars at 64 inputs cost."""
     chain = spherical_of(mechanism_of_id(WATT))
     axes = unit(np.random.default_rng(1).normal(size=(members, 7, 3)))
-    one = HingedSolids(chain, {joint: ((0.0, 0.0, 0.0), tuple(axis)) for joint, axis in zip(chain.joints, axes[0])})
+    one = HingedSolids(
+        chain, {joint: ((0.0, 0.0, 0.0), tuple(axis)) for joint, axis in zip(chain.joints, axes[0], strict=True)}
+    )
     answers: list[Any] = []
     inputs = {next(iter(chain.joints)): np.linspace(0.0, 1.0, 64)}
     cost = timed(lambda: answers.append(sweep(one, {"axes": axes}, drive=inputs)))

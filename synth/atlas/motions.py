@@ -342,7 +342,16 @@ class NearMotion:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class NearMotions(Printed):
-    """The members of an atlas that move most like a motion, nearest first; `compared` is the number of signatures."""
+    """The members of an atlas that move most like a motion.
+
+    Attributes
+    ----------
+    motion : MotionCurve
+    rows : tuple of NearMotion
+        Nearest first.
+    compared : int
+        Number of signatures.
+    """
 
     motion: MotionCurve
     rows: tuple[NearMotion, ...]

@@ -252,8 +252,10 @@ def motions(atlas: str, members: int, max_links: int, seed: int, force: bool, as
     Example:
       synth atlas motions atlas.sqlite --members 1000
     """
+    from synth.atlas.motions import planned_motions
+
     opened = synth.atlas.open_atlas(atlas)
-    size = synth.atlas.planned_motions(opened, members, max_links=max_links)
+    size = planned_motions(opened, members, max_links=max_links)
     click.echo(f"tracing {size.blocks()[0]} in the file, about 150 MB of memory", err=True)
     with out.progress_line() as show:
         table = synth.atlas.add_motions(
@@ -294,9 +296,11 @@ def like(
       synth atlas like data/orientations/tipparthi.json atlas.sqlite
       synth atlas like folded.fold atlas.sqlite --links 0,2 -o start.json
     """
+    from synth.atlas.motions import stored_motions
+
     out.check_output(output, force=force)
     opened = synth.atlas.open_atlas(atlas)
-    size = synth.atlas.stored_motions(opened)
+    size = stored_motions(opened)
     click.echo(f"searching {size.blocks()[0]} in the file, at most 150 MB of memory", err=True)
     answer = synth.atlas.like(opened, motion, links=links, closed=closed, limit=best)
     if output is not None:
