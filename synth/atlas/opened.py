@@ -348,7 +348,7 @@ class AtlasRows(Printed):
         return [table, *["there are more types"] * self.more]
 
     def __repr__(self) -> str:
-        return f"<AtlasRows: {len(self.rows)} types{', of more' if self.more else ''}>"
+        return f"<AtlasRows: {numbered(len(self.rows), 'type')}{', of more' if self.more else ''}>"
 
 
 def _own_value(name: str, function: Callable[[Any], OwnValue], row: Mapping[str, Any]) -> OwnValue:

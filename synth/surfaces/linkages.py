@@ -548,7 +548,8 @@ class SupplementaryLinkages(Printed):
         ]
         heads = ("joints turned", "link angles (deg)", "T4 (deg)", "cones: lambda (half angle) (deg)")
         return [
-            f"{len(self.maps)} linkages on the same joint lines, {self.distinct} with different link angles",
+            f"{numbered(len(self.maps), 'linkage')} on the same joint lines, "
+            f"{self.distinct} with different link angles",
             TableBlock(heads, rows, ["T4 (deg)"]),
         ]
 

@@ -16,6 +16,7 @@ import synth.conformed
 import synth.drawing
 import synth.moving
 import synth.surfaces
+from graphs.errors import numbered
 from graphs.printing import plain
 from synth.cli import options, output as out
 
@@ -444,7 +445,7 @@ def design_command(
     )  # fmt: skip
     if output is not None and answer.designs:
         if row > len(answer.designs):
-            raise click.UsageError(f"--row {row}: there are {len(answer.designs)} linkages in the table")
+            raise click.UsageError(f"--row {row}: the table has {numbered(len(answer.designs), 'linkage')}")
         _write(answer.designs[row - 1].linkage, output, force=force)
     out.print_result(answer, {}, as_json=as_json, written=[output] if answer.designs else [])
     if not answer.designs:

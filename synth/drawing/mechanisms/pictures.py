@@ -185,7 +185,8 @@ def _surface(kind: str, drawable: object, options: PictureOptions) -> Scene:
     if not linkages or linkages[0].surface is None:
         raise UnsolvableError(f"the linkage closes on no {kind}, or on any; try its chain (--as chain)")
     chain = ConformedChain.of(drawable.chain, drawable.chain.ground)
-    title = options.caption or f"first of {numbered(len(linkages), kind)}"
+    several = f"first of {numbered(len(linkages), kind)}" if len(linkages) > 1 else ""
+    title = options.caption or several
     return draw_conformed(chain, linkages[0].places, linkages[0].surface, title)
 
 

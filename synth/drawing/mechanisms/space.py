@@ -167,14 +167,14 @@ def model_scene(model: PolyhedronModel, options: PictureOptions = PLAIN) -> Scen
 
 
 def _terms(model: PolyhedronModel) -> list[str]:
-    said = f"{len(model)} vertices, {model.number_of_edges()} rods"
+    said = f"{numbered(len(model), 'vertex', 'vertices')}, {numbered(model.number_of_edges(), 'rod')}"
     if model.scissors:
         said += f", {len(model.scissors)} scissors (dashed)"
     if model.ground:
-        said += f"; ground link grey, {len(model.ground)} vertices"
+        said += f"; ground link grey, {numbered(len(model.ground), 'vertex', 'vertices')}"
     lines = [said]
     if model.centres:
         lines.append("remote centres: " + ", ".join(f"S+{centre.k}" for centre in model.centres))
     if model.on_line or model.on_plane:
-        lines.append(f"{len(model.on_line)} points on lines, {len(model.on_plane)} on planes")
+        lines.append(f"{numbered(len(model.on_line), 'point')} on lines, {len(model.on_plane)} on planes")
     return lines
