@@ -235,8 +235,8 @@ class ShownCentre:
     `CentreData` of the page. A vertex of panels round which a loop goes is explicit; a centre that the panels
     do not reach is implicit. Of other linkages, whose links have no shape, centres are finite, or infinite:
     the axes are parallel to `direction`. The place, float[3], is that at the configuration, in units of the
-    extent, about the middle; for an infinite centre, a place among its axes. Link and joints are indices;
-    `loops` is a count.
+    extent, about the middle; for an infinite centre, a place among those of its axes that the link carries.
+    Link and joints are indices; `loops` is a count.
     """
 
     kind: Kind
@@ -271,7 +271,9 @@ def _shown_centre(linkage: PosedLinkage, centre: CentreClass, finite: Kind) -> S
     link = list(linkage.graph.nodes).index(carrier)
     points, directions = linkage.points[joints], linkage.directions[joints]
     if centre.centre is Centre.INFINITE:
-        return ShownCentre("infinite", points.mean(axis=0), directions[0], link, tuple(joints), len(centre.loops))
+        carried = [joint for joint in joints if carrier in pairs[joint]]
+        middle = linkage.points[carried].mean(axis=0)  # among axes that the carrier takes along, so it stays there
+        return ShownCentre("infinite", middle, directions[0], link, tuple(joints), len(centre.loops))
     place = lines_meet(points, directions).point
     return ShownCentre(finite, place, None, link, tuple(joints), len(centre.loops))
 

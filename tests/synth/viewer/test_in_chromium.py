@@ -288,12 +288,12 @@ def test_a_click_in_the_drawing_tells_the_number(opened, data):
 
 def test_ways_and_mechanisms_are_chosen(opened, data):
     window = opened(PANELS["bird base"](data), OTHERS["Bennett"](data))
-    window.tab.get_by_label("Way to move").select_option("0")
+    window.tab.get_by_label("Motion branch").select_option("0")
     window.to(20)
     assert window.angle() == pytest.approx(20)
     window.tab.get_by_label("Mechanism").select_option("1")
     assert "Mobile from this configuration: 1 degree of freedom" in window.tab.locator(".verdict").text_content()
-    assert not window.tab.get_by_label("Way to move").is_visible()
+    assert not window.tab.get_by_label("Motion branch").is_visible()
 
 
 def test_orders_of_the_folded_sheet_are_gone_through(opened, data):

@@ -2,10 +2,11 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { middleOf, radiusOf, turnBack } from "../src/page/aligned.js";
+import { farthestFrom, middleOf, middleOfBox, radiusOf, turnBack } from "../src/page/aligned.js";
 import { Crossing } from "../src/page/crossing.js";
 import { snapped } from "../src/page/editing.js";
 import { trianglesOf } from "../src/page/geometry.js";
+import { Mechanism } from "../src/page/mechanism.js";
 
 test("a turned body is turned back", () => {
   const goals = [0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0, 3];
@@ -24,6 +25,28 @@ test("a body that did not turn is not turned, whatever its size", () => {
 test("middle and radius", () => {
   assert.deepEqual(middleOf([0, 0, 0, 2, 4, 6]), [1, 2, 3]);
   assert.equal(radiusOf([-3, 0, 4, 3, 0, -4]), 5);
+  assert.deepEqual(middleOfBox([0, 0, 0, 2, 4, 6, 2, 4, 6]), [1, 2, 3]);
+  assert.equal(farthestFrom([1, 0, 0], [1, 3, 4, 1, 0, 1]), 5);
+});
+
+test("the largest size on the path is that of a parallelogram stretched along its longer links", () => {
+  const places = [[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]];
+  const name = String;
+  const mechanism = new Mechanism(/** @type {any} */ ({ stiff: [], clusters: [] }), /** @type {any} */ ({
+    solver: {
+      points: places, directions: places.map(() => [0, 0, 1]), angles: [0, 0, 0, 0],
+      loops: [{ joints: [0, 1, 2, 3], signs: [1, 1, 1, 1], centre: "infinite", frame: [[1, 0, 0], [0, 1, 0], [0, 0, 1]] }],
+      order: [2, 0, 3, 1], limited: false, tree: [[0, 1, 0, 1], [1, 2, 1, 1], [2, 3, 2, 1]], links: 4,
+      tolerances: { closed: 1e-12, zero: 1e-9, zero_rate: 1e-7, immobile: 1e-9, same_configuration: 1e-6 },
+    },
+    bodies: { vertices: places, owners: [0, 1, 2, 3], faces: [], edges: [] },
+    ways: { all: [{ told: "", rates: [1, -1, 1, -1], still: [], drivers: [0], freedoms: 1 }], singular: false, taken: 0 },
+    joints: [0, 1, 2, 3].map(name), links: [0, 1, 2, 3].map(name), centres: [], between: [], extent: 1, middle: [0, 0, 0],
+  }));
+  const diagonal = (/** @type {Float64Array} */ at) => Math.hypot(at[6] - at[0], at[7] - at[1], at[8] - at[2]);
+  const before = [...mechanism.places];
+  assert.ok(Math.abs(mechanism.largestOnPath(diagonal) - 3) < 1e-9);
+  assert.deepEqual([...mechanism.places], before);
 });
 
 for (const turned of [false, true]) {

@@ -21,12 +21,35 @@ export function middleOf(places) {
 }
 
 /**
+ * Return the middle of the box round places, three numbers each.
+ *
+ * @param {ArrayLike<number>} places
+ */
+export function middleOfBox(places) {
+  const least = [Infinity, Infinity, Infinity], most = [-Infinity, -Infinity, -Infinity];
+  for (let n = 0; n < places.length; n++) {
+    least[n % 3] = Math.min(least[n % 3], places[n]);
+    most[n % 3] = Math.max(most[n % 3], places[n]);
+  }
+  return least.map((x, i) => (x + most[i]) / 2);
+}
+
+/**
  * Return how far places are from their middle, at most.
  *
  * @param {ArrayLike<number>} places
  */
 export function radiusOf(places) {
-  const [x, y, z] = middleOf(places);
+  return farthestFrom(middleOf(places), places);
+}
+
+/**
+ * Return how far places are from a point, at most.
+ *
+ * @param {number[]} point
+ * @param {ArrayLike<number>} places
+ */
+export function farthestFrom([x, y, z], places) {
   let most = 0;
   for (let n = 0; n < places.length; n += 3) {
     most = Math.max(most, Math.hypot(places[n] - x, places[n + 1] - y, places[n + 2] - z));

@@ -27,7 +27,7 @@ export function layout(root) {
     verdict: element("p", { class: "verdict" }),
     pattern: element("div", { class: "pane pattern", "aria-label": "Drawing" }),
     model: element("div", { class: "pane model" }),
-    way: element("select", { "aria-label": "Way to move" }),
+    way: element("select", { "aria-label": "Motion branch" }),
     driver: element("select", { "aria-label": "Driven joint" }),
     play: element("button", { type: "button", class: "play" }, "Play"),
     speed: element("select", { "aria-label": "Speed" }, ...speeds()),
@@ -53,7 +53,7 @@ export function layout(root) {
   };
   const choose = element("div", { class: "row" },
     made.play, made.reset, made.fit,
-    labelled("Drive", made.driver), labelled("Way", made.way), labelled("Speed", made.speed),
+    labelled("Drive", made.driver), labelled("Branch", made.way), labelled("Speed", made.speed),
     element("label", { class: "check" }, made.folds, "drag folds"),
     element("label", { class: "check" }, made.centres, "centres"),
     element("span", { class: "save" }, "Pose ", made.fold, made.obj, made.png));

@@ -239,7 +239,7 @@ class Page {
     this.sliders.moved(mechanism);
     driver.value = String(mechanism.driver);
     const told = `${mechanism.stopped || `joint ${mechanism.data.joints[mechanism.driver]} driven`}; `;
-    status.textContent = `${told}loops close to ${mechanism.error ? mechanism.error.toExponential(0) : 0}`;
+    status.textContent = `${told}loop-closure residual ${mechanism.error ? mechanism.error.toExponential(0) : 0}`;
   }
 
   /**
@@ -311,7 +311,9 @@ class Page {
    */
   #clusterTold(mechanism, link) {
     const cluster = mechanism.clusterOf.get(link);
-    return cluster === undefined ? "" : `moves as one with ${this.shown.clusters[cluster].length - 1} other(s)`;
+    if (cluster === undefined) return "";
+    const others = this.shown.clusters[cluster].length - 1;
+    return `moves as one with ${others} other ${others === 1 ? "link" : "links"}`;
   }
 
   /**

@@ -12,6 +12,11 @@ const PATIENCE = 80;
 /** Radians beside a singular pose where it is looked at how joints go together. */
 const BESIDE_START = 0.05;
 
+/** Degrees along the path between poses whose size counts, and those up to which it is followed each way. */
+const SIZED_EVERY = 10, SIZED_UP_TO = 360;
+/** Steps of the solver each way to find sizes, at most, times joints. */
+const SIZING = 10_000;
+
 /**
  * Where it is on its way to.
  *
@@ -172,6 +177,28 @@ export class Mechanism {
     this.reset();
   }
 
+  /**
+   * Return the largest size at the pose of the file and on the path of the driven joint, both ways. Of a mechanism of
+   * many joints only the path near that pose is followed.
+   *
+   * @param {(places: Float64Array) => number} sizeOf
+   */
+  largestOnPath(sizeOf) {
+    const motion = new Motion(this.data.solver, this.#direction());
+    const drive = { joint: this.driver, held: this.held };
+    const places = new Float64Array(this.places.length);
+    let largest = sizeOf(this.#placesAt(motion.pose.angles, places));
+    for (const way of this.moves ? [1, -1] : []) {
+      motion.reset();
+      let steps = Math.ceil(SIZING / this.data.joints.length), stopped = "";
+      for (let degrees = 0; degrees < SIZED_UP_TO && !stopped; degrees += SIZED_EVERY) {
+        stopped = motion.along(drive, (way * SIZED_EVERY) / DEGREES, () => --steps < 0);
+        largest = Math.max(largest, sizeOf(this.#placesAt(motion.pose.angles, places)));
+      }
+    }
+    return largest;
+  }
+
   /** Return the pairs of panels that pass through each other; bodies made for axes alone are not looked at. */
   crossings() {
     if (!this.data.solver.limited) return [];
@@ -239,7 +266,7 @@ export class Mechanism {
           : `${name} cannot move here`;
       case "turns back": return `${name} turns back here; along the path it goes on`;
       case "limit": return `stops: panels lie on each other at joint ${this.#atLimit().join(", ")}`;
-      case "lost": return "stops: no closed pose is found beyond";
+      case "lost": return "stops: no closed configuration is found beyond";
       case "late": return `${name} is on its way`;
     }
   }

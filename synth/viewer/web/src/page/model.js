@@ -6,7 +6,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
-import { middleOf, radiusOf, turnBack } from "./aligned.js";
+import { farthestFrom, middleOf, middleOfBox, radiusOf, turnBack } from "./aligned.js";
 import { Centres } from "./centres.js";
 import { clusterColour, colour, letterColour } from "./colours.js";
 import { gathered, trianglesOf } from "./geometry.js";
@@ -52,6 +52,8 @@ export class Model {
     this.turn = [0, 0, 0, 1];
     this.scene.add(this.group);
     this.upright = LYING;
+    /** @type {number[] | null} - Corners of triangles of the cone or cylinder. */
+    this.surface = null;
     this.chosen = { joint: -1, link: -1 };
     /** @type {Set<number>} - Links that pass through others. */
     this.crossed = new Set();
@@ -91,7 +93,8 @@ export class Model {
     this.mark = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: CHOSEN }));
     this.group.clear();
     this.upright = bodies.surface ? UPRIGHT : LYING;
-    if (bodies.surface) this.group.add(surfaceMesh(bodies.surface));
+    this.surface = bodies.surface ? bodies.surface.flat(2) : null;
+    if (this.surface) this.group.add(surfaceMesh(this.surface));
     this.centres.show(mechanism.data.centres);
     this.group.add(this.mesh, new three.Mesh(this.backs, back), this.lines, this.mark, this.centres.group);
     this.crossed = new Set();
@@ -99,9 +102,10 @@ export class Model {
     this.fit();
   }
 
-  /** Look at all of the mechanism, as it was looked at first. */
+  /** Look at all of the mechanism wherever the driven joint takes it, as it was looked at first. */
   fit() {
-    const radius = Math.max(LEAST, radiusOf(this.mechanism?.places ?? []));
+    const over = this.mechanism?.largestOnPath((places) => this.#radius(places)) ?? 0;
+    const radius = Math.max(LEAST, over, this.#radius(this.mechanism?.places ?? []));
     this.fitted = radius;
     const half = Math.atan(Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect));
     this.camera.position.copy(FROM).multiplyScalar(radius / Math.sin(half));
@@ -124,11 +128,11 @@ export class Model {
     gathered(mechanism.places, ends, row);
     lines.geometry.setPositions(row);
     this.centres.moved(mechanism);
-    const fixed = Boolean(mechanism.data.bodies.surface); // links move on a surface that stays
-    this.turn = fixed ? turn : turnBack(mechanism.places, first, turn);
+    // A surface stays, and links move from it
+    this.turn = this.surface ? turn : turnBack(mechanism.places, first, turn);
     const [x, y, z, w] = this.turn;
     this.group.quaternion.set(x, y, z, w).premultiply(this.upright);
-    const [a, b, c] = middleOf(fixed ? first : mechanism.places);
+    const [a, b, c] = this.surface ? middleOfBox(this.surface) : middleOf(mechanism.places);
     this.group.position.copy(new three.Vector3(a, b, c).applyQuaternion(this.group.quaternion).negate());
     this.group.updateMatrixWorld();
     this.#marked();
@@ -283,12 +287,23 @@ export class Model {
 
   /** Go farther off where a mechanism grows beyond what was fitted. */
   #kept() {
-    const radius = radiusOf(this.mechanism?.places ?? []);
+    const radius = this.#radius(this.mechanism?.places ?? []);
     if (radius <= this.fitted) return;
     const { target } = this.controls;
     this.camera.position.sub(target).multiplyScalar(radius / this.fitted).add(target);
     this.fitted = radius;
     this.controls.update();
+  }
+
+  /**
+   * Return the radius of what is shown, about the middle of the view.
+   *
+   * @param {ArrayLike<number>} places - Of the corners.
+   */
+  #radius(places) {
+    if (!this.surface) return radiusOf(places);
+    const middle = middleOfBox(this.surface);
+    return Math.max(farthestFrom(middle, this.surface), farthestFrom(middle, places));
   }
 
   #resize() {
@@ -325,11 +340,11 @@ export class Model {
 /**
  * Return a surface through which links behind it are seen.
  *
- * @param {number[][][]} triangles - Corners.
+ * @param {number[]} corners - Of its triangles, three numbers each.
  */
-function surfaceMesh(triangles) {
+function surfaceMesh(corners) {
   const geometry = new three.BufferGeometry();
-  geometry.setAttribute("position", new three.BufferAttribute(Float32Array.from(triangles.flat(2)), 3));
+  geometry.setAttribute("position", new three.BufferAttribute(Float32Array.from(corners), 3));
   geometry.computeVertexNormals();
   const look = { color: 0x888888, transparent: true, opacity: SEEN_THROUGH, depthWrite: false };
   return new three.Mesh(geometry, new three.MeshLambertMaterial({ ...look, side: three.DoubleSide }));

@@ -24,7 +24,7 @@
  *
  * @typedef {object} CentreData
  * @property {"explicit" | "implicit" | "finite" | "infinite"} kind
- * @property {number[]} place - At the pose of the file; of an infinite one among its axes.
+ * @property {number[]} place - At the pose of the file; of an infinite one among those of its axes that the link carries.
  * @property {number[] | null} direction - Of the axes of an infinite one.
  * @property {number} link - One that carries it.
  * @property {number[]} joints - Those whose axes pass through it.
