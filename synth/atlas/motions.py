@@ -430,11 +430,13 @@ def like(
     --------
     >>> from tempfile import TemporaryDirectory
     >>> from synth.atlas import AtlasPlan, add_motions, build_atlas, open_atlas
+    >>> half = np.linspace(0, 0.5, 20)[:, None]
+    >>> turning = np.hstack([np.cos(half), 0 * half, 0 * half, np.sin(half)])
     >>> with TemporaryDirectory() as folder:
     ...     _ = build_atlas(f"{folder}/a.sqlite", AtlasPlan(4, creases=0, orders_of=(), realised=False))
     ...     _ = add_motions(open_atlas(f"{folder}/a.sqlite"), members=20)
-    ...     nearest = like(open_atlas(f"{folder}/a.sqlite"), "data/orientations/tipparthi.json")
-    >>> nearest.rows[0].name, nearest.compared
+    ...     members = like(open_atlas(f"{folder}/a.sqlite"), turning)
+    >>> members.rows[0].name, members.compared
     ('four-bar chain', 40)
     """
     curve = motion_curve(motion, links=links, closed=closed)
