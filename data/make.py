@@ -16,6 +16,7 @@ import linkages_on_surfaces
 import orientation_tasks
 import patterns
 import surfaces
+import task_examples
 import wampler_2007
 import wiener_2016
 from decimals import with_few_decimals
@@ -47,6 +48,9 @@ def main(folder: Path = HERE) -> None:
     for name, linkage in jointed.LINKAGES.items():
         write(with_few_decimals(linkage), folder / "joints" / name, force=True)
     surfaces.write_surfaces(folder / "surfaces")
+    (folder / "tasks").mkdir(exist_ok=True)
+    for name in task_examples.TASKS:
+        (folder / "tasks" / f"{name}.json").write_text(json_text(task_examples.document(name)))
     (folder / "orientations").mkdir(exist_ok=True)
     for name, quaternions in orientation_tasks.TASKS.items():
         (folder / "orientations" / f"{name}.json").write_text(json_text(orientations_document(quaternions)))

@@ -64,6 +64,7 @@ from synth.surfaces.loop_maps import (
     map_to_cones as map_to_cones,
     map_to_cylinders as map_to_cylinders,
 )
+from synth.tasks.answer import task as task
 from synth.templates.hinges import Hinges as Hinges
 from synth.templates.of_mechanism import template as template
 from synth.templates.writing import write_template as write_template

@@ -14,7 +14,8 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGE = (ROOT / "docs" / "command-json.md").read_text(encoding="utf-8")
 NAMED = set(re.findall(r"`\"?([A-Za-z]\w*)\"?`", PAGE))
 BY_NAME = {"parameters", "equations", "counts", "driven", "driven_deg", "angles_deg", "joint_angles_deg", "azimuths_deg",
-           "turns", "by_size", "sensitivity", "configurations"}  # fmt: skip
+           "turns", "by_size", "sensitivity", "configurations",
+           "left_out", "placements_left_out"}  # fmt: skip
 """Keys of objects whose own keys are names: of parameters, equations, joints."""
 
 COMMANDS = [
@@ -56,6 +57,7 @@ COMMANDS = [
     "convert data/linkages/stewart.json stewart.xml --as mjcf",
     "convert data/linkages/bennett.json bennett.csv --as table --drive 0=60",
     "design four-bar data/wishes/crank-and-follower.json --starts 1",
+    "task data/tasks/lid.json --structure-only",
 ]
 
 

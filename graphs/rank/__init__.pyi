@@ -4,6 +4,7 @@ from graphs.rank.exact import (
     diagnose as diagnose,
     exact_mobility as exact_mobility,
     mobility_without as mobility_without,
+    relative_mobilities as relative_mobilities,
 )
 from graphs.rank.pose import (
     PoseMobility as PoseMobility,

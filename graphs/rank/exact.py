@@ -10,7 +10,7 @@ sub-mechanism; the kernel shows immobile joints and links that move as one. Theo
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import combinations, pairwise
 from typing import Any
 
 import networkx as nx
@@ -326,23 +326,76 @@ def _clusters(
 ) -> tuple[tuple[LinkId, ...], ...]:
     """Return the links that have one twist in every motion, part by part of the mechanism."""
     together: dict[Any, list[LinkId]] = defaultdict(list)
-    twist: dict[LinkId, list[tuple[int, ...]]] = {}
+    for link, (part, twist) in _twists_of_links(mechanism, axes, motions, prime).items():
+        together[part, tuple(twist)].append(link)
+    place = {link: i for i, link in enumerate(mechanism)}
+    return tuple(tuple(sorted(links, key=place.__getitem__)) for links in together.values() if len(links) > 1)
+
+
+def _twists_of_links(
+    mechanism: SCGraph, axes: Any, motions: dict[JointId, list[int]], prime: int
+) -> dict[LinkId, tuple[int, list[tuple[int, ...]]]]:
+    """Return the part of each link, and its twist in each motion, against the first link of that part."""
+    twists: dict[LinkId, tuple[int, list[tuple[int, ...]]]] = {}
     still: list[tuple[int, ...]] = [(0,) * 6 for _ in next(iter(motions.values()), [])]
     for part, links in enumerate(nx.connected_components(mechanism)):
         root = next(link for link in mechanism if link in links)
-        twist[root] = still
-        together[part, tuple(still)].append(root)
+        twists[root] = part, still
         for a, b in nx.bfs_edges(mechanism, root):
             joint = next(iter(mechanism[a][b]))
             u, m = axes[joint]
             sign = 1 if mechanism.joints[joint] == (a, b) else -1
-            twist[b] = [
-                tuple((t + sign * rate * c) % prime for t, c in zip(before, (*u, *m), strict=True))
-                for before, rate in zip(twist[a], motions[joint], strict=True)
-            ]
-            together[part, tuple(twist[b])].append(b)
-    place = {link: i for i, link in enumerate(mechanism)}
-    return tuple(tuple(sorted(links, key=place.__getitem__)) for links in together.values() if len(links) > 1)
+            twists[b] = (
+                part,
+                [
+                    tuple((t + sign * rate * c) % prime for t, c in zip(before, (*u, *m), strict=True))
+                    for before, rate in zip(twists[a][1], motions[joint], strict=True)
+                ],
+            )
+    return twists
+
+
+def relative_mobilities(
+    mechanism: SCGraph, primes: Sequence[int] = PRIMES, *, forced: bool = True, seed: int = 0
+) -> dict[frozenset[LinkId], int]:
+    """Return the generic relative mobility of each two links of one part: the rank of their relative twists.
+
+    That is 0 for links that move as one, 1 for neighbours whose joint moves, and at most the mobility of the type.
+
+    Parameters
+    ----------
+    mechanism : SCGraph or SCDGraph
+    primes, forced, seed
+        As for `exact_mobility`, as are the errors.
+
+    Returns
+    -------
+    dict of frozenset of two link ids to int
+
+    Examples
+    --------
+    Opposite links of a spherical five-bar move against each other with both degrees of freedom, neighbours with one:
+
+    >>> five_bar = SCGraph(5, [(0, 1), (1, 2), (2, 3), (3, 4), (4, 0)], [Loop((0, 1, 2, 3, 4))])
+    >>> relative = relative_mobilities(five_bar)
+    >>> relative[frozenset((0, 2))], relative[frozenset((0, 1))]
+    (2, 1)
+    """
+    ranks: dict[frozenset[LinkId], list[int]] = defaultdict(list)
+    for prime in primes:
+        field = PrimeField(prime, seed)
+        placed = realise(mechanism, field, forced=forced)
+        closure = closure_of(mechanism, placed.axes, centres_of_loops(mechanism, placed), field)
+        kernel, freedoms = matrix_modulo(closure, prime).nullspace()
+        motions = {
+            joint: [int(kernel[j, k]) for k in range(freedoms)] for j, joint in enumerate(closure.joints)
+        }  # fmt: skip
+        twists = _twists_of_links(mechanism, placed.axes, motions, prime)
+        for (link, (part, own)), (other, (place, its)) in combinations(twists.items(), 2):
+            if part == place:
+                apart = [[(a - b) % prime for a, b in zip(*pair, strict=True)] for pair in zip(own, its, strict=True)]
+                ranks[frozenset((link, other))].append(int(nmod_mat(apart, prime).rank()) if apart else 0)
+    return {pair: agreed_rank(found, primes) for pair, found in ranks.items()}
 
 
 def mobility_without(mechanism: SCGraph, joint: JointId, *, forced: bool = True, seed: int = 0) -> int:

@@ -37,6 +37,7 @@ _SECTIONS: dict[str, dict[str, str]] = {
         "generate": "Make known patterns and linkages from their parameters.",
         "realise": "Give a type coordinates: as a flat sheet, as panels in space, or on a cone.",
         "design": "Find dimensions with which a mechanism moves as wished.",
+        "task": "Find all types that can do a task, with dimensions, ranked.",
         "thicken": "Give panels a thickness, and move hinges so that the pattern still folds.",
     },
     "Edit, convert and identify": {

@@ -109,6 +109,7 @@ def test_shell_completion_knows_the_commands():
     assert set(re.findall(r"plain,(\w+)", done.stdout)) == {
         "look",
         "design",
+        "task",
         "thicken",
         "mobility",
         "fold",
