@@ -119,6 +119,7 @@ EXEMPT = {
     ("synth/simulation/mjcf.py", "_STIFF"): "stiffness of a simulator",
     ("synth/surfaces/loop_sums.py", "_MOST_SENSITIVE"): "greatest growth of rounding, a large number",
     ("synth/surfaces/mapping.py", "_VAGUE"): "digits below which a caution is told",
+    ("synth/tasks/ranking.py", "WITHIN"): "what is told as met",
     ("synth/templates/pieces.py", "_NEAR"): "millimetres of a drawing",
     ("synth/templates/pieces.py", "_GRID"): "grid of overlays",
     ("synth/templates/pieces.py", "_OVERLAP"): "part of an area that is covered twice",

@@ -282,3 +282,16 @@ def driven_angles(graph: SCGraph, words: tuple[str, ...], spelling: str = "--dri
     """Return the angles of joints, radians, of an option that has them in degrees."""
     angles = numbers_of_joints(graph, words, spelling, "JOINT=DEGREES")
     return {joint: radians(angle) for joint, angle in angles.items()}
+
+
+def weights_of(words: tuple[str, ...]) -> tuple[tuple[int, float], ...]:
+    """Return the numbers of wishes, from 0, and their weights, of --weigh."""
+    weights = {}
+    for word in words:
+        name, [weight] = named_value(word, "--weigh", "K=WEIGHT")
+        if not name.isascii() or not name.isdigit() or int(name) < 1 or weight < 0.0:
+            raise click.UsageError(
+                f"--weigh {word}: expected K=WEIGHT, a wish from 1 and a weight that is not negative"
+            )
+        weights[int(name) - 1] = weight
+    return tuple(sorted(weights.items()))

@@ -19,7 +19,7 @@ from graphs.errors import InvariantError, SynthedraError, UnsolvableError, numbe
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
-from graphs.types import Floats
+from graphs.types import Floats, LinkId
 from synth.designing.dimensions import Designable, Dimensions, dimensions_of
 from synth.designing.poses import PosedDesign
 from synth.designing.problem import DesignProblem
@@ -340,6 +340,8 @@ class DesignSearch:
         As of `design`.
     beginnings : sequence of float[n], optional
         Numbers of designs with which the first starts begin, one each.
+    ground : link id, optional
+        The link that stays, as of `dimensions_of`.
 
     Attributes
     ----------
@@ -363,6 +365,7 @@ class DesignSearch:
         spread: float = SPREAD,
         seed: int = 0,
         beginnings: Sequence[Floats] = (),
+        ground: LinkId | None = None,
     ) -> None:
         generator = GENERATORS.get(mechanism) if isinstance(mechanism, str) else None
         self.family: Dimensions = dimensions_of(
@@ -371,6 +374,7 @@ class DesignSearch:
             parameters=wishes.parameters,
             bounds=wishes.bounds,
             closed_form=wishes.closed_form,
+            ground=ground,
         )
         self.problem = DesignProblem(self.family, wishes)
         self.spread, self.seed = spread, seed

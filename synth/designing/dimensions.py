@@ -103,6 +103,7 @@ def dimensions_of(
     parameters: Mapping[str, float] | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     closed_form: bool = False,
+    ground: LinkId | None = None,
 ) -> Dimensions:
     """Return what may change of a mechanism.
 
@@ -119,6 +120,8 @@ def dimensions_of(
         The least and largest value of parameters, or of azimuths and the cone angle, radians or lengths.
     closed_form : bool, optional
         Of the generator ``miura``: not its parameters may change, but corners and lengths on two sides of the sheet.
+    ground : link id, optional
+        The link that stays; by default the ground of the mechanism, or the largest panel of a sheet, else the first.
 
     Raises
     ------
@@ -163,6 +166,8 @@ def dimensions_of(
     if not len(family.start):
         raise UnsolvableError("nothing of the mechanism may change: all its dimensions are fixed")
     _narrow(family, bounds or {})
+    if ground is not None:
+        family.ground = ground
     return family
 
 

@@ -1,6 +1,15 @@
 from synth.tasks.answer import task as task
+from synth.tasks.dimensioning import (
+    Candidate as Candidate,
+    CandidateSearch as CandidateSearch,
+    HalvingRound as HalvingRound,
+    candidates_of as candidates_of,
+    random_member as random_member,
+)
 from synth.tasks.placements import placements_of as placements_of
+from synth.tasks.ranking import RankedDesign as RankedDesign, RankedTypes as RankedTypes, ranked_types as ranked_types
 from synth.tasks.record import FORMS as FORMS, SYSTEMS as SYSTEMS, RolePair as RolePair, Task as Task
+from synth.tasks.report import report_page as report_page, write_designs as write_designs, write_report as write_report
 from synth.tasks.structure import (
     CandidateType as CandidateType,
     PlacedType as PlacedType,

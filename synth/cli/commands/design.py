@@ -85,7 +85,7 @@ def design(
     if not Path(wishes).exists():
         raise FileError(wishes, "", "no such file", "a file of wishes")
     synth.designing.read_wishes(wishes)
-    frozen, weights = tuple(sorted({number - 1 for number in freeze})), _weights(weigh)
+    frozen, weights = tuple(sorted({number - 1 for number in freeze})), options.weights_of(weigh)
     begun = () if begin is None else _begun(begin)
     job = DesignJob(mechanism, wishes, starts, spread, seed, frozen, weights, begun)
     with about(mechanism):
@@ -99,19 +99,6 @@ def design(
             job, designs, {"": output, "picture": picture, "page": page, "template": template}, force=force
         )
     _print(designs, mechanism, written, as_json=as_json)
-
-
-def _weights(words: tuple[str, ...]) -> tuple[tuple[int, float], ...]:
-    """Return the numbers of wishes, from 0, and their weights, of --weigh."""
-    weights = {}
-    for word in words:
-        name, [weight] = options.named_value(word, "--weigh", "K=WEIGHT")
-        if not name.isascii() or not name.isdigit() or int(name) < 1 or weight < 0.0:
-            raise click.UsageError(
-                f"--weigh {word}: expected K=WEIGHT, a wish from 1 and a weight that is not negative"
-            )
-        weights[int(name) - 1] = weight
-    return tuple(sorted(weights.items()))
 
 
 def _begun(store: str) -> tuple[tuple[float, ...], ...]:

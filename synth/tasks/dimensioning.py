@@ -1,0 +1,350 @@
+"""Dimensions for each type and placement of a task, by successive halving: units of the runner.
+
+In each round every candidate that is left has some starts, each from a random member of its type; then the half whose
+best design is nearest to the wishes goes on with twice as many. What a start begins with depends on the seed, the type,
+the placement and the number of the start alone, so a run that was killed comes to the same rows. Guide:
+docs/guides/from-a-task.md.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from hashlib import sha256
+from math import ceil, pi, tau
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from enumerate.runner.job import Column, Progress, Row, Unit, row_as_dict
+from enumerate.runner.running import rows_of, run
+from enumerate.runner.store import SqliteSink, read_rows
+from graphs.errors import SynthedraError
+from graphs.loops.loop import Centre
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.solids import HingedSolids
+from graphs.mechanism.surfaces import Cone, SurfaceLinkage
+from graphs.rank.realisation import Reals, realise
+from graphs.types import JointId, LinkId
+from synth.designing.designs import Design, DesignSearch
+from synth.designing.search import seeded
+from synth.designing.wish_files import wishes_of_document
+from synth.realisation.realised import realise as sheet_realisation
+from synth.tasks.placements import Placement
+from synth.tasks.record import Task, renamed
+from synth.tasks.structure import CandidateType, TaskStructure
+from synth.tasks.task_files import wishes_document
+
+STARTS, ROUNDS = 2, 4
+_WEIGHT = 40_000
+"""Weight of a start: about a second of a list of chains."""
+_SPREAD = 0.3
+"""How far starts of a generator are off its default parameters, as parts of them; of other types starts are random."""
+_CONES = (0.15, 1.2)
+"""Least and largest angle of the cones on which starts lie, radians."""
+_MET = 9
+"""Decimals of a miss by which candidates are compared, as designs are: below them a wish is met."""
+
+COLUMNS: dict[str, Column] = {
+    "candidate": int, "start": int, "success": bool, "miss": float, "residual": float, "freedoms": int, "faults": str,
+    "record": str,
+}  # fmt: skip
+"""Values of a row; `record` is the rest of the design as JSON, empty where a start gave none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A type with one placement of the roles, by its number among those that a task admits.
+
+    Attributes
+    ----------
+    number : int
+    source, code : str
+        As of `CandidateType`.
+    links : tuple of link id
+        The link of each role.
+
+    Examples
+    --------
+    >>> Candidate(0, "chains", "k1:Cr", (0, 2)).type_of().name
+    'four-bar'
+    """
+
+    number: int
+    source: str
+    code: str
+    links: Placement
+
+    def type_of(self, task: Task | None = None) -> CandidateType:
+        """Return its type."""
+        return CandidateType.of(self.source, self.code, task)
+
+
+def candidates_of(structure: TaskStructure) -> tuple[Candidate, ...]:
+    """Return the candidates of a structure, in the order of its types and placements."""
+    every = [(one.type, links) for one in structure.placed for links in one.placements]
+    return tuple(Candidate(number, one.source, one.code, links) for number, (one, links) in enumerate(every))
+
+
+class CandidateSearch:
+    """The search for designs of one candidate of a task.
+
+    Parameters
+    ----------
+    task : Task
+        With wishes.
+    candidate : Candidate
+    seed : int
+
+    Examples
+    --------
+    >>> from synth.tasks.task_files import task_of_document
+    >>> wish = {"kind": "orientation", "at": "up", "link": "output", "quaternion": [0.9, 0.1, 0.2, 0.1]}
+    >>> wishes = {"configurations": [{"name": "up"}], "wishes": [wish]}
+    >>> task = task_of_document({"format": "synthedra/task", "version": 1, "wishes": wishes}, Path("task.json"))
+    >>> design = CandidateSearch(task, Candidate(0, "chains", "k1:Cr", (0, 2)), 0).design(0)
+    >>> design.closed, design.figures[0].met
+    (True, True)
+    """
+
+    def __init__(self, task: Task, candidate: Candidate, seed: int) -> None:
+        self.task, self.candidate, self.seed = task, candidate, seed
+        self.type = _type_of(task.place, candidate.source, candidate.code, _stated(task, candidate.code))
+        self.base: LinkId | None = dict(zip(task.roles, candidate.links, strict=True)).get("base")
+        assert task.wishes is not None
+        link_of = {role: self._link_name(link) for role, link in zip(task.roles, candidate.links, strict=True)}
+        joint_of = {}
+        for one, other in ((a, b) for a in task.roles for b in task.roles if a != b):
+            pair = [candidate.links[task.roles.index(role)] for role in (one, other)]
+            joint = self.type.joint_between(pair[0], pair[1])
+            if joint is not None:
+                joint_of[f"{one}-{other}"] = self._joint_name(joint)
+        document = wishes_document(renamed(task.wishes, link_of, joint_of))
+        self.wishes = wishes_of_document(document, task.place)
+
+    def _link_name(self, link: LinkId) -> str:
+        return str(list(self.type.mechanism.nodes).index(link)) if self.type.source == "scd" else str(link)
+
+    def _joint_name(self, joint: JointId) -> str:
+        return str(list(self.type.mechanism.joints).index(joint)) if self.type.source == "scd" else str(joint)
+
+    def search(self, start: int) -> DesignSearch:
+        """Return the search from a random member of the type; of a generator, from its parameters."""
+        if self.type.values is not None:
+            wishes = replace(self.wishes, parameters={**self.type.values, **self.wishes.parameters})
+            return DesignSearch(self.candidate.code, wishes, _SPREAD, self.seed, ground=self.base)
+        base = self.base
+        if self.type.source == "scd" and base is not None:
+            base = list(self.type.mechanism.nodes).index(base)
+        return DesignSearch(self.member(start), self.wishes, seed=self.seed, ground=base)
+
+    def member(self, start: int) -> HingedSolids | SurfaceLinkage | Sheet:
+        """Return a random member of the type, from which a start begins."""
+        rng = seeded(f"{self.seed} {self.type.source} {self.type.code} {self.candidate.links}", start)
+        graph = self.type.mechanism
+        if self.type.source == "scd":
+            return sheet_realisation(graph, seed=int(rng.integers(2**31)), tries=2).sheet
+        chain = SCGraph(graph.nodes, graph.joints, graph.loops, ground=self.base)
+        if self.task.form == "cone":
+            places = rng.uniform(0.0, tau, len(chain.joints)).tolist()
+            return SurfaceLinkage.placed(chain, places, Cone(float(rng.uniform(*_CONES))))
+        return random_member(chain, int(rng.integers(2**31)))
+
+    def design(self, start: int) -> Design | None:
+        """Return the design of a start, judged; None where its numbers make no mechanism."""
+        return self.search(start).design(start if self.type.values is not None else 0)
+
+    def of_record(self, start: int, record: Mapping[str, Any]) -> Design:
+        """Return the design that a row of a store holds."""
+        return self.search(start).of_record(start, record)
+
+
+def _stated(task: Task, code: str) -> tuple[tuple[str, float], ...]:
+    return tuple(sorted((task.generators or {}).get(code, {}).items()))
+
+
+@lru_cache(maxsize=64)
+def _type_of(place: Path, source: str, code: str, stated: tuple[tuple[str, float], ...]) -> CandidateType:
+    """Return a type, made once for all its starts: `hexagon-twist` takes seconds to make."""
+    task = Task(generators={code: dict(stated)}, place=place) if source == "generators" else None
+    return CandidateType.of(source, code, task)
+
+
+def random_member(chain: SCGraph, seed: int) -> HingedSolids:
+    """Return a random member of a type: its axes pass through the centres of their loops, at random else.
+
+    Parameters
+    ----------
+    chain : SCGraph
+    seed : int
+
+    Raises
+    ------
+    UnsolvableError
+        If centres that must lie in line could not be placed.
+
+    Examples
+    --------
+    >>> random_member(CandidateType.of("chains", "k1:Cr").mechanism, 0)
+    <HingedSolids: 4 links, 4 joints>
+    """
+    placed = realise(chain, Reals(seed))
+    classes = chain.centre_classes()
+    axes = {}
+    for joint, (direction, moment) in placed.axes.items():
+        along, turn = np.array(direction), np.array(moment)
+        point = np.cross(along, turn) / (along @ along)
+        for one, centre in zip(classes, placed.points, strict=False):
+            if joint in one.joints and one.centre is Centre.FINITE:
+                point = np.array(centre[:3])
+                break
+        axes[joint] = (tuple(point.tolist()), tuple((along / np.linalg.norm(along)).tolist()))
+    return HingedSolids(chain, axes)
+
+
+@dataclass(frozen=True)
+class HalvingRound:
+    """One round of successive halving: some starts of each candidate that is left.
+
+    Attributes
+    ----------
+    task : Task
+    candidates : tuple of Candidate
+    first, last : int
+        Numbers of the starts, the last not among them.
+    seed : int
+    number : int
+        Of the round.
+
+    Examples
+    --------
+    >>> some = (Candidate(0, "chains", "k1:Cr", (0, 2)), Candidate(1, "chains", "k1:Cr", (0, 1)))
+    >>> [unit.payload for unit in HalvingRound(Task(), some, 0, 2).units()]
+    [(0, 0), (0, 1), (1, 0), (1, 1)]
+    """
+
+    task: Task
+    candidates: tuple[Candidate, ...]
+    first: int
+    last: int
+    seed: int = 0
+    number: int = 0
+    columns = COLUMNS
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """The identity of the round: the task, the candidates, the starts."""
+        some = json.dumps([[one.number, one.source, one.code, list(map(str, one.links))] for one in self.candidates])
+        return {
+            "task": self.task.key,
+            "candidates": sha256(some.encode()).hexdigest(),
+            "starts": [self.first, self.last],
+            "seed": self.seed,
+            "round": self.number,
+        }
+
+    def units(self) -> list[Unit]:
+        """One unit for each start of each candidate."""
+        numbers = range(len(self.candidates))
+        return [Unit((place, start), _WEIGHT) for place in numbers for start in range(self.first, self.last)]
+
+    def work(self, payload: tuple[int, int]) -> list[Row]:
+        """Return the row of a start."""
+        place, start = payload
+        candidate = self.candidates[place]
+        try:
+            one = CandidateSearch(self.task, candidate, self.seed).design(start)
+        except SynthedraError as error:
+            return [(candidate.number, start, False, pi, 0.0, 0, str(error), "")]
+        if one is None:
+            return [(candidate.number, start, False, pi, 0.0, 0, "no member at this start", "")]
+        faults = one.faults
+        if one.moves and one.freedoms != self.task.freedoms:
+            faults = (*faults, f"degrees of freedom of the design: {one.freedoms}")
+        record = json.dumps(one.record(), separators=(",", ":"))
+        fault = "; ".join(faults)
+        return [(candidate.number, start, not faults, one.miss, one.error, one.freedoms or 0, fault, record)]
+
+
+Rows = list[dict[str, Any]]
+
+
+def halved(
+    structure: TaskStructure,
+    *,
+    starts: int = STARTS,
+    rounds: int = ROUNDS,
+    seed: int = 0,
+    workers: int = 1,
+    store: Path | None = None,
+    resume: bool = False,
+    scheduler: str | None = None,
+    report: Callable[[int, Progress], None] | None = None,
+) -> Rows:
+    """Return the rows of all starts: candidates by successive halving.
+
+    Parameters
+    ----------
+    structure : TaskStructure
+    starts : int, optional
+        Of each candidate in the first round; in each further one as many again as there were.
+    rounds : int, optional
+    seed : int, optional
+    workers : int, optional
+        Local processes.
+    store : Path, optional
+        A folder with one store of the runner for each round.
+    resume : bool, optional
+        Whether to go on with the stores of that folder.
+    scheduler : str, optional
+        Address of a Dask scheduler; needs a store.
+    report : callable, optional
+        Called with the number of a round and its progress.
+
+    Raises
+    ------
+    StoreError
+        If a store is there and is not to be resumed, or is of another task.
+    """
+    left = candidates_of(structure)
+    every: Rows = []
+    if store is not None:
+        store.mkdir(parents=True, exist_ok=True)
+    begun = 0
+    for number in range(rounds):
+        job = HalvingRound(structure.task, left, begun, begun + starts, seed, number)
+        if store is None:
+            every += rows_of(job, workers=workers)
+        else:
+            path = store / f"round-{number}.sqlite"
+            told = None if report is None else _reporter(report, number)
+            run(job, SqliteSink(path, resume=resume), workers=workers, scheduler=scheduler, report=told)
+            every += [row_as_dict(COLUMNS, row) for row in read_rows(path)]
+        begun, starts = begun + starts, 2 * starts
+        left = tuple(_better_half(left, every))
+        if not left:
+            break
+    return every
+
+
+def _reporter(report: Callable[[int, Progress], None], number: int) -> Callable[[Progress], None]:
+    return lambda progress: report(number, progress)
+
+
+def _better_half(candidates: Sequence[Candidate], rows: Iterable[Mapping[str, Any]]) -> Iterator[Candidate]:
+    """Yield the half of the candidates that look best, in their order; those that meet the wishes are done.
+
+    Ties go to the candidate that comes first: fewer links.
+    """
+    best: dict[int, tuple[bool, float]] = {}
+    for row in rows:
+        key = (not row["success"], round(row["miss"], _MET))
+        best[row["candidate"]] = min(best.get(row["candidate"], (True, pi)), key)
+    open_ones = [one for one in candidates if best.get(one.number, (True, pi)) > (False, 0.0)]
+    ranked = sorted(open_ones, key=lambda one: (round(best.get(one.number, (True, pi))[1], _MET), one.number))
+    chosen = {one.number for one in ranked[: ceil(len(ranked) / 2)]}
+    yield from (one for one in candidates if one.number in chosen)

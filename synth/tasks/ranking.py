@@ -1,0 +1,315 @@
+"""Designs of a task ranked: the best of each type, the Pareto list, and why the other types fell out.
+
+Three figures are compared: by how much the wishes are missed, the number of links, and the largest sensitivity of a
+wish to a dimension: how exactly it has to be made. Guide: docs/guides/from-a-task.md.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import Counter, defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import degrees, inf, pi
+from typing import Any
+
+from graphs.errors import numbered
+from graphs.printing import Block, Printed, TableBlock
+from synth.designing.designs import Design
+from synth.tasks.dimensioning import Candidate, CandidateSearch, Rows, candidates_of
+from synth.tasks.record import Task
+from synth.tasks.structure import PlacedType, TaskStructure, reasons_text
+
+WITHIN = 1e-6
+"""Radians, or parts of the extent: a design whose weighted misses are larger has not met the wishes."""
+_FIGURES = 6
+"""Figures of a sensitivity by which designs are compared; later ones differ among processors."""
+_MET = 9
+"""Decimals of a miss by which designs are compared."""
+_HEADS = ("rank", "type", "links", "roles", "largest miss", "sensitivity", "travel", "Pareto")
+_FAULTS = {
+    "on another circuit": "configurations on several circuits",
+    "turns back": "a driven joint that turns back",
+    "out of order": "configurations out of order",
+    "do not lead straight": "inputs that do not lead straight on",
+    "pass through each other": "panels that pass through each other",
+    "against the assignment": "creases that fold against the assignment",
+    "degree of freedom": "other degrees of freedom",
+    "degrees of freedom": "other degrees of freedom",
+    "loop-closure residual": "loops that do not close",
+    "could not be traced": "configurations that could not be traced",
+}
+"""What is counted of a design that meets the wishes and is no success, by a part of its first fault."""
+_NO_MEMBER = "no member that moves"
+
+
+@dataclass(frozen=True)
+class RankedDesign:
+    """The best design of a type for a task.
+
+    Attributes
+    ----------
+    candidate : Candidate
+        The type, and the placement of the roles.
+    start : int
+    miss : float
+        The largest weighted miss of a wish, radians or parts of the extent.
+    misses : tuple of float
+        Those of the wishes, without weights.
+    sensitivity : float
+        The largest change of a wish for a unit change of a dimension.
+    travel : float or None
+        How far the driven joint turns from the first configuration to the last, radians; None if none is driven.
+    faults : str
+        Why it is no success; empty for one.
+    pareto : bool
+        Whether no other success is better in one figure, and as good in the others.
+    record : mapping
+        The row of the design.
+
+    Examples
+    --------
+    >>> RankedDesign(Candidate(0, "chains", "k1:Cr", (0, 2)), 0, 0.0, (0.0,), 2.0, None, "", True, {}).meets
+    True
+    """
+
+    candidate: Candidate
+    start: int
+    miss: float
+    misses: tuple[float, ...]
+    sensitivity: float
+    travel: float | None
+    faults: str
+    pareto: bool = False
+    record: Mapping[str, Any] = field(default_factory=dict, compare=False)
+
+    @property
+    def meets(self) -> bool:
+        """Whether its wishes are met, whatever its faults are."""
+        return self.miss <= WITHIN
+
+    @property
+    def figures(self) -> tuple[float, int, float]:
+        """What is compared: miss, numbers of links are added by the ranking, sensitivity."""
+        return round(self.miss, _MET), 0, float(f"{self.sensitivity:.{_FIGURES}g}")
+
+
+@dataclass(frozen=True, repr=False)
+class RankedTypes(Printed):
+    """The answer to a task with wishes: types that can do it, ranked; and why the others cannot.
+
+    Attributes
+    ----------
+    structure : TaskStructure
+    ranked : tuple of RankedDesign
+        The best design of each type that meets the wishes without faults.
+    missed : tuple of RankedDesign
+        The best of each other type, nearest first.
+    starts : int
+        How many starts were made.
+    seed : int
+
+    Examples
+    --------
+    >>> from synth.tasks.dimensioning import halved
+    >>> from synth.tasks.structure import structure_of
+    >>> from synth.tasks.task_files import read_task
+    >>> structure = structure_of(read_task("data/tasks/lid.json"))
+    >>> ranked_types(structure, halved(structure, starts=1, rounds=1))
+    <RankedTypes: 1 of 2 types>
+    """
+
+    structure: TaskStructure
+    ranked: tuple[RankedDesign, ...]
+    missed: tuple[RankedDesign, ...]
+    starts: int
+    seed: int = 0
+
+    @property
+    def task(self) -> Task:
+        """The task."""
+        return self.structure.task
+
+    @property
+    def best(self) -> RankedDesign | None:
+        """The first; None if no type can do it."""
+        return self.ranked[0] if self.ranked else None
+
+    @cached_property
+    def fell_out(self) -> dict[str, int]:
+        """Numbers of types by the reasons why they fell out, those left out by structure first."""
+        return {**self.structure.left_out, **dict(sorted(Counter(map(_reason, self.missed)).items()))}
+
+    def design(self, one: RankedDesign) -> Design:
+        """Return a ranked design with its mechanism."""
+        return CandidateSearch(self.task, one.candidate, self.seed).of_record(one.start, one.record)
+
+    def name(self, one: RankedDesign) -> str:
+        """Return the name of the type of a design."""
+        return self._placed[one.candidate.code, one.candidate.source].type.name
+
+    def links(self, one: RankedDesign) -> int:
+        """Return the number of links of the type of a design."""
+        return len(self._placed[one.candidate.code, one.candidate.source].type.bodies)
+
+    @cached_property
+    def _placed(self) -> dict[tuple[str, str], PlacedType]:
+        return {(one.type.code, one.type.source): one for one in self.structure.placed}
+
+    def __repr__(self) -> str:
+        return f"<RankedTypes: {len(self.ranked)} of {numbered(self.structure.types, 'type')}>"
+
+    def first_lines(self) -> list[str]:
+        """Return the answer in sentences."""
+        of, starts = numbered(self.structure.types, "type"), numbered(self.starts, "start")
+        lines = [f"{len(self.ranked)} of {of} can do it ({starts})"]
+        if self.fell_out:
+            lines.append("types left out: " + reasons_text(self.fell_out))
+        if not self.ranked and self.missed:
+            one = self.missed[0]
+            fault = f"; {one.faults}" if one.faults else ""
+            lines.append(f"nearest: {self.name(one)} ({self._roles(one)}), largest miss {one.miss:.2e}{fault}")
+        return lines
+
+    def rows(self) -> list[tuple[str, ...]]:
+        """Return the row of each ranked design."""
+        return [
+            (
+                str(place), self.name(one), str(self.links(one)), self._roles(one),
+                "met" if round(one.miss, _MET) == 0.0 else f"{one.miss:.1e}",
+                f"{one.sensitivity:.3g}", "" if one.travel is None else f"{degrees(one.travel):.1f}°",
+                "yes" if one.pareto else "",
+            )
+            for place, one in enumerate(self.ranked, 1)
+        ]  # fmt: skip
+
+    def _roles(self, one: RankedDesign) -> str:
+        return ", ".join(f"{role} {link}" for role, link in zip(self.task.roles, one.candidate.links, strict=True))
+
+    def blocks(self) -> list[Block]:
+        """Return the lines that are printed."""
+        lines: list[Block] = list(self.first_lines())
+        if self.ranked:
+            lines.append(TableBlock(_HEADS, self.rows(), ("rank", "links")))
+        return lines
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the keys that scripts rely on (docs/command-json.md)."""
+        return {
+            "types": self.structure.types,
+            "placements": self.structure.placements,
+            "starts": self.starts,
+            "left_out": dict(self.fell_out),
+            "placements_left_out": dict(self.structure.placements_left_out),
+            "ranked": [self._json(one) for one in self.ranked],
+            "missed": [self._json(one) for one in self.missed],
+        }
+
+    def _json(self, one: RankedDesign) -> dict[str, Any]:
+        pairs = zip(self.task.roles, one.candidate.links, strict=True)
+        return {
+            "type": one.candidate.code,
+            "name": self.name(one),
+            "from": one.candidate.source,
+            "links": self.links(one),
+            "roles": {role: str(link) for role, link in pairs},
+            "start": one.start,
+            "miss": one.miss,
+            "misses": list(one.misses),
+            "residual": one.record.get("error"),
+            "sensitivity": one.sensitivity,
+            "travel_deg": None if one.travel is None else degrees(one.travel),
+            "pareto": one.pareto,
+            "faults": one.faults,
+        }
+
+
+def ranked_types(
+    structure: TaskStructure, rows: Rows, weights: Mapping[int, float] | None = None, seed: int = 0
+) -> RankedTypes:
+    """Rank the designs that a task's starts gave.
+
+    Parameters
+    ----------
+    structure : TaskStructure
+    rows : list of dict
+        As `synth.tasks.dimensioning.halved` returns them.
+    weights : mapping of int to float, optional
+        Weights of wishes by their numbers, from 0, in place of 1: a wish of weight 0 does not count.
+    seed : int, optional
+        Of the starts.
+
+    Returns
+    -------
+    RankedTypes
+
+    Examples
+    --------
+    See `RankedTypes`.
+    """
+    candidates = candidates_of(structure)
+    by_type: dict[tuple[str, str], list[RankedDesign]] = defaultdict(list)
+    for row in rows:
+        candidate = candidates[row["candidate"]]
+        by_type[candidate.source, candidate.code].append(_of_row(candidate, row, weights or {}))
+    size = {(one.type.source, one.type.code): len(one.type.bodies) for one in structure.placed}
+    best = [min(some, key=_order) for some in by_type.values()]
+    successes = [one for one in best if one.meets and not one.faults]
+    links = {id(one): size[one.candidate.source, one.candidate.code] for one in best}
+
+    def figures(one: RankedDesign) -> tuple[float, int, float]:
+        miss, _, sensitivity = one.figures
+        return miss, links[id(one)], sensitivity
+
+    marked = [(one, not any(_beats(figures(other), figures(one)) for other in successes)) for one in successes]
+    marked.sort(key=lambda pair: (not pair[1], *_ranks(figures(pair[0])), pair[0].candidate.number))
+    ranked = tuple(_with_mark(one, pareto) for one, pareto in marked)
+    missed = sorted((one for one in best if not (one.meets and not one.faults)), key=_order)
+    return RankedTypes(structure, ranked, tuple(missed), len(rows), seed)
+
+
+def _ranks(figures: tuple[float, int, float]) -> tuple[float, ...]:
+    """Return the order of successes: fewest links first, then how exactly they have to be made, then the miss."""
+    miss, links, sensitivity = figures
+    return links, sensitivity, miss
+
+
+def _beats(one: Sequence[float], other: Sequence[float]) -> bool:
+    return all(a <= b for a, b in zip(one, other, strict=True)) and tuple(one) != tuple(other)
+
+
+def _with_mark(one: RankedDesign, pareto: bool) -> RankedDesign:
+    values = {name: getattr(one, name) for name in one.__dataclass_fields__}
+    return RankedDesign(**{**values, "pareto": pareto})
+
+
+def _order(one: RankedDesign) -> tuple[bool, float, float, int, int]:
+    """Return the order of designs of one type: successes, then the nearest, then the least sensitive."""
+    sound = one.meets and not one.faults
+    return not sound, round(one.miss, _MET), one.figures[2], one.candidate.number, one.start
+
+
+def _of_row(candidate: Candidate, row: Mapping[str, Any], weights: Mapping[int, float]) -> RankedDesign:
+    """Return the design of a row, its misses weighed anew."""
+    if not row["record"]:
+        return RankedDesign(candidate, row["start"], pi, (), inf, None, row["faults"])
+    record = json.loads(row["record"])
+    parts = tuple(figure[3] for figure in record["figures"])
+    weighed = [part * weights.get(number, 1.0) for number, part in enumerate(parts)]
+    most = max((max(figure[4].values(), default=0.0) for figure in record["figures"]), default=0.0)
+    inputs = record["defects"][2]
+    travel = max(inputs) - min(inputs) if inputs else None
+    return RankedDesign(
+        candidate, row["start"], max(weighed, default=0.0), parts, most, travel, row["faults"], False, record
+    )
+
+
+def _reason(one: RankedDesign) -> str:
+    """Return why a type fell out: its nearest design missed the wishes, or has a fault."""
+    if not one.record:
+        return _NO_MEMBER
+    if not one.meets:
+        return f"misses above {WITHIN:g}"
+    first = next((words for part, words in _FAULTS.items() if part in one.faults), None)
+    return first or "a design that does not move"

@@ -1,0 +1,149 @@
+"""The report on a task: a page of HTML that opens offline, with a picture of each ranked design."""
+
+from __future__ import annotations
+
+from html import escape
+from pathlib import Path
+
+from graphs.errors import SynthedraError
+from graphs.files.atomic import write_text
+from graphs.files.formats import write
+from graphs.mechanism.sheet import Sheet
+from graphs.printing import TableBlock, html_of
+from synth.designing.designs import FIGURE_HEADS
+from synth.drawing.mechanisms.pictures import draw
+from synth.drawing.scene.writing import svg_text
+from synth.tasks.ranking import RankedDesign, RankedTypes
+from synth.tasks.structure import reasons_text
+from synth.viewer.pages import html_page
+
+_POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
+_STYLE = (
+    "body{font-family:sans-serif;margin:2em;max-width:64em}td,th{text-align:left;padding:.2em .8em}"
+    "figure{margin:1em 0}svg{max-width:28em;height:auto}section{border-top:1px solid #bbb}"
+)
+_MOST = 20
+"""Designs with a picture and figures of their own."""
+
+
+def report_page(answer: RankedTypes) -> str:
+    """Return a page about a task: its answer, and each ranked design with its picture and figures.
+
+    Parameters
+    ----------
+    answer : RankedTypes
+
+    Returns
+    -------
+    str
+        HTML that needs nothing else.
+
+    Examples
+    --------
+    >>> from synth.tasks.answer import task
+    >>> page = report_page(task("data/tasks/lid.json", starts=1, rounds=1))
+    >>> "four-bar" in page, "<svg" in page
+    (True, True)
+    """
+    title = answer.task.title or "Task"
+    lines = "".join(f"<p>{escape(line)}</p>" for line in answer.first_lines())
+    table = html_of(answer.blocks()[len(answer.first_lines()) :])
+    parts = [_section(answer, place, one) for place, one in enumerate(answer.ranked[:_MOST], 1)]
+    fell = [(answer.name(one), str(answer.links(one)), f"{one.miss:.1e}", one.faults) for one in answer.missed]
+    others = html_of([TableBlock(("type", "links", "largest miss", "faults"), fell, ("links",))]) if fell else ""
+    left = answer.structure.placements_left_out
+    placements = f"<p>placements left out: {escape(reasons_text(left))}</p>" if left else ""
+    body = f"<h1>{escape(title)}</h1>{lines}{placements}{table}{''.join(parts)}"
+    body += f"<h2>Types that fell out when they were designed</h2>{others}" if others else ""
+    return html_page(_POLICY, f"<title>{escape(title)}</title><style>{_STYLE}</style>", body)
+
+
+def _section(answer: RankedTypes, place: int, one: RankedDesign) -> str:
+    """Return the part of a page about one design."""
+    design = answer.design(one)
+    roles = ", ".join(f"{role}: link {link}" for role, link in zip(answer.task.roles, one.candidate.links, strict=True))
+    try:
+        picture = f"<figure>{svg_text(draw(design.mechanism, numbers=True, caption=None))}</figure>"
+    except SynthedraError as error:
+        picture = f"<p>no picture: {escape(str(error))}</p>"
+    rows = html_of([TableBlock(FIGURE_HEADS, design.rows(), ())])
+    verdict = f"<p>{escape(design.verdict)}</p>"
+    return (
+        f"<section><h2>{place}. {escape(answer.name(one))}</h2><p>{escape(roles)}</p>{verdict}{picture}{rows}</section>"
+    )
+
+
+def write_report(answer: RankedTypes, path: str | Path, *, force: bool = False) -> Path:
+    """Write the report on a task.
+
+    Parameters
+    ----------
+    answer : RankedTypes
+    path : str or Path
+        A name that ends in .html.
+    force : bool, optional
+        Whether to overwrite a file.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    FileError
+        If it cannot be written.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from synth.tasks.answer import task
+    >>> answer = task("data/tasks/lid.json", starts=1, rounds=1)
+    >>> with TemporaryDirectory() as folder:
+    ...     write_report(answer, Path(folder, "lid.html")).name
+    'lid.html'
+    """
+    path = Path(path)
+    write_text(path, report_page(answer), force=force)
+    return path
+
+
+def write_designs(answer: RankedTypes, folder: str | Path, *, most: int = _MOST, force: bool = False) -> list[Path]:
+    """Write the ranked designs as files that every other command reads: ``1-four-bar.json``, ``2-watt.json``, ....
+
+    Parameters
+    ----------
+    answer : RankedTypes
+    folder : str or Path
+    most : int, optional
+        How many.
+    force : bool, optional
+        Whether to overwrite files.
+
+    Returns
+    -------
+    list of Path
+
+    Raises
+    ------
+    FileError
+        If one cannot be written.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from synth.tasks.answer import task
+    >>> with TemporaryDirectory() as folder:
+    ...     [path.name for path in write_designs(task("data/tasks/lid.json", starts=1, rounds=1), folder)]
+    ['1-four-bar.json']
+    """
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    written = []
+    for place, one in enumerate(answer.ranked[:most], 1):
+        mechanism = answer.design(one).mechanism
+        name = "".join(letter if letter.isalnum() else "-" for letter in answer.name(one))
+        suffix = "fold" if isinstance(mechanism, Sheet) else "json"
+        path = folder / f"{place}-{name}.{suffix}"
+        write(mechanism, path, force=force)
+        written.append(path)
+    return written

@@ -1,0 +1,115 @@
+"""Designs of a task: each is checked by itself, a store continues and is asked again, empty answers say what is near."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from scipy.spatial.transform import Rotation
+
+import synth
+from enumerate.runner import Interrupted
+from graphs.errors import InvariantError, StoreError
+from synth.cli.main import main
+from synth.motion.linkage import link_motions
+from synth.moving.made import configuration_of
+from synth.tasks import candidates_of, ranked_types, read_task, report_page, structure_of
+from synth.tasks.dimensioning import halved
+
+HEAD = {"format": "synthedra/task", "version": 1}
+
+
+def lid(data, **keys):
+    return {**json.loads((data / "tasks" / "lid.json").read_text()), **keys}
+
+
+@pytest.fixture(scope="module")
+def answer(data):
+    return synth.task(data / "tasks" / "lid.json", starts=1, rounds=1)
+
+
+def test_a_ranked_design_takes_the_poses(answer, data):
+    design = answer.design(answer.best)
+    linkage = configuration_of(design.mechanism).linkage
+    base, output = answer.best.candidate.links
+    wishes = read_task(data / "tasks" / "lid.json").wishes["wishes"]
+    for angles, wish in zip(design.angles.values(), wishes, strict=True):
+        turn = link_motions(linkage, np.array(list(angles.values()))[None], base)[output][0][0]
+        off = turn - Rotation.from_quat(wish["quaternion"], scalar_first=True).as_matrix()
+        assert np.abs(off).max() < 1e-8
+    assert design.success
+    assert synth.mobility(design.mechanism).freedoms.freedoms == 1
+
+
+def test_the_report_needs_nothing_else(answer):
+    page = report_page(answer)
+    assert page.count("<svg") == len(answer.ranked)
+    assert "http" not in page.replace("http://www.w3.org", "")
+    assert "1 of 2 types can do it" in page
+
+
+def test_a_store_gives_the_same_answer_when_it_was_stopped(data, tmp_path):
+    task = lid(data, distance=[])
+    task = {**task, "wishes": {**task["wishes"], "wishes": task["wishes"]["wishes"][:1]}}
+    whole = synth.task(task, starts=1, rounds=1)
+    times = []
+
+    def stop(number, progress):
+        times.append(progress.done)
+        if len(times) == 1:
+            raise Interrupted
+
+    with pytest.raises(Interrupted):
+        synth.task(task, starts=1, rounds=1, store=tmp_path / "store", report=stop)
+    again = synth.task(task, starts=1, rounds=1, store=tmp_path / "store", resume=True)
+    assert again.to_json() == whole.to_json()
+    with pytest.raises(StoreError):
+        synth.task(task, starts=1, rounds=1, store=tmp_path / "store")
+
+
+def test_other_weights_rank_the_same_rows_anew(data):
+    structure = structure_of(read_task(data / "tasks" / "lid.json"))
+    rows = halved(structure, starts=1, rounds=1)
+    figures = json.loads(rows[0]["record"])
+    figures["figures"][1][3] = 0.5
+    missed = [{**rows[0], "record": json.dumps(figures)}]
+    assert not ranked_types(structure, missed).ranked
+    assert ranked_types(structure, missed, {1: 0.0}).ranked
+    assert ranked_types(structure, missed).fell_out["misses above 1e-06"] == 1
+
+
+def test_an_empty_answer_says_what_was_nearest(data, tmp_path):
+    """Neighbours turn about one axis: no spherical linkage takes them through two rotations about different axes."""
+    place = tmp_path / "task.json"
+    place.write_text(json.dumps(lid(data, distance=[{"roles": ["base", "output"], "number": 1}])))
+    result = CliRunner().invoke(main, ["task", str(place), "--starts", "1", "--rounds", "1", "--workers", "1"])
+    assert result.exit_code == 1, result.output
+    assert "0 of 2 types can do it" in result.output
+    assert "nearest: four-bar (base 0, output 1)" in " ".join(result.output.split())
+
+
+def test_the_better_half_goes_on_with_twice_as_many_starts(data):
+    task = read_task(data / "tasks" / "lid.json")
+    task = replace(task, distances=(), links=task.links)
+    structure = structure_of(task)
+    assert len(candidates_of(structure)) == 2
+    rows = halved(structure, starts=1, rounds=3)
+    by_candidate = {number: [row["start"] for row in rows if row["candidate"] == number] for number in (0, 1)}
+    done = next(number for number in (0, 1) if any(row["success"] for row in rows if row["candidate"] == number))
+    assert by_candidate[done] == [0]
+    assert by_candidate[1 - done] == list(range(7))
+
+
+@pytest.mark.parametrize(
+    ("document", "options", "line"),
+    [
+        (HEAD, {}, "a task without wishes"),
+        (None, {"weights": {5: 1.0}}, "there is no wish 6; expected 1 to 2"),
+        (None, {"starts": 0}, "0 starts"),
+        (None, {"scheduler": "tcp://x:1"}, "a scheduler without a store"),
+    ],
+)
+def test_what_cannot_be_asked_is_one_line(document, options, line, data):
+    with pytest.raises(InvariantError, match=line):
+        synth.task(document or lid(data), **options)
