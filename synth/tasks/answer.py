@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, Literal, overload
+from typing import Literal, overload
 
 from enumerate.runner.job import Progress
 from graphs.errors import InvariantError, numbered
@@ -14,7 +14,7 @@ from synth.tasks.record import Task
 from synth.tasks.structure import TaskStructure, structure_of
 from synth.tasks.task_files import read_task, task_of_document
 
-TaskLike = Task | str | Path | Mapping[str, Any]
+TaskLike = Task | str | Path | Mapping[str, object]
 """A task, its file, or the document of a file."""
 
 

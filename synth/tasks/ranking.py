@@ -246,7 +246,9 @@ def ranked_types(
 
     Examples
     --------
-    See `RankedTypes`.
+    >>> from synth.tasks.structure import structure_of
+    >>> ranked_types(structure_of(Task(sources=("sc",))), [])
+    <RankedTypes: 0 of 5 types>
     """
     candidates = candidates_of(structure)
     by_type: dict[tuple[str, str], list[RankedDesign]] = defaultdict(list)

@@ -68,6 +68,8 @@ class CandidateType:
         Links, joints, loops with their centres.
     values : mapping of str to float, optional
         Parameters of a generator.
+    made : Mechanism, optional
+        What the generator makes of them.
 
     Examples
     --------

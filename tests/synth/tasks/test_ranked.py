@@ -1,6 +1,7 @@
 """Designs of a task: each is checked by itself, a store continues and is asked again, empty answers say what is near."""
 
 import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -39,13 +40,13 @@ def test_a_ranked_design_takes_the_poses(answer, data):
         off = turn - Rotation.from_quat(wish["quaternion"], scalar_first=True).as_matrix()
         assert np.abs(off).max() < 1e-8
     assert design.success
-    assert synth.mobility(design.mechanism).freedoms.freedoms == 1
+    assert design.freedoms == 1
 
 
 def test_the_report_needs_nothing_else(answer):
     page = report_page(answer)
     assert page.count("<svg") == len(answer.ranked)
-    assert "http" not in page.replace("http://www.w3.org", "")
+    assert not re.search(r"(src|href)=|@import|url\(", page)
     assert "1 of 2 types can do it" in page
 
 
@@ -94,11 +95,11 @@ def test_the_better_half_goes_on_with_twice_as_many_starts(data):
     task = replace(task, distances=(), links=task.links)
     structure = structure_of(task)
     assert len(candidates_of(structure)) == 2
-    rows = halved(structure, starts=1, rounds=3)
+    rows = halved(structure, starts=1, rounds=2)
     by_candidate = {number: [row["start"] for row in rows if row["candidate"] == number] for number in (0, 1)}
     done = next(number for number in (0, 1) if any(row["success"] for row in rows if row["candidate"] == number))
     assert by_candidate[done] == [0]
-    assert by_candidate[1 - done] == list(range(7))
+    assert by_candidate[1 - done] == list(range(3))
 
 
 @pytest.mark.parametrize(
