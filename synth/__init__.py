@@ -20,7 +20,8 @@ any linkage; `in_configuration`, a frame of a file, or joints at stated angles; 
 given inputs; `sweep`, many members of a type, arrays in and out. `explain`: why it moves; `layers`: whether it folds
 flat, in how many layer orders; `advise`: what to lock, which panels to crease; `states`: which members bend, and what
 springs do. Known patterns and linkages: `generate`, by parameters. Dimensions with which a mechanism moves as wished:
-`design`; types that can do a task, with dimensions, ranked: `task`. All types up to a size in a file: `open_atlas`. Models for simulators, with closed loops: `write_model`.
+`design`; types that can do a task, with dimensions, ranked: `task`.
+All types up to a size in a file: `open_atlas`. Models for simulators, with closed loops: `write_model`.
 Pictures: `draw`, of any mechanism, and their `save`; templates to cut and fold: `template`, `write_template`; pages
 that fold: `view`. In a notebook mechanisms show themselves.
 
