@@ -8,10 +8,13 @@ from dataclasses import dataclass, field
 from math import hypot
 from types import MappingProxyType
 
+import numpy as np
+
 from graphs.errors import InvariantError, numbered, shown
 from graphs.limits import LEAST, MOST, check_extent, in_reach
 from graphs.mechanism.sc import SCGraph
-from graphs.types import JointId, LinkId
+from graphs.tolerances import DOUBLE
+from graphs.types import Floats, JointId, LinkId
 
 Vector = tuple[float, float, float]
 Axis = tuple[Vector, Vector]
@@ -94,9 +97,63 @@ class HingedSolids:
             _check_shape(self.chain, shape, place)
         object.__setattr__(self, "axes", MappingProxyType(checked))
 
+    @property
+    def flat_panels(self) -> bool:
+        """Whether links are solid panels side by side: all have shapes, all axes are level (along z = constant)."""
+        solid = {shape.link for shape in self.shapes} >= set(self.chain.nodes)
+        return solid and all(abs(axis[2]) <= DOUBLE.parallel * hypot(*axis) for _, axis in self.axes.values())
+
+    def senses(self) -> dict[JointId, int]:
+        """Return the sense in which each hinge of flat panels can turn: 1 for positive angles, -1 for negative ones.
+
+        Where the material of both links at the hinge lies below the axis they fold upwards, where it lies above it
+        downwards. It is 0 where neither is so, or no solid reaches the axis.
+
+        Examples
+        --------
+        >>> import synth
+        >>> thick = synth.thicken(synth.generate("miura").mechanism, thickness=0.05, collisions=False)
+        >>> [thick.solids.senses()[joint] for joint in (1, 5)] == [1 if j in thick.valleys else -1 for j in (1, 5)]
+        True
+        """
+        rings = {link: np.zeros((0, 3, 3)) for link in self.chain.nodes}
+        for shape in self.shapes:
+            solid = np.array(shape.corners, dtype=float)[np.array(shape.triangles)]
+            rings[shape.link] = np.concatenate([rings[shape.link], solid])
+        return {
+            joint: _sense(*(_beside_axis(self.axes[joint], rings[link]) for link in links))
+            for joint, links in self.chain.joints.items()
+        }
+
     def __repr__(self) -> str:
         links, joints = numbered(len(self.chain), "link"), numbered(len(self.axes), "joint")
         return f"<HingedSolids: {links}, {joints}>"
+
+
+def _sense(first: tuple[int, int], second: tuple[int, int]) -> int:
+    """Return the sense in which a hinge can turn, by where the material of its links is: (below or above, side)."""
+    return -second[0] * second[1] if first[0] == second[0] else 0
+
+
+def _beside_axis(axis: Axis, triangles: Floats) -> tuple[int, int]:
+    """Return whether the material of a link at a level axis is below it, -1, or above, 1; and on which side of it.
+
+    The side is 1 if a positive angle lifts it. Triangles are float[n, 3, 3].
+    """
+    point, direction = np.array(axis[0]), np.array(axis[1])
+    along = direction / np.linalg.norm(direction)
+    towards = triangles - point
+    across, heights, ends = towards @ np.array([-along[1], along[0], 0.0]), towards[..., 2], towards @ along
+    reach = DOUBLE.meant * float(np.abs(towards).max(initial=0.0))
+    upright = np.abs(across) <= reach
+    on = upright & (np.abs(heights) <= reach)
+    if not on.any():
+        return 0, 0
+    # Faces in the upright plane through the axis; a riser of another hinge may stand at an end of this one.
+    middles = ends.mean(axis=1)
+    there = upright.all(axis=1) & (middles > ends[on].min()) & (middles < ends[on].max())
+    low, high = (bool((sign * heights[there] > reach).any()) for sign in (-1.0, 1.0))
+    return int(high) - int(low), int(np.sign(across[on.any(axis=1)].sum()))
 
 
 def _check_shape(chain: SCGraph, shape: LinkShape, place: int) -> None:

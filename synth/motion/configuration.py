@@ -8,7 +8,7 @@ docs/theory/mending.md.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import ceil, floor, log10
 from typing import Any, NamedTuple
@@ -20,6 +20,7 @@ from graphs.errors import UnsolvableError, numbered, shown
 from graphs.loops.loop import Centre
 from graphs.mechanism.precision import Precision
 from graphs.mechanism.sheet import Reading, Sheet
+from graphs.mechanism.solids import HingedSolids
 from graphs.tolerances import DOUBLE, EPSILON, Tolerances
 from graphs.types import Floats, JointId
 from synth.motion.branches import MOST_JOINTS, Branch, Branches, branches_of, search_for
@@ -124,11 +125,16 @@ class Configuration:
     @property
     def limited(self) -> bool:
         """Whether joints end at 180 degrees, where panels lie on each other."""
-        return False
+        return isinstance(self.given, HingedSolids) and self.given.flat_panels
 
     @property
     def marks(self) -> Floats:
-        """The assignment: 1 for valleys and -1 for mountains, 0 for joints without one."""
+        """The assignment: 1 for valleys and -1 for mountains, 0 for joints without one.
+
+        Of solid panels it is the sense in which each hinge can turn, by the side at which it is.
+        """
+        if self.limited and isinstance(self.given, HingedSolids):
+            return np.array(list(self.given.senses().values()), dtype=float)
         return np.zeros(len(self.linkage.angles))
 
     @property
@@ -193,6 +199,13 @@ class Configuration:
     def closure(self) -> ClosureEquations:
         """The closure equations of the linkage."""
         return ClosureEquations(self.linkage)
+
+    @cached_property
+    def thin(self) -> ClosureEquations | None:
+        """For solid panels side by side: the closure equations of the thin sheet, all of whose hinges are level."""
+        if self.has_panels or not self.limited:
+            return None
+        return ClosureEquations(replace(self.linkage, points=self.linkage.points * np.array([1.0, 1.0, 0.0])))
 
     @cached_property
     def branches(self) -> Branches | None:

@@ -12,10 +12,11 @@ import numpy as np
 
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.mechanism.sheet import Sheet
-from graphs.printing import Block, Printed
+from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId, LinkId
 from synth.motion.branches import Branch, Branches, Method
+from synth.motion.closure import corrected
 from synth.motion.configuration import Configuration, listed
 from synth.motion.driving import DrivenMotion, MotionOptions, driven_from
 from synth.motion.linkage import PosedLinkage, link_motions, moved
@@ -156,6 +157,30 @@ class Motion(Printed):
         local = (place - self.linkage.middle) / self.linkage.extent
         return np.asarray((rotation @ local + shift) * self.linkage.extent + self.linkage.middle)
 
+    def beside_thin(self) -> tuple[Floats, float] | None:
+        """Return the angles of the thin sheet beside those of solid panels; None for other mechanisms.
+
+        Returns
+        -------
+        (float[F, J], float) or None
+            The nearest fold angles, radians, at which the thin sheet closes in each frame, and its largest
+            loop-closure residual at the angles of the solids.
+
+        Examples
+        --------
+        >>> import synth
+        >>> miura = synth.generate("miura", rows=2, columns=2).mechanism
+        >>> motion = synth.move(synth.thicken(miura, thickness=0.05, collisions=False).solids, frames=3)
+        >>> angles, residual = motion.beside_thin()
+        >>> angles.shape, residual < 1e-9
+        ((4, 4), True)
+        """
+        thin = self.configuration.thin
+        if thin is None:
+            return None
+        nearest = np.array([corrected(thin, angles).angles for angles in self.path.angles])
+        return nearest, max(thin.error(angles) for angles in self.path.angles)
+
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         branches, taken, reading = self.branches, self.taken, self.configuration.reading
@@ -182,7 +207,35 @@ class Motion(Printed):
             "assignment_kept": self._of_assignment(),
             "crossing_frames": list(self.crossing),
             "resting": None if self.resting is None else self.resting.to_json(),
+            **self._thin_to_json(),
         }
+
+    def _thin_to_json(self) -> dict[str, Any]:
+        beside = self.beside_thin()
+        if beside is None:
+            return {}
+        columns = zip(self.joints, np.degrees(beside[0].T).tolist(), strict=True)
+        return {"thin": {"closure": beside[1], "joint_angles_deg": {str(joint): column for joint, column in columns}}}
+
+    def _lines_beside_thin(self) -> list[Block]:
+        """Return the final fold angles of solid panels beside those of the thin sheet."""
+        beside = self.beside_thin()
+        if beside is None:
+            return []
+        thin, residual = np.degrees(beside[0]), beside[1]
+        solid = np.degrees(self.path.angles)
+        same = residual <= self.configuration.tolerances.closed
+        which = "those of the thin sheet" if same else "not those of the thin sheet"
+        most = f"largest difference {np.abs(solid - thin).max():.2g}°"
+        rows = [
+            (shown(joint), f"{one + 0.0:.6g}", f"{other + 0.0:.6g}")
+            for joint, one, other in zip(self.joints, solid[-1].tolist(), thin[-1].tolist(), strict=True)
+        ]
+        columns = ("crease", "solids in degrees", "thin sheet in degrees")
+        return [
+            f"fold angles: {which}, whose loops close at them to {residual:.1g}; {most}",
+            TableBlock(columns, rows, columns),
+        ]
 
     def blocks(self) -> list[Block]:
         """Return the lines that are printed."""
@@ -192,8 +245,9 @@ class Motion(Printed):
         if self.path.stopped:
             lines.append(f"stopped: {self.path.stopped}")
         lines += self._lines_of_branch()
-        mismatch = f"; relative vertex mismatch {self.apart:.1e}" if self.configuration.limited else ""
+        mismatch = f"; relative vertex mismatch {self.apart:.1e}" if self.configuration.has_panels else ""
         lines.append(f"loop-closure residual {self.closure:.1e}{mismatch}")
+        lines += self._lines_beside_thin()
         if not self.configuration.limited:
             ends = zip(self.joints, np.degrees(self.path.angles[-1]), strict=True)
             angles = ", ".join(f"{shown(joint)} = {angle:.6g}°" for joint, angle in ends)

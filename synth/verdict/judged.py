@@ -62,7 +62,7 @@ def verdict_of_motion(configuration: Configuration, generic: int | None = None) 
     Rigid-foldable from the flat state: 1 degree of freedom. 2 folding branches.
     """
     if not configuration.joints:
-        lacking = "creases between panels" if configuration.limited else "joints"
+        lacking = "creases between panels" if configuration.has_panels else "joints"
         return Verdict(0, "motion", "proved", f"Rigid: there are no {lacking}.")
     branches = configuration.branches
     if branches is None or configuration.one_way:

@@ -305,7 +305,7 @@ def _unknown(findings: MotionFindings) -> str:
 
 def _answer(findings: MotionFindings) -> str:
     """Return the first sentence: whether it moves, from where, and with how many degrees of freedom."""
-    moves = "Rigid-foldable" if findings.at.limited else "Mobile"
+    moves = "Rigid-foldable" if findings.at.has_panels else "Mobile"
     start = "from the flat state" if findings.at.flat else "from this configuration"
     count, freedoms = "degrees of freedom unknown", findings.freedoms
     if freedoms is None and findings.bounds is not None:

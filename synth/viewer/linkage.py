@@ -1,8 +1,8 @@
 """A linkage as the page shows and moves it: what is seen of it, its spherical centres, and the data of the solver.
 
-A crease pattern shows its panels. Other linkages have axes only: each joint shows a piece of its axis, each link
-the hull of the pieces of its joints, the least body that carries them. Links on a cone or a cylinder are curved
-shells that lie over their arcs of it. Theory: docs/theory/viewer.md,
+A crease pattern shows its panels, hinged solids the shapes of their links. Other linkages have axes only: each joint
+shows a piece of its axis, each link the hull of the pieces of its joints, the least body that carries them. Links on a
+cone or a cylinder are curved shells that lie over their arcs of it. Theory: docs/theory/viewer.md,
 docs/theory/centre-classes.md.
 """
 
@@ -24,6 +24,7 @@ from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre
 from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet, sides_of_face
+from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import Cylinder, Surface
 from graphs.tolerances import DOUBLE, EPSILON, Tolerances
 from graphs.types import Floats, Ints, LinkId
@@ -31,6 +32,7 @@ from synth.conformed.behaviours import link_arcs
 from synth.conformed.linkages import OnSurface
 from synth.conformed.rates import ConformedChain
 from synth.drawing.space.panels import joints_of_links, same_side_up
+from synth.drawing.space.solids import faces_of_shapes
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.closure import frames_of
 from synth.motion.configuration import Configuration
@@ -136,6 +138,28 @@ def bodies_of_linkage(linkage: PosedLinkage) -> Bodies:
         sides -= {(first + 2 * place, first + 2 * place + 1) for place in range(len(joints))}  # those are axes
         edges += [(a, b, _BODY, -1) for a, b in sorted(sides)]
     return Bodies(np.concatenate([np.zeros((0, 3)), *vertices]), owners, faces, edges)
+
+
+def bodies_of_shapes(solids: HingedSolids, linkage: PosedLinkage) -> Bodies:
+    """Return the shapes of the links of hinged solids, and the piece of each axis at which there is material."""
+    shown = faces_of_shapes(solids, linkage)
+    corners, owners = [shown.corners], list(shown.owners)
+    on_hinges: dict[int, list[int]] = {}
+    for side, joint in shown.hinges.items():
+        on_hinges.setdefault(joint, []).extend(side)
+    edges = [(a, b, _BODY, -1) for a, b in shown.sides]
+    pieces = _pieces(linkage)
+    number = {link: place for place, link in enumerate(linkage.graph.nodes)}
+    for joint, (first, _) in enumerate(linkage.graph.joints.values()):
+        ends = pieces[joint]
+        if joint in on_hinges:
+            along = linkage.directions[joint]
+            reach = (shown.corners[on_hinges[joint]] - linkage.points[joint]) @ along
+            ends = linkage.points[joint] + np.array([[reach.min()], [reach.max()]]) * along
+        edges.append((len(owners), len(owners) + 1, _AXIS, joint))
+        owners += [number[first]] * 2
+        corners.append(ends)
+    return Bodies(np.concatenate(corners), owners, shown.faces, edges)
 
 
 def bodies_on_surface(on_surface: OnSurface, linkage: PosedLinkage) -> Bodies:

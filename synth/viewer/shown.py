@@ -15,6 +15,7 @@ from graphs.convert.table import Mechanism
 from graphs.errors import SynthedraError, UnsolvableError
 from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import SurfaceLinkage
 from graphs.printing import plain
 from graphs.tolerances import DOUBLE, leading
@@ -40,6 +41,7 @@ from synth.viewer.linkage import (
     Bodies,
     ShownCentre,
     bodies_of_linkage,
+    bodies_of_shapes,
     bodies_of_sheet,
     bodies_on_surface,
     centres_of,
@@ -332,7 +334,7 @@ def _moving(
             notes.append(str(error))
     centres = () if still else centres_of(at)
     if not isinstance(at, SheetConfiguration):
-        return at, MovingLinkage(at.linkage, _bodies(mechanism, at), ways, centres, ground=0, limited=False)
+        return at, MovingLinkage(at.linkage, _bodies(mechanism, at), ways, centres, ground=0, limited=at.limited)
     bodies = bodies_of_sheet(at.sheet, at.mechanism, at.linkage)
     return at, MovingLinkage(at.linkage, bodies, ways, centres, largest_panel(at.mechanism.panels), limited=True)
 
@@ -349,7 +351,9 @@ def _flat_pattern(mechanism: Mechanism) -> Sheet | None:
 
 
 def _bodies(mechanism: Mechanism, at: Configuration) -> Bodies:
-    """Return the bodies of a linkage by its axes: curved shells if it lies on a cone or a cylinder."""
+    """Return the bodies of a linkage: shapes of links, curved shells on a cone or a cylinder, else by its axes."""
+    if isinstance(mechanism, HingedSolids) and mechanism.shapes:
+        return bodies_of_shapes(mechanism, at.linkage)
     if not isinstance(mechanism, SurfaceLinkage):
         return bodies_of_linkage(at.linkage)
     (on_surface,) = linkage_on_surfaces(mechanism)

@@ -100,7 +100,8 @@ def convert(
     \b
     Formats written:
       .csv                 with --table: joint axes and angles, or vertices, in each frame of a .fold file
-      .stl .3mf .gltf      panels as thin solids, with gaps at hinges; .obj too, with --thickness;
+      .stl .3mf .gltf      panels as thin solids, with gaps at hinges, shapes of hinged solids; .obj
+                           too, of panels with --thickness;
                            .gltf animates the frames of a .fold file; a linkage on a surface in layers
 
     \b
@@ -143,6 +144,7 @@ def convert(
     notes: tuple[str, ...] = getattr(original, "notes", ())
     with about(source):
         mechanism = synth.convert(original, kind, form=form)
+        of_solids = of_solids or (model is None and Path(target).suffix.lower() == ".obj" and _has_shapes(mechanism))
         if table is not None:
             from graphs.files.atomic import write_text
             from synth.moving import table_text
@@ -213,6 +215,13 @@ def _write_model(
     )  # fmt: skip
     assembly = write_assembly(at, target, model, how, force=force)
     return MODELS[model].lost(assembly), assembly.notes
+
+
+def _has_shapes(mechanism: Mechanism) -> bool:
+    """Check whether a mechanism is of hinged solids whose links have shapes."""
+    from graphs.mechanism.solids import HingedSolids
+
+    return isinstance(mechanism, HingedSolids) and bool(mechanism.shapes)
 
 
 def _write_solids(mechanism: Mechanism, target: str, *, force: bool, **solid: Any) -> tuple[str, ...]:

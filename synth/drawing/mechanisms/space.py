@@ -13,7 +13,7 @@ from graphs.errors import UnsolvableError, numbered
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
-from graphs.types import Floats, LinkId
+from graphs.types import Floats, JointId, LinkId
 from synth.drawing.layout.mechanisms import layout_of
 from synth.drawing.mechanisms.labelling import beside, placed
 from synth.drawing.scene.frame import PLAIN, PictureOptions, captions_of, framed, page_of
@@ -29,6 +29,7 @@ from synth.drawing.space.panels import (
     view_of_motion,
 )
 from synth.drawing.space.poses import strip_of_poses
+from synth.drawing.space.solids import faces_of_shapes
 from synth.folding.configuration import SheetConfiguration
 from synth.moving.made import configuration_of
 from synth.moving.motion import poses_of_file
@@ -60,12 +61,16 @@ def folded_scene(sheet: Sheet | SheetConfiguration, options: PictureOptions = PL
 
 
 def solids_scene(solids: HingedSolids, options: PictureOptions = PLAIN) -> Scene:
-    """Return a picture of solids hinged at edges: each the hull of its hinges, these orange.
+    """Return a picture of solids hinged at edges: their shapes, or each the hull of its hinges, these orange.
 
     Numbers are those of links, on their visible parts, and of joints, beside their hinges. Raise InvariantError if
     the axes of a loop do not meet in its centre.
     """
-    panels, points = bodies_of(configuration_of(solids).linkage)
+    linkage = configuration_of(solids).linkage
+    panels, points = bodies_of(linkage)
+    if solids.shapes:
+        shown = faces_of_shapes(solids, linkage)
+        panels, points = shown.panels(linkage), shown.corners
     links, joints = numbered(len(solids.chain), "link"), numbered(len(solids.chain.joints), "joint")
     return _spatial_scene(panels, points, options, f"{links}, {joints}; in space, hinges orange")
 
@@ -91,11 +96,13 @@ def _numbers_of_hinges(
 ) -> list[Label]:
     """Return the numbers of joints beside their visible hinges, off the numbers of links."""
     wishes: list[tuple[Label, list[Point]]] = [(label, [label.at]) for label in others]
-    lines = []
+    lines: list[tuple[Point, Point]] = []
+    labelled: set[JointId] = set()
     for ends, joint in panels.joint_of.items():
         (ax, ay), (bx, by) = (page[end] for end in sorted(ends))
         middle = ((ax + bx) / 2, (ay + by) / 2)
-        if _is_seen(panels, ends, middle, visible):
+        if joint not in labelled and _is_seen(panels, ends, middle, visible):
+            labelled.add(joint)
             label = Label((0, 0), str(joint), 0.85 * SMALL, "class1", widest=8, data=(("joint", str(joint)),))
             wishes.append((label, beside(middle, 0.8 * SMALL)))
             lines.append(((ax, ay), (bx, by)))

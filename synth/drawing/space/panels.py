@@ -22,6 +22,8 @@ from synth.motion.linkage import PosedLinkage, link_motions
 
 HINGE = "H"
 """The letter of an edge that is a hinge of solids."""
+INNER = "I"
+"""The letter of a side of a triangle inside a plane face, which is not drawn."""
 _LETTERS = {"M": "mountain", "V": "valley", "U": "ink", "C": "cut", "B": "ink", HINGE: "class1"}
 _LIGHT = unit([0.35, -0.45, 0.82])
 _DARKEST = 0.5
@@ -230,7 +232,10 @@ def panel_shapes(
         dark = _DARKEST * (1.0 - abs(float(normal @ _LIGHT)))
         shapes.append(Polygon(corners[face], side, None, data=data))
         shapes.append(Polygon(corners[face], "shadow", None, opacity=dark))
-        shapes += [_edge(panels, (a, b), [page[a], page[b]]) for a, b in sides_of_face(row)]
+        shapes += [
+            _edge(panels, (a, b), [page[a], page[b]])
+            for a, b in sides_of_face(row) if panels.letters.get(frozenset((a, b))) != INNER
+        ]  # fmt: skip
     return shapes, corners
 
 

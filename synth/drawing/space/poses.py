@@ -32,6 +32,7 @@ from synth.drawing.space.panels import (
     places_of_hinges,
     view_of_motion,
 )
+from synth.drawing.space.solids import faces_of_shapes
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.motion import Motion
 
@@ -241,7 +242,11 @@ def write_motion(motion: Motion, path: str | Path, *, force: bool = False) -> li
         sheets = () if is_picture else motion.sheets()
         poses = Poses(at.sheet, motion.places, sheets)
     elif is_picture and isinstance(at.given, HingedSolids | JointedLinkage):
-        poses = Poses(bodies_of(motion.linkage)[0], places_of_hinges(motion.linkage, motion.path.angles))
+        if isinstance(at.given, HingedSolids) and at.given.shapes:
+            shown = faces_of_shapes(at.given, motion.linkage)
+            poses = Poses(shown.panels(motion.linkage), shown.places(motion.linkage, motion.path.angles))
+        else:
+            poses = Poses(bodies_of(motion.linkage)[0], places_of_hinges(motion.linkage, motion.path.angles))
     else:
         are_solids = isinstance(at.given, HingedSolids | JointedLinkage)
         solids = f"solids are drawn as {listed(_PICTURES_OF_POSES)}; " if are_solids else ""

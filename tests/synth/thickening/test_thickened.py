@@ -6,10 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from commands import run
+from fans import fan
 
 import synth
 from graphs.errors import SynthedraError
 from graphs.files.formats import read
+from synth.drawing.space.solids import faces_of_shapes
+from synth.moving.made import configuration_of
+from synth.viewer.shown import shown_of
 
 
 @pytest.mark.parametrize("name", ["miura", "square-twist"])
@@ -87,3 +91,73 @@ def test_the_command_writes_solids_that_other_commands_take(tmp_path):
         target = tmp_path / f"thick{suffix}"
         assert run("thicken", source, "--thickness", "0.1", "--no-collisions", "-o", target).exit_code == 0
         assert target.stat().st_size > 1000
+
+
+def test_the_file_moves_as_the_sheet_was_meant_to_with_its_angles_beside_those_of_the_thin_one(tmp_path):
+    thick = synth.thicken(synth.generate("miura").mechanism, thickness=0.05, collisions=False)
+    thick.write(tmp_path / "thick.json")
+    solids = read(tmp_path / "thick.json")
+    # Valleys turn in the positive sense, as material below their axes lets them.
+    assert solids.senses() == {joint: 1 if int(joint) in thick.valleys else -1 for joint in solids.chain.joints}
+    motion = synth.move(solids, frames=3)
+    beside, residual = motion.beside_thin()
+    assert residual < 1e-12
+    assert np.allclose(beside, motion.path.angles, atol=1e-12)
+    assert np.degrees(abs(motion.path.angles).max()) == pytest.approx(179.0)
+    text = str(motion)
+    assert "fold angles: those of the thin sheet" in text
+    assert "against the assignment" not in text
+    assert motion.to_json()["thin"]["closure"] == residual
+    # Corners of what is drawn are where the answer of `thicken` puts panels at the same angles.
+    shown = faces_of_shapes(solids, motion.linkage)
+    places = shown.places(motion.linkage, motion.path.angles) * motion.linkage.extent + motion.linkage.middle
+    rotations, shifts = replace(thick, angles=motion.path.angles).panel_motions()
+    for frame in range(len(places)):
+        placed = np.concatenate([mesh.corners for mesh in thick.plates.placed(rotations[frame], shifts[frame])])
+        assert abs(places[frame] - placed).max() < 1e-9
+
+
+def test_a_page_shows_the_solids_and_their_hinges():
+    thick = synth.thicken(synth.generate("miura").mechanism, thickness=0.05, collisions=False)
+    moving = shown_of(thick.solids).moving.to_json()
+    assert moving["solver"]["limited"]
+    bodies = moving["bodies"]
+    count = sum(len(mesh.corners) for mesh in thick.plates.meshes)
+    assert len(bodies["vertices"]) == count + 2 * 12
+    axes = [edge for edge in bodies["edges"] if edge["joint"] >= 0]
+    lengths = [np.linalg.norm(np.subtract(*(bodies["vertices"][end] for end in edge["ends"]))) for edge in axes]
+    told = [sum(np.linalg.norm(b - a) for a, b in lines) for lines in thick.hinge_lines.values()]
+    assert np.allclose(np.array(lengths) * moving["extent"], told)
+    # The volume within the faces is that of the plates.
+    corners = np.array(bodies["vertices"])
+    volume = sum(
+        corners[face["vertices"][0]] @ np.cross(corners[face["vertices"][i]], corners[face["vertices"][i + 1]]) / 6.0
+        for face in bodies["faces"] for i in range(1, len(face["vertices"]) - 1)
+    )  # fmt: skip
+    assert volume * moving["extent"] ** 3 == pytest.approx(thick.plates.volume)
+
+
+def test_the_thin_sheet_closes_at_the_fold_angles_of_five_thick_creases():
+    """Rotations round a vertex do not depend on heights, so the thin sheet closes wherever the solids do."""
+    last = np.radians(80.0)
+    side = (np.pi - last) / 2
+    sheet = fan([side, np.pi / 2, last, np.pi / 2, side], "VMMMM")
+    solids = synth.thicken(sheet, thickness=0.01, collisions=False).solids
+    motion = synth.move(solids, frames=2)
+    beside, residual = motion.beside_thin()
+    assert residual < 1e-12
+    assert np.allclose(beside, motion.path.angles, atol=1e-12)
+    assert abs(configuration_of(sheet).closure.at(motion.path.angles[-1])[0]).max() < 1e-12
+
+
+def test_commands_draw_the_solids(tmp_path):
+    source, target = tmp_path / "thick.json", tmp_path / "thick.svg"
+    thick = synth.thicken(synth.generate("miura", rows=2, columns=2).mechanism, thickness=0.05, collisions=False)
+    thick.write(source)
+    run("draw", source, "-o", target)
+    visible = target.read_text().count("data-link=")
+    assert visible > 4 * 3
+    run("fold", source, "--frames", "2", "-o", tmp_path / "strip.svg")
+    run("convert", source, tmp_path / "thick.obj")
+    text = (tmp_path / "thick.obj").read_text()
+    assert text.count("\no ") == len(thick.plates.meshes)
