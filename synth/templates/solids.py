@@ -50,7 +50,7 @@ class Plates:
         for face in range(len(sheet.faces)):
             for number, polygon in enumerate(_without_hinges(panels, face, gap / 2)):
                 name = f"panel {face}" + (f" part {number}" if number else "")
-                self.meshes.append(_plate(polygon, thickness, name))
+                self.meshes.append(pierced_plate(polygon, thickness, name))
                 self.faces.append(face)
 
     def motions(self, sheet: Sheet, poses: Floats) -> tuple[Floats, Floats]:
@@ -99,25 +99,30 @@ def _without_hinges(panels: Panels, face: int, width: float) -> list[Any]:
 
 def plate_of(corners: Floats, thickness: float, name: str) -> Mesh:
     """Return a plate about the plane of a polygon with corners float[n, 2]."""
-    return _plate(shapely.Polygon(corners), thickness, name)
+    return pierced_plate(shapely.Polygon(corners), thickness, name)
 
 
-def _plate(polygon: Any, thickness: float, name: str) -> Mesh:
-    """Return a plate about the plane of a polygon."""
-    ring = np.array(shapely.orient_polygons(polygon).exterior.coords)[:-1]
-    index = {tuple(corner): number for number, corner in enumerate(ring.tolist())}
-    count = len(ring)
+def pierced_plate(polygon: Any, thickness: float, name: str) -> Mesh:
+    """Return a plate about the plane of a polygon, which may have holes."""
+    around = shapely.orient_polygons(polygon)
+    rings = [np.array(ring.coords)[:-1] for ring in (around.exterior, *around.interiors)]  # these go the other way
+    corners = np.concatenate(rings)
+    index = {tuple(corner): number for number, corner in enumerate(corners.tolist())}
+    count = len(corners)
     top = [
         [index[tuple(corner)] for corner in shapely.orient_polygons(triangle).exterior.coords[:-1]]
         for triangle in shapely.constrained_delaunay_triangles(polygon).geoms
     ]
     triangles = [[corner + count for corner in triangle] for triangle in top]
     triangles += [triangle[::-1] for triangle in top]
-    for here in range(count):
-        after = (here + 1) % count
-        triangles += [[here, after, after + count], [here, after + count, here + count]]
+    first = 0
+    for ring in rings:
+        for place in range(len(ring)):
+            here, after = first + place, first + (place + 1) % len(ring)
+            triangles += [[here, after, after + count], [here, after + count, here + count]]
+        first += len(ring)
     heights = np.repeat([-thickness / 2, thickness / 2], count)
-    return Mesh(name, np.column_stack([np.tile(ring, (2, 1)), heights]), np.array(triangles))
+    return Mesh(name, np.column_stack([np.tile(corners, (2, 1)), heights]), np.array(triangles))
 
 
 def _frame(corners: Floats, plane: Plane, where: str) -> tuple[Floats, Floats]:

@@ -1,8 +1,8 @@
 """Crease patterns of thick panels: hinges moved off the plane of the sheet, solids that are shown to move.
 
 `heights` has the conditions of vertices and the linear programme for the heights of hinges, `plates` the solids of
-panels, cut back where they meet, `collisions` their distances and the swept motion, `techniques` hinges in the plane
-and the parts list, `thickened` the answer. Theory: docs/theory/thick-panels.md.
+panels, cut back where they meet, `collisions` their distances and the swept motion, `techniques` hinges in the plane,
+`fittings` bores, pockets and the parts list, `thickened` the answer. Theory: docs/theory/thick-panels.md.
 """
 
 from graphs.lazy import offered

@@ -27,7 +27,7 @@ from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE, MARGIN
 from graphs.types import Floats, Ints
-from synth.templates.solids import plate_of
+from synth.templates.solids import pierced_plate
 from synth.thickening.collisions import ConvexPieces, MovingPieces, pieces_of, separations
 from synth.thickening.heights import HingeHeights
 
@@ -499,6 +499,5 @@ def _convex(polygon: Any) -> bool:
 
 
 def _prism(polygon: Any, ply: Ply, name: str) -> Mesh:
-    ring = np.array(shapely.orient_polygons(polygon).exterior.coords)[:-1]
-    plate = plate_of(ring, ply.high - ply.low, name)
+    plate = pierced_plate(polygon, ply.high - ply.low, name)
     return Mesh(name, plate.corners + np.array([0.0, 0.0, (ply.low + ply.high) / 2]), plate.triangles)

@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from math import degrees, pi, tan
 from typing import Any
 
@@ -20,22 +19,19 @@ import numpy as np
 import scipy.spatial
 import shapely
 
-from graphs.errors import InvariantError, UnsolvableError, numbered
+from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.solids.meshes import Mesh
 from graphs.mechanism.precision import in_space
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints
 from synth.folding.configuration import SheetConfiguration
 from synth.layering.answer import layers
-from synth.templates.pieces import Kind, Piece, TemplateLine, Text, point_of
 from synth.thickening.collisions import ConvexPieces, pieces_of
 from synth.thickening.heights import HingeHeights
-from synth.thickening.plates import Plates, Ply, ThickPlates, convex_rings, panel_outlines, polygons_of, thick_plates
+from synth.thickening.plates import Plates, Ply, ThickPlates, convex_rings, panel_outlines, thick_plates
 
 _QUARTERS = (0.25, 0.75)
 """Where on a part of a hinge screws are."""
-_SCREW, _SETBACK = 0.3, 0.5
-"""Diameter of holes for screws and their distance from the axis, as parts of the thickness: risers have room."""
 _HALVINGS = 40
 """Until a greatest thickness is known."""
 
@@ -325,64 +321,6 @@ class HingeSeat:
                     if shapely.contains(room, shapely.Point(at)):
                         centres.append(at)
         return centres
-
-
-def parts_of(
-    plates: Plates, seats: Sequence[HingeSeat], thickness: float, title: str
-) -> tuple[list[Piece], tuple[str, ...]]:
-    """Return pieces to cut out, one for each ply or section of a panel, and the note with the parts list.
-
-    Holes for screws are on both sides of each part of a hinge, at a quarter and three quarters of its length.
-    """
-    setback, diameter = _SETBACK * thickness, _SCREW * thickness
-    reach = DOUBLE.meant * thickness
-    pieces, steps = [], [f"{title}: all lengths in millimetres, heights over the plane of the sheet."]
-    holes_at: dict[int, int] = {seat.joint: 0 for seat in seats}
-    for panel in sorted(set(plates.panels)):
-        own = [seat for seat in seats if panel in seat.panels]
-        names = []
-        for low, high, outline in plates.sections(panel):
-            level = f"{_written(low)} to {_written(high)}" if high > low else f"at {_written(low)}"
-            names.append(level)
-            for polygon in polygons_of(outline):
-                strokes = [TemplateLine("CUT", *ends) for ring in (polygon.exterior, *polygon.interiors)
-                           for ends in pairwise(ring.coords)]  # fmt: skip
-                for seat in own:
-                    kind: Kind = "VALLEY" if seat.valley else "MOUNTAIN"
-                    strokes += [TemplateLine(kind, point_of(a), point_of(b)) for a, b in seat.lines]
-                    touches = low - reach <= seat.height <= high + reach
-                    for centre in seat.holes(polygon, setback, diameter) if touches and not seat.gap else ():
-                        holes_at[seat.joint] += 1
-                        ring = shapely.Point(centre).buffer(diameter / 2.0, quad_segs=4).exterior.coords
-                        strokes += [TemplateLine("CUT", *ends) for ends in pairwise(ring)]
-                middle = polygon.representative_point()
-                texts = (Text((middle.x, middle.y), f"{panel}: {level}", size=min(3.0, 0.5 * thickness)),)
-                pieces.append(Piece(tuple(strokes), texts, polygon))
-        work = "one board"
-        if len(names) > 1:
-            solid = isinstance(plates, ThickPlates)
-            work = f"glue {len(names)} plies on each other" if solid else "one board, sides sawn between outlines"
-        steps.append(f"Panel {panel}: {work}, {'; '.join(names)}.")
-    for seat in seats:
-        folded = "valley" if seat.valley else "mountain"
-        text = f"Crease {seat.joint}, {folded}, panels {seat.panels[0]} and {seat.panels[1]}: "
-        text += f"axis at {_written(seat.height)}, {seat.length:.4g} long"
-        if seat.bevel:
-            text += f", sides bevelled by {degrees(seat.bevel):.4g} degrees from upright"
-        if seat.gap:
-            text += f", a strip over a gap of {seat.gap:.4g}"
-        elif holes_at[seat.joint]:
-            holes = numbered(holes_at[seat.joint], "hole")
-            text += f", {holes} of {diameter:.3g} for screws, {setback:.4g} from the axis"
-        else:
-            text += ", a pin or tape: no room for screws"
-        steps.append(text + ".")
-    return pieces, tuple(steps)
-
-
-def _written(length: float) -> str:
-    """Return a length to a thousandth of a millimetre, without a sign for zero."""
-    return f"{round(length, 3) + 0.0:.6g}"
 
 
 def _creases_of_panels(at: SheetConfiguration, corners: Floats) -> list[list[tuple[int, Floats]]]:

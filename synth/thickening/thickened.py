@@ -6,7 +6,7 @@ Theory: docs/theory/thick-panels.md.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -36,9 +36,10 @@ from synth.moving.made import configuration_of
 from synth.templates.solids import SOLIDS, Solids
 from synth.templates.template import GREATEST, Template
 from synth.thickening.collisions import FoldCourse, Meeting, MovingPieces, body_poses
+from synth.thickening.fittings import HINGES, Bores, bores_of, drilled, parts_of, pocketed
 from synth.thickening.heights import HingeHeights, hinge_heights
 from synth.thickening.plates import Plates, ThickPlates, cut_back, hinge_lines, thick_plates
-from synth.thickening.techniques import HingeSeat, offset_plates, parts_of, strip_plates, tapered_plates, trims_of
+from synth.thickening.techniques import HingeSeat, offset_plates, strip_plates, tapered_plates, trims_of
 from synth.verdict.judged import verdict_of_motion
 from synth.verdict.verdict import Verdict
 
@@ -46,6 +47,8 @@ _CLEARANCE = 0.02
 """Default clearance of panels that no hinge joins, as a part of the thickness."""
 _DENSITY = 700.0
 """Kilograms per cubic metre, of plywood."""
+_MUCH = 0.1
+"""A part of the volume: the answer warns if more than this is cut away so that panels do not meet."""
 TECHNIQUES = ("spatial", "tapered", "offset", "hinge")
 """Ways to give panels a thickness."""
 _GREATEST_ANGLES = {"spatial": 179.0, "tapered": 150.0, "offset": 179.0, "hinge": 150.0}
@@ -171,6 +174,12 @@ class ThickSheet(Printed):
         None if they were not looked for.
     comparison : tuple of TechniqueFigures
         Of all techniques, if the best was wanted.
+    hinges : str
+        What joins panels: ``screws``, ``living`` or ``tape``.
+    bores : mapping of joint to list of (int, float[2])
+        Panel and centre of each bore for a screw, millimetres.
+    clearance : float
+        Of panels that no hinge joins, and of screws in bores, millimetres.
 
     Examples
     --------
@@ -193,6 +202,9 @@ class ThickSheet(Printed):
     how: str = "spatial"
     collisions: Collisions | None = None
     comparison: tuple[TechniqueFigures, ...] = ()
+    hinges: str = "tape"
+    bores: Bores = field(default_factory=dict)
+    clearance: float = 0.0
 
     def panel_motions(self) -> tuple[Floats, Floats]:
         """Return rotations, float[F, P, 3, 3], and translations, float[F, P, 3], of panels; panel 0 rests."""
@@ -231,6 +243,9 @@ class ThickSheet(Printed):
             part = f"{100.0 * cut / (volume + cut):.2g} percent of the volume"
             clearance = f"clearance {self.collisions.clearance:.3g} mm"
             lines.append(f"cut back: {numbered(len(self.plates.cut), 'panel')}, {part}; {clearance}")
+        if cut > _MUCH * (volume + cut):
+            advice = "try a smaller --thickness, or --how offset"
+            lines.append(f"warning: more than {100.0 * _MUCH:g} percent of the volume is cut away; {advice}")
         return lines
 
     def to_json(self) -> dict[str, Any]:
@@ -250,6 +265,12 @@ class ThickSheet(Printed):
             "keeps_angles": self.keeps_angles,
             "residual": self.residual,
             "angles_deg": np.degrees(self.angles).tolist(),
+            "hinges": self.hinges,
+            "bores": [
+                {"joint": joint, "panel": panel, "centre": centre.tolist()}
+                for joint, holes in self.bores.items()
+                for panel, centre in holes
+            ],
             "volume": self.plates.volume,
             "cut": [{"panel": panel, "volume": volume} for panel, volume in sorted(self.plates.cut.items())],
             "collisions": None
@@ -281,7 +302,9 @@ class ThickSheet(Printed):
     def template(self) -> Template:
         """Return outlines of all plies at full size, with hinges, holes and heights, and the parts list."""
         title = f"{self.how} panels of {self.thickness:g} mm"
-        pieces, steps = parts_of(self.plates, self.seats(), self.thickness, title)
+        pieces, steps = parts_of(
+            self.plates, self.seats(), self.thickness, title, self.hinges, self.bores, self.clearance
+        )
         return Template(tuple(pieces), None, configuration_of(self.solids), title, (), steps)
 
     def write(self, path: str | Path, *, force: bool = False) -> tuple[str, ...]:
@@ -305,6 +328,7 @@ def thicken(
     angle: float | None = None,
     clearance: float | None = None,
     collisions: bool = True,
+    hinges: str = "screws",
 ) -> ThickSheet:
     """Give the panels of a flat crease pattern a thickness, in such a way that it still folds.
 
@@ -327,6 +351,10 @@ def thicken(
         Between panels that no hinge joins, millimetres; by default a fiftieth of the thickness.
     collisions : bool, optional
         Cut panels back where they would meet, and find up to which fold angle none meet.
+    hinges : str, optional
+        What joins panels: ``screws`` in bores through the plies that reach the axis, wider than the screws by the
+        clearance; ``living``, flexible strips laid into pockets at the side of the axis; ``tape``, which takes no
+        material. Tapered panels, whose axes are inside, and hinge strips are left as they are.
 
     Returns
     -------
@@ -358,8 +386,10 @@ def thicken(
         raise InvariantError("how", f"{how!r}", f"one of {', '.join(TECHNIQUES)} and best")
     if angle is not None and not 0 < angle < pi:
         raise InvariantError("angle", f"angle {np.degrees(angle):.6g} degrees", "more than 0 and less than 180")
+    if hinges not in HINGES:
+        raise InvariantError("hinges", f"hinges {hinges!r}", f"one of {', '.join(HINGES)}")
     at = _flat_configuration(sheet)
-    wishes = _Wishes(thickness, scale, angle, between, collisions)
+    wishes = _Wishes(thickness, scale, angle, between, collisions, hinges)
     return _best(at, wishes) if how == "best" else _thickened(at, how, wishes)
 
 
@@ -370,6 +400,7 @@ class _Wishes:
     angle: float | None
     clearance: float
     collisions: bool
+    hinges: str
 
 
 def _best(at: SheetConfiguration, wishes: _Wishes) -> ThickSheet:
@@ -440,10 +471,25 @@ def _thickened(at: SheetConfiguration, how: str, wishes: _Wishes) -> ThickSheet:
         plates, found = _swept(plates, solids, course, clearance, lines, keep_risers=how == "offset")
     kept = lines.lines(plates) if isinstance(plates, ThickPlates) and how != "hinge" else lines.whole()
     valleys = frozenset(joint for joint in joints if at.sheet.assignments[joint] == "V")
-    solids = replace(solids, shapes=_shapes(solids, plates))
-    return ThickSheet(
-        solids, heights, plates, thickness, verdict, course.frames, keeps, residual, kept, valleys, how, found
-    )
+    return _fitted(
+        ThickSheet(
+            solids, heights, plates, thickness, verdict, course.frames, keeps, residual, kept, valleys, how, found,
+            hinges=wishes.hinges, clearance=clearance,
+        )
+    )  # fmt: skip
+
+
+def _fitted(thick: ThickSheet) -> ThickSheet:
+    """Return a thick sheet with the bores or pockets of its hinges, and its solids as shapes of links."""
+    seats, plates = thick.seats(), thick.plates
+    bores = bores_of(plates, seats, thick.thickness) if thick.hinges == "screws" else {}
+    if isinstance(plates, ThickPlates) and thick.how != "hinge":
+        if thick.hinges == "screws":
+            plates = drilled(plates, seats, bores, thick.thickness)
+        elif thick.hinges == "living":
+            plates = pocketed(plates, seats, thick.thickness)
+    solids = replace(thick.solids, shapes=_shapes(thick.solids, plates))
+    return replace(thick, plates=plates, bores=bores, solids=solids)
 
 
 def _shapes(solids: HingedSolids, plates: Plates) -> tuple[LinkShape, ...]:
@@ -552,7 +598,8 @@ def _flat_configuration(sheet: Sheet) -> SheetConfiguration:
     for joint in at.mechanism.sc.joints:
         letter = at.sheet.assignments[int(str(joint))]
         if letter not in "MV":
-            raise UnsolvableError(f"crease {joint} has the assignment {letter}; expected M or V")
+            branch = "try `synth edit --assign-branch` with a branch that `synth fold --branches` lists"
+            raise UnsolvableError(f"crease {joint} has the assignment {letter}; expected M or V; {branch}")
     if np.ptp(at.linkage.points[:, 2], axis=0) > at.tolerances.meant:
         raise UnsolvableError("the sheet is not in a plane z = constant; expected a flat crease pattern")
     return at

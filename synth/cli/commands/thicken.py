@@ -36,6 +36,12 @@ if TYPE_CHECKING:
     "Clearance between panels that no hinge joins, millimetres; by default a fiftieth of the thickness.",
     type=options.LENGTH,
 )
+@options.choice(
+    "--hinges",
+    ("screws", "living", "tape"),
+    "What joins panels: butt hinges with screws in bores; flexible strips laid into pockets; or tape.",
+    default="screws",
+)
 @options.flag("--no-collisions", "Neither cut panels back nor check whether solids meet.")
 @options.output(
     "Write the hinged solids (.json), their shapes (.stl, .3mf, .obj; .gltf with the motion), or templates with holes "
@@ -51,6 +57,7 @@ def thicken(
     angle: float | None,
     scale: float,
     clearance: float | None,
+    hinges: str,
     no_collisions: bool,
     output: str | None,
     force: bool,
@@ -85,6 +92,7 @@ def thicken(
             angle=None if angle is None else radians(angle),
             scale=scale,
             clearance=clearance,
+            hinges=hinges,
             collisions=not no_collisions,
         )
         written, lost = _written(thick, output, force=force) if output else ((), ())
