@@ -256,7 +256,7 @@ def motions(atlas: str, members: int, max_links: int, seed: int, force: bool, as
 
     opened = synth.atlas.open_atlas(atlas)
     size = planned_motions(opened, members, max_links=max_links)
-    click.echo(f"tracing {size.blocks()[0]} in the file, about 150 MB of memory", err=True)
+    click.echo(f"tracing {size.blocks()[0]} in the file, at most 300 MB of memory", err=True)
     with out.progress_line() as show:
         table = synth.atlas.add_motions(
             opened, members=members, max_links=max_links, seed=seed, force=force,
@@ -301,7 +301,7 @@ def like(
     out.check_output(output, force=force)
     opened = synth.atlas.open_atlas(atlas)
     size = stored_motions(opened)
-    click.echo(f"searching {size.blocks()[0]} in the file, at most 150 MB of memory", err=True)
+    click.echo(f"searching {size.blocks()[0]} in the file, at most 300 MB of memory", err=True)
     answer = synth.atlas.like(opened, motion, links=links, closed=closed, limit=best)
     if output is not None:
         if not answer.rows:

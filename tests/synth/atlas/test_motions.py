@@ -206,7 +206,7 @@ def test_the_commands_answer_as_python_does(moving_atlas: Atlas, tmp_path: Path)
     for key in ("chain", "links", "types", "name", "point"):
         assert [row[key] for row in answer] == [row[key] for row in expected]
     assert [row["distance_deg"] for row in answer] == pytest.approx([row["distance_deg"] for row in expected])
-    assert "at most 150 MB of memory" in result.stderr
+    assert "at most 300 MB of memory" in result.stderr
     assert len(synth.read(start).axes) in (4, 7)
     result = run("atlas", "motions", str(moving_atlas.path), "--members", str(MEMBERS))
     assert f"{3 * MEMBERS} members of 3 chains" in result.stdout
