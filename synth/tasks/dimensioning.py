@@ -85,7 +85,22 @@ class Candidate:
 
 
 def candidates_of(structure: TaskStructure) -> tuple[Candidate, ...]:
-    """Return the candidates of a structure, in the order of its types and placements."""
+    """Return the candidates of a structure, in the order of its types and placements.
+
+    Parameters
+    ----------
+    structure : TaskStructure
+
+    Returns
+    -------
+    tuple of Candidate
+
+    Examples
+    --------
+    >>> from synth.tasks.structure import structure_of
+    >>> len(candidates_of(structure_of(Task(sources=("sc",)))))
+    29
+    """
     every = [(one.type, links) for one in structure.placed for links in one.placements]
     return tuple(Candidate(number, one.source, one.code, links) for number, (one, links) in enumerate(every))
 

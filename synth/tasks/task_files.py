@@ -200,6 +200,12 @@ def wishes_document(wishes: Mapping[str, Any]) -> dict[str, Any]:
 def task_schema() -> dict[str, Any]:
     """Return the JSON Schema of tasks: graphs/schema/task.schema.json.
 
+    Returns
+    -------
+    dict
+
+    Examples
+    --------
     >>> task_schema()["required"]
     ['format', 'version']
     """

@@ -98,8 +98,8 @@ reveal_type((dyads, synth.analyse_order(orientations, (0.0, 0.0, 1.0)), synth.fo
 
 wished = synth.design(linkage, "wishes.json", starts=2)
 reveal_type((wished, wished.best, wished.pareto))
-answer = synth.task("task.json", starts=2)
-reveal_type((answer, answer.best, answer.design(answer.ranked[0])))
+able = synth.task("task.json", starts=2)
+reveal_type((able, able.best, able.design(able.ranked[0])))
 reveal_type(synth.task("task.json", structure_only=True).placed)
 
 # Pictures, templates, pages, the atlas
