@@ -26,7 +26,7 @@ ENUMERATIONS = {
 """Commands that run for longer than a test waits; OUT is written, SHEET is a file of 100 panels, W the number of processes."""
 
 STARTED = 0.2
-"""Seconds after which the interpreter has come to the command: before, Python itself hears the signal."""
+"""Seconds after which the interpreter has come to the command, where that cannot be asked: before, Python hears the signal."""
 
 
 @dataclass(frozen=True)
@@ -39,8 +39,21 @@ class Stopped:
     left: list[str]
 
 
+def wait_until_it_listens(process: subprocess.Popen[str]) -> None:
+    """Wait until a process has set its own handler of SIGTERM; Python sets one of SIGINT alone."""
+    status = Path(f"/proc/{process.pid}/status")
+    if not status.exists():
+        time.sleep(STARTED)
+        return
+    while process.poll() is None:
+        caught = re.search(r"^SigCgt:\s*([0-9a-f]+)", status.read_text(), re.MULTILINE)
+        if caught is None or int(caught[1], 16) >> (signal.SIGTERM - 1) & 1:
+            return
+        time.sleep(0.005)
+
+
 def pressed(name: str, workers: int, moment: float, sheet: object = "", number: int = signal.SIGINT) -> Stopped:
-    """Return how an enumeration ends that gets a signal some seconds after its beginning."""
+    """Return how an enumeration ends that gets a signal some seconds after it listens to signals."""
     with tempfile.TemporaryDirectory() as folder:
         named = {"OUT": f"{folder}/out", "SHEET": str(sheet), "W": str(workers)}
         line = re.sub(r"\b(OUT|SHEET|W)\b", lambda word: named[word[0]], ENUMERATIONS[name])
@@ -51,6 +64,7 @@ def pressed(name: str, workers: int, moment: float, sheet: object = "", number: 
             text=True,
             start_new_session=True,
         )
+        wait_until_it_listens(process)
         time.sleep(moment)
         begin = time.monotonic()
         os.killpg(process.pid, number)

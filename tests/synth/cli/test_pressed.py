@@ -6,7 +6,7 @@ import signal
 
 import pytest
 from commands import run as command_line
-from pressed import ENUMERATIONS, STARTED, pressed
+from pressed import ENUMERATIONS, pressed
 
 from enumerate.runner.stopping import Interrupted, interruptible
 
@@ -42,7 +42,7 @@ def test_one_line_at_thirty_moments(name, workers, tmp_path):
         command_line("generate", "miura", "--rows", 10, "--columns", 10, "-o", sheet)
     dice = random.Random(f"{name} {workers}")
     for _ in range(MOMENTS):
-        check(name, pressed(name, workers, dice.uniform(STARTED, LONGEST), sheet))
+        check(name, pressed(name, workers, dice.uniform(0, LONGEST), sheet))
 
 
 def called(module, press, name="callback"):
