@@ -185,7 +185,7 @@ class Task:
         moving = [role for role in self.roles if role != "base" and role not in self.named_roles]
         for one, other in combinations(moving, 2):
             expected = "a wish, a relative mobility or a distance that names one of them"
-            raise InvariantError("roles", f"nothing in the task tells {one} from {other}", expected, ("roles", 0))
+            raise InvariantError("roles", f"the task does not distinguish {one} from {other}", expected, ("roles", 0))
 
     def _check_pairs(self, pairs: tuple[RolePair, ...], place: str) -> None:
         """Refuse pairs of roles that are not there, and two limits for the same pair that exclude each other."""

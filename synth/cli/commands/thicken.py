@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 @options.choice(
     "--hinges",
     ("screws", "living", "tape"),
-    "What joins panels: butt hinges with screws in bores; flexible strips laid into pockets; or tape.",
+    "Join panels by butt hinges with screws in bores, by flexible strips laid into pockets, or by tape.",
     default="screws",
 )
 @options.flag("--no-collisions", "Neither cut panels back nor check whether solids meet.")

@@ -90,7 +90,7 @@ def test_the_best_technique_has_the_greatest_angle_then_the_smallest_box():
     by_name = {one.how: one for one in thick.comparison}
     assert np.prod(by_name["spatial"].stowed) == pytest.approx(10.0 * 10.0 * 2.0, rel=0.1)
     assert np.degrees(by_name["tapered"].angle) == pytest.approx(150.0)
-    assert by_name["spatial"].mass == pytest.approx(200.0 * 700e-6)
+    assert by_name["spatial"].mass == pytest.approx(200.0 * 700e-6, rel=2e-3)  # less the bores for screws
 
 
 def test_input_that_no_technique_takes():

@@ -84,7 +84,7 @@ def test_the_command_writes_solids_that_other_commands_take(tmp_path):
     ]  # fmt: skip
     assert np.ptp(np.array(points)[:, 2]) < 1.0  # millimetres
     bad = json.loads(out.read_text())
-    bad["shapes"][0]["triangles"][0] = [0, 1, 99]
+    bad["shapes"][0]["triangles"][0] = [0, 1, 9999]
     out.write_text(json.dumps(bad))
     assert "a shape of link 0 has the triangle" in run("mobility", out, code=2).stderr
     for suffix in (".stl", ".3mf", ".gltf"):
