@@ -83,7 +83,7 @@ def test_a_type_has_a_page_on_which_it_folds(site: Path, tab: Any) -> None:
     angle = tab.locator(".sliders input[type=number]").first
     angle.fill("40")
     angle.press("Enter")
-    expect(tab.locator(".status")).to_have_text(re.compile("close"))
+    expect(tab.locator(".status")).to_have_text(re.compile("residual"))
     assert tab.get_by_role("link", name="template to print").count() == 1
     tab.get_by_role("link", name="k1:Cr").first.click()
     tab.wait_for_selector("h1:has-text('four-bar chain')")
