@@ -125,14 +125,17 @@ def _numbers(visible: Mapping[int, list[Point]], link_of: Mapping[int, LinkId]) 
     from shapely.geometry import Polygon as Area
 
     wishes: list[tuple[Label, list[Point]]] = []
-    above: list[object] = []
+    cover, above = Area(), [Area()]
     numbered_links: set[LinkId] = set()
     for face, row in reversed(list(visible.items())):
-        area = Area(row).buffer(0)
-        free = area.difference(union_all(above)) if above else area
-        above.append(area)
-        link = link_of.get(face)
-        if link is None or link in numbered_links or free.area < max(0.25 * area.area, 30):
+        area, link = Area(row).buffer(0), link_of.get(face)
+        if link is None or link in numbered_links or area.area < 30:
+            above.append(area)
+            continue
+        # Of solids with bores there are thousands of faces: those above are united only where one may be numbered.
+        cover, above = union_all([cover, *above]), [area]
+        free = area.difference(cover)
+        if free.area < max(0.25 * area.area, 30):
             continue
         numbered_links.add(link)
         point = free.centroid if free.contains(free.centroid) else free.representative_point()
