@@ -22,7 +22,7 @@ __all__ = ["build", "library", "place_of", "sources"]
 
 _ROOT = Path(__file__).resolve().parent.parent
 _PACKAGES = ("graphs", "enumerate", "synth")
-_FLAGS = ("-O3", "-std=c99", "-fPIC", "-shared", "-ffp-contract=off", "-fvisibility=hidden")
+_FLAGS = ("-O3", "-std=c99", "-fPIC", "-shared", "-ffp-contract=off", "-fvisibility=hidden", "-pthread")
 """No products and sums are contracted: processors would round them differently."""
 _OFF = "SYNTHEDRA_COMPILED"
 _SECONDS = 120

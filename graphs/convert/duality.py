@@ -11,10 +11,12 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
+from itertools import chain, pairwise
 from math import dist
 
 import networkx as nx
+import numpy as np
+import scipy
 
 from graphs.convert.cycles import HingedFaces, boundary_cycles, loops_with_centres, vertex_cycles
 from graphs.convert.hinges import HingeLines, lines_of_hinges
@@ -24,6 +26,7 @@ from graphs.mechanism.precision import off_panel_planes, precision_of
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, sides_of_face
 from graphs.tolerances import DOUBLE
+from graphs.types import Ints
 
 
 @dataclass(frozen=True)
@@ -255,6 +258,8 @@ def _joints(
 
 def opened(sheet: Sheet, mechanism: SheetMechanism) -> Sheet:
     """Return a sheet in which panels share a vertex only if hinges join them there; new edges come last."""
+    if _corners_together(sheet, mechanism) == len(set(chain.from_iterable(sheet.faces))):
+        return sheet
     beside: dict[frozenset[int], list[int]] = {}
     for face, around in enumerate(sheet.faces):
         for side in sides_of_face(around):
@@ -278,6 +283,36 @@ def opened(sheet: Sheet, mechanism: SheetMechanism) -> Sheet:
     coordinates = None if sheet.coordinates is None else tuple(sheet.coordinates[vertex] for vertex in of)
     parted = replace(sheet, vertices=len(of), edges=edges, assignments=letters, faces=faces)
     return replace(parted, coordinates=coordinates, fold_angles=angles)
+
+
+def _corners_together(sheet: Sheet, mechanism: SheetMechanism) -> int:
+    """Return the number of groups of corners that `_corners` joins: that of the vertices where none comes apart."""
+    sizes = np.array([len(face) for face in sheet.faces], dtype=np.int64)
+    vertex = np.fromiter(chain.from_iterable(sheet.faces), dtype=np.int64, count=int(sizes.sum()))
+    last = np.cumsum(sizes) - 1
+    after = np.arange(1, len(vertex) + 1)
+    after[last] = last - sizes + 1
+    panel_of = np.empty(len(sizes), dtype=np.int64)
+    panel_of[list(chain.from_iterable(mechanism.panels))] = np.repeat(
+        np.arange(len(mechanism.panels)), list(map(len, mechanism.panels))
+    )
+    panel = np.repeat(panel_of, sizes)
+
+    def key(ends: Ints) -> Ints:
+        return np.asarray(ends.min(axis=1) * sheet.vertices + ends.max(axis=1))
+
+    sides = key(np.stack([vertex, vertex[after]], axis=1))
+    pieces = list(chain.from_iterable(mechanism.pieces.values()))
+    hinged = np.isin(sides, key(np.array(pieces, dtype=np.int64).reshape(-1, 2)))
+    order = np.argsort(sides, kind="stable")  # the faces at a side stay in their order
+    one, other = order[:-1], order[1:]
+    beside = (sides[one] == sides[other]) & (hinged[one] | (panel[one] == panel[other]))
+    one, other = one[beside], other[beside]
+    straight = vertex[one] == vertex[other]  # both faces pass the side in one direction
+    begins, ends = np.where(straight, other, after[other]), np.where(straight, after[other], other)
+    pairs = np.concatenate([one, after[one]]), np.concatenate([begins, ends])
+    joined = scipy.sparse.csr_matrix((np.ones(len(pairs[0])), pairs), shape=(len(vertex),) * 2)
+    return int(scipy.sparse.csgraph.connected_components(joined, directed=False)[0])
 
 
 def _corners(sheet: Sheet, mechanism: SheetMechanism, beside: Mapping[frozenset[int], Sequence[int]]) -> nx.Graph:

@@ -7,6 +7,22 @@
    (E. G. Ng, B. W. Peyton, Block sparse Cholesky algorithms on advanced uniprocessor computers, SIAM J. Sci. Comput. 14,
    1993; T. A. Davis, Direct Methods for Sparse Linear Systems, 2006). Part of kernel.c. */
 
+#ifdef _WIN32
+static void both_at_once(void *(*work)(void *), void *one, void *other) { work(one), work(other); }
+#else
+#include <pthread.h>
+
+/* Do two pieces of work at once, or one after the other where no thread can be begun. */
+static void both_at_once(void *(*work)(void *), void *one, void *other)
+{
+    pthread_t thread;
+    int begun = !pthread_create(&thread, NULL, work, one);
+    work(other);
+    if (begun) pthread_join(thread, NULL);
+    else work(one);
+}
+#endif
+
 static void *copied(const void *from, size_t bytes)
 {
     void *to = malloc(bytes ? bytes : 1);
@@ -131,16 +147,19 @@ static int ordered(int64_t n, const int64_t *start, const int32_t *beside, int32
 }
 
 /* The pattern: `order` of elimination and its inverse `rank`; columns first[b] to first[b + 1] are block b, its rows
-   row[at[b]] to row[at[b + 1]], sorted, its own columns first; its entries begin at panel[b]. */
+   row[at[b]] to row[at[b + 1]], sorted, its own columns first; its entries begin at panel[b]. `side` of a block is 0
+   or 1 if it is in a subtree that is factorised beside those of the other side, else -1. */
 typedef struct {
     int64_t n, blocks, most; /* most: rows of the longest block */
     int32_t *order, *rank, *first, *row, *block;
     int64_t *at, *panel;
+    signed char *side;
 } Pattern;
 
 static void pattern_clear(Pattern *p)
 {
     free(p->order), free(p->rank), free(p->first), free(p->row), free(p->block), free(p->at), free(p->panel);
+    free(p->side);
     memset(p, 0, sizeof *p);
 }
 
@@ -293,6 +312,58 @@ static int filled_in(Pattern *p, const int64_t *start, const int32_t *beside)
     return good;
 }
 
+/* Halve the work: subtrees are given to two sides, the heaviest first to the side that has less, and the heaviest of
+   all is replaced by those below its root as long as that makes the longer side with what is left above shorter. Blocks
+   of a subtree stand one after the other, its root last. Small matrices are left whole. */
+static int halved(Pattern *p)
+{
+    enum { TREES = 64 };
+    static const double LARGE = 2e8; /* products, a twentieth of a second: a thread is begun a thousand times sooner */
+    int64_t blocks = p->blocks;
+    double *work = calloc(blocks + 1, sizeof *work), best = 0.0, above = 0.0;
+    int32_t *above_of = malloc((blocks + 1) * sizeof *above_of), *size = calloc(blocks + 1, sizeof *size);
+    int32_t tree[TREES], many = 0;
+    p->side = malloc(blocks + 1);
+    int good = work && above_of && size && p->side;
+    for (int64_t b = 0; good && b < blocks; b++) {
+        int64_t rows = p->at[b + 1] - p->at[b], columns = p->first[b + 1] - p->first[b];
+        for (int64_t c = 0; c < columns; c++) work[b] += (double)(rows - c) * (double)(rows - c);
+        size[b]++, best += work[b];
+        p->side[b] = -1, above_of[b] = columns < rows ? p->block[p->row[p->at[b] + columns]] : -1;
+    }
+    if (!good || best < LARGE) {
+        free(work), free(above_of), free(size);
+        return good;
+    }
+    double *alone = copied(work, blocks * sizeof *work);
+    good = alone != NULL;
+    for (int64_t b = 0; good && b < blocks; b++) {
+        if (above_of[b] >= 0) work[above_of[b]] += work[b], size[above_of[b]] += size[b];
+        else if (many < TREES) tree[many++] = (int32_t)b;
+        else good = -1; /* many parts: not worth more lines */
+    }
+    while (good > 0) {
+        double load[2] = {0.0, 0.0};
+        signed char side[TREES];
+        for (int32_t i = 1; i < many; i++) /* the heaviest first, of equal ones the first */
+            for (int32_t j = i, t; j && work[tree[j]] > work[tree[j - 1]]; j--) t = tree[j], tree[j] = tree[j - 1], tree[j - 1] = t;
+        for (int32_t i = 0; i < many; i++) side[i] = load[1] < load[0], load[(int)side[i]] += work[tree[i]];
+        double longest = above + (load[0] > load[1] ? load[0] : load[1]);
+        if (longest < best) {
+            best = longest, memset(p->side, -1, blocks);
+            for (int32_t i = 0; i < many; i++) memset(p->side + tree[i] + 1 - size[tree[i]], side[i], size[tree[i]]);
+        }
+        int32_t root = many ? tree[0] : -1, below = root - 1, count = 0, end = root < 0 ? 0 : root + 1 - size[root];
+        if (root < 0 || above + alone[root] >= best) break;
+        for (; below >= end; below -= size[below]) count++;
+        if (many - 1 + count > TREES) break;
+        above += alone[root], tree[0] = tree[--many];
+        for (below = root - 1; below >= end; below -= size[below]) tree[many++] = below;
+    }
+    free(work), free(above_of), free(size), free(alone);
+    return good != 0;
+}
+
 /* The pattern of a matrix of n unknowns by the neighbours of each, beside[start[i]] to beside[start[i + 1]]: 1, or 0
    if there is no memory. */
 static int pattern_found(Pattern *p, int64_t n, const int64_t *start, const int32_t *beside)
@@ -304,7 +375,8 @@ static int pattern_found(Pattern *p, int64_t n, const int64_t *start, const int3
     int good = p->order && p->rank && parent && count && ordered(n, start, beside, p->order);
     for (int64_t k = 0; good && k < n; k++) p->rank[p->order[k]] = (int32_t)k;
     good = good && rooted(p, start, beside, parent) && postordered(p, parent);
-    good = good && counted(p, start, beside, parent, count) && blocked(p, parent, count) && filled_in(p, start, beside);
+    good = good && counted(p, start, beside, parent, count) && blocked(p, parent, count) && filled_in(p, start, beside) &&
+           halved(p);
     free(parent), free(count);
     if (!good) pattern_clear(p);
     return good;
@@ -390,46 +462,113 @@ WIDE static void panel_factorised(double *panel, int64_t rows, int64_t columns, 
     }
 }
 
-/* Room for the work: numbers, then places. */
-static int64_t pattern_room(const Pattern *p) { return TILE * (p->most + 1); }
+/* Which blocks to the left have rows among the columns of a block: a list for each block, that begins at `head` and
+   goes on by `next`; `done` says from which of its rows on a block to the left is still to be taken off. */
+typedef struct {
+    const Pattern *p;
+    double *values;
+    int32_t *head, *next, *done;
+} Lists;
 
-/* Factorise a matrix in place, its entries where place_of says: 1, or 0 without memory. */
+/* Room for one thread, and the blocks of its subtrees that wait for blocks above them, in order, each with the block
+   that was worked on. */
+typedef struct {
+    Lists lists;
+    int side;
+    double *scaled;
+    int32_t *map, *to, *each, *waiting, now;
+    int64_t waits, listed;
+} Part;
+
+static void part_free(Part *t) { free(t->scaled), free(t->map), free(t->to), free(t->each), free(t->waiting); }
+
+static int part_new(Part *t, Lists lists, int side)
+{
+    const Pattern *p = lists.p;
+    memset(t, 0, sizeof *t);
+    t->lists = lists, t->side = side;
+    t->scaled = malloc(TILE * (p->most + 1) * sizeof *t->scaled), t->map = malloc((p->n + 1) * sizeof *t->map);
+    t->to = malloc((p->most + 1) * sizeof *t->to), t->each = malloc((p->most + 1) * sizeof *t->each);
+    t->waiting = malloc(2 * (p->blocks + 1) * sizeof *t->waiting);
+    if (!(t->scaled && t->map && t->to && t->each && t->waiting)) return 0;
+    for (int64_t r = 0; r < p->most; r++) t->each[r] = (int32_t)r;
+    return 1;
+}
+
+static void listed_next(const Lists *l, int32_t block)
+{
+    int32_t onwards = l->p->block[l->p->row[l->p->at[block] + l->done[block]]];
+    l->next[block] = l->head[onwards], l->head[onwards] = block;
+}
+
+/* List a block for the next one that it has rows in; those above the subtrees of a side have to wait. */
+static void left_to_next(Part *t, int32_t block, int64_t from)
+{
+    const Pattern *p = t->lists.p;
+    t->lists.done[block] = (int32_t)from;
+    if (p->side[p->block[p->row[p->at[block] + from]]] == t->side) listed_next(&t->lists, block);
+    else t->waiting[2 * t->waits] = block, t->waiting[2 * t->waits++ + 1] = t->now;
+}
+
+static void block_factorised(Part *t, int32_t b)
+{
+    const Lists *l = &t->lists;
+    const Pattern *p = l->p;
+    const int32_t *row = p->row + p->at[b];
+    int64_t rows = p->at[b + 1] - p->at[b], columns = p->first[b + 1] - p->first[b];
+    double *panel = l->values + p->panel[b];
+    t->now = b;
+    if (l->head[b] >= 0)
+        for (int64_t r = 0; r < rows; r++) t->map[row[r]] = (int32_t)r;
+    for (int32_t c = l->head[b], after; c >= 0; c = after) { /* blocks to the left with rows among these columns */
+        const int32_t *other = p->row + p->at[c];
+        int64_t from = l->done[c], whole = p->at[c + 1] - p->at[c], end = from, width = p->first[c + 1] - p->first[c];
+        after = l->next[c];
+        while (end < whole && other[end] < p->first[b + 1]) end++;
+        for (int64_t r = from; r < whole; r++) t->to[r - from] = t->map[other[r]];
+        const double *left = l->values + p->panel[c];
+        taken_off(left + from, whole, width, left, whole + 1, whole - from, end - from, panel, rows, t->to, t->to,
+                  t->scaled);
+        if (end < whole) left_to_next(t, c, end);
+    }
+    panel_factorised(panel, rows, columns, t->each, t->scaled);
+    if (columns < rows) left_to_next(t, b, columns);
+}
+
+static void *side_factorised(void *part)
+{
+    Part *t = part;
+    for (int32_t b = 0; b < t->lists.p->blocks; b++)
+        if (t->lists.p->side[b] == t->side) block_factorised(t, b);
+    return NULL;
+}
+
+/* Factorise a matrix in place, its entries where place_of says: 1, or 0 without memory. Two sides of a large one are
+   worked on at once, and the blocks above them take off the others in the order in which one thread would: the numbers
+   are the same. */
 static int pattern_factorised(const Pattern *p, double *values)
 {
-    int64_t n = p->n, blocks = p->blocks;
-    double *scaled = malloc(pattern_room(p) * sizeof *scaled);
-    int32_t *map = malloc((n + 1) * sizeof *map), *to = malloc((p->most + 1) * sizeof *to);
-    int32_t *each = malloc((p->most + 1) * sizeof *each), *head = malloc((blocks + 1) * sizeof *head);
-    int32_t *next = malloc((blocks + 1) * sizeof *next), *done = malloc((blocks + 1) * sizeof *done);
-    int good = scaled && map && to && each && head && next && done;
-    for (int64_t b = 0; good && b < blocks; b++) head[b] = -1;
-    for (int64_t r = 0; good && r < p->most; r++) each[r] = (int32_t)r;
+    int64_t blocks = p->blocks, large = 0;
+    Lists l = {p, values, malloc((blocks + 1) * sizeof *l.head), malloc((blocks + 1) * sizeof *l.next),
+               malloc((blocks + 1) * sizeof *l.done)};
+    Part part[3];
+    memset(part, 0, sizeof part);
+    for (int64_t b = 0; b < blocks && !large; b++) large = p->side[b] >= 0;
+    int good = l.head && l.next && l.done && part_new(part + 2, l, -1);
+    good = good && (!large || (part_new(part, l, 0) && part_new(part + 1, l, 1)));
+    for (int64_t b = 0; good && b < blocks; b++) l.head[b] = -1;
+    if (good && large) both_at_once(side_factorised, part, part + 1);
     for (int32_t b = 0; good && b < blocks; b++) {
-        const int32_t *row = p->row + p->at[b];
-        int64_t rows = p->at[b + 1] - p->at[b], columns = p->first[b + 1] - p->first[b];
-        double *panel = values + p->panel[b];
-        if (head[b] >= 0)
-            for (int64_t r = 0; r < rows; r++) map[row[r]] = (int32_t)r;
-        for (int32_t c = head[b], after; c >= 0; c = after) { /* blocks to the left with rows among these columns */
-            const int32_t *other = p->row + p->at[c];
-            int64_t from = done[c], whole = p->at[c + 1] - p->at[c], end = from, width = p->first[c + 1] - p->first[c];
-            after = next[c];
-            while (end < whole && other[end] < p->first[b + 1]) end++;
-            for (int64_t r = from; r < whole; r++) to[r - from] = map[other[r]];
-            const double *left = values + p->panel[c];
-            taken_off(left + from, whole, width, left, whole + 1, whole - from, end - from, panel, rows, to, to, scaled);
-            if (end < whole) {
-                int32_t onwards = p->block[other[end]];
-                done[c] = (int32_t)end, next[c] = head[onwards], head[onwards] = c;
-            }
+        if (p->side[b] < 0) {
+            block_factorised(part + 2, b);
+            continue;
         }
-        panel_factorised(panel, rows, columns, each, scaled);
-        if (columns < rows) {
-            int32_t onwards = p->block[row[columns]];
-            done[b] = (int32_t)columns, next[b] = head[onwards], head[onwards] = b;
-        }
+        Part *t = part + p->side[b];
+        for (; t->listed < t->waits && t->waiting[2 * t->listed + 1] == b; t->listed++)
+            listed_next(&l, t->waiting[2 * t->listed]);
     }
-    free(scaled), free(map), free(to), free(each), free(head), free(next), free(done);
+    for (int i = 0; i < 3; i++) part_free(part + i);
+    free(l.head), free(l.next), free(l.done);
     return good;
 }
 

@@ -2,7 +2,7 @@
 
 The same as the numpy version beside it (closure.py), which does the work where no compiler was at hand. Plain C,
 without Python's API: arrays go in and out, nothing is kept but what a handle holds, which never changes after it
-was made, so that several threads may use it. All matrices are rows by columns. Theory: docs/theory/folding.md. */
+was made but for one spare room, so that several threads may use it. All matrices are rows by columns. Theory: docs/theory/folding.md. */
 
 #include <math.h>
 #include <stdint.h>
@@ -30,6 +30,7 @@ typedef struct {
     double *sign, *turning, *axis, *point, *frame;
     Pattern pattern;
     int64_t *place;
+    void **spare; /* the room of a factor that is no longer needed, or NULL: the system gives new room page by page */
     int analysed;
 } Equations;
 
@@ -40,7 +41,8 @@ EXPORTED void equations_free(Equations *e)
     if (!e) return;
     free(e->begin), free(e->value), free(e->equation), free(e->kind), free(e->joint), free(e->column);
     free(e->sign), free(e->turning), free(e->axis), free(e->point), free(e->frame);
-    pattern_clear(&e->pattern), free(e->place), free(e);
+    if (e->spare) free(*e->spare);
+    pattern_clear(&e->pattern), free(e->place), free(e->spare), free(e);
 }
 
 /* Loops of some kinds: begin[loops + 1] says where their joints begin in the lists that follow; frames are nine
@@ -64,7 +66,8 @@ EXPORTED Equations *equations_new(int64_t joints, int64_t loops, const int64_t *
     e->value = malloc((loops + 1) * sizeof *e->value);
     e->equation = malloc((loops + 1) * sizeof *e->equation);
     e->column = malloc((members ? members : 1) * sizeof *e->column);
-    if (!(e->begin && e->kind && e->joint && e->sign && e->turning && e->axis && e->point && e->frame && e->value &&
+    e->spare = calloc(1, sizeof *e->spare);
+    if (!(e->spare && e->begin && e->kind && e->joint && e->sign && e->turning && e->axis && e->point && e->frame && e->value &&
           e->equation && e->column)) {
         equations_free(e);
         return NULL;
@@ -283,18 +286,30 @@ typedef struct {
     double added, *values;
 } Factor;
 
-EXPORTED void factor_free(Factor *f)
+/* Put a room, or none, in place of the spare one, which is returned. */
+static void *exchanged_spare(const Equations *e, void *room)
 {
-    if (f) free(f->values), free(f);
+#ifdef __GNUC__
+    return __atomic_exchange_n(e->spare, room, __ATOMIC_ACQ_REL);
+#else
+    (void)e;
+    return room; /* no room is spared */
+#endif
+}
+
+EXPORTED void factor_free(const Equations *e, Factor *f)
+{
+    if (f) free(exchanged_spare(e, f->values)), free(f);
 }
 
 EXPORTED Factor *factor_new(const Equations *e)
 {
     Factor *f = calloc(1, sizeof *f);
     if (!f) return NULL;
-    f->values = malloc((e->pattern.panel[e->pattern.blocks] + 1) * sizeof *f->values);
+    f->values = exchanged_spare(e, NULL);
+    if (!f->values) f->values = malloc((e->pattern.panel[e->pattern.blocks] + 1) * sizeof *f->values);
     if (f->values) return f;
-    factor_free(f);
+    free(f);
     return NULL;
 }
 
@@ -430,7 +445,7 @@ typedef struct {
         *others, *factored, *all;
 } Stride;
 
-static void stride_free(Stride *s) { factor_free(s->factor), free(s->all); }
+static void stride_free(Stride *s) { factor_free(s->e, s->factor), free(s->all); }
 
 static int stride_new(Stride *s, const Equations *e, const Manner *how, const double *zero, const double *freed)
 {

@@ -5,6 +5,8 @@ own. Whatever is here `synth.motion.closure` and `synth.motion.tangent` do with 
 no library.
 """
 
+from __future__ import annotations
+
 import ctypes
 from collections.abc import Sequence
 from ctypes import byref, c_double, c_int, c_int64, c_void_p
@@ -33,7 +35,7 @@ _FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "image_of": (None, (_P,) * 4),
     "sum_of_rows": (None, (_P,) * 4),
     "factor_new": (_P, (_P,)),
-    "factor_free": (None, (_P,)),
+    "factor_free": (None, (_P, _P)),
     "factorised": (c_int, (_P, _P, _P, c_double)),
     "factor_solved": (c_int, (_P,) * 4),
     "factor_least": (c_int, (_P,) * 5),
@@ -58,6 +60,11 @@ def kernel() -> ctypes.CDLL | None:
 def _check(good: int | None) -> None:
     if not good:
         raise MemoryError("no memory for the closure equations of so many joints")
+
+
+def _freed(equations: KernelEquations, factor: int) -> None:
+    """Free a factor before its equations, which keep its room for the next."""
+    equations.library.factor_free(equations.handle, factor)
 
 
 class KernelEquations:
@@ -141,7 +148,7 @@ class KernelFactor:
         self._equations, self._derivatives, self._library = equations, derivatives, equations.library
         self._handle = self._library.factor_new(equations.handle)
         _check(self._handle)
-        finalize(self, self._library.factor_free, self._handle)
+        finalize(self, _freed, equations, self._handle)
         _check(self._library.factorised(equations.handle, self._handle, derivatives.ctypes.data, regular))
         self.shape = (equations.rows, equations.joints)
 
