@@ -24,7 +24,7 @@ from graphs.errors import InvariantError, numbered
 from graphs.loops.loop import Centre, Loop, added_independent, split_dependent
 from graphs.mechanism.precision import off_panel_planes, precision_of
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, sides_of_face
+from graphs.mechanism.sheet import FLAT, HINGES, Edge, Sheet, corners_of_faces, panel_of_faces, sides_of_face
 from graphs.tolerances import DOUBLE
 from graphs.types import Ints
 
@@ -287,16 +287,8 @@ def opened(sheet: Sheet, mechanism: SheetMechanism) -> Sheet:
 
 def _corners_together(sheet: Sheet, mechanism: SheetMechanism) -> int:
     """Return the number of groups of corners that `_corners` joins: that of the vertices where none comes apart."""
-    sizes = np.array([len(face) for face in sheet.faces], dtype=np.int64)
-    vertex = np.fromiter(chain.from_iterable(sheet.faces), dtype=np.int64, count=int(sizes.sum()))
-    last = np.cumsum(sizes) - 1
-    after = np.arange(1, len(vertex) + 1)
-    after[last] = last - sizes + 1
-    panel_of = np.empty(len(sizes), dtype=np.int64)
-    panel_of[list(chain.from_iterable(mechanism.panels))] = np.repeat(
-        np.arange(len(mechanism.panels)), list(map(len, mechanism.panels))
-    )
-    panel = np.repeat(panel_of, sizes)
+    vertex, after, face = corners_of_faces(sheet.faces)
+    panel = panel_of_faces(mechanism.panels)[face]
 
     def key(ends: Ints) -> Ints:
         return np.asarray(ends.min(axis=1) * sheet.vertices + ends.max(axis=1))

@@ -13,10 +13,12 @@ from itertools import chain
 from math import isfinite
 from typing import Any, Literal, Protocol, TypeAlias, TypeVar
 
+import numpy as np
+
 from graphs.errors import InvariantError, numbered, shown
 from graphs.limits import check_area, check_extent
 from graphs.mechanism.polyhedron import PolyhedronModel
-from graphs.types import Floats
+from graphs.types import Floats, Ints
 
 Place: TypeAlias = tuple[tuple[float, ...], ...]
 """A point, both ends of a line, or the corners of a face, in the coordinates of the sheet."""
@@ -297,6 +299,24 @@ def with_all_edges(sheet: Sheet) -> Sheet:
 def sides_of_face(face: Sequence[V]) -> list[tuple[V, V]]:
     """Return the sides of a face, each from a vertex to the next."""
     return list(zip(face, (*face[1:], face[0]), strict=True))
+
+
+def corners_of_faces(faces: Sequence[Sequence[int]]) -> tuple[Ints, Ints, Ints]:
+    """Return of all corners, face by face: the vertex, the place of the next corner of the face, and the face."""
+    sizes = np.array([len(face) for face in faces], dtype=np.int64)
+    vertex = np.fromiter(chain.from_iterable(faces), dtype=np.int64, count=int(sizes.sum()))
+    after = np.arange(1, len(vertex) + 1)
+    last = np.cumsum(sizes) - 1
+    after[last] = last - sizes + 1
+    return vertex, after, np.repeat(np.arange(len(sizes)), sizes)
+
+
+def panel_of_faces(panels: Sequence[Sequence[int]]) -> Ints:
+    """Return the panel of each face by the faces of each panel: int[faces]."""
+    sizes = np.array([len(faces) for faces in panels], dtype=np.int64)
+    panel_of = np.empty(int(sizes.sum()), dtype=np.int64)
+    panel_of[list(chain.from_iterable(panels))] = np.repeat(np.arange(len(sizes)), sizes)
+    return panel_of
 
 
 def _check_vertices(rows: Sequence[Sequence[int]], count: int, who: str) -> None:

@@ -87,20 +87,27 @@ class PanelShapes:
             yield np.where(swapped, other, one), np.where(swapped, one, other)
 
     def _cross(self, corners: Floats, normals: Floats, first: Ints, second: Ints) -> Flags:
-        """Tell which pairs of pieces cross: bool[pairs]."""
-        line = unit(np.cross(normals[first], normals[second]))
-        origin = corners[first, :1]
-        ends = []
+        """Tell which pairs of pieces cross: bool[pairs]. Most stand on one side of the other's plane, and are done."""
+        crossed = np.zeros(len(first), dtype=bool)
+        pairs = np.arange(len(first))
+        heights: list[Floats] = []
         for one, other in ((first, second), (second, first)):
-            plane = corners[other, :1]
-            heights = ((corners[one] - plane) * normals[other][:, None]).sum(axis=-1)
-            along = ((corners[one] - origin) * line[:, None]).sum(axis=-1)
-            ends.append(self._stretch(heights, along))
+            off = corners[one[pairs]] - corners[other[pairs], :1]
+            above = (off * normals[other[pairs]][:, None]).sum(axis=-1)
+            both = (above.max(axis=1) > self._touching) & (above.min(axis=1) < -self._touching)
+            pairs, heights = pairs[both], [*(known[both] for known in heights), above[both]]
+        line = unit(np.cross(normals[first[pairs]], normals[second[pairs]]))
+        origin = corners[first[pairs], :1]
+        ends = []
+        for one, above in zip((first, second), heights, strict=True):
+            along = ((corners[one[pairs]] - origin) * line[:, None]).sum(axis=-1)
+            ends.append(self._stretch(above, along))
         (low, high), (other_low, other_high) = ends
-        return np.asarray(np.minimum(high, other_high) - np.maximum(low, other_low) > self._touching)
+        crossed[pairs] = np.minimum(high, other_high) - np.maximum(low, other_low) > self._touching
+        return crossed
 
     def _stretch(self, heights: Floats, along: Floats) -> tuple[Floats, Floats]:
-        """Return the ends, along both planes' line, of where pieces meet the other's plane; inf, -inf if none."""
+        """Return the ends, along both planes' line, of where pieces on both sides of the other's plane meet it."""
         after, along_after = np.roll(heights, -1, axis=1), np.roll(along, -1, axis=1)
         passes = heights * after < 0.0
         part = heights / np.where(passes, heights - after, 1.0)
@@ -108,8 +115,7 @@ class PanelShapes:
         in_plane = np.abs(heights) <= self._touching
         low = np.minimum(np.where(passes, at, np.inf), np.where(in_plane, along, np.inf)).min(axis=1)
         high = np.maximum(np.where(passes, at, -np.inf), np.where(in_plane, along, -np.inf)).max(axis=1)
-        both = (heights.max(axis=1) > self._touching) & (heights.min(axis=1) < -self._touching)
-        return np.where(both, low, np.inf), np.where(both, high, -np.inf)
+        return low, high
 
 
 def shapes_of_panels(sheet: Sheet, mechanism: SheetMechanism, flat: Floats, tolerances: Tolerances) -> PanelShapes:

@@ -8,7 +8,6 @@ Theory: docs/theory/folding.md.
 from collections import deque
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain
 
 import networkx as nx
 import numpy as np
@@ -19,7 +18,7 @@ from graphs.geometry import lines_meet, rotations, unit
 from graphs.loops.loop import Centre, signed_cycle
 from graphs.mechanism.precision import extent_of, in_space
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.sheet import Sheet, sides_of_face
+from graphs.mechanism.sheet import Sheet, corners_of_faces, panel_of_faces, sides_of_face
 from graphs.rank.exact import independent_cycles
 from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Floats, Ints, JointId, LinkId
@@ -220,50 +219,39 @@ class Creases:
 
     def area_vectors(self, corners: Floats) -> Floats:
         """Return twice the area vectors of the faces (Newell): float[faces, 3]."""
-        sizes = np.array([len(face) for face in self.faces], dtype=np.int64)
-        first = np.fromiter(chain.from_iterable(self.faces), dtype=np.int64, count=int(sizes.sum()))
-        last = np.cumsum(sizes) - 1
-        second = np.roll(first, -1)
-        second[last] = first[last - sizes + 1]
-        ends, of = np.stack([first, second], axis=1), np.repeat(np.arange(len(sizes)), sizes)
+        vertex, after, of = corners_of_faces(self.faces)
         vectors = np.zeros((len(self.faces), 3))
-        np.add.at(vectors, of, np.cross(corners[ends[:, 0]], corners[ends[:, 1]]))
+        np.add.at(vectors, of, np.cross(corners[vertex], corners[vertex[after]]))
         return vectors
 
 
 def creases_of(sheet: Sheet, mechanism: SheetMechanism) -> Creases:
     """Return where the creases of a sheet are between its panels."""
-    beside: dict[tuple[int, int], list[int]] = {}
-    passed: dict[tuple[int, int], int] = {}
-    number_of_sides = 0
-    for number, face in enumerate(sheet.faces):
-        sides_here = sides_of_face(face)
-        number_of_sides += len(sides_here)
-        for a, b in sides_here:
-            passed[a, b] = number
-            beside.setdefault((a, b) if a < b else (b, a), []).append(number)
-    faces = list(sheet.faces)
-    turned: list[set[tuple[int, int]]] | None = None
-    if len(passed) < number_of_sides:  # two faces pass a side in the same direction
-        faces = _turned(sheet, beside)
-        turned = [set(sides_of_face(face)) for face in faces]
-    joints: Mapping[int, tuple[int, int]] = mechanism.sc.joints  # type: ignore[assignment]  # numbers of edges and panels
-    ends, sides, ways = [], [], []
-    for joint, (_, second) in joints.items():
-        a, b = mechanism.hinges[joint]
-        one, other = beside[min(a, b), max(a, b)]
-        sides.append((one, other) if other in mechanism.panels[second] else (other, one))
-        ends.append((a, b))
-        beyond = sides[-1][1]
-        along = passed.get((a, b)) == beyond if turned is None else (a, b) in turned[beyond]
-        ways.append(1.0 if along else -1.0)
-    as_pairs = [np.array(pairs, dtype=np.int64).reshape(-1, 2) for pairs in (ends, sides)]
-    return Creases(tuple(joints), as_pairs[0], np.array(ways, dtype=float), as_pairs[1], tuple(faces))
+    vertex, after, face = corners_of_faces(sheet.faces)
+    faces: Sequence[tuple[int, ...]] = sheet.faces
+    if len(np.unique(vertex * sheet.vertices + vertex[after])) < len(vertex):  # two faces pass a side in one direction
+        faces = _turned(sheet)
+        vertex, after, face = corners_of_faces(faces)
+    joints = mechanism.sc.joints
+    ends = np.array([mechanism.hinges[joint] for joint in joints], dtype=np.int64).reshape(-1, 2)  # type: ignore[index]
+    second = np.array([links[1] for links in joints.values()], dtype=np.int64)
+    sides = np.minimum(vertex, vertex[after]) * sheet.vertices + np.maximum(vertex, vertex[after])
+    order = np.argsort(sides, kind="stable")
+    at = np.searchsorted(sides, ends.min(axis=1) * sheet.vertices + ends.max(axis=1), sorter=order)
+    one, other = order[at], order[at + 1]  # the corners at which the two faces of each hinge pass it
+    swapped = panel_of_faces(mechanism.panels)[face[other]] != second
+    one, other = np.where(swapped, other, one), np.where(swapped, one, other)
+    ways = np.where(vertex[other] == ends[:, 0], 1.0, -1.0)
+    return Creases(tuple(joints), ends, ways, face[np.stack([one, other], axis=1)], tuple(faces))
 
 
-def _turned(sheet: Sheet, beside: Mapping[tuple[int, int], Sequence[int]]) -> list[tuple[int, ...]]:
+def _turned(sheet: Sheet) -> list[tuple[int, ...]]:
     """Return the faces, some of them reversed: two that share a side pass it in opposite directions."""
     faces = list(sheet.faces)
+    beside: dict[tuple[int, int], list[int]] = {}
+    for number, face in enumerate(faces):
+        for a, b in sides_of_face(face):
+            beside.setdefault((min(a, b), max(a, b)), []).append(number)
     neighbours = nx.Graph()
     neighbours.add_nodes_from(range(len(faces)))
     neighbours.add_edges_from(pair for pair in beside.values() if len(pair) == 2)
