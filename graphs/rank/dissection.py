@@ -15,7 +15,7 @@ import scipy
 from graphs.rank.singular_values import ZERO_SPECTRUM, Spectrum, judged, rounding, verdict
 from graphs.types import Flags, Floats, Ints
 
-_LEAF = 96
+_LEAF = 192
 """Rows of a part that is not halved."""
 _PIVOT = 0.03
 """A combination of columns is taken out if its singular value is at least this part of the largest."""

@@ -154,6 +154,7 @@ typedef struct {
     int32_t *order, *rank, *first, *row, *block;
     int64_t *at, *panel;
     signed char *side;
+    int halves; /* whether any block has a side */
 } Pattern;
 
 static void pattern_clear(Pattern *p)
@@ -312,56 +313,72 @@ static int filled_in(Pattern *p, const int64_t *start, const int32_t *beside)
     return good;
 }
 
-/* Halve the work: subtrees are given to two sides, the heaviest first to the side that has less, and the heaviest of
-   all is replaced by those below its root as long as that makes the longer side with what is left above shorter. Blocks
-   of a subtree stand one after the other, its root last. Small matrices are left whole. */
-static int halved(Pattern *p)
+/* How many products each block takes, and with the subtree below it, and how many blocks a subtree has, which stand one
+   after the other, its root last. Returns the sum. */
+static double weighed(const Pattern *p, double *alone, double *work, int32_t *size)
+{
+    double sum = 0.0;
+    for (int64_t b = 0; b < p->blocks; b++) {
+        int64_t rows = p->at[b + 1] - p->at[b], columns = p->first[b + 1] - p->first[b];
+        for (int64_t c = 0; c < columns; c++) alone[b] += (double)(rows - c) * (double)(rows - c);
+        work[b] += alone[b], size[b]++, sum += alone[b];
+        if (columns == rows) continue;
+        int32_t above = p->block[p->row[p->at[b] + columns]];
+        work[above] += work[b], size[above] += size[b];
+    }
+    return sum;
+}
+
+/* Give subtrees to two sides, the heaviest first, each to the side that has less. The heaviest of all is replaced by
+   those below its root as long as the longer side, with what is left above both, may become shorter than `best`. */
+static void split(Pattern *p, const double *alone, const double *work, const int32_t *size, double best)
 {
     enum { TREES = 64 };
-    static const double LARGE = 2e8; /* products, a twentieth of a second: a thread is begun a thousand times sooner */
-    int64_t blocks = p->blocks;
-    double *work = calloc(blocks + 1, sizeof *work), best = 0.0, above = 0.0;
-    int32_t *above_of = malloc((blocks + 1) * sizeof *above_of), *size = calloc(blocks + 1, sizeof *size);
     int32_t tree[TREES], many = 0;
-    p->side = malloc(blocks + 1);
-    int good = work && above_of && size && p->side;
-    for (int64_t b = 0; good && b < blocks; b++) {
-        int64_t rows = p->at[b + 1] - p->at[b], columns = p->first[b + 1] - p->first[b];
-        for (int64_t c = 0; c < columns; c++) work[b] += (double)(rows - c) * (double)(rows - c);
-        size[b]++, best += work[b];
-        p->side[b] = -1, above_of[b] = columns < rows ? p->block[p->row[p->at[b] + columns]] : -1;
+    double above = 0.0;
+    for (int64_t b = p->blocks - 1; b >= 0; b -= size[b]) {
+        if (many == TREES) return;
+        tree[many++] = (int32_t)b;
     }
-    if (!good || best < LARGE) {
-        free(work), free(above_of), free(size);
-        return good;
-    }
-    double *alone = copied(work, blocks * sizeof *work);
-    good = alone != NULL;
-    for (int64_t b = 0; good && b < blocks; b++) {
-        if (above_of[b] >= 0) work[above_of[b]] += work[b], size[above_of[b]] += size[b];
-        else if (many < TREES) tree[many++] = (int32_t)b;
-        else good = -1; /* many parts: not worth more lines */
-    }
-    while (good > 0) {
+    for (;;) {
         double load[2] = {0.0, 0.0};
         signed char side[TREES];
-        for (int32_t i = 1; i < many; i++) /* the heaviest first, of equal ones the first */
-            for (int32_t j = i, t; j && work[tree[j]] > work[tree[j - 1]]; j--) t = tree[j], tree[j] = tree[j - 1], tree[j - 1] = t;
+        for (int32_t i = 1; i < many; i++)
+            for (int32_t j = i; j && work[tree[j]] > work[tree[j - 1]]; j--) {
+                int32_t kept = tree[j];
+                tree[j] = tree[j - 1], tree[j - 1] = kept;
+            }
         for (int32_t i = 0; i < many; i++) side[i] = load[1] < load[0], load[(int)side[i]] += work[tree[i]];
         double longest = above + (load[0] > load[1] ? load[0] : load[1]);
         if (longest < best) {
-            best = longest, memset(p->side, -1, blocks);
+            best = longest, p->halves = 1, memset(p->side, -1, p->blocks);
             for (int32_t i = 0; i < many; i++) memset(p->side + tree[i] + 1 - size[tree[i]], side[i], size[tree[i]]);
         }
-        int32_t root = many ? tree[0] : -1, below = root - 1, count = 0, end = root < 0 ? 0 : root + 1 - size[root];
-        if (root < 0 || above + alone[root] >= best) break;
-        for (; below >= end; below -= size[below]) count++;
-        if (many - 1 + count > TREES) break;
-        above += alone[root], tree[0] = tree[--many];
-        for (below = root - 1; below >= end; below -= size[below]) tree[many++] = below;
+        int32_t root = tree[0], end = root - size[root], count = 0;
+        above += alone[root];
+        for (int32_t b = root - 1; b > end; b -= size[b]) count++;
+        if (above >= best || many - 1 + count > TREES || many - 1 + count == 0) return;
+        tree[0] = tree[--many];
+        for (int32_t b = root - 1; b > end; b -= size[b]) tree[many++] = b;
     }
-    free(work), free(above_of), free(size), free(alone);
-    return good != 0;
+}
+
+/* Halve the work; a small matrix is left whole: 1, or 0 if there is no memory. */
+static int halved(Pattern *p)
+{
+    static const double LARGE = 2e7; /* products, some milliseconds: a thread is begun fifty times sooner */
+    int64_t blocks = p->blocks;
+    double *alone = calloc(blocks + 1, sizeof *alone), *work = calloc(blocks + 1, sizeof *work);
+    int32_t *size = calloc(blocks + 1, sizeof *size);
+    p->side = malloc(blocks + 1);
+    int good = alone && work && size && p->side;
+    if (good) {
+        memset(p->side, -1, blocks);
+        double sum = weighed(p, alone, work, size);
+        if (sum >= LARGE) split(p, alone, work, size, sum);
+    }
+    free(alone), free(work), free(size);
+    return good;
 }
 
 /* The pattern of a matrix of n unknowns by the neighbours of each, beside[start[i]] to beside[start[i + 1]]: 1, or 0
@@ -548,16 +565,15 @@ static void *side_factorised(void *part)
    are the same. */
 static int pattern_factorised(const Pattern *p, double *values)
 {
-    int64_t blocks = p->blocks, large = 0;
+    int64_t blocks = p->blocks;
     Lists l = {p, values, malloc((blocks + 1) * sizeof *l.head), malloc((blocks + 1) * sizeof *l.next),
                malloc((blocks + 1) * sizeof *l.done)};
     Part part[3];
     memset(part, 0, sizeof part);
-    for (int64_t b = 0; b < blocks && !large; b++) large = p->side[b] >= 0;
     int good = l.head && l.next && l.done && part_new(part + 2, l, -1);
-    good = good && (!large || (part_new(part, l, 0) && part_new(part + 1, l, 1)));
+    good = good && (!p->halves || (part_new(part, l, 0) && part_new(part + 1, l, 1)));
     for (int64_t b = 0; good && b < blocks; b++) l.head[b] = -1;
-    if (good && large) both_at_once(side_factorised, part, part + 1);
+    if (good && p->halves) both_at_once(side_factorised, part, part + 1);
     for (int32_t b = 0; good && b < blocks; b++) {
         if (p->side[b] < 0) {
             block_factorised(part + 2, b);

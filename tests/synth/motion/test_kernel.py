@@ -106,9 +106,10 @@ def test_any_pattern_is_factorised(seed, monkeypatch):
 
 
 @needs_library
-@pytest.mark.parametrize(("rows", "columns"), [(2, 30), (12, 12), (24, 20)])
+@pytest.mark.parametrize(("rows", "columns"), [(2, 30), (12, 12), (24, 20), (60, 70)])
 def test_blocks_of_a_sheet_are_factorised(rows, columns, monkeypatch):
-    """Sheets have factors with wide blocks of columns; each solves its normal equations, also where few entries are."""
+    """Sheets have factors with wide blocks of columns; each solves its normal equations, also where few entries
+    are, and where two halves of it are factorised at once."""
     linkage = configuration_of_sheet(generate("miura", rows=rows, columns=columns, fold=0.7).mechanism).linkage
     fast, slow = two_ways(linkage, monkeypatch)
     rng = np.random.default_rng(rows)
