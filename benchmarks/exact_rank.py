@@ -26,7 +26,7 @@ from graphs.convert.panels import polyhedron_of, scd_from_panels
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.exact import centres_of_loops, closure_modulo, closure_of, exact_mobility, matrix_modulo
-from graphs.rank.realisation import PRIMES, PrimeField, Realisation, Reals, realise
+from graphs.rank.realisation import PRIMES, GenericRealisation, PrimeField, Reals, realise
 from graphs.rank.rods import exact_mobility_of_model
 
 RUNS = 25
@@ -69,7 +69,7 @@ def timed(job: object) -> float:
 
 def sympy_rank(sc: SCGraph) -> tuple[float, int] | None:
     """Return time and rank by sympy, of the equations as they are; None if it does not install."""
-    closure, _ = closure_modulo(sc, PRIMES[0])
+    closure = closure_modulo(sc, PRIMES[0])
     shape = [len(closure.rows), len(closure.joints)]
     with tempfile.TemporaryDirectory() as folder:
         install = [sys.executable, "-m", "pip", "install", "-q", "--target", folder, "sympy"]
@@ -101,8 +101,9 @@ def main() -> None:
     figures: dict[str, object] = {"python": platform.python_version()}
     small, middle = mesh(5, 5), mesh(13, 13)
     for name, sc in (("40 x 40", small), ("300 x 300", middle)):
-        closure, matrix = closure_modulo(sc, PRIMES[0])
-        ours = timed(lambda sc=sc: closure_modulo(sc, PRIMES[0])[1].rank())
+        closure = closure_modulo(sc, PRIMES[0])
+        matrix = matrix_modulo(closure, PRIMES[0])
+        ours = timed(lambda sc=sc: exact_mobility(sc, PRIMES[:1]))
         field = PrimeField(PRIMES[0])
         member = sc, realise(sc, field), field
         real = real_matrix(sc)
@@ -149,7 +150,7 @@ def main() -> None:
     (Path(__file__).parent / "results" / "exact_rank.json").write_text(json.dumps(figures, indent=2) + "\n")
 
 
-def built_and_ranked(sc: SCGraph, placed: Realisation, field: PrimeField) -> int:
+def built_and_ranked(sc: SCGraph, placed: GenericRealisation, field: PrimeField) -> int:
     """Build and rank the equations of a member that is placed already."""
     closure = closure_of(sc, placed.axes, centres_of_loops(sc, placed), field)
     return int(matrix_modulo(closure, PRIMES[0]).rank())

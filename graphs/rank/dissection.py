@@ -5,12 +5,21 @@ are taken out: combinations with large singular values are pivots, those that ar
 handed up. Each candidate is continued to a vector of all columns, so that its singular value is that of the whole
 matrix. It is multifrontal QR with delayed pivots (Davis 2011), two-sided; how many values are small is counted a
 second time, by the inertia of the normal equations. Theory: docs/theory/pose.md.
+
+Modulo a prime the same is exact, and simpler: in the columns that only a part's rows have, each pivot is one of the
+rank, and the rows without one are handed up. Theory: docs/theory/exact-mobility.md.
 """
 
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 import scipy
+from flint import nmod_mat
 
 from graphs.rank.singular_values import ZERO_SPECTRUM, Spectrum, judged, rounding, verdict
 from graphs.types import Flags, Floats, Ints
@@ -187,3 +196,100 @@ def _norm(matrix: scipy.sparse.csr_matrix) -> float:
         size = float(np.linalg.norm(vector))
         vector /= size
     return float(np.sqrt(size))
+
+
+def rank_modulo(rows: Sequence[Mapping[int, int]], columns: int, prime: int) -> int:
+    """Return the rank modulo a prime of a sparse matrix by its rows, which map columns to their nonzeros."""
+    if len(rows) <= _WHOLE:
+        return int(sparse_modulo(rows, columns, prime).rank())
+    filled = [row for row in rows if row]
+    elimination = _ExactElimination(filled, prime)
+    if filled:
+        elimination.eliminate(np.arange(len(filled)), _places_of_rows(filled, columns))
+    return elimination.rank
+
+
+def sparse_modulo(rows: Sequence[Mapping[int, int]], columns: int, prime: int) -> Any:
+    """Return a matrix by its nonzeros modulo a prime: to set them in an empty one is the fast way."""
+    matrix = nmod_mat(max(len(rows), 1), max(columns, 1), prime)
+    for i, row in enumerate(rows):
+        for j, value in row.items():
+            matrix[i, j] = value
+    return matrix
+
+
+_WHOLE = 250
+"""Rows of a matrix modulo a prime that is not taken apart."""
+_EXACT_LEAF = 64
+"""Rows of a part that is not halved, of a matrix modulo a prime."""
+
+
+class _ExactElimination:
+    """The state of an elimination modulo a prime; `rank` counts the pivots so far."""
+
+    def __init__(self, rows: Sequence[Mapping[int, int]], prime: int) -> None:
+        self.rows, self.prime, self.rank = rows, prime, 0
+        self.rows_of = Counter(column for row in rows for column in row)
+
+    def eliminate(self, numbers: Ints, places: Floats) -> tuple[list[int], list[list[int]], Counter[int]]:
+        """Take out the columns that only these rows have; return the others, what is left of the rows, and counts.
+
+        The counts say in how many of these rows a column is.
+        """
+        columns, block, seen = self._assembled(numbers, places)
+        own = [column for column in columns if seen[column] == self.rows_of[column]]
+        rest = [column for column in columns if seen[column] != self.rows_of[column]]
+        at = {column: place for place, column in enumerate(columns)}
+        order = [at[column] for column in (*own, *rest)]
+        entries = [row[place] for row in block for place in order]
+        reduced, rank = nmod_mat(len(block), len(columns), entries, self.prime).rref()
+        values = [int(value) for value in reduced.entries()]
+        width = len(columns)
+        lines = [values[start : start + width] for start in range(0, rank * width, width)]
+        pivots = sum(any(line[: len(own)]) for line in lines)
+        self.rank += pivots
+        return rest, [line[len(own) :] for line in lines[pivots:]], seen
+
+    def _assembled(self, numbers: Ints, places: Floats) -> tuple[list[int], list[list[int]], Counter[int]]:
+        """Return the columns of some rows and the rows as a full matrix: a leaf, or what is left of two halves."""
+        if len(numbers) <= _EXACT_LEAF:
+            rows = [self.rows[number] for number in numbers.tolist()]
+            seen = Counter(column for row in rows for column in row)
+            columns = sorted(seen)
+            return columns, [[row.get(column, 0) for column in columns] for row in rows], seen
+        spread = np.ptp(places[numbers], axis=0)
+        order = numbers[np.argsort(places[numbers, int(np.argmax(spread))], kind="stable")]
+        halves = [self.eliminate(half, places) for half in np.array_split(order, 2)]
+        columns = sorted({column for half in halves for column in half[0]})
+        at = {column: place for place, column in enumerate(columns)}
+        block = []
+        for of_half, lines, _ in halves:
+            to = [at[column] for column in of_half]
+            for line in lines:
+                block.append([0] * len(columns))
+                for place, value in zip(to, line, strict=True):
+                    block[-1][place] = value
+        return columns, block, halves[0][2] + halves[1][2]
+
+
+def _places_of_rows(rows: Sequence[Mapping[int, int]], columns: int) -> Floats:
+    """Return places of rows such that those that share columns are close, float[m, 2], by steps from one to the next.
+
+    These are differences of the steps to two rows far apart, and to two more that are far from both.
+    """
+    sizes = [len(row) for row in rows]
+    indices = np.fromiter((column for row in rows for column in row), dtype=np.int64, count=sum(sizes))
+    pattern = scipy.sparse.csr_matrix(
+        (np.ones(len(indices)), indices, np.cumsum([0, *sizes])), shape=(len(rows), columns)
+    )
+    beside = (pattern @ pattern.T).tocsr()
+
+    def steps(start: int) -> Floats:
+        found = scipy.sparse.csgraph.dijkstra(beside, indices=start, unweighted=True)
+        return np.where(np.isfinite(found), found, len(rows))
+
+    one = steps(int(steps(0).argmax()))
+    other = steps(int(one.argmax()))
+    third = steps(int(np.minimum(one, other).argmax()))
+    last = steps(int(np.minimum(np.minimum(one, other), third).argmax()))
+    return np.stack([one - other, third - last], axis=1)

@@ -20,6 +20,7 @@ from flint import nmod_mat
 from graphs.errors import NumericalError
 from graphs.loops.loop import Centre, Loop, added_independent, signed_cycle
 from graphs.mechanism.sc import SCGraph
+from graphs.rank.dissection import rank_modulo, sparse_modulo
 from graphs.rank.realisation import PRIMES, Field, GenericRealisation, Line, Point, PrimeField, realise
 from graphs.types import Floats, Ints, JointId, LinkId
 
@@ -194,8 +195,9 @@ def exact_mobility(
     >>> exact_mobility(SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])).mobility
     1
     """
-    ranks = [closure_modulo(mechanism, prime, forced=forced, seed=seed)[1].rank() for prime in primes]
     joints = len(mechanism.joints)
+    closures = (closure_modulo(mechanism, prime, forced=forced, seed=seed) for prime in primes)
+    ranks = [rank_modulo(closure.rows, joints, prime) for closure, prime in zip(closures, primes, strict=False)]
     rank = agreed_rank(ranks, primes)
     return ExactMobility(joints - rank, joints, rank, tuple(primes), forced)
 
@@ -209,12 +211,11 @@ def agreed_rank(ranks: Sequence[int], primes: Sequence[int]) -> int:
     return ranks[0]
 
 
-def closure_modulo(mechanism: SCGraph, prime: int, *, forced: bool = True, seed: int = 0) -> tuple[Closure, Any]:
-    """Return the closure equations of a random realisation modulo a prime, and their matrix (`flint.nmod_mat`)."""
+def closure_modulo(mechanism: SCGraph, prime: int, *, forced: bool = True, seed: int = 0) -> Closure:
+    """Return the closure equations of a random realisation modulo a prime."""
     field = PrimeField(prime, seed)
     placed = realise(mechanism, field, forced=forced)
-    closure = closure_of(mechanism, placed.axes, centres_of_loops(mechanism, placed), field)
-    return closure, matrix_modulo(closure, prime)
+    return closure_of(mechanism, placed.axes, centres_of_loops(mechanism, placed), field)
 
 
 def centres_of_loops(mechanism: SCGraph, placed: GenericRealisation) -> dict[int, Any]:
@@ -226,15 +227,6 @@ def centres_of_loops(mechanism: SCGraph, placed: GenericRealisation) -> dict[int
 def matrix_modulo(closure: Closure, prime: int) -> Any:
     """Return the matrix of closure equations (`flint.nmod_mat`)."""
     return sparse_modulo(closure.rows, len(closure.joints), prime)
-
-
-def sparse_modulo(rows: Sequence[Mapping[int, int]], columns: int, prime: int) -> Any:
-    """Return a matrix by its nonzeros modulo a prime: to set them in an empty one is the fast way."""
-    matrix = nmod_mat(max(len(rows), 1), max(columns, 1), prime)
-    for i, row in enumerate(rows):
-        for j, value in row.items():
-            matrix[i, j] = value
-    return matrix
 
 
 @dataclass(frozen=True, slots=True)

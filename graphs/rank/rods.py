@@ -16,7 +16,8 @@ from graphs.errors import UnsolvableError, shown
 from graphs.loops.classes import centre_classes
 from graphs.loops.loop import Loop
 from graphs.mechanism.polyhedron import GROUND, PolyhedronModel, VertexId
-from graphs.rank.exact import ExactMobility, agreed_rank, sparse_modulo
+from graphs.rank.dissection import rank_modulo
+from graphs.rank.exact import ExactMobility, agreed_rank
 from graphs.rank.realisation import PRIMES, Field, PrimeField, null_vectors
 
 Place = tuple[Any, Any, Any]
@@ -52,7 +53,7 @@ def exact_mobility_of_model(model: PolyhedronModel, primes: Sequence[int] = PRIM
         field = PrimeField(prime, seed)
         rows, columns = velocity_constraints(model, place_model(model, field), field)
         freedoms = 3 * columns - (6 if model.ground is None else 0)
-        ranks.append(sparse_modulo(*numbered_columns(rows), prime).rank())
+        ranks.append(rank_modulo(*numbered_columns(rows), prime))
     rank = agreed_rank(ranks, primes)
     return ExactMobility(freedoms - rank, freedoms, rank, tuple(primes), forced=True)
 

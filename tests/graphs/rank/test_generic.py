@@ -19,6 +19,7 @@ from graphs.files.formats import read
 from graphs.loops.loop import Loop, signed_cycle
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
+from graphs.rank.dissection import rank_modulo, sparse_modulo
 from graphs.rank.exact import (
     Closure,
     closure_modulo,
@@ -252,8 +253,36 @@ def test_crease_patterns_have_an_exact_mobility(fold_folder, most, least):
     assert checked > least
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_matrices_that_are_taken_apart_have_the_rank_of_the_whole(seed):
+    """Bands, blocks that share nothing, and anything; some rows are empty, or sums of others."""
+    rng = random.Random(seed)
+    prime, columns = PRIMES[seed % 2], rng.randrange(60, 400)
+    rows = []
+    for number in range(rng.randrange(300, 600)):
+        near = rng.randrange(columns) if seed % 4 == 0 else number * columns // 600
+        reach = 6 if seed % 4 < 2 else 20
+        places = {(near // reach * reach if seed % 4 == 3 else near) + rng.randrange(reach) for _ in range(4)}
+        rows.append({place % columns: rng.randrange(1, prime) for place in places if number % 17})
+        if number % 5 == 4:
+            pair = [rows[rng.randrange(len(rows))], rows[-1]]
+            total = {c: sum(row.get(c, 0) for row in pair) % prime for row in pair for c in row}
+            rows.append({c: value for c, value in total.items() if value})
+    whole = int(sparse_modulo(rows, columns, prime).rank())
+    assert rank_modulo(rows, columns, prime) == whole
+    rng.shuffle(rows)
+    assert rank_modulo(rows, columns, prime) == whole < len(rows)
+
+
+def test_a_large_sheet_is_ranked_in_parts():
+    closure = closure_modulo(miura(22, 21), PRIMES[1])
+    assert len(closure.rows) > 1000
+    assert rank_modulo(closure.rows, len(closure.joints), PRIMES[1]) == matrix_modulo(closure, PRIMES[1]).rank()
+
+
 def test_circuits_are_smallest_dependent_sets():
-    closure, matrix = closure_modulo(miura(5, 4), PRIMES[0])
+    closure = closure_modulo(miura(5, 4), PRIMES[0])
+    matrix = matrix_modulo(closure, PRIMES[0])
     stresses, idle = matrix.transpose().nullspace()
     assert idle == 5
     for k in range(idle):
