@@ -30,7 +30,7 @@ from graphs.rank.rods import exact_mobility_of_model
 from graphs.tolerances import DOUBLE
 
 MOST_JOINTS = 2000
-"""Larger mechanisms are ranked on request only: so many joints take a second, ten times as many twenty times as long."""
+"""Larger mechanisms are ranked on request only: so many joints take a second, ten times as many twenty seconds."""
 
 _MOST_DIAGNOSED = 400
 _LISTED = 12
