@@ -315,3 +315,24 @@ def test_importing_costs_next_to_nothing():
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.stderr == ""
     assert 50 <= int(done.stdout) <= 85
+
+
+def test_motions_do_without_what_other_jobs_need(tmp_path):
+    """Folding, moving, generating, drawing and templates load no numba, matplotlib or flint, and go without them."""
+    code = f"""
+import sys
+sys.modules.update(dict.fromkeys(("flint", "matplotlib", "numba")))
+import synth
+miura = synth.generate("miura", rows=2, columns=3).mechanism
+motion = synth.fold(miura, frames=3)
+assert motion.closure < 1e-12
+assert synth.move(synth.generate("bennett").mechanism, frames=3).closure < 1e-12
+synth.write(motion.frames()[-1], {str(tmp_path / "folded.fold")!r})
+synth.draw(miura).save({str(tmp_path / "miura.svg")!r})
+synth.write_template(synth.template(miura, size=100), {str(tmp_path / "cut.svg")!r})
+print(synth.mobility("k1:Cr"))
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.stderr == ""
+    assert "note: no exact rank: exact ranks require python-flint; try pip install python-flint\n" in done.stdout
+    assert {path.name for path in tmp_path.iterdir()} >= {"folded.fold", "miura.svg", "cut.svg"}

@@ -19,8 +19,8 @@ from typing import Any
 
 import numpy as np
 import scipy
-from flint import nmod_mat
 
+from graphs.errors import UnsolvableError
 from graphs.rank.singular_values import ZERO_SPECTRUM, Spectrum, judged, rounding, verdict
 from graphs.types import Flags, Floats, Ints
 
@@ -211,11 +211,20 @@ def rank_modulo(rows: Sequence[Mapping[int, int]], columns: int, prime: int) -> 
 
 def sparse_modulo(rows: Sequence[Mapping[int, int]], columns: int, prime: int) -> Any:
     """Return a matrix by its nonzeros modulo a prime: to set them in an empty one is the fast way."""
-    matrix = nmod_mat(max(len(rows), 1), max(columns, 1), prime)
+    matrix = matrices()(max(len(rows), 1), max(columns, 1), prime)
     for i, row in enumerate(rows):
         for j, value in row.items():
             matrix[i, j] = value
     return matrix
+
+
+def matrices() -> type[Any]:
+    """Return the class of matrices modulo a prime, loaded when a rank is asked for: motions do without it."""
+    try:
+        from flint import nmod_mat
+    except ImportError:
+        raise UnsolvableError("exact ranks require python-flint; try pip install python-flint") from None
+    return nmod_mat
 
 
 _WHOLE = 250
@@ -242,7 +251,7 @@ class _ExactElimination:
         at = {column: place for place, column in enumerate(columns)}
         order = [at[column] for column in (*own, *rest)]
         entries = [row[place] for row in block for place in order]
-        reduced, rank = nmod_mat(len(block), len(columns), entries, self.prime).rref()
+        reduced, rank = matrices()(len(block), len(columns), entries, self.prime).rref()
         values = [int(value) for value in reduced.entries()]
         width = len(columns)
         lines = [values[start : start + width] for start in range(0, rank * width, width)]

@@ -15,12 +15,11 @@ from typing import Any
 
 import networkx as nx
 import numpy as np
-from flint import nmod_mat
 
 from graphs.errors import NumericalError
 from graphs.loops.loop import Centre, Loop, added_independent, signed_cycle
 from graphs.mechanism.sc import SCGraph
-from graphs.rank.dissection import rank_modulo, sparse_modulo
+from graphs.rank.dissection import matrices, rank_modulo, sparse_modulo
 from graphs.rank.realisation import PRIMES, Field, GenericRealisation, Line, Point, PrimeField, realise
 from graphs.types import Floats, Ints, JointId, LinkId
 
@@ -386,7 +385,7 @@ def relative_mobilities(
         for (link, (part, own)), (other, (place, its)) in combinations(twists.items(), 2):
             if part == place:
                 apart = [[(a - b) % prime for a, b in zip(*pair, strict=True)] for pair in zip(own, its, strict=True)]
-                ranks[frozenset((link, other))].append(int(nmod_mat(apart, prime).rank()) if apart else 0)
+                ranks[frozenset((link, other))].append(int(matrices()(apart, prime).rank()) if apart else 0)
     return {pair: agreed_rank(found, primes) for pair, found in ranks.items()}
 
 
