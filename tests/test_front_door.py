@@ -1,9 +1,12 @@
 """``import synth``: the same answers as the command line, from one call each."""
 
 import json
+import pickle
 import re
 import subprocess
 import sys
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 
 import networkx as nx
@@ -282,11 +285,13 @@ def test_short_descriptions(data):
     assert repr(turns) == "<Orientations: 3 orientations>"
 
 
-def test_results_have_short_descriptions(data):
+@pytest.fixture(scope="module")
+def results(data):
+    """What the functions of the face return."""
     pattern, ring = data / "patterns" / "four-bar-vertex.fold", synth.generate("four-bar").mechanism
     orientations = oriented()
     dyads = synth.guiding_dyads(orientations)
-    results = [
+    return [
         *(synth.mobility(pattern), synth.identify(pattern), synth.reconstruct(pattern), synth.reduce(FOUR_BAR)),
         *(
             synth.edit(FOUR_BAR, lock=[0]),
@@ -301,10 +306,33 @@ def test_results_have_short_descriptions(data):
         *(synth.map_to_cones([2.1, 1.7, 0.8, 1.5]), synth.map_to_cylinders([4, 3, 5, 1])),
         *(synth.cones_of_loops(np.ones((3, 4))), synth.sweep(ring, {"arcs": np.ones((2, 4))}, drive={0: [0.1]})),
         *(synth.four_bars(orientations, dyads.dyads[:4])[0], synth.analyse_order(orientations, (0, 0, 1))),
+        *(synth.move(data / "surfaces" / "fig10-four-bar.json", frames=2), synth.look(pattern)),
+        synth.read(data / "joints" / "rssr.json"),
     ]
+
+
+def test_results_have_short_descriptions(results):
     for result in results:
         assert len(repr(result)) <= 130, result
         assert "\n" not in repr(result)
+
+
+def test_results_go_from_process_to_process(results):
+    """As `ProcessPoolExecutor` sends them: each is pickled, and prints alike afterwards."""
+    for result in results:
+        again = pickle.loads(pickle.dumps(result))
+        assert (type(again), str(again)) == (type(result), str(result))
+
+
+def test_two_processes_fold_by_one_argument(data):
+    files = [data / "patterns" / f"{name}.fold" for name in ("four-bar-vertex", "bird-base")]
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+        motions = list(pool.map(synth.fold, files))
+    for file, motion in zip(files, motions, strict=True):
+        here = synth.fold(file)
+        assert str(motion) == str(here)
+        assert np.array_equal(motion.path.angles, here.path.angles)
+        assert motion.configuration.closure.at(motion.path.angles[-1])[0] == pytest.approx(0, abs=1e-12)
 
 
 def test_importing_costs_next_to_nothing():

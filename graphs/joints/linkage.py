@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from math import hypot
 from types import MappingProxyType
+from typing import Any
 
 from graphs.errors import InvariantError, numbered, shown
 from graphs.limits import LEAST, MOST, check_extent, in_reach
@@ -180,6 +181,9 @@ class JointedLinkage:
         """The numbers of joints of each kind, in words."""
         numbers = Counter(self.kinds.values())
         return ", ".join(f"{numbers[kind]} {kind.word}" for kind in JointKind if numbers[kind])
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return JointedLinkage, (self.chain, dict(self.kinds), dict(self.places), self.notes)
 
     def __repr__(self) -> str:
         letters = Counter(kind.value for kind in self.kinds.values())

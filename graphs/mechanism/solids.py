@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import hypot
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
@@ -124,6 +125,9 @@ class HingedSolids:
             joint: _sense(*(_beside_axis(self.axes[joint], rings[link]) for link in links))
             for joint, links in self.chain.joints.items()
         }
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return HingedSolids, (self.chain, dict(self.axes), self.notes, self.shapes)
 
     def __repr__(self) -> str:
         links, joints = numbered(len(self.chain), "link"), numbered(len(self.axes), "joint")

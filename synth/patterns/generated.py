@@ -81,8 +81,17 @@ class Generated(Printed):
         lines.append(f"{freedoms} of finite motion, according to the source; by count M = {count}")
         return [*lines, f"conditions: {self.generator.conditions}", f"source: {self.generator.source}"]
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        rest = (self.values, self.fold, self.mechanism, self.freedoms, self.count)
+        return _with_generator, (self.generator.name, *rest)  # functions of a generator cannot be pickled
+
     def __repr__(self) -> str:
         return f"<Generated: {self.generator.name}, {self.mechanism!r}>"
+
+
+def _with_generator(name: str, *rest: Any) -> Generated:
+    """Return what a generator made, unpickled in another process."""
+    return Generated(GENERATORS[name], *rest)
 
 
 def generate(name: str, *, fold: float | None = None, **parameters: float) -> Generated:
