@@ -15,6 +15,7 @@ from synth.realisation.realised import Kind
 from synth.templates.hinges import Hinges
 from synth.templates.on_surface import Dimensions, surface_of, template_on_surface
 from synth.templates.template import (
+    FITTED,
     TABS,
     Template,
     linkage_on_a_surface,
@@ -23,9 +24,6 @@ from synth.templates.template import (
     template_of,
     unit_of,
 )
-
-_FITTED = 150.0
-"""Millimetres of the longer side of what has no size: a type that is realised, a file that names no unit."""
 
 
 def template(
@@ -157,15 +155,15 @@ def template_of_panels(
     notes = [f"{realised}, as by `synth realise`"] if realised else []
     fitted = scale is None and size is None and (bool(realised) or unit_of(sheet) is None)
     if fitted:
-        size = _FITTED
+        size = FITTED
     title = sheet.title or name
     result = template_of(sheet, scale=scale, size=size, tabs=tabs, slots=slots, hinges=hinges, title=title)
     if fitted and realised:
-        notes.append(f"a type has no size: its longer side is {_FITTED:g} mm; --size changes it")
+        notes.append(f"a type has no size: its longer side is {FITTED:g} mm; --size changes it")
     elif fitted and result.scale is not None:
         of_unit = f"{result.scale:.4g} mm per unit"
         notes.append(
-            f"the file names no unit: the longer side is {_FITTED:g} mm, {of_unit}; --scale or --size changes it"
+            f"the file names no unit: the longer side is {FITTED:g} mm, {of_unit}; --scale or --size changes it"
         )
     notes += [f"not shown: {', '.join(result.not_shown)}"] if result.not_shown else []
     if picture:

@@ -21,7 +21,7 @@ from synth.conformed.linkages import OnSurface
 from synth.moving.motion import FilePoses, poses_of_file
 from synth.templates.on_surface import Dimensions, LayeredLinkage, solids_on_surface
 from synth.templates.pieces import GRID, united
-from synth.templates.template import GREATEST, millimetres, scale_of
+from synth.templates.template import FITTED, GREATEST, LEAST, millimetres, scale_of, unit_of
 from synth.templates.unfolding import Panels, Plane
 
 _RIGID = 1e-4
@@ -205,7 +205,7 @@ def write_solids(
     gap : float, optional
         Between two panels at a hinge, millimetres; by default twice the thickness.
     scale, size : float, optional
-        As for `synth.templates.template_of`.
+        As for `synth.templates.template_of`; without them, `fitted_size`.
     force : bool, optional
         Overwrite an existing file.
 
@@ -233,6 +233,8 @@ def write_solids(
     """
     check_writable(path, SOLIDS, force=force)
     whole, poses, of_file = poses_of(sheet)
+    if scale is None and size is None:
+        size = fitted_size(sheet)
     poses = poses * millimetres(poses[of_file.resting], scale_of(sheet, scale, size), size)
     plates = Plates(whole, poses[of_file.resting], thickness=thickness, gap=2 * thickness if gap is None else gap)
     if Path(path).suffix.lower() == ".gltf":
@@ -240,6 +242,17 @@ def write_solids(
     else:
         solids = Solids(plates_in_space(plates), frames_left_out=of_file.left_out + len(poses) - 1)
     return write_as(solids, path, SOLIDS, force=force)
+
+
+def fitted_size(sheet: Sheet) -> float | None:
+    """Return the longer side, in millimetres, of solids whose size nothing states; None where the unit states it.
+
+    That is so where the file names no unit, and its panels would be too small to make if it were a millimetre.
+    """
+    if unit_of(sheet) is not None:
+        return None
+    _, poses, of_file = poses_of(sheet)
+    return FITTED if 0 < float(np.ptp(poses[of_file.resting], axis=0).max()) < LEAST else None
 
 
 def write_shapes(solids: HingedSolids, path: str | Path, *, force: bool = False) -> tuple[str, ...]:

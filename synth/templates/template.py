@@ -43,7 +43,9 @@ if TYPE_CHECKING:
 _UNITS = {"mm": 1.0, "cm": 10.0, "m": 1e3, "um": 1e-3, "nm": 1e-6, "in": 25.4, "pt": 25.4 / 72}
 """Units of length that FOLD names, in millimetres; its ``unit`` is not a length."""
 
-_LEAST = 10.0
+FITTED = 150.0
+"""Millimetres of the longer side of what has no size: a type that is realised, a file that names no unit."""
+LEAST = 10.0
 """Millimetres: nobody can fold less; the unit of the coordinates was not a millimetre."""
 GREATEST = 1e6
 """Millimetres: nobody cuts out more than a kilometre, whose curves would be millions of lines."""
@@ -83,9 +85,9 @@ def millimetres(places: Floats, scale: float | None = None, size: float | None =
     extent = np.ptp(places, axis=0)
     longest = float(extent.max())
     factor = size / longest if size is not None and longest > 0 else 1.0 if scale is None else scale
-    if not _LEAST <= longest * factor <= GREATEST:
+    if not LEAST <= longest * factor <= GREATEST:
         sides = " x ".join(f"{side:.3g}" for side in (extent * factor).tolist())
-        way = "larger" if longest * factor < _LEAST else "smaller"
+        way = "larger" if longest * factor < LEAST else "smaller"
         raise UnsolvableError(f"the template would be {sides} mm; try a {way} --scale, or --size")
     return factor
 

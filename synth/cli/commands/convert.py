@@ -49,7 +49,9 @@ _OF_MODELS = ("density", "drive", "branch", "stiffness", "rest", "moment")
     "--gap", "MM", "Gap between solids at a hinge.  [default: twice the thickness]", type=options.LENGTH_OR_NONE
 )
 @options.value(
-    "--scale", None, "For solids: millimetres per unit of the coordinates.  [default: 1; with --as, 1000]",
+    "--scale", None,
+    "For solids: millimetres per unit of the coordinates.  [default: that of the file's unit; without one 1, unless "
+    "the longer side would be less than 10 mm: then it is 150 mm; with --as, 1000]",
     type=options.LENGTH,
 )  # fmt: skip
 @options.value(
@@ -155,7 +157,8 @@ def convert(
             lost, of_model = _write_model(mechanism, target, model, force=force, **solid, **for_model)
             notes = (*notes, *of_model)
         elif of_solids:
-            lost = _write_solids(mechanism, target, force=force, **solid)
+            lost, on_size = _write_solids(mechanism, target, force=force, **solid)
+            notes = (*notes, *on_size)
         else:
             from graphs.files.formats import write_converted
 
@@ -224,25 +227,30 @@ def _has_shapes(mechanism: Mechanism) -> bool:
     return isinstance(mechanism, HingedSolids) and bool(mechanism.shapes)
 
 
-def _write_solids(mechanism: Mechanism, target: str, *, force: bool, **solid: Any) -> tuple[str, ...]:
+def _write_solids(
+    mechanism: Mechanism, target: str, *, force: bool, **solid: Any
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Write solids; return what their format does not hold, and notes on their size."""
     from graphs.mechanism.solids import HingedSolids
     from synth.moving.made import sheet_of
-    from synth.templates.solids import write_solids
+    from synth.templates.solids import fitted_size, write_solids
 
     if isinstance(mechanism, synth.SurfaceLinkage):
-        return _write_on_surface(mechanism, target, force=force, **solid)
+        return _write_on_surface(mechanism, target, force=force, **solid), ()
     if isinstance(mechanism, HingedSolids) and mechanism.shapes:
         from synth.templates.solids import write_shapes
 
         if solid:
             spelled = ", ".join(_OF_SOLIDS[name] for name in solid)
             raise click.UsageError(f"{spelled}: not for hinged solids, whose links have shapes of their own")
-        return write_shapes(mechanism, target, force=force)
+        return write_shapes(mechanism, target, force=force), ()
     sheet = sheet_of(mechanism)
     if sheet is None:
         raise UnsolvableError(f"solids require panels, and {mechanism!r} has none")
     solid.pop("number", None)
-    return write_solids(sheet, target, force=force, **solid)
+    fitted = None if {"scale", "size"} & set(solid) else fitted_size(sheet)
+    noted = f"the file names no unit: the longer side is {fitted:g} mm; --scale or --size changes it" if fitted else ""
+    return write_solids(sheet, target, force=force, **solid), (noted,) if noted else ()
 
 
 def _write_on_surface(

@@ -13,10 +13,10 @@ from commands import run
 from measured import is_watertight, volume_of_mesh
 
 from graphs.errors import InvariantError, UnsolvableError
-from graphs.files.formats import read
+from graphs.files.formats import read, write
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from synth.patterns.generated import generate
-from synth.templates.solids import Plates, plates_in_space, poses_of, write_solids
+from synth.templates.solids import Plates, fitted_size, plates_in_space, poses_of, write_solids
 
 FOLDED = {"miura": 1.0, "box-pop-up": 1.0, "miura-tube": None, "kresling": None, "square-twist": 0.5, "slit-array": 0.4}
 QUICK = ("miura", "box-pop-up")
@@ -203,7 +203,19 @@ def test_the_command_says_what_is_of_solids_only_and_what_is_not_held(motion, tm
     run("convert", motion, tmp_path / "b.obj", "--thickness", 1, "--size", 90)
     assert "o panel_0" in (tmp_path / "b.obj").read_text(encoding="utf-8")
     assert "--gap: for solids only" in run("convert", motion, tmp_path / "a.svg", "--gap", 1, code=2).stderr
-    assert "try a larger --scale" in run("convert", motion, tmp_path / "c.stl", code=2).stderr
+    assert "try a larger --scale" in run("convert", motion, tmp_path / "c.stl", "--size", 9, code=2).stderr
+
+
+def test_panels_without_a_unit_are_made_large_enough(motion, tmp_path):
+    """Coordinates of a file without a unit are millimetres, unless nobody could make so small a thing."""
+    small = run("convert", motion, tmp_path / "small.stl")
+    assert "note: the file names no unit: the longer side is 150 mm; --scale or --size changes it" in small.stdout
+    run("convert", motion, tmp_path / "stated.stl", "--size", 150)
+    assert (tmp_path / "small.stl").read_bytes() == (tmp_path / "stated.stl").read_bytes()
+    assert fitted_size(read(motion)) == 150
+    write(HINGED, tmp_path / "large.fold")
+    assert fitted_size(HINGED) is None
+    assert "the longer side" not in run("convert", tmp_path / "large.fold", tmp_path / "large.stl").stdout
 
 
 @pytest.mark.parametrize(
