@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
@@ -243,11 +244,20 @@ def surface_from_options(cone_angle: float | None, radius: float | None) -> Surf
     return None if radius is None else Cylinder(radius)
 
 
+_ONE_VALUE = re.compile(r"[^=,]+=\s*[-+.\d][^=,]*").fullmatch
+"""Whether a word is a name and a number."""
+
+
 def named_value(text: str, spelling: str, form: str, lengths: Sequence[int] = (1,)) -> tuple[str, list[float]]:
     """Return a name and the numbers behind the last ``=``, parted by commas, of a word such as ``JOINT=DEGREES``.
 
-    Raise click.BadParameter with the form if the number of numbers is not in ``lengths``.
+    Raise click.BadParameter with the form if the number of numbers is not in ``lengths``, or the word is several
+    of them.
     """
+    if all(map(_ONE_VALUE, text.split(","))) and "," in text:
+        raise click.BadParameter(
+            f"{plain(text)!r}: one {form} at a time; try {spelling} once for each", param_hint=spelling
+        )
     name, equals, numbers = text.rpartition("=")
     try:
         values = [float(number) for number in numbers.split(",")]

@@ -72,6 +72,7 @@ def test_panels_are_rigid_in_every_pattern_that_closes(name):
         (["--drive", "2=190"], "is driven to 190°; expected between -180 and 180"),
         (["--drive", "2=nan"], "expected between -180 and 180"),
         (["--drive", "=3"], "is not JOINT=DEGREES"),
+        (["--drive", "2=30,5=40"], "one JOINT=DEGREES at a time; try --drive once for each"),
         (["--branch", "+++++"], "no branch has the signs '+++++'"),
         (["--branch", "99"], "there is no branch 99; expected one from 0 to 0"),
         (["-o", "out.bmp"], "files ending in '.bmp' are not known; expected one of .fold .obj .gif .png .svg"),
