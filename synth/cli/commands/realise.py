@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from difflib import get_close_matches
 from functools import partial
 from math import ceil, degrees, log10, radians
 from pathlib import Path
@@ -12,6 +13,7 @@ import click
 
 import synth.patterns
 from graphs.errors import FileError, numbered
+from graphs.printing import plain
 from synth.cli import options, output as out
 from synth.cli.main import NamedGroup
 from synth.cli.reading import MODE, read_named
@@ -33,6 +35,16 @@ class _Generators(NamedGroup):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         generator = synth.patterns.GENERATORS.get(cmd_name)
         return None if generator is None else _command(generator)
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the generator of the first word; name them all if there is none of that name, nor one near it."""
+        names = self.list_commands(ctx)
+        unknown = not args[0].startswith("-") and args[0] not in names
+        if unknown and not ctx.resilient_parsing and not get_close_matches(args[0], names, 1):
+            ctx.fail(f"There is no generator {plain(args[0])!r}; expected one of {', '.join(names)}")
+        return super().resolve_command(ctx, args)
 
 
 @click.group(cls=_Generators, invoke_without_command=True)

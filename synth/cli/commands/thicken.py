@@ -15,6 +15,7 @@ from synth.cli.output import about, check_output, print_answer, print_json, tell
 from synth.cli.reading import MECHANISM, PRECISION, precise_sheet, read
 
 if TYPE_CHECKING:
+    from graphs.mechanism import Sheet
     from synth.thickening import ThickSheet
 
 
@@ -29,7 +30,13 @@ if TYPE_CHECKING:
     default="spatial",
 )
 @options.value("--angle", "DEG", "Greatest fold angle, degrees; by default 179, for tapered and hinge 150.", type=float)
-@options.value("--scale", None, "Millimetres per unit of the coordinates.", type=options.LENGTH, default=1.0)
+@options.value(
+    "--scale",
+    None,
+    "Millimetres per unit of the coordinates.  [default: that of the file's unit; without one 1]",
+    type=options.LENGTH,
+)
+@options.value("--size", "MM", "Longer side of the flat sheet, millimetres, in place of --scale.", type=options.LENGTH)
 @options.value(
     "--clearance",
     "MM",
@@ -55,7 +62,8 @@ def thicken(
     thickness: float,
     how: str,
     angle: float | None,
-    scale: float,
+    scale: float | None,
+    size: float | None,
     clearance: float | None,
     hinges: str,
     no_collisions: bool,
@@ -76,7 +84,7 @@ def thicken(
     Examples:
       synth generate miura -o miura.fold
       synth thicken miura.fold --thickness 6 --scale 100
-      synth thicken miura.fold --thickness 6 --scale 100 -o thick.json
+      synth thicken miura.fold --thickness 6 --size 300 -o thick.json
       synth thicken miura.fold --thickness 6 --scale 100 -o thick.gltf
     """
     from graphs.mechanism import Sheet
@@ -85,12 +93,13 @@ def thicken(
     mechanism = read(file)
     with about(file):
         check_argument("thicken", mechanism, Sheet)
+        sheet = precise_sheet(mechanism)
         thick = synth.thickening.thicken(
-            precise_sheet(mechanism),
+            sheet,
             thickness=thickness,
             how=how,
             angle=None if angle is None else radians(angle),
-            scale=scale,
+            scale=_scale(sheet, scale, size),
             clearance=clearance,
             hinges=hinges,
             collisions=not no_collisions,
@@ -104,6 +113,16 @@ def thicken(
         tell_written(name)
     for part in lost:
         click.echo(f"not in the file: {part}")
+
+
+def _scale(sheet: Sheet, scale: float | None, size: float | None) -> float:
+    """Return the millimetres per unit of the coordinates of a sheet, by a scale, a size, or the unit of its file."""
+    from graphs.mechanism.precision import in_space
+    from synth.templates.template import millimetres, scale_of
+
+    if size is None or sheet.coordinates is None:
+        return scale_of(sheet, scale, size) or 1.0
+    return millimetres(in_space(sheet.coordinates), scale, size)
 
 
 def _written(thick: ThickSheet, output: str, *, force: bool) -> tuple[tuple[str, ...], tuple[str, ...]]:

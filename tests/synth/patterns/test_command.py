@@ -45,6 +45,7 @@ def test_wrong_words_are_one_line(tmp_path):
         lines = run("generate", "miura", *words, code=2).stderr.strip().splitlines()
         assert len(lines) == 1
         assert "expected" in lines[0]
-    assert "No such command 'crane'" in run("generate", "crane", code=2).stderr
+    assert "no generator 'crane'; expected one of miura, " in run("generate", "crane", code=2).stderr
+    assert "Did you mean 'miura'?" in run("generate", "muira", code=2).stderr
     (tmp_path / "a.fold").write_text("")
     assert "a.fold" in run("generate", "miura", "-o", tmp_path / "a.fold", code=2).stderr

@@ -93,6 +93,23 @@ def test_the_command_writes_solids_that_other_commands_take(tmp_path):
         assert target.stat().st_size > 1000
 
 
+def test_the_size_of_the_sheet_is_a_scale(tmp_path):
+    source = tmp_path / "miura.fold"
+    sheet = synth.generate("miura").mechanism
+    synth.write(sheet, source)
+    extent = float(np.ptp(np.array(sheet.coordinates), axis=0).max())
+    words = ("thicken", source, "--thickness", "2", "--no-collisions", "--json")
+    sized = json.loads(run(*words, "--size", "300").stdout)
+    assert sized["volume"] == pytest.approx(json.loads(run(*words, "--scale", 300 / extent).stdout)["volume"])
+    data = json.loads(source.read_text()) | {"frame_unit": "cm"}
+    source.write_text(json.dumps(data))
+    of_unit = ("thicken", source, "--thickness", "0.5", "--no-collisions", "--json")
+    assert json.loads(run(*of_unit).stdout)["volume"] == pytest.approx(
+        json.loads(run(*of_unit, "--scale", 10).stdout)["volume"]
+    )
+    assert "both a scale and a size" in run(*words, "--size", 300, "--scale", 2, code=2).stderr
+
+
 def test_the_file_moves_as_the_sheet_was_meant_to_with_its_angles_beside_those_of_the_thin_one(tmp_path):
     thick = synth.thicken(synth.generate("miura").mechanism, thickness=0.05, collisions=False)
     thick.write(tmp_path / "thick.json")
