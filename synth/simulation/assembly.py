@@ -29,6 +29,7 @@ from synth.moving.made import Movable, configuration_of
 from synth.simulation.bodies import Bar, Body, Hinge, MassProperties, Plate, Polyhedron, Shape, Shell, TreeJoint
 from synth.simulation.connections import CutHinge, Parting, connections
 from synth.simulation.shells import shells_of
+from synth.templates.template import unit_of
 from synth.templates.unfolding import Plane
 
 FRAMES = 40
@@ -42,6 +43,8 @@ _PIN = 0.1
 """Half the length of a hinge of links that are no panels, as part of the extent."""
 _LOOKED_AT = 8
 """Configurations of the motion at which loops are examined."""
+_IMPROBABLE = 50.0
+"""Metres: an extent from which on a unit that nothing states was probably no metre."""
 _LARGEST, _NAME = 1e6, 60
 
 
@@ -56,8 +59,8 @@ class AssemblyOptions:
     density : float, optional
         Kilograms per cubic metre.
     scale, size : float, optional
-        Millimetres per unit of the coordinates, by default 1000: the unit is a metre; or longest side of the
-        mechanism in millimetres.
+        Millimetres per unit of the coordinates, by default that of the file's unit, or 1000: the unit is a metre;
+        or longest side of the mechanism in millimetres.
     drive : mapping of joint id to float, optional
         As for `synth.move`: these joints get actuators. By default the joint that moves most.
     branch : int or str, optional
@@ -216,6 +219,8 @@ def assembly_of(mechanism: Movable, options: AssemblyOptions | None = None) -> A
     posed = moved(linkage, angles)
     unit_length = _unit(posed, at, options)
     metre = linkage.extent * unit_length
+    if options.size is None and options.scale is None and unit_length == 1.0 and metre >= _IMPROBABLE:
+        notes = (*notes, f"coordinates are taken as metres: an extent of {metre:.3g} m; --scale or --size changes it")
     thickness = _thickness(options, metre)
     drivers = () if driven is None else tuple(driven.places)
     hinges = _hinges(at, posed, metre, options, unit_length)
@@ -278,7 +283,8 @@ def turns_back(values: Floats) -> bool:
 def _unit(posed: PosedLinkage, at: Configuration, options: AssemblyOptions) -> float:
     """Return metres per unit of the coordinates."""
     if options.size is None:
-        return (_METRE if options.scale is None else options.scale) / _METRE
+        of_file = unit_of(at.drawn) if options.scale is None and isinstance(at, SheetConfiguration) else None
+        return (options.scale or of_file or _METRE) / _METRE
     points = posed.points * posed.extent
     if isinstance(at, SheetConfiguration):
         points = np.array([[*corner, 0.0][:3] for corner in at.sheet.coordinates or ()])

@@ -110,7 +110,7 @@ def convert(
     With --as, rigid bodies for simulators:
       mjcf (.xml)          MuJoCo: panels of a thickness, or bars between joint axes; exact hinges, a spanning tree,
                            connections that close the loops, an actuator at the driven joint. Coordinates are
-                           metres unless --scale or --size is given
+                           metres unless the file, --scale or --size says otherwise
       urdf (.urdf)         ROS: the tree; beside it the loops (.loops.json) and panels (.stl)
       sdf (.sdf)           Gazebo: all joints, those that close loops too
       usd (.usda)          USD Physics: joints that close loops are excluded from the articulation

@@ -300,6 +300,23 @@ def test_notes_are_not_among_what_is_lost(tmp_path, data):
     assert "no motion begins" in lines[1]
 
 
+def test_the_unit_of_a_file_and_what_is_improbably_large(tmp_path, data):
+    """A FOLD file that names its unit needs no scale; without one, coordinates in millimetres stand out."""
+    file = tmp_path / "vertex.fold"
+    content = json.loads((data / "patterns" / "four-bar-vertex.fold").read_text(encoding="utf-8"))
+    content["vertices_coords"] = [[100.0 * x for x in corner] for corner in content["vertices_coords"]]
+    file.write_text(json.dumps(content), encoding="utf-8")
+    large = assembly_of(file)
+    assert "coordinates are taken as metres: an extent of" in large.notes[-1]
+    file.write_text(json.dumps(content | {"frame_unit": "cm"}), encoding="utf-8")
+    small = assembly_of(file)
+    assert small.extent == pytest.approx(large.extent / 100)
+    assert not any("metres" in note for note in small.notes)
+    stated = assembly_of(file, AssemblyOptions(scale=1000.0))
+    assert stated.extent == pytest.approx(large.extent)
+    assert not any("metres" in note for note in stated.notes)
+
+
 def test_the_command(tmp_path, data):
     file, out = data / "patterns" / "four-bar-vertex.fold", tmp_path / "a.xml"
     told = run("convert", file, out, "--as", "mjcf", "--drive", "2=90", "--stiffness", "4=0.5", "--size", "100")
