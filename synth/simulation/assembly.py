@@ -6,15 +6,18 @@ metres, in the axes of the coordinates; the base of the tree stays where it is.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import isfinite, pi
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.files.formats import read
 from graphs.geometry import frame_about
+from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import LinkShape
 from graphs.printing import plain
 from graphs.tolerances import DOUBLE, leading
@@ -202,7 +205,9 @@ def assembly_of(mechanism: Movable, options: AssemblyOptions | None = None) -> A
     >>> miura.freedoms, len(miura.cuts), [len(cut.connects) for cut in miura.cuts]
     (1, 4, [1, 1, 1, 1])
     """
-    options = options or AssemblyOptions()
+    if isinstance(mechanism, str | Path):
+        mechanism = read(mechanism)
+    options = in_unit_of(mechanism, options or AssemblyOptions())
     at = configuration_of(mechanism, slides=True)
     options.springs.check_joints(at.joints)
     if not at.joints and not isinstance(at, SheetConfiguration):
@@ -255,6 +260,13 @@ def assembly_of(mechanism: Movable, options: AssemblyOptions | None = None) -> A
     )
 
 
+def in_unit_of(mechanism: object, options: AssemblyOptions) -> AssemblyOptions:
+    """Return options with the scale of the unit that the file of a sheet names, unless they state a scale or a size."""
+    if options.scale is not None or options.size is not None or not isinstance(mechanism, Sheet):
+        return options
+    return replace(options, scale=unit_of(mechanism))
+
+
 def _motion(at: Configuration, options: AssemblyOptions) -> tuple[DrivenMotion | None, tuple[str, ...]]:
     """Return the motion that a mechanism makes, None if nothing moves, with a line that says why it ended."""
     wanted = MotionOptions(options.drive, branch=options.branch, frames=FRAMES)
@@ -283,8 +295,7 @@ def turns_back(values: Floats) -> bool:
 def _unit(posed: PosedLinkage, at: Configuration, options: AssemblyOptions) -> float:
     """Return metres per unit of the coordinates."""
     if options.size is None:
-        of_file = unit_of(at.drawn) if options.scale is None and isinstance(at, SheetConfiguration) else None
-        return (options.scale or of_file or _METRE) / _METRE
+        return (_METRE if options.scale is None else options.scale) / _METRE
     points = posed.points * posed.extent
     if isinstance(at, SheetConfiguration):
         points = np.array([[*corner, 0.0][:3] for corner in at.sheet.coordinates or ()])

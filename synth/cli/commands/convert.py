@@ -199,7 +199,7 @@ def _write_model(
     """Write a model; return what its format does not hold, and notes on the motion."""
     from graphs.mechanism.solids import HingedSolids
     from synth.moving import configuration_of
-    from synth.simulation.assembly import DENSITY, AssemblyOptions
+    from synth.simulation.assembly import DENSITY, AssemblyOptions, in_unit_of
     from synth.simulation.writing import MODELS, write_assembly
 
     if "number" in values or "gap" in values:
@@ -216,7 +216,7 @@ def _write_model(
             options.numbers_of_joints(graph, moment, "--moment", "JOINT=M"),
         ),
     )  # fmt: skip
-    assembly = write_assembly(at, target, model, how, force=force)
+    assembly = write_assembly(at, target, model, in_unit_of(mechanism, how), force=force)
     return MODELS[model].lost(assembly), assembly.notes
 
 

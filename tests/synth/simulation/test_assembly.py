@@ -310,10 +310,13 @@ def test_the_unit_of_a_file_and_what_is_improbably_large(tmp_path, data):
     assert "coordinates are taken as metres: an extent of" in large.notes[-1]
     file.write_text(json.dumps(content | {"frame_unit": "cm"}), encoding="utf-8")
     small = assembly_of(file)
-    assert small.extent == pytest.approx(large.extent / 100)
+    assert small.size == pytest.approx(large.size / 100)
     assert not any("metres" in note for note in small.notes)
+    run("convert", file, tmp_path / "unit.xml", "--as", "mjcf")
+    run("convert", file, tmp_path / "scale.xml", "--as", "mjcf", "--scale", "10")
+    assert (tmp_path / "unit.xml").read_bytes() == (tmp_path / "scale.xml").read_bytes()
     stated = assembly_of(file, AssemblyOptions(scale=1000.0))
-    assert stated.extent == pytest.approx(large.extent)
+    assert stated.size == pytest.approx(large.size)
     assert not any("metres" in note for note in stated.notes)
 
 
