@@ -196,6 +196,9 @@ def read_edge_list(path: Path) -> nx.MultiGraph:
     parted_by = next((sign for sign in ";,\t" if sign in lines[0][1]), " ")
     columns = [name.strip(" \"'\r").lower() for name in lines[0][1].strip().split(parted_by)]
     ends = next((ends for ends in _NAMES_OF_ENDS if set(ends) <= set(columns)), None)
+    if ends is None and len(columns) > 3 and {"code", "string"} & set(columns):
+        wanted = "edges; rows of an enumeration are read from .jsonl, .sqlite or .parquet"
+        raise FileError(path, "line 1", "columns of a list of mechanisms", wanted)
     if ends is None:
         return _graph_of(_rows_of_lines(lines, path), path)
     if len(lines) == 1:

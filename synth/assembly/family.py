@@ -169,7 +169,8 @@ class _Axes:
             names = list(self._linkage.graph.joints)
             ids = ", ".join(shown(names[joint]) for joint in loop.joints)
             raise UnsolvableError(
-                f"the axes of loop {ids} neither meet in a point nor are parallel, as positions require"
+                f"the axes of loop {ids} neither meet in a point nor are parallel, as positions require; "
+                "try `synth fold`, which drives joints along the motion"
             )
         turning = [joint for joint in loop.joints if joint not in self._slides]
         plane, frame = self._plane(directions[turning])

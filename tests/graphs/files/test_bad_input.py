@@ -140,6 +140,11 @@ TEXTS = {
     "graphml: no XML": ("a.graphml", b"<graphml", "not XML"),
     "graphml: no graph": ("a.graphml", b"<html/>", "not GraphML"),
     "edges: one word": ("a.edges", b"0 1\n2\n", "line 2: 1 word; expected two links"),
+    "edges: rows of an enumeration": (
+        "a.csv",
+        b"code,links,joints,dof\nk1:Cr,4,4,1\n",
+        "line 1: columns of a list of mechanisms; expected edges; rows of an enumeration are read from .jsonl",
+    ),
     "edges: comments": ("a.edges", b"# nothing\n", "no joints; expected lines with two links each"),
     "edges: self-joint": ("a.edges", b"0 1\n1 1\n", "a joint joins link 1 to itself"),
     "edges: joint twice": ("a.edges", b"0 1 a\n1 2 a\n", "the joint id 'a' occurs twice"),
