@@ -357,7 +357,7 @@ def template_on_surface(
     """
     links = LayeredLinkage(linkage, surface, dimensions or Dimensions())
     picture = _picture(linkage, surface)
-    below = "It then lies as below; the picture puts layers beside each other, so that none hides another."
+    below = "It then looks as below; the picture puts layers beside each other, so that none hides another."
     steps = [*_steps(links), below]
     pieces = (_piece_of_surface(links), *(_piece_of_link(links, number) for number in range(len(links.links))))
     return Template(pieces, None, linkage, title, (), tuple(steps), picture)
@@ -375,14 +375,14 @@ def _steps(linkage: LayeredLinkage) -> list[str]:
     surface = linkage.surface
     if isinstance(surface, Cone):
         sector = 360 * cos(surface.angle)
-        rolled = f"a sector of {sector:.4g} degrees, as a cone; its ruling lines stand {degrees(surface.angle):.4g} "
-        rolled += "degrees off the plane across its axis"
+        half_angle = 90.0 - degrees(surface.angle)
+        rolled = f"a sector of {sector:.4g} degrees, as a cone with a half angle of {half_angle:.4g} degrees"
     else:
         rolled = f"as a cylinder of radius {surface.radius:.4g} mm"
     steps = [
         f"Cut out {numbered(len(linkage.links) + 1, 'piece')} along the black lines, slots too. You see their outside.",
         f"Roll the surface, {rolled}; glue its seam.",
-        f"Lay the links on it in {numbered(count, 'layer')}, layer 0 first, each along the lines of its joints.",
+        f"Put the links on it in {numbered(count, 'layer')}, layer 0 first, each along the lines of its joints.",
     ]
     return [*steps, *(_step_of_joint(linkage, joining) for joining in linkage.joinings)]
 
@@ -393,12 +393,14 @@ def _step_of_joint(linkage: LayeredLinkage, joining: Joining) -> str:
     way = f", through the slot of {', '.join(through)}" if through else ""
     if not joining.side:
         return (
-            f"Joint {joining.joint}: sew {tabbed.name} and {other.name} together along the line{way}; "
+            f"Joint {joining.joint}: sew links {tabbed.name} and {other.name} together along the line{way}; "
             "neither ends there."
         )
-    back = "fold its tab back and glue it" if joining.folded else "glue its tab, the fold is the hinge,"
     face = "outside" if tabbed.layer > other.layer else "inside"
-    return f"Joint {joining.joint}: of {tabbed.name} {back} to the {face} of {other.name}{way}."
+    tab, place = f"the tab of link {tabbed.name}", f"the {face} of link {other.name}{way}"
+    if joining.folded:
+        return f"Joint {joining.joint}: fold {tab} back and glue it to {place}."
+    return f"Joint {joining.joint}: glue {tab} to {place}; its fold is the hinge."
 
 
 _STEP = np.radians(3.0)
