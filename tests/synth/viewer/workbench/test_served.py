@@ -6,7 +6,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from workbench import DROP, WAIT, opened, status
+from workbench import DROP, DROP_ALL, WAIT, opened, status
 
 import synth
 from graphs.creasing.edits import crease_sheet, lock_crease
@@ -17,6 +17,29 @@ from synth.patterns.creases import miura
 from synth.viewer.workbench.reading import edited
 
 pytestmark = pytest.mark.web
+
+
+def test_an_empty_one_fills_the_window(served, tab):
+    opened(tab, served())
+    box = tab.locator(".bench").bounding_box()
+    height, window = tab.evaluate("[document.documentElement.scrollHeight, innerHeight]")
+    assert height <= window
+    assert box["y"] + box["height"] > 0.95 * window
+
+
+def test_several_files_are_dropped_at_once_and_all_undone(served, tab, data):
+    opened(tab, served())
+    names = ["patterns/four-bar-vertex.fold", "linkages/bennett.json", "wiener/six-bar.json"]
+    places = [data / name for name in names]
+    tab.evaluate(DROP_ALL, [[place.name, place.read_text()] for place in places])
+    listed = tab.get_by_label("Mechanism").locator("option")
+    listed.nth(2).wait_for(state="attached", timeout=WAIT)
+    assert listed.all_inner_texts() == [place.name for place in places]
+    for number in (2, 1):
+        tab.get_by_role("button", name="Undo").click()
+        listed.nth(number).wait_for(state="detached", timeout=WAIT)
+    tab.get_by_role("button", name="Undo").click()
+    tab.get_by_role("button", name="Miura sheet").wait_for(timeout=WAIT)
 
 
 def fold_document(sheet):
