@@ -33,17 +33,20 @@ ENTRIES = {
         "publisher": "World Scientific", "year": "2005",
     }),
     "mccarthy": ("book", {"author": "McCarthy, J. Michael", "title": "Geometric Design of Linkages",
+                          "series": "Interdisciplinary Applied Mathematics", "volume": "11",
                           "publisher": "Springer"}),
     "yan1991": ("misc", {"author": "Yan and Hwang", "year": "1991",
                          "note": "Numbers of kinematic chains; cited in docs/theory/chains.md"}),
     "mckay1998": ("article", {
         "author": "McKay, Brendan D.", "title": "Isomorph-free exhaustive generation",
-        "journal": "Journal of Algorithms", "volume": "26", "pages": "306--324", "year": "1998",
+        "journal": "Journal of Algorithms", "volume": "26", "number": "2", "pages": "306--324",
+        "year": "1998", "doi": "10.1006/jagm.1997.0898",
     }),
     "junttila2007": ("inproceedings", {
         "author": "Junttila, Tommi and Kaski, Petteri",
         "title": "Engineering an Efficient Canonical Labeling Tool for Large and Sparse Graphs",
-        "booktitle": "ALENEX", "year": "2007",
+        "booktitle": "Proceedings of the Ninth Workshop on Algorithm Engineering and Experiments (ALENEX)",
+        "pages": "135--149", "publisher": "SIAM", "year": "2007", "doi": "10.1137/1.9781611972870.13",
     }),
     "bern1996": ("inproceedings", {
         "author": "Bern, Marshall and Hayes, Barry", "title": "The complexity of flat origami", "booktitle": "SODA",
@@ -65,7 +68,8 @@ ENTRIES = {
     }),
     "tutte1963": ("article", {
         "author": "Tutte, W. T.", "title": "How to draw a graph",
-        "journal": "Proceedings of the London Mathematical Society", "volume": "13", "year": "1963",
+        "journal": "Proceedings of the London Mathematical Society", "volume": "13", "pages": "743--767",
+        "year": "1963",
     }),
 }  # fmt: skip
 """Key of a source to its kind and its fields."""
