@@ -120,7 +120,10 @@ def rich_table(*columns: str, numbers: Iterable[str] = (), title: str | None = N
 
 
 def console_for(stream: Any, width: int | None) -> Console:
-    """Return a console to which brackets are no markup, and which prints no control characters."""
+    """Return a console to which brackets are no markup, and which prints no control characters.
+
+    In a notebook it writes to the stream too, instead of beside it.
+    """
     from rich.console import Console
     from rich.text import Text
 
@@ -130,7 +133,9 @@ def console_for(stream: Any, width: int | None) -> Console:
         def render_str(self, text: str, **how: Any) -> Text:
             return super().render_str(plain_lines(text), **how)
 
-    return PlainConsole(file=stream, markup=False, highlight=False, emoji=False, soft_wrap=False, width=width)
+    return PlainConsole(
+        file=stream, markup=False, highlight=False, emoji=False, soft_wrap=False, width=width, force_jupyter=False
+    )
 
 
 def text_of(blocks: Iterable[Block]) -> str:

@@ -67,6 +67,13 @@ def test_an_answer_prints_as_the_command_does(data):
     assert "mobility M = 1" in html
 
 
+def test_in_a_notebook_text_is_returned_and_not_displayed(data, monkeypatch):
+    """rich displays what it prints where it finds a notebook; `str` and `print` must not."""
+    monkeypatch.setattr("rich.console._is_jupyter", lambda: True)
+    answer = synth.mobility(data / "patterns" / "four-bar-vertex.fold")
+    assert str(answer).startswith(answer.verdict.text)
+
+
 ANGLES, ORIENTED = "120,95,45,85", "data/orientations/tipparthi.json"
 PRINTED = [
     (lambda: synth.map_to_cones(np.radians([120, 95, 45, 85])), "cone map --angles " + ANGLES),
