@@ -188,7 +188,7 @@ def _html_text(text: str) -> str:
 
 
 def _html_table(table: TableBlock) -> str:
-    flush = [' style="text-align: right"' if column in table.numbers else "" for column in table.columns]
+    flush = [f' style="text-align: {"right" if column in table.numbers else "left"}"' for column in table.columns]
 
     def cells(texts: Sequence[str], tag: str) -> str:
         return "".join(f"<{tag}{style}>{_html_text(text)}</{tag}>" for style, text in zip(flush, texts, strict=True))
