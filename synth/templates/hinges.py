@@ -175,6 +175,7 @@ def _cuts(piece: pieces.Piece, panels: Sequence[Any], strips: Sequence[_Strip]) 
             for start, end in pairwise(ring.coords):
                 cuts += pieces.uncovered(pieces.TemplateLine("CUT", start, end), joined)
     removed = shapely.difference(piece.covered, pieces.united(panels), grid_size=pieces.GRID)
+    removed = removed.buffer(_THIN, cap_style="square", join_style="mitre")  # sides of the sheet lie on its border
     for stroke in piece.strokes:
         if stroke.kind == "CUT":
             rest = shapely.LineString([stroke.start, stroke.end]).difference(removed)

@@ -9,6 +9,7 @@ from commands import run
 from measured import lines_of_svg
 
 from graphs.errors import InvariantError, UnsolvableError
+from graphs.files.formats import read
 from graphs.mechanism.sheet import Sheet, sides_of_face, with_all_edges
 from synth.patterns.generated import generate
 from synth.templates.hinges import Hinges
@@ -115,6 +116,16 @@ def test_no_line_is_cut_twice(sheet):
         lengths = sum(np.linalg.norm(np.subtract(one.end, one.start)) for one in cuts)
         together = shapely.union_all([shapely.LineString([one.start, one.end]) for one in cuts])
         assert lengths == pytest.approx(together.length, rel=1e-9)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_no_cut_leaves_the_material(kind, data):
+    """Sides of the sheet end where its corners are cut off: those of acute panels, whose folds go to corners."""
+    piece = piece_of(with_all_edges(read(data / "patterns" / "four-bar-vertex.fold")), kind)
+    cuts = [shapely.LineString([stroke.start, stroke.end]) for stroke in piece.strokes if stroke.kind == "CUT"]
+    assert shapely.union_all(cuts).difference(piece.covered.buffer(1e-4)).length == 0.0
+    if kind == "gap":
+        assert sum(cut.length for cut in cuts) == pytest.approx(piece.covered.length)
 
 
 def test_edges_that_meet_when_it_is_put_together_have_their_half_of_the_gap():
