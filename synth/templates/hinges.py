@@ -175,10 +175,11 @@ def _cuts(piece: pieces.Piece, panels: Sequence[Any], strips: Sequence[_Strip]) 
             for start, end in pairwise(ring.coords):
                 cuts += pieces.uncovered(pieces.TemplateLine("CUT", start, end), joined)
     removed = shapely.difference(piece.covered, pieces.united(panels), grid_size=pieces.GRID)
-    removed = removed.buffer(_THIN, cap_style="square", join_style="mitre")  # sides of the sheet lie on its border
+    border = piece.covered.boundary.buffer(_THIN, cap_style="square")
     for stroke in piece.strokes:
-        if stroke.kind == "CUT":
-            rest = shapely.LineString([stroke.start, stroke.end]).difference(removed)
+        line = shapely.LineString([stroke.start, stroke.end])
+        if stroke.kind == "CUT" and not border.covers(line):  # sides of the sheet are those of panels
+            rest = line.difference(removed)
             for part in getattr(rest, "geoms", [rest]):
                 cuts += [pieces.TemplateLine("CUT", start, end) for start, end in pairwise(part.coords)]
     return cuts + [end for strip in strips for end in strip.ends()]
