@@ -255,7 +255,8 @@ def _of_sheet(answer: JudgedMobility, freedoms: int | None) -> list[Question]:
 
 def _of_surface(linkage: SurfaceLinkage) -> list[Question]:
     return [
-        (f"synth {linkage.kind} move FILE", "whether its links move inward or outward"),
+        (f"synth {linkage.kind} behaviour FILE -o picture.svg", "which links leave the surface, in a picture"),
+        (f"synth {linkage.kind} move FILE", "how far its links move inward and outward"),
         ("synth template FILE -o template.pdf", "a template to cut and roll up"),
         ("synth view FILE -o page.html", "a page on which it moves, for any browser"),
         ("synth mobility FILE", "the evidence: ranks, counts and equations"),
