@@ -42,6 +42,27 @@ def test_several_files_are_dropped_at_once_and_all_undone(served, tab, data):
     tab.get_by_role("button", name="Miura sheet").wait_for(timeout=WAIT)
 
 
+def test_two_files_are_judged_at_once_and_shown_in_their_order(served, tab):
+    """The status names both; a third waits; Stop ends all of them."""
+    opened(tab, served())
+    files = [
+        [f"{name}.fold", json.dumps(fold_document(miura(n, n, 1.2)))] for name, n in zip("abc", (16, 4, 6), strict=True)
+    ]
+    tab.evaluate(DROP_ALL, files)
+    tab.locator(".bench [role=status]", has_text=re.compile(r"a\.fold: .*; b\.fold: .*1 more waits")).wait_for(
+        timeout=WAIT
+    )
+    listed = tab.get_by_label("Mechanism").locator("option")
+    listed.nth(2).wait_for(state="attached", timeout=WAIT)
+    assert listed.all_inner_texts() == ["a.fold", "b.fold", "c.fold"]
+    tab.locator(".bench [role=status]", has_text="Drop a crease pattern").wait_for(timeout=WAIT)
+    assert tab.get_by_role("button", name="Stop").count() == 0
+    tab.evaluate(DROP_ALL, files)
+    tab.get_by_role("button", name="Stop").click()
+    tab.locator(".bench [role=status]", has_text="a.fold: stopped").wait_for(timeout=WAIT)
+    assert listed.count() == 3
+
+
 def fold_document(sheet):
     return {
         "file_spec": 1.2,

@@ -39,8 +39,12 @@ const NO_ANSWER = "the workbench does not answer";
  */
 
 export class Workbench {
-  /** @type {AbortController | null} */
-  #asked = null;
+  /**
+   * What Python is asked now, and how far each is.
+   *
+   * @type {Map<AbortController, {text: string, step: number, of: number}>}
+   */
+  #asked = new Map();
   /** What is done one after the other; what was begun before a stop is left out. */
   #queue = Promise.resolve();
   #stops = 0;
@@ -72,7 +76,7 @@ export class Workbench {
     this.samples = element("div", { class: "samples", hidden: "" });
     bench.append(chosen, this.status, this.progress, this.stop, this.samples, ...this.editing.parts);
     chosen.addEventListener("change", () => this.#read([...(chosen.files ?? [])]));
-    this.stop.addEventListener("click", () => { this.#stops += 1; this.#asked?.abort(); });
+    this.stop.addEventListener("click", () => { this.#stops += 1; this.#asked.forEach((_, asked) => asked.abort()); });
     this.#droppable(root);
     this.#present();
     this.changed();
@@ -153,18 +157,31 @@ export class Workbench {
    */
   #say(text) {
     this.#said = text;
-    const waiting = this.#waiting ? `; ${this.#waiting} more ${this.#waiting === 1 ? "waits" : "wait"}` : "";
-    this.status.textContent = text + waiting;
+    const asked = [...this.#asked.values()];
+    const waiting = this.#waiting - Math.max(0, asked.length - 1); // one of those asked is in its turn
+    const more = waiting > 0 ? `; ${waiting} more ${waiting === 1 ? "waits" : "wait"}` : "";
+    this.status.textContent = (asked.map((one) => one.text).join("; ") || text) + more;
+    this.progress.max = Math.max(1, asked.reduce((sum, one) => sum + one.of, 0));
+    this.progress.value = asked.reduce((sum, one) => sum + one.step, 0);
+    this.progress.hidden = this.stop.hidden = !asked.length;
   }
 
-  /** @param {File[]} files */
+  /**
+   * Read files two at a time, as many as Python judges at once, and show them in their order.
+   *
+   * @param {File[]} files
+   */
   #read(files) {
     /** @type {string[]} */
     const told = [];
-    for (const file of files) {
+    /** @type {Source[]} */
+    const sources = files.map((file) => ({ name: file.name, file, edits: [], motion: false }));
+    /** @type {Map<Source, Promise<{shown?: ShownData, error?: string}>>} */
+    const begun = new Map();
+    for (const [place, source] of sources.entries()) {
       this.#inTurn(async () => {
-        const source = { name: file.name, file, edits: [], motion: false };
-        const { shown, error } = await this.#judged(source);
+        for (const near of sources.slice(place, place + 2)) if (!begun.has(near)) begun.set(near, this.#judged(near));
+        const { shown, error } = await /** @type {Promise<{shown?: ShownData, error?: string}>} */ (begun.get(source));
         if (shown) {
           this.#history.push({ number: this.sources.length, before: null });
           this.sources.push(source);
@@ -216,10 +233,16 @@ export class Workbench {
     const number = this.page.number();
     this.#inTurn(async () => {
       const source = { ...this.sources[number], file: await this.#fileOf(number) };
-      const { answer, error } = await this.#answerOf("template", source, [["kind", kind], ["size", `${size}`]]);
-      this.#say(error ?? INVITED);
-      if (!answer) return;
-      const content = await answer.blob();
+      const asked = this.#begun(source.name);
+      let content;
+      try {
+        const { answer, error } = await this.#answerOf("template", source, [["kind", kind], ["size", `${size}`]], asked);
+        content = await answer?.blob();
+        this.#say(error ?? INVITED);
+      } finally {
+        this.#ended(asked);
+      }
+      if (!content) return;
       const extension = content.type.includes("zip") ? "zip" : kind;
       saved(content, `${source.name.replace(/\.\w+$/, "")}.${extension}`);
     });
@@ -237,15 +260,33 @@ export class Workbench {
    * @returns {Promise<{shown?: ShownData, error?: string}>}
    */
   async #judged(source) {
-    const { answer, error } = await this.#answerOf("shown", source, source.motion ? [["motion", "yes"]] : []);
-    if (!answer?.body) return { error };
+    const asked = this.#begun(source.name);
     try {
-      return await this.#followed(source.name, answer.body);
+      const { answer, error } = await this.#answerOf("shown", source, source.motion ? [["motion", "yes"]] : [], asked);
+      return answer?.body ? await this.#followed(source.name, answer.body, asked) : { error };
     } catch (broken) {
       return { error: `${source.name}: ${reason(broken)}` };
     } finally {
-      this.progress.hidden = this.stop.hidden = true;
+      this.#ended(asked);
     }
+  }
+
+  /**
+   * Note that Python is asked something about a file.
+   *
+   * @param {string} name
+   */
+  #begun(name) {
+    const asked = new AbortController();
+    this.#asked.set(asked, { text: `${name}: starting`, step: 0, of: 1 });
+    this.#say(this.#said);
+    return asked;
+  }
+
+  /** @param {AbortController} asked */
+  #ended(asked) {
+    this.#asked.delete(asked);
+    this.#say(this.#said);
   }
 
   /**
@@ -253,18 +294,18 @@ export class Workbench {
    *
    * @param {string} name
    * @param {ReadableStream<Uint8Array>} body
+   * @param {AbortController} asked
    * @returns {Promise<{shown?: ShownData, error?: string}>}
    */
-  async #followed(name, body) {
+  async #followed(name, body, asked) {
     const reader = body.getReader(), decoder = new TextDecoder();
-    this.stop.hidden = false;
     let rest = "", last = "{}";
     for (let piece = await reader.read(); !piece.done; piece = await reader.read()) {
       const lines = (rest + decoder.decode(piece.value, { stream: true })).split("\n");
       rest = lines.pop() ?? "";
       for (const line of lines.filter(Boolean)) {
         last = line; // of one that broke off, an error comes after it
-        if (line.startsWith('{"doing"')) this.#told(name, JSON.parse(line));
+        if (line.startsWith('{"doing"')) this.#told(name, JSON.parse(line), asked);
       }
     }
     const answer = JSON.parse(last);
@@ -274,12 +315,11 @@ export class Workbench {
   /**
    * @param {string} name
    * @param {{doing: string, step: number, of: number}} told
+   * @param {AbortController} asked
    */
-  #told(name, { doing, step, of }) {
-    this.progress.hidden = false;
-    this.progress.max = of;
-    this.progress.value = step;
-    this.#say(`${name}: ${doing} (${Math.round((100 * step) / of)} %)`);
+  #told(name, { doing, step, of }, asked) {
+    this.#asked.set(asked, { text: `${name}: ${doing} (${Math.round((100 * step) / of)} %)`, step, of });
+    this.#say(this.#said);
   }
 
   /**
@@ -288,23 +328,19 @@ export class Workbench {
    * @param {string} what
    * @param {Source} source
    * @param {string[][]} more
+   * @param {AbortController} asked
    * @returns {Promise<{answer?: Response, error?: string}>}
    */
-  async #answerOf(what, { name, file, edits }, more) {
-    this.#asked = new AbortController();
-    this.#say(`${name}: waiting`);
-    this.stop.hidden = false;
+  async #answerOf(what, { name, file, edits }, more, asked) {
     try {
       const words = new URLSearchParams([["name", name], ...edits.map((edit) => ["edit", edit]), ...more]);
-      const answer = await fetch(`${what}?${words}`, { method: "POST", body: file, signal: this.#asked.signal });
+      const answer = await fetch(`${what}?${words}`, { method: "POST", body: file, signal: asked.signal });
       if (answer.ok) return { answer };
       const told = await answer.text();
       const inWords = answer.headers.get("Content-Type") === "application/json";
       return { error: inWords ? JSON.parse(told).error : `${name}: ${told}` };
     } catch (broken) {
       return { error: `${name}: ${reason(broken)}` };
-    } finally {
-      this.stop.hidden = true;
     }
   }
 }
