@@ -222,7 +222,10 @@ def _questions(mechanism: Mechanism, answer: JudgedMobility) -> list[Question]:
     questions = _of_sheet(answer, freedoms) if isinstance(mechanism, Sheet) else []
     if freedoms and isinstance(mechanism, HingedSolids):
         questions.append(("synth fold FILE", "its motion: how far it goes, and why it ends"))
-        questions.append(("synth convert FILE model.xml --as mjcf", "a model for simulators, other formats too"))
+        scale = " --scale 1" if mechanism.shapes else ""  # shapes of `synth thicken` are in millimetres
+        questions.append(
+            (f"synth convert FILE model.xml --as mjcf{scale}", "a model for simulators, other formats too")
+        )
     if freedoms and answer.mobility is not None and answer.mobility < freedoms:
         questions.append(("synth explain FILE", "why it moves although counts say that it is rigid"))
     if freedoms is not None and freedoms > 1:
