@@ -11,8 +11,6 @@ docs/theory/folding.md.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from copy import copy
-from ctypes import CDLL
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -162,13 +160,21 @@ class ClosureEquations:
         self._groups = _grouped(linkage)
         self.joints = len(linkage.angles)
         self.rows = sum(group.equations * len(group.joints) for group in self._groups)
-        library = kernel()
-        self._kernel = None if library is None else _in_kernel(library, self.joints, self._groups)
+        self._kernel = _in_kernel(self.joints, self._groups)
         self._free: Floats | None = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return the state for another process, which has a library of its own."""
+        return {**self.__dict__, "_kernel": None}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._kernel = _in_kernel(self.joints, self._groups)
 
     def locked(self, joints: Sequence[int]) -> ClosureEquations:
         """Return the equations with the joints at some places locked: derivatives by these are zero."""
-        equations = copy(self)
+        equations = object.__new__(type(self))
+        equations.__dict__.update(self.__dict__)  # with the same library: `copy` would make it anew
         equations._free = np.ones(self.joints)
         equations._free[list(joints)] = 0.0
         return equations
@@ -314,8 +320,11 @@ def _grouped(linkage: PosedLinkage) -> list[_LoopGroup]:
     return groups
 
 
-def _in_kernel(library: CDLL, joints: int, groups: Sequence[_LoopGroup]) -> KernelEquations:
-    """Return the same equations in the library, loop after loop."""
+def _in_kernel(joints: int, groups: Sequence[_LoopGroup]) -> KernelEquations | None:
+    """Return the same equations in the library, loop after loop; None where there is no library."""
+    library = kernel()
+    if library is None:
+        return None
     kinds = [group.centre for group in groups for _ in group.joints]
     lengths = [group.joints.shape[1] for group in groups for _ in group.joints]
     begin = np.concatenate([np.zeros(1, dtype=np.int64), np.cumsum(lengths, dtype=np.int64)])

@@ -78,7 +78,6 @@ class KernelEquations:
         self, library: ctypes.CDLL, joints: int, kinds: Sequence[Centre], begin: Ints, parts: dict[str, Floats]
     ) -> None:
         self.library, self.joints = library, joints
-        self._given = (joints, tuple(kinds), begin, parts)
         real = ("signs", "turning", "axes", "points", "frames")
         arrays: list[npt.NDArray[Any]] = [
             np.ascontiguousarray(begin, dtype=np.int64),
@@ -92,9 +91,6 @@ class KernelEquations:
         self.rows = int(library.equations_rows(self.handle))
         self._entries = int(library.equations_entries(self.handle))
         self._one_thread = Lock()
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _equations_again, self._given
 
     def analysed(self) -> None:
         """Find the order of elimination and the pattern of the factor, once."""
@@ -144,12 +140,6 @@ class KernelEquations:
         return arrays, taken
 
 
-def _equations_again(*given: Any) -> KernelEquations | None:
-    """Return the equations in another process, from what they were made of; None where there is no library."""
-    found = kernel()
-    return None if found is None else KernelEquations(found, *given)
-
-
 class KernelFactor:
     """The normal equations of some derivatives, factorised: what `synth.motion.tangent.Factor` does."""
 
@@ -160,10 +150,7 @@ class KernelFactor:
         _check(self._handle)
         finalize(self, _freed, equations, self._handle)
         _check(self._library.factorised(equations.handle, self._handle, derivatives.ctypes.data, regular))
-        self.shape, self._regular = (equations.rows, equations.joints), regular
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return KernelFactor, (self._equations, self._derivatives, self._regular)
+        self.shape = (equations.rows, equations.joints)
 
     def _call(self, function: Any, given: Floats, wanted: int, *, derivatives: bool = True) -> Floats:
         given, result = np.ascontiguousarray(given, dtype=float), np.empty(wanted)
