@@ -81,9 +81,9 @@ def draw(
     drawing needed), flat-folded (folded flat, in its first layer order: front, back, light through the layers),
     folded (a folded sheet in space), chain (links as bodies, joints as small circles), graph (an SC or SCD graph,
     with the signs of the centres), model (vertices and rods), solids (hinged at edges, in space),
-    cone (a linkage round a cone, on the first of its cones), circle (the order of its joints round a cone) or
-    sphere (which axes keep orientations in their order). Numbers are those that messages and JSON use; in SVG,
-    shapes carry them as data-link and data-joint.
+    cone or cylinder (a linkage round one, on the first of those it fits), circle (the order of its joints round a
+    cone) or sphere (which axes keep orientations in their order). Numbers are those that messages and JSON use; in
+    SVG, shapes carry them as data-link and data-joint.
 
     A store (.sqlite), rows (.jsonl, .parquet), a graph6 file or a folder gives a catalogue, 24 pictures per page,
     with id, name, degrees of freedom, centres and symmetry: one .pdf, or one file per page. SC and SCD graphs of up to

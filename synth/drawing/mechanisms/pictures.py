@@ -173,7 +173,9 @@ def _solids(drawable: object, options: PictureOptions) -> Scene:
 
 def _surface(kind: str, drawable: object, options: PictureOptions) -> Scene:
     """Return a linkage on the first of its cones or cylinders."""
-    if not isinstance(drawable, SurfaceLinkage) or drawable.kind != kind:
+    if isinstance(drawable, SurfaceLinkage) and drawable.kind != kind:
+        raise UnsolvableError(f"the linkage lies on a {drawable.kind}, not on a {kind}; try --as {drawable.kind}")
+    if not isinstance(drawable, SurfaceLinkage):
         raise _unfit(kind, f"a linkage defined by links or angles round a {kind}", drawable)
     if min(options.box) < _SMALL:
         raise UnsolvableError(f"a linkage on its {kind} is too large for a catalogue; try its chain (--as chain)")

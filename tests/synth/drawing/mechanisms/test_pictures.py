@@ -186,6 +186,13 @@ def test_colours_of_a_pattern_are_not_left_out_in_silence(look):
         draw(read("k1:Cr"), **look)
 
 
+def test_a_linkage_on_the_other_surface_is_named():
+    with pytest.raises(UnsolvableError, match="lies on a cylinder, not on a cone; try --as cylinder"):
+        draw(read(DATA / "surfaces" / "fig10-four-bar.json"), "cone")
+    with pytest.raises(UnsolvableError, match="requires a linkage defined by links or angles round a cone"):
+        draw(read("k1:Cr"), "cone")
+
+
 def test_long_captions_are_broken_and_not_cut():
     words = " ".join(f"word{i}" for i in range(30))
     lines = [label.text for label in draw(read("k1:Cr"), caption=words).layers[-1].shapes]
