@@ -243,25 +243,39 @@ class _Start:
 def fold_to(sheet: Sheet, angle: float) -> Motion:
     """Fold a flat pattern as assigned until the crease that moves most has an angle, radians, above 0.
 
+    Raises `UnsolvableError` if nothing folds, or all motions of `folded_towards` end before; the farthest is named.
+    """
+    motion = folded_towards(sheet, angle)
+    if motion.path.stopped:
+        driver = motion.configuration.joints.index(next(iter(motion.driven)))
+        reached = degrees(float(abs(motion.path.angles[-1, driver])))
+        limit = f"the pattern folds to {reached:.6g}°; expected {degrees(angle):.6g}°"
+        raise UnsolvableError(f"{limit}: {motion.path.stopped}")
+    return motion
+
+
+def folded_towards(sheet: Sheet, angle: float, frames: int = 1) -> Motion:
+    """Return the motion of a flat pattern that folds to an angle, radians, above 0; else the one that gets farthest.
+
     Tried are, until one leads there: the motion on which creases that look alike fold alike; those that keep less
     of the symmetry; the branch that agrees best with the marks; others that agree with them. Each goes straight on
     first, then by the least rates that move the driven crease; where that turns back, the next one is driven.
-    Raises `UnsolvableError` if nothing folds, or all motions that were tried end before; the farthest is named.
+    The motion has so many frames after the flat one, at equal steps of the driven crease. Raises `UnsolvableError`
+    if nothing folds.
     """
-    farthest, stopped = -1.0, ""
+    farthest, best = -1.0, None
     for start in _starts(sheet):
         for driver in _drivers(start):
             for straight in (True, False):
-                motion = _followed(start, driver, angle, straight=straight)
+                motion = _followed(start, driver, angle, frames, straight=straight)
                 if not motion.path.stopped:
                     return motion
                 reached = float(abs(motion.path.angles[-1, driver]))
                 if reached > farthest + DOUBLE.same_configuration:
-                    farthest, stopped = reached, motion.path.stopped
-    if not stopped:
+                    farthest, best = reached, motion
+    if best is None:
         raise UnsolvableError("found no motion that folds the pattern with its assignment")
-    limit = f"the pattern folds to {degrees(farthest):.6g}°; expected {degrees(angle):.6g}°"
-    raise UnsolvableError(f"{limit}: {stopped}")
+    return best
 
 
 def _starts(sheet: Sheet) -> Iterator[_Start]:
@@ -316,7 +330,7 @@ def _drivers(start: _Start) -> list[int]:
     return drivers
 
 
-def _followed(start: _Start, driver: int, angle: float, *, straight: bool) -> Motion:
+def _followed(start: _Start, driver: int, angle: float, frames: int, *, straight: bool) -> Motion:
     """Drive a joint to an angle on a motion."""
     pattern, joints = start.pattern, start.pattern.joints
     goal = float(np.sign(start.rates[driver])) * angle
@@ -325,5 +339,6 @@ def _followed(start: _Start, driver: int, angle: float, *, straight: bool) -> Mo
     if start.branch is not None and pattern.branches is not None:
         still = pattern.branches.branches[start.branch].still
     options = PathOptions(start.rates, limited, straight, names=joints, allowance=allowance, locked=still)
-    path = driven_path(start.closure, pattern.linkage.angles, [driver], [[goal]], options=options)
+    goals = [[goal * (number + 1) / frames] for number in range(frames)]
+    path = driven_path(start.closure, pattern.linkage.angles, [driver], goals, options=options)
     return motion_along(pattern, DrivenMotion(start.branch, [driver], {joints[driver]: goal}, path))

@@ -6,18 +6,20 @@ Science 349 (2015), 396-400. Theory: docs/theory/thick-panels.md.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi, sin
 
 import numpy as np
 import scipy.optimize
 import scipy.sparse
+from scipy.spatial.transform import Rotation
 
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import UnsolvableError, numbered
 from graphs.loops.loop import Centre
 from graphs.mechanism.precision import in_space, precision_of
 from graphs.mechanism.sheet import Sheet
+from graphs.rank.singular_values import row_space
 from graphs.tolerances import Tolerances
 from graphs.types import Floats
 
@@ -38,9 +40,15 @@ class ThickVertex:
     joints : tuple of int
         The creases in counterclockwise order; for five and six the first lies in the plane of symmetry.
     linkage : str
-        ``Bennett``, ``Myard`` or ``Bricard``.
+        ``Bennett``, ``Myard`` or ``Bricard``; empty for none of these.
     rows : tuple of mapping of joint to float
         Coefficients of linear conditions on the heights.
+    ends : tuple of int
+        A vertex on each crease, the farther end.
+    directions : tuple of (float, float)
+        Of the creases, outwards.
+    fault : str
+        Why the vertex is none of these linkages; empty if it is one.
 
     Examples
     --------
@@ -55,6 +63,14 @@ class ThickVertex:
     joints: tuple[int, ...]
     linkage: str
     rows: tuple[Row, ...]
+    ends: tuple[int, ...]
+    directions: tuple[tuple[float, float], ...]
+    fault: str = ""
+
+    @property
+    def of_motion(self) -> bool:
+        """Whether heights are to be those of one motion of the thin vertex: it has more than four creases."""
+        return len(self.joints) > 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +85,8 @@ class HingeHeights:
     vertices : tuple of ThickVertex
     residual : float
         The largest error of a condition.
+    of_motion : bool
+        Whether vertices of more than four creases keep one motion of the thin sheet.
 
     Examples
     --------
@@ -83,6 +101,7 @@ class HingeHeights:
     undersides: tuple[float, ...]
     vertices: tuple[ThickVertex, ...]
     residual: float
+    of_motion: bool = False
 
 
 def bennett_rows(joints: Sequence[int], sectors: Sequence[float], same: bool) -> tuple[Row, Row]:
@@ -128,7 +147,7 @@ def thick_vertices(sheet: Sheet, mechanism: SheetMechanism, tolerances: Toleranc
     Raises
     ------
     UnsolvableError
-        For the first vertex that no overconstrained linkage suits.
+        If there are loops round holes.
 
     Examples
     --------
@@ -156,7 +175,15 @@ def thick_vertices(sheet: Sheet, mechanism: SheetMechanism, tolerances: Toleranc
         round_it = [joints[i] for i in order]
         sectors = np.diff([*angles[order], angles[order[0]] + 2 * pi])
         within = tolerances.same_configuration + 4 * _error_of_directions(corners, towards)
-        vertices.append(_thick_vertex(vertex, round_it, sectors, sheet.assignments, within))
+        linkage, first, rows, fault = _linkage(vertex, round_it, sectors, sheet.assignments, within)
+        turned = np.roll(order, -first)
+        outwards = (towards / np.linalg.norm(towards, axis=1, keepdims=True))[turned].tolist()
+        vertices.append(
+            ThickVertex(
+                vertex, tuple(joints[i] for i in turned), linkage, rows, tuple(tips[i] for i in turned),
+                tuple((x, y) for x, y in outwards), fault,
+            )
+        )  # fmt: skip
     return tuple(sorted(vertices, key=lambda one: one.vertex))
 
 
@@ -170,31 +197,87 @@ def _listed(numbers: Sequence[int]) -> str:
     return ", ".join(map(str, numbers[:_NAMED])) + (f" and {more} more" if more > 0 else "")
 
 
-def _thick_vertex(vertex: int, joints: list[int], sectors: Floats, letters: str, within: float) -> ThickVertex:
-    """Return the conditions of a vertex by its creases, counterclockwise, and the sectors after them."""
+def _linkage(
+    vertex: int, joints: list[int], sectors: Floats, letters: str, within: float
+) -> tuple[str, int, tuple[Row, ...], str]:
+    """Return the linkage of a vertex by its creases, counterclockwise, and the sectors after them.
+
+    With it the place of its first crease and its conditions; without one the reason.
+    """
     marks = [letters[joint] for joint in joints]
-    degree = len(joints)
+    degree, none = len(joints), tuple[Row, ...]()
     if degree == 4:
-        if abs(sectors[0] + sectors[2] - pi) > within:
-            wrong = f"opposite sectors add up to {np.degrees(sectors[0] + sectors[2]):.6g} degrees"
-            raise UnsolvableError(f"vertex {vertex}: {wrong}; expected 180, the condition of Bennett's linkage")
+        off = float(sectors[0] + sectors[2] - pi)
+        if abs(off) > within:
+            wrong = f"opposite sectors add up to {_degrees_off(off)} degrees"
+            return "", 0, none, f"vertex {vertex}: {wrong}; expected 180, the condition of Bennett's linkage"
         if abs(marks.count("M") - marks.count("V")) != 2:
             count = numbered(marks.count("M"), "mountain")
-            raise UnsolvableError(f"vertex {vertex}: {count} of 4 creases; expected 1 or 3")
-        return ThickVertex(
-            vertex, tuple(joints), "Bennett", bennett_rows(joints, sectors.tolist(), marks[1] == marks[3])
-        )
-    if degree in (5, 6):
-        for first in range(degree):
-            turned = np.roll(sectors, -first)
-            here, seen = joints[first:] + joints[:first], marks[first:] + marks[:first]
-            mirrored = np.abs(turned - turned[::-1]).max() <= within and seen[1:] == seen[:0:-1]
-            symmetric = _mirrored_rows(here, turned, seen, within) if mirrored else None
-            if symmetric is not None:
-                return ThickVertex(vertex, tuple(here), "Myard" if degree == 5 else "Bricard", symmetric)
-        rule = "sectors" + (" of Myard's linkage" if degree == 5 else "") + " and assignment symmetric about a crease"
-        raise UnsolvableError(f"vertex {vertex} of {degree} creases: not symmetric so; expected {rule}")
-    raise UnsolvableError(f"vertex {vertex} has {numbered(degree, 'crease')}; expected 4, 5 or 6")
+            return "", 0, none, f"vertex {vertex}: {count} of 4 creases; expected 1 or 3"
+        return "Bennett", 0, bennett_rows(joints, sectors.tolist(), marks[1] == marks[3]), ""
+    if degree not in (5, 6):
+        return "", 0, none, f"vertex {vertex} has {numbered(degree, 'crease')}; expected 4, 5 or 6"
+    for first in range(degree):
+        turned = np.roll(sectors, -first)
+        here, seen = joints[first:] + joints[:first], marks[first:] + marks[:first]
+        mirrored = np.abs(turned - turned[::-1]).max() <= within and seen[1:] == seen[:0:-1]
+        symmetric = _mirrored_rows(here, turned, seen, within) if mirrored else None
+        if symmetric is not None:
+            return "Myard" if degree == 5 else "Bricard", first, symmetric, ""
+    rule = "sectors" + (" of Myard's linkage" if degree == 5 else "") + " and assignment symmetric about a crease"
+    return "", 0, none, f"vertex {vertex} of {degree} creases: not symmetric so; expected {rule}"
+
+
+def _degrees_off(off: float) -> str:
+    """Return 180 degrees and an angle, in radians, with as many digits as tell it from 180."""
+    whole = f"{np.degrees(pi + off):.6g}"
+    return whole if whole != "180" else f"180 {'+' if off > 0.0 else '-'} {np.degrees(abs(off)):.1g}"
+
+
+def needs_motion(vertices: Sequence[ThickVertex]) -> bool:
+    """Return whether heights have to keep one motion of the thin sheet, so that vertices agree.
+
+    Those of five and six creases that share a crease with another choose paths that need not agree. Vertices of five
+    and more creases of no known linkage may keep a motion too; those of fewer cannot.
+    """
+    shared = [joint for one in vertices if one.of_motion for joint in one.joints]
+    return len(set(shared)) < len(shared) or any(one.fault and one.of_motion for one in vertices)
+
+
+def of_motion(vertex: ThickVertex, joints: Sequence[int], angles: Floats) -> ThickVertex:
+    """Return a vertex with the conditions on its heights h that keep a motion of the thin vertex.
+
+    From panel to panel round it, crossing creases k, the common normals of neighbouring axes are the normals n of
+    panels, as long as the difference of heights. They close if the sum of h(k) (n(k) - n(k + 1)) is zero, which is
+    linear in the heights, in each frame. All heights may be equal; if nothing else is left, no heights keep it.
+
+    Parameters
+    ----------
+    vertex : ThickVertex
+    joints : sequence of int
+        Of the sheet, in the order of the angles.
+    angles : float[F, J]
+        Fold angles of the motion, radians.
+
+    Examples
+    --------
+    >>> import synth
+    >>> from synth.moving.made import configuration_of
+    >>> at = configuration_of(synth.generate("miura").mechanism)
+    >>> vertex = thick_vertices(at.sheet, at.mechanism, at.tolerances)[0]
+    >>> len(of_motion(vertex, list(at.mechanism.sc.joints), synth.move(at.sheet).path.angles).rows)
+    2
+    """
+    place = {joint: number for number, joint in enumerate(joints)}
+    turned, normals = np.tile(np.eye(3), (len(angles), 1, 1)), []
+    for joint, direction in zip(vertex.joints, vertex.directions, strict=True):
+        normals.append(turned[:, :, 2])
+        vectors = -angles[:, [place[joint]]] * np.array([*direction, 0.0])
+        turned = turned @ Rotation.from_rotvec(vectors).as_matrix()
+    across = np.stack(normals, axis=2)
+    across = (across - np.roll(across, -1, axis=2)).reshape(-1, len(normals))
+    rows = row_space(across).T
+    return replace(vertex, rows=tuple(dict(zip(vertex.joints, row.tolist(), strict=True)) for row in rows))
 
 
 def _mirrored_rows(
@@ -214,7 +297,9 @@ def _mirrored_rows(
     return tuple(rows)
 
 
-def hinge_heights(sheet: Sheet, mechanism: SheetMechanism, tolerances: Tolerances) -> HingeHeights:
+def hinge_heights(
+    sheet: Sheet, mechanism: SheetMechanism, tolerances: Tolerances, angles: Floats | None = None
+) -> HingeHeights:
     """Return heights of hinges with the lowest risers: one linear programme over the sheet.
 
     A valley is at least at the upper side of both its panels, a mountain at most at their underside.
@@ -227,12 +312,14 @@ def hinge_heights(sheet: Sheet, mechanism: SheetMechanism, tolerances: Tolerance
         Of the sheet.
     tolerances : Tolerances
         Of its coordinates.
+    angles : float[F, J], optional
+        Fold angles of a motion of the sheet, radians, which vertices of more than four creases keep.
 
     Raises
     ------
     UnsolvableError
-        If a vertex suits no linkage; if conditions exclude each other, with the vertices and panels of a dual
-        certificate (Farkas' lemma).
+        If a vertex suits no linkage, or no heights keep the motion; if conditions exclude each other, with the
+        vertices and panels of a dual certificate (Farkas' lemma).
 
     Examples
     --------
@@ -244,6 +331,12 @@ def hinge_heights(sheet: Sheet, mechanism: SheetMechanism, tolerances: Tolerance
     (12, 9)
     """
     vertices = thick_vertices(sheet, mechanism, tolerances)
+    if angles is not None:
+        joints = [int(str(joint)) for joint in mechanism.sc.joints]
+        vertices = tuple(of_motion(one, joints, angles) if one.of_motion else one for one in vertices)
+    for one in vertices:
+        if one.fault and len(one.rows) in (0, len(one.joints) - 1):  # no conditions, or none but equal heights left
+            raise UnsolvableError(one.fault)
     columns = {joint: place for place, joint in enumerate(mechanism.sc.joints)}
     hinges, panels = len(columns), len(mechanism.panels)
     equal = _matrix([{columns[j]: c for j, c in row.items()} for one in vertices for row in one.rows], hinges + panels)
@@ -267,7 +360,7 @@ def hinge_heights(sheet: Sheet, mechanism: SheetMechanism, tolerances: Tolerance
     residual = max(float(np.abs(equal @ levels).max(initial=0.0)), float((unequal @ levels - least).max(initial=0.0)))
     return HingeHeights(
         {joint: float(levels[place]) for joint, place in columns.items()},  # type: ignore[misc]
-        tuple(levels[hinges:].tolist()), vertices, residual,
+        tuple(levels[hinges:].tolist()), vertices, residual, angles is not None,
     )  # fmt: skip
 
 

@@ -12,20 +12,26 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import scipy.sparse
 import shapely
+from scipy.sparse.linalg import spsolve
 
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.files.formats import write
 from graphs.files.outputs import check_writable, write_as
 from graphs.geometry import unit
-from graphs.mechanism.precision import in_space
+from graphs.mechanism.precision import in_space, keeping
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import Axis, HingedSolids, LinkShape
 from graphs.printing import Block, Printed, TableBlock
+from graphs.rank.singular_values import rank_of
+from graphs.tolerances import DOUBLE, EPSILON
 from graphs.types import Floats
+from synth.folding.alike import folded_towards
 from synth.folding.configuration import SheetConfiguration
+from synth.folding.mending.fitting import MeantAngles, VertexPlaces
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
 from synth.motion.driving import MotionOptions
@@ -37,7 +43,7 @@ from synth.templates.solids import SOLIDS, Solids
 from synth.templates.template import GREATEST, Template
 from synth.thickening.collisions import FoldCourse, Meeting, MovingPieces, body_poses
 from synth.thickening.fittings import HINGES, Bores, bores_of, drilled, parts_of, pocketed
-from synth.thickening.heights import HingeHeights, hinge_heights
+from synth.thickening.heights import HingeHeights, hinge_heights, needs_motion, thick_vertices
 from synth.thickening.plates import Plates, ThickPlates, cut_back, hinge_lines, thick_plates
 from synth.thickening.techniques import HingeSeat, offset_plates, strip_plates, tapered_plates, trims_of
 from synth.verdict.judged import verdict_of_motion
@@ -47,12 +53,16 @@ _CLEARANCE = 0.02
 """Default clearance of panels that no hinge joins, as a part of the thickness."""
 _DENSITY = 700.0
 """Kilograms per cubic metre, of plywood."""
+_KEPT = "Mobile along the motion of the thin sheet that the heights keep: {} there, up to {:.6g}°."
+_FREEDOMS = ("degree of freedom", "degrees of freedom")
 _MUCH = 0.1
 """A part of the volume: the answer warns if more than this is cut away so that panels do not meet."""
 TECHNIQUES = ("spatial", "tapered", "offset", "hinge")
 """Ways to give panels a thickness."""
 _GREATEST_ANGLES = {"spatial": 179.0, "tapered": 150.0, "offset": 179.0, "hinge": 150.0}
 """Default greatest fold angles, degrees."""
+_NEWTON = 8
+"""Steps of Newton's method to angles that are alike."""
 _FRAMES = 40
 """Frames of a motion that is not that of the thin sheet: hinges may turn by a whole turn."""
 _STEPS = (1.5, 0.5)
@@ -180,6 +190,9 @@ class ThickSheet(Printed):
         Panel and centre of each bore for a screw, millimetres.
     clearance : float
         Of panels that no hinge joins, and of screws in bores, millimetres.
+    freedoms : int, optional
+        The degrees of freedom of the solids in the middle of the motion that they keep; None if vertices had not to
+        agree on one.
 
     Examples
     --------
@@ -205,6 +218,7 @@ class ThickSheet(Printed):
     hinges: str = "tape"
     bores: Bores = field(default_factory=dict)
     clearance: float = 0.0
+    freedoms: int | None = None
 
     def panel_motions(self) -> tuple[Floats, Floats]:
         """Return rotations, float[F, P, 3, 3], and translations, float[F, P, 3], of panels; panel 0 rests."""
@@ -213,14 +227,15 @@ class ThickSheet(Printed):
     def blocks(self) -> list[Block]:
         """Return the sentence and the heights that are printed."""
         kinds = [one.linkage for one in self.heights.vertices]
-        linkages = ", ".join(numbered(kinds.count(kind), f"{kind} vertex", f"{kind} vertices")
-                             for kind in ("Bennett", "Myard", "Bricard") if kind in kinds)  # fmt: skip
+        linkages = ", ".join(numbered(kinds.count(kind), f"{kind or 'other'} vertex", f"{kind or 'other'} vertices")
+                             for kind in ("Bennett", "Myard", "Bricard", "") if kind in kinds)  # fmt: skip
         angles = "those of the thin sheet" if self.keeps_angles else "not those of the thin sheet"
         rows = [(str(joint), f"{height * self.thickness + 0.0:.6g}") for joint, height in self.heights.hinges.items()]
         most = float(np.degrees(np.abs(self.angles).max(initial=0.0)))
         columns = ("technique", "greatest angle", "stowed box in mm", "thinnest part in mm", "mass in g")
         compared = TableBlock(columns, [one.row() for one in self.comparison], columns[1:])
         return [
+            *([_KEPT.format(numbered(self.freedoms, *_FREEDOMS), most)] if self.freedoms is not None else []),
             str(self.verdict),
             *([compared] if self.comparison else []),
             *([f"vertices: {linkages or 'none inside the sheet'}"] if self.how == "spatial" else []),
@@ -263,6 +278,7 @@ class ThickSheet(Printed):
                 for one in self.heights.vertices
             ],
             "keeps_angles": self.keeps_angles,
+            "freedoms_on_the_motion": self.freedoms,
             "residual": self.residual,
             "angles_deg": np.degrees(self.angles).tolist(),
             "hinges": self.hinges,
@@ -442,9 +458,12 @@ def _thickened(at: SheetConfiguration, how: str, wishes: _Wishes) -> ThickSheet:
     thickness, scale, clearance = wishes.thickness, wishes.scale, wishes.clearance
     greatest = wishes.angle or np.radians(_GREATEST_ANGLES[how])
     joints = [int(str(joint)) for joint in at.mechanism.sc.joints]
+    if how == "spatial":
+        at = _exact(at)
     # What excludes heights is a better reason than that nothing moves, so it comes first.
-    spatial = hinge_heights(at.sheet, at.mechanism, at.tolerances) if how == "spatial" else None
-    thin = FoldCourse(at.closure, motion_of(at, MotionOptions()).path.angles).up_to(greatest)
+    spatial, thin = _spatial_heights(at, greatest) if how == "spatial" else (None, None)
+    if thin is None:
+        thin = FoldCourse(at.closure, motion_of(at, MotionOptions()).path.angles).up_to(greatest)
     turned = thin.frames[-1]
     plates: Plates
     heights = HingeHeights(dict.fromkeys(joints, 0.0), (-0.5,) * len(at.mechanism.panels), (), 0.0)
@@ -461,6 +480,8 @@ def _thickened(at: SheetConfiguration, how: str, wishes: _Wishes) -> ThickSheet:
     thick = configuration_of(solids)
     verdict = verdict_of_motion(thick)
     course, keeps = FoldCourse(thick.closure, thin.frames), True
+    if heights.of_motion:  # the thin sheet has other motions beside this one, the solids have not
+        course = course.up_to(greatest)
     residual = _residual(thick.closure, course.frames)
     if not residual <= thick.tolerances.closed:
         course, keeps = _course_of_solids(at, thick, thin, greatest)
@@ -475,8 +496,47 @@ def _thickened(at: SheetConfiguration, how: str, wishes: _Wishes) -> ThickSheet:
         ThickSheet(
             solids, heights, plates, thickness, verdict, course.frames, keeps, residual, kept, valleys, how, found,
             hinges=wishes.hinges, clearance=clearance,
+            freedoms=_freedoms(thick.closure, course) if heights.of_motion else None,
         )
     )  # fmt: skip
+
+
+def _exact(at: SheetConfiguration) -> SheetConfiguration:
+    """Return a sheet whose angles that are meant to be alike are so to double precision.
+
+    Opposite sectors at a vertex of Bennett add up to 180 degrees within the precision, and vertices agree on the
+    heights of hinges that they share; rounded coordinates would leave the loops of the solids open by as much.
+    """
+    places = VertexPlaces(at.sheet, at.mechanism, at.linkage)
+    meant = MeantAngles(places, max(at.precision.size, DOUBLE.same_point))
+    by = np.zeros(places.unknowns)
+    for _ in range(_NEWTON):
+        corners = places.moved(by)
+        bent, bending = places.off_lines(corners)
+        off = np.concatenate([meant.off(corners), bent])
+        if np.abs(off).max(initial=0.0) <= DOUBLE.closed:
+            break
+        jacobian = scipy.sparse.vstack([meant.by_axes() @ places.motions_of_axes(corners), bending], format="csr")
+        normal = (jacobian @ jacobian.T).tocsc()
+        dependent = EPSILON * normal.diagonal().max()  # conditions that follow from others are met with them
+        by -= jacobian.T @ spsolve(normal + dependent * scipy.sparse.eye_array(len(off), format="csc"), off)
+    if not by.any():
+        return at
+    written = places.moved(by) * at.linkage.extent + at.linkage.middle
+    sheet = replace(at.sheet, coordinates=tuple(map(tuple, written.tolist())))
+    return _flat_configuration(keeping(sheet, at.precision))
+
+
+def _spatial_heights(at: SheetConfiguration, greatest: float) -> tuple[HingeHeights, FoldCourse | None]:
+    """Return heights, and the motion of the thin sheet that they keep if vertices have to agree on one."""
+    vertices = thick_vertices(at.sheet, at.mechanism, at.tolerances)
+    hopeless = any(one.fault and not one.of_motion for one in vertices)
+    if hopeless or not needs_motion(vertices):
+        return hinge_heights(at.sheet, at.mechanism, at.tolerances), None
+    motion = folded_towards(at.sheet, greatest, _FRAMES)
+    places = [motion.configuration.joints.index(joint) for joint in at.mechanism.sc.joints]
+    angles = motion.path.angles[:, places]
+    return hinge_heights(at.sheet, at.mechanism, at.tolerances, angles), FoldCourse(at.closure, angles)
 
 
 def _fitted(thick: ThickSheet) -> ThickSheet:
@@ -583,6 +643,12 @@ def _hinges(solids: HingedSolids) -> tuple[list[tuple[int, int]], Floats, Floats
     pairs = [(number[one], number[other]) for one, other in solids.chain.joints.values()]
     axes = np.array([solids.axes[joint] for joint in solids.chain.joints]).reshape(-1, 2, 3)
     return pairs, axes[:, 0], unit(axes[:, 1])
+
+
+def _freedoms(closure: ClosureEquations, course: FoldCourse) -> int:
+    """Return the degrees of freedom in the middle of a motion, to first order: there it is regular."""
+    angles = course.at(np.array([course.end / 2.0]))[0]
+    return closure.joints - rank_of(closure.dense(angles))
 
 
 def _residual(closure: ClosureEquations, angles: Floats) -> float:
