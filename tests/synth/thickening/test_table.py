@@ -8,18 +8,42 @@ from overlaps import volume_in_common
 import synth
 from graphs.errors import UnsolvableError
 from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.solids import HingedSolids
+from synth.moving.made import configuration_of
+from synth.thickening import hinge_heights
 
 
-def opened_kresling_cell(sides=3):
-    """Triangles of a storey of Kresling's pattern side by side in the plane: all its vertices are on the border."""
-    low = [(float(i), 0.0) for i in range(sides + 1)]
-    high = [(i + 0.5, 0.8) for i in range(sides + 1)]
-    top = sides + 1
-    faces = [face for i in range(sides) for face in ((i, i + 1, top + i), (i + 1, top + i + 1, top + i))]
-    diagonals = [(i + 1, top + i) for i in range(sides)]
-    uprights = [(i + 1, top + i + 1) for i in range(sides - 1)]
-    marks = "M" * sides + "V" * (sides - 1)
-    return Sheet(2 * top, (*diagonals, *uprights), marks, tuple(faces), (*low, *high))
+def opened_kresling_cell():
+    """The generator's cell, cut along one crease and laid out in the plane, with the assignment of its fold angles."""
+    cell = synth.generate("kresling").mechanism
+    at = configuration_of(cell)
+    turned = {frozenset(cell.edges[joint]): angle for joint, angle in zip(at.joints, at.linkage.angles, strict=True)}
+    places = np.array(cell.coordinates)
+    a, b, c = cell.faces[0]
+    x, y = beside(*places[[a, b, c]])
+    corners, number = [(0.0, 0.0), (float(np.linalg.norm(places[b] - places[a])), 0.0), (x, y)], {a: 0, b: 1, c: 2}
+    faces, edges, marks = [(0, 1, 2)], [], ""
+    for before, face in zip(cell.faces, cell.faces[1:], strict=False):
+        a, b = (v for v in before if v in face)
+        (apart,), (new,) = set(before) - set(face), set(face) - set(before)
+        along, across = beside(*places[[a, b, new]])
+        start, end, off = (np.array(corners[number[v]]) for v in (a, b, apart))
+        unit = (end - start) / np.linalg.norm(end - start)
+        left = np.array([-unit[1], unit[0]])
+        there = start + along * unit - np.sign((off - start) @ left) * across * left
+        edges.append((number[a], number[b]))
+        marks += "V" if turned[frozenset((a, b))] > 0 else "M"
+        number[new] = len(corners)
+        corners.append(tuple(there.tolist()))
+        faces.append(tuple(number[v] for v in face))
+    return Sheet(len(corners), tuple(edges), marks, tuple(faces), tuple(corners))
+
+
+def beside(start, end, point):
+    """How far a point is along a line from its start, and across it."""
+    along = (end - start) / np.linalg.norm(end - start)
+    part = float((point - start) @ along)
+    return part, float(np.linalg.norm(point - start - part * along))
 
 
 def generated(name, **options):
@@ -45,20 +69,29 @@ def marked_map():
     return Sheet(sheet.vertices, sheet.edges, "".join(letters), sheet.faces, sheet.coordinates)
 
 
-FOLDED = [
-    ("waterbomb strip", generated("waterbomb", rows=1, columns=2)),
-    ("Kresling cell", opened_kresling_cell),
-    ("chickenwire", generated("chickenwire")),
-    *((f"chain-{name}", lambda name=name: synth.read(f"data/realised/chain-{name}.fold")) for name in ("R", "RR")),
-]
+def realised(name):
+    """A type of data/realised: drawn in the plane by `synth realise`, with nine decimals."""
+    return lambda: synth.read(f"data/realised/{name}.fold")
+
+
+FOLDED = {
+    "waterbomb strip": generated("waterbomb", rows=1, columns=2),
+    "waterbomb tessellation": generated("waterbomb", rows=2, columns=2),
+    "chickenwire": generated("chickenwire"),
+    **{name: realised(name) for name in (
+        "chain-R", "chain-RR", "fig1", "fortune-teller", "ride-along", "table3-row1", "two-centres", "watt",
+    )},
+}  # fmt: skip
 MEETING = {
+    "Kresling cell": (opened_kresling_cell, (1, 3), 165.36),
     "map": (marked_map, (1, 3), 165.20),
-    "yoshimura": (generated("yoshimura"), (0, 3), 135.14),
+    "yoshimura": (generated("yoshimura"), (1, 3), 133.98),
     **{
-        f"chain-{name}": (lambda name=name: synth.read(f"data/realised/chain-{name}.fold"), panels, angle)
+        name: (realised(name), panels, angle)
         for name, panels, angle in (
-            ("RPR", (0, 3), 165.22), ("RPS", (0, 2), 165.30), ("RPU", (0, 4), 105.05), ("RS", (0, 3), 165.20),
-            ("RSR", (1, 4), 110.35),
+            ("adjunct-chain", (0, 7), 120.10), ("chain-RPR", (0, 3), 165.22), ("chain-RPS", (0, 2), 165.30),
+            ("chain-RPU", (0, 4), 105.05), ("chain-RS", (0, 3), 165.20), ("chain-RSR", (1, 4), 110.35),
+            ("double-strip", (2, 6), 120.04), ("six-bar-loop-spherical", (1, 2), 109.47),
         )
     },
 }  # fmt: skip
@@ -78,9 +111,9 @@ def check_until_meeting(thick):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "make"), FOLDED, ids=[name for name, _ in FOLDED])
-def test_sheets_that_fold_to_179_degrees(name, make):
-    thick = thick_by_extent(make())
+@pytest.mark.parametrize("name", FOLDED)
+def test_sheets_that_fold_to_179_degrees(name):
+    thick = thick_by_extent(FOLDED[name]())
     assert thick.keeps_angles, name
     assert thick.collisions.meeting.panels is None
     assert np.degrees(thick.collisions.meeting.angle) > 178.999
@@ -105,6 +138,10 @@ def test_sheets_that_fold_until_two_panels_meet(name):
         (generated("preliminary-base"), r"crease 1 has the assignment U; expected M or V"),
         (generated("kresling"), "the sheet is folded; expected a flat one"),
         (lambda: fan(np.radians([100, 120, 140]), "MVV"), "vertex 0 has 3 creases; expected 4, 5 or 6"),
+        (realised("eight-bar"), "vertex 0: opposite sectors add up to 151.261 degrees; expected 180"),
+        (realised("creased-four-bar"), "vertex 5 of 5 creases: not symmetric so; expected sectors of Myard's linkage"),
+        (realised("hybrid-ten-bar"), "vertex 7 of 6 creases: not symmetric so; expected sectors and assignment"),
+        (realised("fig12-scd"), "the loop of creases 3, 2, 1, 0 is not round a vertex; expected no holes"),
     ],
 )
 def test_the_reason_why_a_sheet_has_no_heights(sheet, words):
@@ -125,3 +162,53 @@ def test_six_creases_move_along_the_one_path_that_their_heights_choose():
         assert np.degrees(abs(thick.angles).max()) > 60.0
         final = thick.angles[-1]
         assert np.allclose(final[[1, 2]], final[[5, 4]], atol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["double-strip", "fig1", "ride-along", "table3-row1", "watt"])
+def test_rounded_coordinates_keep_the_fold_angles_of_the_thin_sheet(name):
+    thick = synth.thicken(realised(name)(), thickness=0.01, collisions=False)
+    assert thick.keeps_angles
+    assert thick.residual < 1e-12
+    assert thick.heights.residual < 1e-12
+    assert np.degrees(abs(thick.angles).max()) > 178.999
+
+
+def test_the_waterbomb_tessellation_moves_along_the_symmetric_motion_with_one_freedom():
+    """Vertices of six creases that share creases agree on a motion if their heights do.
+
+    At small angles with v the rate of valleys, D the mountains in a base fold by v cos a and W the borders of bases by
+    3 v cos a; moments of rates about the vertex between two bases vanish if D - W = -2 (V - W), V being valleys there.
+    """
+    sheet = synth.generate("waterbomb", rows=2, columns=2).mechanism
+    thick = synth.thicken(sheet, thickness=0.1, collisions=False)
+    assert thick.heights.of_motion
+    assert thick.freedoms == 1
+    assert thick.keeps_angles
+    assert thick.residual < 1e-12
+    assert np.degrees(abs(thick.angles).max()) > 178.999
+    assert abs(thick.angles[-1]).min() > np.radians(140.0)  # every crease folds
+    heights = thick.heights.hinges
+    between = next(one for one in thick.heights.vertices if one.vertex == 4)
+    middle, up, left_up, left, left_down, down = (heights[joint] for joint in between.joints)
+    assert up == pytest.approx(down) == pytest.approx(left)
+    assert left_up == pytest.approx(left_down)
+    assert middle - left == pytest.approx(-2.0 * (left_up - left))
+    # With each vertex by itself, mountains at one height and valleys at another, that motion does not close.
+    at = configuration_of(sheet)
+    alone = hinge_heights(at.sheet, at.mechanism, at.tolerances).hinges
+    axes = {joint: ((x, y, alone[int(joint)] * 0.1), along) for joint, ((x, y, _), along) in thick.solids.axes.items()}
+    closure = configuration_of(HingedSolids(thick.solids.chain, axes)).closure
+    assert abs(closure.at(thick.angles[-1])[0]).max() > 1e-3
+    # The file moves on its own, along the same motion.
+    motion = synth.move(thick.solids, frames=3)
+    assert motion.freedoms == 1
+    assert np.degrees(abs(motion.path.angles[-1]).max()) == pytest.approx(179.0)
+    assert motion.beside_thin()[1] < 1e-12
+
+
+def test_a_vertex_of_eight_creases_keeps_a_motion():
+    thick = synth.thicken(realised("fortune-teller")(), thickness=0.01, collisions=False)
+    assert sorted(one.linkage for one in thick.heights.vertices) == ["", *["Bennett"] * 4]
+    assert thick.keeps_angles
+    assert thick.residual < 1e-12
+    assert "4 Bennett vertices, 1 other vertex" in str(thick)
