@@ -7,12 +7,13 @@ places of the other, seen from it. Theory: docs/theory/thick-panels.md.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, pairwise
-from math import ceil, radians
+from math import ceil, cos, pi, radians, sin
 from typing import Any
 
 import networkx as nx
@@ -23,6 +24,7 @@ from shapely.ops import substring
 from graphs.convert.duality import SheetMechanism
 from graphs.errors import UnsolvableError
 from graphs.files.solids.meshes import Mesh
+from graphs.geometry import unit
 from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE, MARGIN
@@ -31,6 +33,8 @@ from synth.templates.solids import pierced_plate
 from synth.thickening.collisions import ConvexPieces, MovingPieces, pieces_of, separations
 from synth.thickening.heights import HingeHeights
 
+_SIDES = 12
+"""Sides of a bore or a barrel."""
 _STEP = radians(1.5)
 """Between places of the motion at which plies are compared no hinge turns by more; the clearance covers the rest."""
 
@@ -62,38 +66,109 @@ class Ply:
         return float(self.outline.area * (self.high - self.low))
 
 
-class Plates:
+@dataclass(frozen=True)
+class Knuckle:
+    """A barrel about the axis of a hinge, bored for a pin, and the block that joins it to its panel; millimetres.
+
+    Attributes
+    ----------
+    joint, panel : int
+    start : float[3]
+        On the axis, where the knuckle begins.
+    inward : float[3]
+        The unit direction from the axis into the panel, level.
+    length : float
+        Along the axis, to the right of the inward direction as seen from above.
+    radius, bore : float
+        Of the barrel, a regular polygon in this circle, and of the circle in its bore.
+    low, high : float
+        Heights of the faces of the block over the axis; it is as wide as the radius.
+    """
+
+    joint: int
+    panel: int
+    start: Floats
+    inward: Floats
+    length: float
+    radius: float
+    bore: float
+    low: float
+    high: float
+
+    @property
+    def volume(self) -> float:
+        """Cubic millimetres."""
+        return float(self._section().area * self.length)
+
+    def mesh(self, name: str) -> Mesh:
+        """Return the solid."""
+        plate = pierced_plate(self._section(), self.length, name)
+        return Mesh(name, self._placed(plate.corners + np.array([0.0, 0.0, self.length / 2.0])), plate.triangles)
+
+    def convex_parts(self) -> list[Floats]:
+        """Return the corners of the barrel and of the block, without the bore."""
+        barrel, block = self._outlines()
+        rings = [np.array(outline.exterior.coords)[:-1] for outline in (barrel, block)]
+        ends = np.array([0.0, self.length])
+        return [self._placed(np.column_stack([np.tile(ring, (2, 1)), np.repeat(ends, len(ring))])) for ring in rings]
+
+    def _outlines(self) -> tuple[Any, Any]:
+        barrel = shapely.Polygon(ring_in((0.0, 0.0), self.radius))
+        return barrel, shapely.box(0.0, self.low, self.radius, self.high)
+
+    def _section(self) -> Any:
+        bore = shapely.Polygon(ring_about((0.0, 0.0), self.bore))
+        return shapely.difference(shapely.union_all(self._outlines()), bore)
+
+    def _placed(self, corners: Floats) -> Floats:
+        """Return points, float[n, 3], by how far they are inward, up and along the axis."""
+        x, y, _ = self.inward.tolist()
+        return np.asarray(self.start + corners @ np.array([self.inward, [0.0, 0.0, 1.0], [y, -x, 0.0]]))
+
+
+def ring_in(centre: Sequence[float], radius: float) -> list[tuple[float, float]]:
+    """Return the corners of a regular polygon on a circle."""
+    turns = [2.0 * pi * (side + 0.5) / _SIDES for side in range(_SIDES)]
+    return [(float(centre[0] + radius * cos(turn)), float(centre[1] + radius * sin(turn))) for turn in turns]
+
+
+def ring_about(centre: Sequence[float], radius: float) -> list[tuple[float, float]]:
+    """Return the corners of a regular polygon round a circle."""
+    return ring_in(centre, radius / cos(pi / _SIDES))
+
+
+class Plates(ABC):
     """Solids of panels in the flat state, millimetres: meshes, the panel of each, convex pieces."""
 
     cut: Mapping[int, float]
 
     @property
+    @abstractmethod
     def meshes(self) -> tuple[Mesh, ...]:
         """The solids, millimetres."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def panels(self) -> tuple[int, ...]:
         """The panel of each mesh."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def volume(self) -> float:
         """Volume of all panels in cubic millimetres."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def thinnest(self) -> float:
         """The width or height of the thinnest part, millimetres."""
-        raise NotImplementedError
 
+    @abstractmethod
     def pieces(self) -> tuple[ConvexPieces, Ints]:
         """Return the solids as convex pieces, and which part each is of."""
-        raise NotImplementedError
 
+    @abstractmethod
     def sections(self, panel: int) -> list[tuple[float, float, Any]]:
         """Return the outlines of a panel between heights, from below: float, float, shapely geometry."""
-        raise NotImplementedError
 
     def placed(self, rotations: Floats, shifts: Floats) -> list[Mesh]:
         """Return the solids where panels, rotated by float[P, 3, 3], then translated by float[P, 3], are."""
@@ -113,6 +188,8 @@ class ThickPlates(Plates):
         Those of a panel do not overlap.
     cut : mapping of panel to float
         The volume that was cut off panels so that they do not meet, cubic millimetres.
+    knuckles : tuple of Knuckle
+        On pins; parts after the plies.
 
     Examples
     --------
@@ -124,21 +201,27 @@ class ThickPlates(Plates):
 
     plies: tuple[Ply, ...]
     cut: Mapping[int, float]
+    knuckles: tuple[Knuckle, ...] = ()
 
     @cached_property
     def meshes(self) -> tuple[Mesh, ...]:
         """The solids, millimetres."""
-        return tuple(_prism(part, ply, name) for part, ply, name in self._parts())
+        plies = [_prism(part, ply, name) for part, ply, name in self._parts()]
+        barrels = [
+            one.mesh(f"panel {one.panel} knuckle {number} of crease {one.joint}")
+            for number, one in enumerate(self.knuckles)
+        ]
+        return (*plies, *barrels)
 
     @cached_property
     def panels(self) -> tuple[int, ...]:
         """The panel of each mesh."""
-        return tuple(ply.panel for _, ply, _ in self._parts())
+        return (*(ply.panel for _, ply, _ in self._parts()), *(one.panel for one in self.knuckles))
 
     @cached_property
     def volume(self) -> float:
         """Volume of all panels in cubic millimetres."""
-        return sum(ply.volume for ply in self.plies)
+        return sum(part.volume for part in (*self.plies, *self.knuckles))
 
     @cached_property
     def thinnest(self) -> float:
@@ -157,12 +240,17 @@ class ThickPlates(Plates):
         )
 
     def pieces(self) -> tuple[ConvexPieces, Ints]:
-        """Return the plies as convex pieces, and the ply of each, int[P]."""
+        """Return plies and knuckles as convex pieces, and the number of the part that each is of, int[P]."""
         solids, bodies, of_ply = [], [], []
         for number, ply in enumerate(self.plies):
             for ring in convex_rings(ply.outline):
                 solids.append(np.column_stack([np.tile(ring, (2, 1)), np.repeat([ply.low, ply.high], len(ring))]))
                 bodies.append(ply.panel)
+                of_ply.append(number)
+        for number, knuckle in enumerate(self.knuckles, start=len(self.plies)):
+            for corners in knuckle.convex_parts():
+                solids.append(corners)
+                bodies.append(knuckle.panel)
                 of_ply.append(number)
         return pieces_of(solids, bodies), np.array(of_ply, dtype=np.int64)
 
@@ -292,13 +380,18 @@ def cut_back(
     """Return plates cut back where plies of panels come nearer than a clearance, in millimetres, on a motion.
 
     Pieces of hinged panels that lie in wedges about the hinge are left out. Of two plies that one is cut that loses
-    less volume. What is cut off from the rest of a panel goes. Places are looked at between which no hinge turns by
-    more than a step, in radians. Risers are kept from slabs if that is wanted.
+    less volume; knuckles are not cut. What is cut off from the rest of a panel goes. Places are looked at between
+    which no hinge turns by more than a step, in radians. Risers are kept from slabs if that is wanted.
     """
     removed: dict[int, list[Any]] = defaultdict(list)
     for (one, other), (places, turns, shifts) in _meetings(moving, clearance, step).items():
-        loss = []
+        if min(of_ply[one], of_ply[other]) >= len(plates.plies):
+            continue
+        loss: list[tuple[float, int, Any]] = []
         for rest, comes, turn, shift in ((one, other, turns, shifts), (other, one, *_inverse(turns, shifts))):
+            if of_ply[rest] >= len(plates.plies):
+                loss.append((np.inf, 0, None))
+                continue
             ply = plates.plies[of_ply[rest]]
             corners = moving.pieces.corners[comes] @ turn.swapaxes(1, 2) + shift[:, None]
             trace = _trace(corners, places, ply.low - clearance, ply.high + clearance)
@@ -306,7 +399,8 @@ def cut_back(
             loss.append(
                 (float(shapely.intersection(trace, ply.outline).area) * (ply.high - ply.low), of_ply[rest], trace)
             )
-        risers = [plates.plies[of_ply[piece]].riser for piece in (one, other)]
+        parts = [plates.plies[of_ply[piece]] for piece in (one, other) if of_ply[piece] < len(plates.plies)]
+        risers = [part.riser for part in parts] if len(parts) > 1 else [False, False]
         if keep_risers and risers[0] != risers[1]:
             loss[risers[0]], loss[not risers[0]] = (0.0, *loss[risers[0]][1:]), (np.inf, *loss[not risers[0]][1:])
         least = loss[0] if loss[0][0] <= (1.0 + MARGIN) * loss[1][0] else loss[1]
@@ -318,7 +412,7 @@ def cut_back(
     kept = _connected(plies)
     before, after = _volumes(plates.plies), _volumes(kept)
     lost = {panel: before[panel] - after[panel] + plates.cut.get(panel, 0.0) for panel in before}
-    return ThickPlates(tuple(kept), {panel: volume for panel, volume in lost.items() if volume > 0.0})
+    return replace(plates, plies=tuple(kept), cut={panel: volume for panel, volume in lost.items() if volume > 0.0})
 
 
 def _meetings(
@@ -367,23 +461,44 @@ def hinge_lines(
         of_panel[ply.panel].append(ply)
     lines: dict[int, list[tuple[Floats, Floats]]] = {}
     for joint, pieces in ends.items():
-        whole = shapely.MultiLineString([piece.tolist() for piece in pieces])
-        borne = []
         reach = DOUBLE.meant * float(np.abs(np.array(pieces)).max(initial=1.0))
-        for panel in panels[joint]:
-            touching = [
+        outlines = [
+            shapely.union_all([
                 ply.outline.buffer(reach) for ply in of_panel[panel]
                 if ply.low - reach <= heights[joint] <= ply.high + reach
-            ]  # fmt: skip
-            borne.append(shapely.intersection(whole, shapely.union_all(touching)))
-        common = shapely.intersection(borne[0], borne[1])
-        if common.length <= 16.0 * reach and all(part.length > 2.0 * reach for part in borne):
-            common = shapely.union(borne[0], borne[1])
-        parts = getattr(common, "geoms", [common])
+            ])
+            for panel in panels[joint]
+        ]  # fmt: skip
+        borne = [[_stretches(piece, outline, reach) for piece in pieces] for outline in outlines]
+        common = [
+            [(max(low, other), min(high, end)) for low, high in first for other, end in second
+             if min(high, end) - max(low, other) > 2.0 * reach]
+            for first, second in zip(*borne, strict=True)
+        ]  # fmt: skip
+        if sum(high - low for part in common for low, high in part) <= 16.0 * reach and all(map(any, borne)):
+            common = [sorted(first + second) for first, second in zip(*borne, strict=True)]
         lines[joint] = [
-            (np.array(part.coords[0]), np.array(part.coords[-1])) for part in parts if part.length > 2.0 * reach
+            (piece[0] + low * along, piece[0] + high * along)
+            for piece, part in zip(pieces, common, strict=True)
+            for along in [unit(piece[1] - piece[0])]
+            for low, high in part
         ]
     return lines
+
+
+def _stretches(piece: Floats, outline: Any, reach: float) -> list[tuple[float, float]]:
+    """Return the stretches of a segment, float[2, 2], that lie on an outline: lengths from its start, in order."""
+    along = unit(piece[1] - piece[0])
+    inside = shapely.intersection(shapely.LineString(piece), outline)
+    parts = [np.array(part.coords) for part in getattr(inside, "geoms", [inside]) if part.geom_type == "LineString"]
+    ends = sorted(tuple(sorted(((part[[0, -1]] - piece[0]) @ along).tolist())) for part in parts if len(part))
+    joined: list[tuple[float, float]] = []
+    for low, high in ends:
+        if joined and low <= joined[-1][1] + reach:
+            joined[-1] = (joined[-1][0], max(high, joined[-1][1]))
+        else:
+            joined.append((low, high))
+    return [(low, high) for low, high in joined if high - low > 2.0 * reach]
 
 
 def _inverse(turns: Floats, shifts: Floats) -> tuple[Floats, Floats]:
@@ -413,11 +528,11 @@ def _trace(corners: Floats, places: Floats, low: float, high: float) -> Any:
 def _without(outline: Any, traces: Sequence[Any], clearance: float) -> Any:
     """Return an outline less what passes through it, with few corners."""
     gone = _union(traces).buffer(clearance / 4.0, join_style="mitre").simplify(clearance / 4.0)
-    rest = shapely.difference(outline, gone, grid_size=_grid(outline))
+    rest = shapely.difference(outline, gone, grid_size=grid_of(outline))
     small = clearance * clearance
     rest = rest.buffer(-clearance / 4.0).buffer(clearance / 4.0, join_style="mitre")
     kept = [part for part in polygons_of(rest) if part.area > small]
-    return shapely.intersection(_union(kept), outline, grid_size=_grid(outline)) if kept else shapely.Polygon()
+    return shapely.intersection(_union(kept), outline, grid_size=grid_of(outline)) if kept else shapely.Polygon()
 
 
 def _connected(plies: Sequence[Ply]) -> list[Ply]:
@@ -459,10 +574,11 @@ def _volumes(plies: Sequence[Ply]) -> dict[int, float]:
 
 def _union(outlines: Sequence[Any]) -> Any:
     """Return outlines as one; corners are rounded to a grid, without which slivers lead GEOS astray."""
-    return shapely.union_all(list(outlines), grid_size=_grid(shapely.GeometryCollection(list(outlines))))
+    return shapely.union_all(list(outlines), grid_size=grid_of(shapely.GeometryCollection(list(outlines))))
 
 
-def _grid(outline: Any) -> float:
+def grid_of(outline: Any) -> float:
+    """Return the grid to which corners of an outline are rounded, without which slivers lead GEOS astray."""
     return float(DOUBLE.closed * np.abs(outline.bounds).max())
 
 

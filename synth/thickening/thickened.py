@@ -42,10 +42,17 @@ from synth.moving.made import configuration_of
 from synth.templates.solids import SOLIDS, Solids
 from synth.templates.template import GREATEST, Template
 from synth.thickening.collisions import FoldCourse, Meeting, MovingPieces, body_poses
-from synth.thickening.fittings import HINGES, Bores, bores_of, drilled, parts_of, pocketed
+from synth.thickening.fittings import HINGES, Bores, bores_of, drilled, knuckled, parts_of, pocketed
 from synth.thickening.heights import HingeHeights, hinge_heights, needs_motion, thick_vertices
 from synth.thickening.plates import Plates, ThickPlates, cut_back, hinge_lines, thick_plates
-from synth.thickening.techniques import HingeSeat, offset_plates, strip_plates, tapered_plates, trims_of
+from synth.thickening.techniques import (
+    HingeSeat,
+    TechniqueFigures,
+    offset_plates,
+    strip_plates,
+    tapered_plates,
+    trims_of,
+)
 from synth.verdict.judged import verdict_of_motion
 from synth.verdict.verdict import Verdict
 
@@ -95,61 +102,6 @@ class Collisions:
     meeting: Meeting
     overlaps: Floats
     clearance: float
-
-
-@dataclass(frozen=True)
-class TechniqueFigures:
-    """What a technique gives for a sheet, to compare it with others.
-
-    Attributes
-    ----------
-    how : str
-        ``spatial``, ``tapered``, ``offset`` or ``hinge``.
-    angle : float
-        The largest fold angle until solids meet, radians.
-    stowed : tuple of 3 float
-        Sides of a box round the solids there, millimetres, the longest first: upright on panel 0.
-    thinnest : float
-        The least height of a slab or width of a part, millimetres.
-    mass : float
-        Of all panels, grams, at 700 kilograms per cubic metre (plywood).
-    fault : str
-        Why the technique does not suit the sheet; empty if it does.
-
-    Examples
-    --------
-    >>> TechniqueFigures("tapered", fault="panel 0 allows less than 1 mm").angle
-    0.0
-    """
-
-    how: str
-    angle: float = 0.0
-    stowed: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    thinnest: float = 0.0
-    mass: float = 0.0
-    fault: str = ""
-
-    @property
-    def rank(self) -> tuple[float, ...]:
-        """Better ones come first: by greatest angle to a degree, stowed volume, thinnest part, mass."""
-        angle = round(float(np.degrees(self.angle)))
-        return (-angle, round(float(np.prod(self.stowed)), 3), -self.thinnest, self.mass)
-
-    def row(self) -> tuple[str, ...]:
-        """Return the row of a table."""
-        if self.fault:
-            return (self.how, self.fault, "", "", "")
-        box = " x ".join(f"{side:.4g}" for side in self.stowed)
-        return (self.how, f"{np.degrees(self.angle):.4g}°", box, f"{self.thinnest:.3g}", f"{self.mass:.4g}")
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data: lengths in millimetres, angles in degrees, grams."""
-        if self.fault:
-            return {"how": self.how, "fault": self.fault}
-        return {
-            "how": self.how, "angle_deg": float(np.degrees(self.angle)), "stowed": list(self.stowed),
-            "thinnest": self.thinnest, "mass": self.mass,
-        }  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -492,13 +444,17 @@ def _thickened(at: SheetConfiguration, how: str, wishes: _Wishes) -> ThickSheet:
         plates, found = _swept(plates, solids, course, clearance, lines, keep_risers=how == "offset")
     kept = lines.lines(plates) if isinstance(plates, ThickPlates) and how != "hinge" else lines.whole()
     valleys = frozenset(joint for joint in joints if at.sheet.assignments[joint] == "V")
-    return _fitted(
-        ThickSheet(
-            solids, heights, plates, thickness, verdict, course.frames, keeps, residual, kept, valleys, how, found,
-            hinges=wishes.hinges, clearance=clearance,
-            freedoms=_freedoms(thick.closure, course) if heights.of_motion else None,
-        )
+    sheet = ThickSheet(
+        solids, heights, plates, thickness, verdict, course.frames, keeps, residual, kept, valleys, how, found,
+        hinges=wishes.hinges, clearance=clearance,
+        freedoms=_freedoms(thick.closure, course) if heights.of_motion else None,
     )  # fmt: skip
+    if wishes.hinges == "pins" and isinstance(plates, ThickPlates) and how != "hinge":
+        plates = knuckled(plates, sheet.seats(), thickness, clearance)
+        if wishes.collisions:  # knuckles are new material
+            plates, found = _swept(plates, solids, course, clearance, lines, keep_risers=how == "offset")
+        sheet = replace(sheet, plates=plates, collisions=found)
+    return _fitted(sheet)
 
 
 def _exact(at: SheetConfiguration) -> SheetConfiguration:

@@ -45,8 +45,9 @@ if TYPE_CHECKING:
 )
 @options.choice(
     "--hinges",
-    ("screws", "living", "tape"),
-    "Join panels by butt hinges with screws in bores, by flexible strips laid into pockets, or by tape.",
+    ("screws", "pins", "living", "tape"),
+    "Join panels by butt hinges with screws in bores, by knuckles on pins, by flexible strips laid into pockets, or by "
+    "tape.",
     default="screws",
 )
 @options.flag("--no-collisions", "Neither cut panels back nor check whether solids meet.")
