@@ -11,7 +11,7 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from math import degrees
+from math import degrees, tan
 from typing import Any
 
 import numpy as np
@@ -23,7 +23,7 @@ from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.templates.pieces import Kind, Piece, TemplateLine, Text, point_of
 from synth.thickening.plates import Knuckle, Plates, Ply, ThickPlates, grid_of, polygons_of, ring_about
-from synth.thickening.techniques import HingeSeat
+from synth.thickening.techniques import HingeSeat, TaperedPlates
 
 HINGES = ("screws", "pins", "living", "tape")
 """What joins panels: butt hinges with screws, knuckles on a pin, flexible strips inlaid at the axis, or tape."""
@@ -46,7 +46,10 @@ Bores = Mapping[int, Sequence[tuple[int, Floats]]]
 
 
 def bores_of(plates: Plates, seats: Sequence[HingeSeat], thickness: float) -> dict[int, list[tuple[int, Floats]]]:
-    """Return the bores for screws beside each hinge, where plies that reach its axis have room."""
+    """Return the bores for screws beside each hinge, where plies that reach its axis have room.
+
+    In a tapered panel they are farther from the axis by the width that is trimmed, and go through both of its sides.
+    """
     reach = DOUBLE.meant * thickness
     bores: dict[int, list[tuple[int, Floats]]] = {seat.joint: [] for seat in seats}
     sections = {panel: plates.sections(panel) for panel in set(plates.panels)}
@@ -54,6 +57,11 @@ def bores_of(plates: Plates, seats: Sequence[HingeSeat], thickness: float) -> di
         if seat.gap:
             continue
         for panel in seat.panels:
+            if isinstance(plates, TaperedPlates):
+                away = (SETBACK + tan(seat.bevel) / 2.0) * thickness
+                for _, room in plates.rooms(panel):
+                    bores[seat.joint] += [(panel, centre) for centre in seat.holes(room, away, BORE * thickness)]
+                continue
             for low, high, outline in sections.get(panel, ()):
                 if low - reach <= seat.height <= high + reach:
                     centres = seat.holes(outline, SETBACK * thickness, BORE * thickness)
@@ -78,6 +86,16 @@ def drilled(plates: ThickPlates, seats: Sequence[HingeSeat], bores: Bores, thick
         outline = shapely.difference(ply.outline, shapely.union_all(through)) if through else ply.outline
         plies.append(replace(ply, outline=outline))
     return replace(plates, plies=tuple(plies))
+
+
+def bored(plates: TaperedPlates, bores: Bores, thickness: float) -> TaperedPlates:
+    """Return tapered panels with bores from side to side."""
+    through = [
+        (number, ring_about(centre, BORE * thickness / 2.0))
+        for holes in bores.values() for panel, centre in holes
+        for number, room in plates.rooms(panel) if room.contains(shapely.Point(centre))
+    ]  # fmt: skip
+    return replace(plates, bores=tuple(through))
 
 
 def pocketed(plates: ThickPlates, seats: Sequence[HingeSeat], thickness: float) -> ThickPlates:
@@ -252,7 +270,7 @@ def _of_crease(seat: HingeSeat, thickness: float, hinges: str, bores: Bores, cle
         text += f", sides bevelled by {degrees(seat.bevel):.4g} degrees from upright"
     if seat.gap:
         text += f", a strip over a gap of {seat.gap:.4g}"
-    elif hinges == "living":
+    elif hinges == "living" and isinstance(plates, ThickPlates):
         text += f", a strip {2.0 * SETBACK * thickness:.4g} wide and {POCKET * thickness:.4g} thick laid in"
     elif knuckles:
         pin = BORE * thickness - clearance
@@ -260,8 +278,9 @@ def _of_crease(seat: HingeSeat, thickness: float, hinges: str, bores: Bores, cle
         text += f", a pin of at most {pin:.3g} through knuckles of {BARREL * thickness:.3g}: {lengths} long"
     elif hinges == "screws" and count:
         screw = BORE * thickness - clearance
+        away = (SETBACK + tan(seat.bevel) / 2.0) * thickness
         text += f", {numbered(count, 'hole')} of {BORE * thickness:.3g} for screws of at most {screw:.3g}"
-        text += f", {SETBACK * thickness:.4g} from the axis"
+        text += f", {away:.4g} from the axis"
     else:
         text += ", tape" if hinges == "tape" else f", tape: no room for {hinges}"
     return text + "."

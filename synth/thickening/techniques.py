@@ -104,6 +104,8 @@ class TaperedPlates(Plates):
         Panel and corners of each convex part, millimetres.
     cut : mapping of panel to float
         None of them is cut back.
+    bores : tuple of (int, sequence of (float, float))
+        The number of a part, and the corners of an upright bore through it, counterclockwise.
 
     Examples
     --------
@@ -116,6 +118,7 @@ class TaperedPlates(Plates):
 
     parts: tuple[tuple[int, Floats], ...]
     cut: Mapping[int, float]
+    bores: tuple[tuple[int, Sequence[tuple[float, float]]], ...] = ()
 
     @property
     def thinnest(self) -> float:
@@ -126,7 +129,7 @@ class TaperedPlates(Plates):
     def meshes(self) -> tuple[Mesh, ...]:
         """The solids, millimetres."""
         meshes, count = [], dict[int, int]()
-        for panel, corners in self.parts:
+        for place_of, (panel, corners) in enumerate(self.parts):
             number = count[panel] = count.get(panel, -1) + 1
             hull = scipy.spatial.ConvexHull(corners)
             place = np.full(len(corners), -1)
@@ -137,7 +140,9 @@ class TaperedPlates(Plates):
             inward = (normals * hull.equations[:, :3]).sum(axis=1) < 0.0
             triangles[inward] = triangles[inward][:, ::-1]
             name = f"panel {panel}" + (f" part {number}" if number else "")
-            meshes.append(Mesh(name, corners[hull.vertices], place[triangles]))
+            solid = Mesh(name, corners[hull.vertices], place[triangles])
+            rings = [ring for part, ring in self.bores if part == place_of]
+            meshes.append(_pierced(solid, rings, self.thinnest) if rings else solid)
         return tuple(meshes)
 
     @cached_property
@@ -148,7 +153,8 @@ class TaperedPlates(Plates):
     @cached_property
     def volume(self) -> float:
         """Volume of all panels in cubic millimetres."""
-        return float(sum(scipy.spatial.ConvexHull(corners).volume for _, corners in self.parts))
+        whole = sum(scipy.spatial.ConvexHull(corners).volume for _, corners in self.parts)
+        return float(whole - sum(shapely.Polygon(ring).area for _, ring in self.bores) * 2.0 * self.thinnest)
 
     def pieces(self) -> tuple[ConvexPieces, Ints]:
         """Return the convex parts, and the number of each."""
@@ -159,6 +165,47 @@ class TaperedPlates(Plates):
         solids = [corners for one, corners in self.parts if one == panel]
         levels = (-self.thinnest, 0.0, self.thinnest)
         return [(level, level, shapely.union_all([_section(one, level) for one in solids])) for level in levels]
+
+    def rooms(self, panel: int) -> list[tuple[int, Any]]:
+        """Return where upright bores go through both sides of a panel: the number of each part, and its outline."""
+        return [
+            (number, shapely.intersection(*(_section(corners, side * self.thinnest) for side in (-1.0, 1.0))))
+            for number, (one, corners) in enumerate(self.parts) if one == panel
+        ]  # fmt: skip
+
+
+def _pierced(solid: Mesh, rings: Sequence[Sequence[tuple[float, float]]], half: float) -> Mesh:
+    """Return a convex solid with upright bores from its underside to its upper side."""
+    corners = solid.corners.tolist()
+    triangles: list[list[int]] = []
+    ends: list[dict[tuple[float, float], int]] = []
+    sides = np.abs(solid.corners[:, 2, None] - np.array([-half, half])) <= DOUBLE.meant * half
+    for level, on, turn in zip((-half, half), sides.T, (-1, 1), strict=True):
+        flat = solid.triangles[on[solid.triangles].all(axis=1)]
+        border = {a: b for a, b in _directed(flat) if (b, a) not in _directed(flat)}
+        ring = [next(iter(border))]
+        while border[ring[-1]] != ring[0]:
+            ring.append(border[ring[-1]])
+        known = {(corners[corner][0], corners[corner][1]): corner for corner in ring}
+        for x, y in (corner for bore in rings for corner in bore):
+            known[x, y] = len(corners)
+            corners.append([x, y, level])
+        outline = shapely.Polygon([corners[corner][:2] for corner in ring], rings)
+        for part in shapely.constrained_delaunay_triangles(outline).geoms:
+            around = shapely.orient_polygons(part).exterior.coords[:-1]
+            triangles.append([known[x, y] for x, y in around][::turn])
+        ends.append(known)
+    triangles += solid.triangles[~sides[solid.triangles].all(axis=1).any(axis=1)].tolist()
+    low, high = ends
+    for bore in rings:
+        for here, after in zip(bore, [*bore[1:], bore[0]], strict=True):
+            triangles += [[low[after], low[here], high[here]], [low[after], high[here], high[after]]]
+    return Mesh(solid.name, np.array(corners), np.array(triangles))
+
+
+def _directed(triangles: Ints) -> set[tuple[int, int]]:
+    """Return the sides of triangles as they go round them."""
+    return {(int(a), int(b)) for one in triangles for a, b in zip(one, np.roll(one, -1), strict=True)}
 
 
 def _section(corners: Floats, level: float) -> Any:

@@ -42,11 +42,12 @@ from synth.moving.made import configuration_of
 from synth.templates.solids import SOLIDS, Solids
 from synth.templates.template import GREATEST, Template
 from synth.thickening.collisions import FoldCourse, Meeting, MovingPieces, body_poses
-from synth.thickening.fittings import HINGES, Bores, bores_of, drilled, knuckled, parts_of, pocketed
+from synth.thickening.fittings import HINGES, Bores, bored, bores_of, drilled, knuckled, parts_of, pocketed
 from synth.thickening.heights import HingeHeights, hinge_heights, needs_motion, thick_vertices
 from synth.thickening.plates import Plates, ThickPlates, cut_back, hinge_lines, thick_plates
 from synth.thickening.techniques import (
     HingeSeat,
+    TaperedPlates,
     TechniqueFigures,
     offset_plates,
     strip_plates,
@@ -137,7 +138,7 @@ class ThickSheet(Printed):
     comparison : tuple of TechniqueFigures
         Of all techniques, if the best was wanted.
     hinges : str
-        What joins panels: ``screws``, ``living`` or ``tape``.
+        What joins panels: ``screws``, ``pins``, ``living`` or ``tape``.
     bores : mapping of joint to list of (int, float[2])
         Panel and centre of each bore for a screw, millimetres.
     clearance : float
@@ -320,9 +321,10 @@ def thicken(
     collisions : bool, optional
         Cut panels back where they would meet, and find up to which fold angle none meet.
     hinges : str, optional
-        What joins panels: ``screws`` in bores through the plies that reach the axis, wider than the screws by the
-        clearance; ``living``, flexible strips laid into pockets at the side of the axis; ``tape``, which takes no
-        material. Tapered panels, whose axes are inside, and hinge strips are left as they are.
+        What joins panels: ``screws`` in bores through the plies that reach the axis, or through both sides of
+        tapered panels, wider than the screws by the clearance; ``pins`` through knuckles of both panels in turns;
+        ``living``, flexible strips laid into pockets at the side of the axis; ``tape``, which takes no material.
+        Pins and pockets are not for tapered panels, whose axes are inside; hinge strips have none of these.
 
     Returns
     -------
@@ -499,7 +501,9 @@ def _fitted(thick: ThickSheet) -> ThickSheet:
     """Return a thick sheet with the bores or pockets of its hinges, and its solids as shapes of links."""
     seats, plates = thick.seats(), thick.plates
     bores = bores_of(plates, seats, thick.thickness) if thick.hinges == "screws" else {}
-    if isinstance(plates, ThickPlates) and thick.how != "hinge":
+    if isinstance(plates, TaperedPlates):
+        plates = bored(plates, bores, thick.thickness)
+    elif isinstance(plates, ThickPlates) and thick.how != "hinge":
         if thick.hinges == "screws":
             plates = drilled(plates, seats, bores, thick.thickness)
         elif thick.hinges == "living":

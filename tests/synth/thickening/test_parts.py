@@ -68,6 +68,26 @@ def test_bores_and_pockets_are_taken_from_the_solids():
     assert "a strip 3 wide and 0.3 thick laid in" in " ".join(laid.template().steps)
 
 
+@pytest.mark.parametrize("how", ["tapered", "offset"])
+def test_tapered_and_offset_panels_are_bored(how):
+    sheet = synth.generate("miura", rows=2, columns=2).mechanism
+    arguments = {"thickness": 3.0, "scale": 60.0, "how": how, "collisions": False}
+    whole, bored = (synth.thicken(sheet, hinges=hinges, **arguments) for hinges in ("tape", "screws"))
+    count = sum(map(len, bored.bores.values()))
+    assert count >= 16
+    area = 12 * np.tan(np.pi / 12) * 0.45**2
+    # Stand-offs are as high as the levels of the layers lie apart; a tapered panel is 3 mm high.
+    assert whole.plates.volume - bored.plates.volume >= 0.99 * count * area * (3.0 if how == "tapered" else 0.06)
+    if how == "tapered":
+        assert whole.plates.volume - bored.plates.volume == pytest.approx(count * area * 3.0)
+    for mesh in bored.plates.meshes:
+        sides = [tuple(pair) for a, b in ((0, 1), (1, 2), (2, 0)) for pair in mesh.triangles[:, [a, b]].tolist()]
+        assert len(set(sides)) == len(sides)
+        assert {(b, a) for a, b in sides} == set(sides)
+    assert sum(map(mesh_volume, bored.plates.meshes)) == pytest.approx(bored.plates.volume)
+    assert "no room" not in " ".join(bored.template().steps)
+
+
 def test_knuckles_bear_each_pin_in_turns_and_leave_room_for_each_other():
     sheet = synth.generate("miura", rows=2, columns=2).mechanism
     whole, pinned = (
