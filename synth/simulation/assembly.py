@@ -18,7 +18,7 @@ from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.files.formats import read
 from graphs.geometry import frame_about
 from graphs.mechanism.sheet import Sheet
-from graphs.mechanism.solids import LinkShape
+from graphs.mechanism.solids import HingedSolids, LinkShape
 from graphs.printing import plain
 from graphs.tolerances import DOUBLE, leading
 from graphs.types import Floats, JointId, LinkId
@@ -321,19 +321,30 @@ def _hinges(
     points, reaches = _places(at, posed)
     middle = posed.middle * unit_length
     springs, names = options.springs, _names("joint", posed.graph.joints)
-    hinges = []
+    hinges, limits = [], _limits(at)
     for place, (joint, (first, second)) in enumerate(posed.graph.joints.items()):
         slide = place in posed.slides
         angle = float(posed.angles[place]) * (metre if slide else 1.0)
-        limits = (-pi, pi) if at.limited else None
         hinges.append(
             Hinge(
                 names[place], joint, number[first], number[second], points[place] * metre + middle,
-                posed.directions[place], float(reaches[place]) * metre, angle, slide, limits,
+                posed.directions[place], float(reaches[place]) * metre, angle, slide, limits[place],
                 springs.stiffness.get(joint, 0.0), springs.rest.get(joint, angle), springs.moments.get(joint, 0.0),
             )
         )  # fmt: skip
     return tuple(hinges)
+
+
+def _limits(at: Configuration) -> list[tuple[float, float] | None]:
+    """Return the least and the greatest angle of each joint, None for joints that turn all round.
+
+    Panels end where they lie on each other. The material of two solid panels at a hinge lets it turn to one side
+    only, from the flat state.
+    """
+    if not at.limited:
+        return [None] * len(at.linkage.angles)
+    senses = at.marks.tolist() if isinstance(at.given, HingedSolids) else [0.0] * len(at.linkage.angles)
+    return [(min(sense, 0.0) * pi, max(sense, 0.0) * pi) if sense else (-pi, pi) for sense in senses]
 
 
 def _names(kind: str, ids: Iterable[object]) -> list[str]:

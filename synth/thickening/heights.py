@@ -215,8 +215,9 @@ def _linkage(
             count = numbered(marks.count("M"), "mountain")
             return "", 0, none, f"vertex {vertex}: {count} of 4 creases; expected 1 or 3"
         return "Bennett", 0, bennett_rows(joints, sectors.tolist(), marks[1] == marks[3]), ""
+    kept = ", or a motion that some heights keep" if degree > 4 else ""
     if degree not in (5, 6):
-        return "", 0, none, f"vertex {vertex} has {numbered(degree, 'crease')}; expected 4, 5 or 6"
+        return "", 0, none, f"vertex {vertex} has {numbered(degree, 'crease')}; expected 4, 5 or 6{kept}"
     for first in range(degree):
         turned = np.roll(sectors, -first)
         here, seen = joints[first:] + joints[:first], marks[first:] + marks[:first]
@@ -225,7 +226,7 @@ def _linkage(
         if symmetric is not None:
             return "Myard" if degree == 5 else "Bricard", first, symmetric, ""
     rule = "sectors" + (" of Myard's linkage" if degree == 5 else "") + " and assignment symmetric about a crease"
-    return "", 0, none, f"vertex {vertex} of {degree} creases: not symmetric so; expected {rule}"
+    return "", 0, none, f"vertex {vertex} of {degree} creases suits no linkage; expected {rule}{kept}"
 
 
 def _degrees_off(off: float) -> str:

@@ -491,10 +491,13 @@ def _spatial_heights(at: SheetConfiguration, greatest: float) -> tuple[HingeHeig
     hopeless = any(one.fault and not one.of_motion for one in vertices)
     if hopeless or not needs_motion(vertices):
         return hinge_heights(at.sheet, at.mechanism, at.tolerances), None
-    motion = folded_towards(at.sheet, greatest, _FRAMES)
-    places = [motion.configuration.joints.index(joint) for joint in at.mechanism.sc.joints]
-    angles = motion.path.angles[:, places]
-    return hinge_heights(at.sheet, at.mechanism, at.tolerances, angles), FoldCourse(at.closure, angles)
+    try:
+        motion = folded_towards(at.sheet, greatest, _FRAMES)
+        places = [motion.configuration.joints.index(joint) for joint in at.mechanism.sc.joints]
+        angles = motion.path.angles[:, places]
+        return hinge_heights(at.sheet, at.mechanism, at.tolerances, angles), FoldCourse(at.closure, angles)
+    except UnsolvableError:  # each vertex by itself, if it is of a known linkage
+        return hinge_heights(at.sheet, at.mechanism, at.tolerances), None
 
 
 def _fitted(thick: ThickSheet) -> ThickSheet:

@@ -330,3 +330,17 @@ def test_the_command(tmp_path, data):
     assert "only with --as" in wrong.output
     wrong = run("convert", file, tmp_path / "b.xml", "--as", "mjcf", "--gap", "3", code=2)
     assert "not with --as" in wrong.output
+
+
+def test_joints_of_solid_panels_turn_to_one_side(tmp_path):
+    """Valleys of panels below their axes go from 0 to 180 degrees, mountains the other way; thin panels both ways."""
+    sheet = synth.generate("miura", rows=2, columns=2).mechanism
+    thick = synth.thicken(sheet, thickness=0.05, collisions=False)
+    for hinge in assembly_of(thick.solids).hinges:
+        assert hinge.limits == ((0.0, np.pi) if hinge.joint in thick.valleys else (-np.pi, 0.0))
+    assert {hinge.limits for hinge in assembly_of(sheet).hinges} == {(-np.pi, np.pi)}
+    synth.write_model(thick.solids, tmp_path / "thick.urdf", "urdf")
+    text = (tmp_path / "thick.urdf").read_text()
+    limits = re.findall(r'lower="(.*?)" upper="(.*?)"', text)
+    assert limits
+    assert all(sorted(map(float, pair)) in ([0.0, np.pi], [-np.pi, 0.0]) for pair in limits)

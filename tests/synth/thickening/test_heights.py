@@ -103,7 +103,7 @@ def test_myards_vertex_of_five_creases_moves():
     [
         ([80, 70, 110, 100], "MVVV", "vertex 0: opposite sectors add up to 190 degrees"),
         ([80, 70, 100, 110], "MMVV", "vertex 0: 2 mountains of 4 creases; expected 1 or 3"),
-        ([60, 70, 80, 75, 75], "MVVVV", "vertex 0 of 5 creases: not symmetric so"),
+        ([60, 70, 80, 75, 75], "MVVVV", "vertex 0 of 5 creases suits no linkage; expected sectors of Myard"),
         ([100, 120, 140], "MVV", "vertex 0 has 3 creases"),
     ],
 )

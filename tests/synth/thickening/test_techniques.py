@@ -45,7 +45,7 @@ def test_panels_meet_at_twice_the_arc_tangent_of_the_width_over_half_the_thickne
 
 @pytest.mark.parametrize("how", ["tapered", "hinge"])
 def test_panels_reach_the_angle_that_is_wanted(how):
-    thick = synth.thicken(card(), thickness=1.0, how=how, angle=np.radians(140.0))
+    thick = synth.thicken(card(), thickness=1.0, how=how, angle=np.radians(140.0), hinges="tape")
     assert thick.collisions.meeting.panels is None
     assert np.degrees(thick.collisions.meeting.angle) == pytest.approx(140.0, abs=1e-6)
     volume = {
