@@ -5,7 +5,7 @@ import { test } from "node:test";
 import { farthestFrom, middleOf, middleOfBox, radiusOf, turnBack } from "../src/page/aligned.js";
 import { Crossing } from "../src/page/crossing.js";
 import { snapped } from "../src/page/editing.js";
-import { trianglesOf } from "../src/page/geometry.js";
+import { isConvex, trianglesOf } from "../src/page/geometry.js";
 import { Mechanism } from "../src/page/mechanism.js";
 
 test("a turned body is turned back", () => {
@@ -65,6 +65,17 @@ for (const turned of [false, true]) {
     assert.equal(area, turned ? -10 : 10);
   });
 }
+
+test("a notch is seen, however short the sides at its corners are", () => {
+  const square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]];
+  assert.ok(isConvex(square));
+  assert.ok(isConvex([...square.slice(0, 3), [0.5, 1, 0], square[3]]));
+  const tiny = 1e-6; // corners of the notch are cut off
+  const notch = [
+    [0.6, 1, 0], [0.6, 0.9 + tiny, 0], [0.6 - tiny, 0.9, 0], [0.4 + tiny, 0.9, 0], [0.4, 0.9 + tiny, 0], [0.4, 1, 0],
+  ];
+  assert.ok(!isConvex([...square.slice(0, 3), ...notch, square[3]]));
+});
 
 /**
  * Two panels: a square in the plane and a triangle that stands on end.

@@ -44,7 +44,7 @@ export function gathered(places, corners, row) {
   }
 }
 
-/** Of a polygon's area: corners that turn in by less are in line but for rounding. */
+/** A sine: corners that turn in by less are in line but for rounding, however short their sides are. */
 const IN_LINE = 1e-9;
 
 /**
@@ -57,10 +57,10 @@ export function isConvex(around) {
   const count = around.length;
   const turns = around.map((here, n) => {
     const next = around[(n + 1) % count], last = around[(n + 2) % count];
-    return (next[x] - here[x]) * (last[y] - next[y]) - (next[y] - here[y]) * (last[x] - next[x]);
+    const side = [next[x] - here[x], next[y] - here[y]], after = [last[x] - next[x], last[y] - next[y]];
+    return (side[0] * after[1] - side[1] * after[0]) / (Math.hypot(...side) * Math.hypot(...after) || 1);
   });
-  const rounding = IN_LINE * Math.max(...turns.map(Math.abs));
-  return turns.every((turn) => turn >= -rounding) || turns.every((turn) => turn <= rounding);
+  return turns.every((turn) => turn >= -IN_LINE) || turns.every((turn) => turn <= IN_LINE);
 }
 
 /**
