@@ -6,9 +6,9 @@ from synth.thickening.heights import (
     thick_vertices as thick_vertices,
 )
 from synth.thickening.plates import ThickPlates as ThickPlates, thick_plates as thick_plates
+from synth.thickening.techniques import TechniqueFigures as TechniqueFigures
 from synth.thickening.thickened import (
     Collisions as Collisions,
-    TechniqueFigures as TechniqueFigures,
     ThickSheet as ThickSheet,
     thicken as thicken,
 )

@@ -126,13 +126,13 @@ class Knuckle:
         return np.asarray(self.start + corners @ np.array([self.inward, [0.0, 0.0, 1.0], [y, -x, 0.0]]))
 
 
-def ring_in(centre: Sequence[float], radius: float) -> list[tuple[float, float]]:
+def ring_in(centre: Sequence[float] | Floats, radius: float) -> list[tuple[float, float]]:
     """Return the corners of a regular polygon on a circle."""
     turns = [2.0 * pi * (side + 0.5) / _SIDES for side in range(_SIDES)]
     return [(float(centre[0] + radius * cos(turn)), float(centre[1] + radius * sin(turn))) for turn in turns]
 
 
-def ring_about(centre: Sequence[float], radius: float) -> list[tuple[float, float]]:
+def ring_about(centre: Sequence[float] | Floats, radius: float) -> list[tuple[float, float]]:
     """Return the corners of a regular polygon round a circle."""
     return ring_in(centre, radius / cos(pi / _SIDES))
 
@@ -221,7 +221,7 @@ class ThickPlates(Plates):
     @cached_property
     def volume(self) -> float:
         """Volume of all panels in cubic millimetres."""
-        return sum(part.volume for part in (*self.plies, *self.knuckles))
+        return sum(ply.volume for ply in self.plies) + sum(one.volume for one in self.knuckles)
 
     @cached_property
     def thinnest(self) -> float:

@@ -240,6 +240,10 @@ class ThickSheet(Printed):
                 for joint, holes in self.bores.items()
                 for panel, centre in holes
             ],
+            "knuckles": [
+                {"joint": one.joint, "panel": one.panel, "start": one.start.tolist(), "length": one.length}
+                for one in (self.plates.knuckles if isinstance(self.plates, ThickPlates) else ())
+            ],
             "volume": self.plates.volume,
             "cut": [{"panel": panel, "volume": volume} for panel, volume in sorted(self.plates.cut.items())],
             "collisions": None
