@@ -7,8 +7,4 @@ from synth.thickening.heights import (
 )
 from synth.thickening.plates import ThickPlates as ThickPlates, thick_plates as thick_plates
 from synth.thickening.techniques import TechniqueFigures as TechniqueFigures
-from synth.thickening.thickened import (
-    Collisions as Collisions,
-    ThickSheet as ThickSheet,
-    thicken as thicken,
-)
+from synth.thickening.thickened import Collisions as Collisions, ThickSheet as ThickSheet, thicken as thicken
