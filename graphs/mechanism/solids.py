@@ -151,14 +151,12 @@ def _beside_axis(axis: Axis, triangles: Floats) -> tuple[int, int]:
     reach = DOUBLE.meant * float(np.abs(towards).max(initial=0.0))
     upright = np.abs(across) <= reach
     walls = upright.all(axis=1)
-    # Where a strip is laid in along the axis, material begins beside it.
-    nearest = float(np.abs(heights[walls]).min()) if walls.any() else 0.0
-    on = upright & (np.abs(heights) <= nearest + reach)
-    if not on.any():
-        return 0, 0
+    on = upright & (np.abs(heights) <= reach)
     # Faces in the upright plane through the axis; a riser of another hinge may stand at an end of this one.
     middles = ends.mean(axis=1)
-    there = walls & (middles > ends[on].min()) & (middles < ends[on].max())
+    there = walls & (middles > ends[on].min(initial=np.inf)) & (middles < ends[on].max(initial=-np.inf))
+    if not there.any():  # where a strip is laid in along the axis, material begins beside it
+        there, on = walls, upright
     low, high = (bool((sign * heights[there] > reach).any()) for sign in (-1.0, 1.0))
     return int(high) - int(low), int(np.sign(across[on.any(axis=1)].sum()))
 
