@@ -19,14 +19,17 @@ _ANGLES = (0.0, 60.0, 120.0, 179.0)
 
 
 def thick_panels() -> Scene:
-    """Four thick panels of the Miura sheet: flat, folded by 60 and 120 degrees, and stacked; and three other ways."""
+    """Thick panels of the Miura sheet, flat to stacked; three other ways; a waterbomb tessellation, flat to folded."""
     sheet = synth.generate("miura", rows=2, columns=2).mechanism
-    spatial = synth.thicken(sheet, thickness=0.1, collisions=False)
+    spatial = synth.thicken(sheet, thickness=0.1, collisions=False, hinges="tape")
     scenes = [_pictured(spatial, angle, f"{angle:g}°") for angle in _ANGLES]
     for how in ("tapered", "offset", "hinge"):
-        thick = synth.thicken(sheet, thickness=0.1, how=how, angle=np.radians(120.0), collisions=False)
+        thick = synth.thicken(sheet, thickness=0.1, how=how, angle=np.radians(120.0), collisions=False, hinges="tape")
         scenes.append(_pictured(thick, 0.0, f"{how}, flat"))
     scenes.append(_pictured(thick, 100.0, "hinge, 100°"))
+    bases = synth.generate("waterbomb", rows=2, columns=2).mechanism
+    waterbomb = synth.thicken(bases, thickness=0.08, collisions=False, hinges="tape")
+    scenes += [_pictured(waterbomb, angle, f"waterbomb, {angle:g}°") for angle in _ANGLES]
     return in_rows(scenes, 4, gap=8.0)
 
 
