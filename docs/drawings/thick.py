@@ -29,7 +29,7 @@ def thick_panels() -> Scene:
     scenes.append(_pictured(thick, 100.0, "hinge, 100°"))
     bases = synth.generate("waterbomb", rows=2, columns=2).mechanism
     waterbomb = synth.thicken(bases, thickness=0.08, collisions=False, hinges="tape")
-    scenes += [_pictured(waterbomb, angle, f"waterbomb, {angle:g}°") for angle in _ANGLES]
+    scenes += [_pictured(waterbomb, angle, f"waterbomb, {angle:g}°") for angle in (0.0, 60.0, 179.0)]
     return in_rows(scenes, 4, gap=8.0)
 
 
