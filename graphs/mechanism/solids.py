@@ -14,7 +14,7 @@ import numpy as np
 from graphs.errors import InvariantError, numbered, shown
 from graphs.limits import LEAST, MOST, check_extent, in_reach
 from graphs.mechanism.sc import SCGraph
-from graphs.tolerances import DOUBLE
+from graphs.tolerances import DOUBLE, MARGIN
 from graphs.types import Floats, JointId, LinkId
 
 Vector = tuple[float, float, float]
@@ -107,7 +107,7 @@ class HingedSolids:
     def senses(self) -> dict[JointId, int]:
         """Return the sense in which each hinge of flat panels can turn: 1 for positive angles, -1 for negative ones.
 
-        Where the material of both links at the hinge lies below the axis they fold upwards, where it lies above it
+        Where most material of both links at the hinge lies below the axis they fold upwards, where it lies above it
         downwards. It is 0 where neither is so, or no solid reaches the axis.
 
         Examples
@@ -140,7 +140,7 @@ def _sense(first: tuple[int, int], second: tuple[int, int]) -> int:
 
 
 def _beside_axis(axis: Axis, triangles: Floats) -> tuple[int, int]:
-    """Return whether the material of a link at a level axis is below it, -1, or above, 1; and on which side of it.
+    """Return whether most material of a link at a level axis is below it, -1, or above, 1; and on which side of it.
 
     The side is 1 if a positive angle lifts it. Triangles are float[n, 3, 3].
     """
@@ -157,8 +157,12 @@ def _beside_axis(axis: Axis, triangles: Floats) -> tuple[int, int]:
     there = walls & (middles > ends[on].min(initial=np.inf)) & (middles < ends[on].max(initial=-np.inf))
     if not there.any():  # where a strip is laid in along the axis, material begins beside it
         there, on = walls, upright
-    low, high = (bool((sign * heights[there] > reach).any()) for sign in (-1.0, 1.0))
-    return int(high) - int(low), int(np.sign(across[on.any(axis=1)].sum()))
+    sides = towards[there]
+    areas = np.linalg.norm(np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0]), axis=1)
+    # A riser of another hinge, as wide as the panel is thick, may reach the axis on the other side near a vertex.
+    above = float((areas * np.sign(heights[there].mean(axis=1))).sum())
+    level = int(np.sign(above)) if abs(above) > MARGIN * areas.sum() else 0
+    return level, int(np.sign(across[on.any(axis=1)].sum()))
 
 
 def _check_shape(chain: SCGraph, shape: LinkShape, place: int) -> None:

@@ -20,7 +20,7 @@ from graphs.loops.loop import Centre
 from graphs.mechanism.precision import in_space, precision_of
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.singular_values import row_space
-from graphs.tolerances import Tolerances
+from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Floats
 
 Row = Mapping[int, float]
@@ -357,7 +357,7 @@ def hinge_heights(
     best = scipy.optimize.linprog(costs, unequal, np.array(least), bounds=bounds, method="highs", **programme)
     if best.status:
         raise UnsolvableError(_contradiction(equal, unequal, np.array(least), vertices, of_panel))
-    levels = best.x
+    levels = np.where(np.abs(best.x) <= DOUBLE.closed * np.abs(best.x).max(initial=1.0), 0.0, best.x)
     residual = max(float(np.abs(equal @ levels).max(initial=0.0)), float((unequal @ levels - least).max(initial=0.0)))
     return HingeHeights(
         {joint: float(levels[place]) for joint, place in columns.items()},  # type: ignore[misc]

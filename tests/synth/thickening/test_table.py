@@ -206,6 +206,25 @@ def test_the_waterbomb_tessellation_moves_along_the_symmetric_motion_with_one_fr
     assert motion.beside_thin()[1] < 1e-12
 
 
+@pytest.mark.parametrize("how", ["mirrored", "rounded", "clockwise"])
+def test_heights_of_a_motion_are_those_of_the_pattern_however_it_is_written(how):
+    sheet = synth.generate("waterbomb", rows=2, columns=2).mechanism
+    heights = synth.thicken(sheet, thickness=0.1, collisions=False).heights.hinges
+    places, faces = np.array(sheet.coordinates)[:, :2], sheet.faces
+    turn = np.array([[np.cos(0.5), np.sin(0.5)], [-np.sin(0.5), np.cos(0.5)]])
+    if how == "mirrored":
+        places = places * np.array([-1.0, 1.0])
+    elif how == "rounded":
+        places = (places @ turn).round(4)
+    else:
+        faces = tuple(face[::-1] for face in faces)
+    other = Sheet(sheet.vertices, sheet.edges, sheet.assignments, faces, tuple(map(tuple, places.tolist())))
+    thick = synth.thicken(other, thickness=0.1, collisions=False)
+    assert thick.freedoms == 1
+    assert thick.residual < 1e-12
+    assert np.allclose([thick.heights.hinges[joint] for joint in heights], list(heights.values()), atol=1e-9)
+
+
 def test_a_vertex_of_eight_creases_keeps_a_motion():
     thick = synth.thicken(realised("fortune-teller")(), thickness=0.01, collisions=False)
     assert sorted(one.linkage for one in thick.heights.vertices) == ["", *["Bennett"] * 4]
