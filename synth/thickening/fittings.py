@@ -282,7 +282,7 @@ def _of_crease(seat: HingeSeat, thickness: float, hinges: str, bores: Bores, cle
         text += f", {numbered(count, 'hole')} of {BORE * thickness:.3g} for screws of at most {screw:.3g}"
         text += f", {away:.4g} from the axis"
     else:
-        text += ", tape" if hinges == "tape" else f", tape: no room for {hinges}"
+        text += f", tape: no room for {hinges}" if hinges in ("screws", "pins") else ", tape"
     return text + "."
 
 

@@ -404,7 +404,8 @@ def cut_back(
         if keep_risers and risers[0] != risers[1]:
             loss[risers[0]], loss[not risers[0]] = (0.0, *loss[risers[0]][1:]), (np.inf, *loss[not risers[0]][1:])
         least = loss[0] if loss[0][0] <= (1.0 + MARGIN) * loss[1][0] else loss[1]
-        removed[int(least[1])].append(least[2])
+        if not least[2].is_empty:  # gaps across faces are less than distances: nothing may come so near
+            removed[int(least[1])].append(least[2])
     plies = [
         replace(ply, outline=_without(ply.outline, removed[number], clearance)) if number in removed else ply
         for number, ply in enumerate(plates.plies)
