@@ -62,6 +62,7 @@ _CLEARANCE = 0.02
 _DENSITY = 700.0
 """Kilograms per cubic metre, of plywood."""
 _KEPT = "Mobile along the motion of the thin sheet that the heights keep: {} there, up to {:.6g}°."
+_APART = "no heights keep the symmetric motion of the thin sheet; vertices have those of each by itself"
 _FREEDOMS = ("degree of freedom", "degrees of freedom")
 _MUCH = 0.1
 """A part of the volume: the answer warns if more than this is cut away so that panels do not meet."""
@@ -192,6 +193,7 @@ class ThickSheet(Printed):
             str(self.verdict),
             *([compared] if self.comparison else []),
             *([f"vertices: {linkages or 'none inside the sheet'}"] if self.how == "spatial" else []),
+            *([_APART] if needs_motion(self.heights.vertices) and not self.heights.of_motion else []),
             f"fold angles: {angles}, up to {most:.6g}°; loop-closure residual {self.residual:.1g}",
             *self._collision_lines(),
             TableBlock(("crease", "height in mm"), rows, ("crease", "height in mm")),

@@ -9,8 +9,10 @@ import synth
 from graphs.errors import UnsolvableError
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from synth.folding.alike import folded_towards
 from synth.moving.made import configuration_of
 from synth.thickening import hinge_heights
+from synth.thickening.heights import of_motion
 
 
 def opened_kresling_cell():
@@ -176,8 +178,8 @@ def test_rounded_coordinates_keep_the_fold_angles_of_the_thin_sheet(name):
 def test_the_waterbomb_tessellation_moves_along_the_symmetric_motion_with_one_freedom():
     """Vertices of six creases that share creases agree on a motion if their heights do.
 
-    At small angles with v the rate of valleys, D the mountains in a base fold by v cos a and W the borders of bases by
-    3 v cos a; moments of rates about the vertex between two bases vanish if D - W = -2 (V - W), V being valleys there.
+    At small angles with v the rate of valleys, D the mountains in a base fold by v cos 45 and W the borders of bases by
+    3 v cos 45 degrees; moments of rates about the vertex between two bases vanish if D - W = -2 (V - W), V being valleys there.
     """
     sheet = synth.generate("waterbomb", rows=2, columns=2).mechanism
     thick = synth.thicken(sheet, thickness=0.1, collisions=False)
@@ -223,6 +225,21 @@ def test_heights_of_a_motion_are_those_of_the_pattern_however_it_is_written(how)
     assert thick.freedoms == 1
     assert thick.residual < 1e-12
     assert np.allclose([thick.heights.hinges[joint] for joint in heights], list(heights.values()), atol=1e-9)
+
+
+def test_stretched_waterbombs_have_no_heights_that_keep_the_symmetric_motion():
+    sheet = synth.generate("waterbomb", rows=2, columns=2).mechanism
+    assert "no heights keep" not in str(synth.thicken(sheet, thickness=0.1, collisions=False))
+    stretched = tuple((1.3 * x, y) for x, y, *_ in sheet.coordinates)
+    wide = Sheet(sheet.vertices, sheet.edges, sheet.assignments, sheet.faces, stretched)
+    thick = synth.thicken(wide, thickness=0.1, collisions=False)
+    assert "no heights keep the symmetric motion of the thin sheet" in str(thick)
+    assert thick.freedoms is None
+    # At the vertex between two bases all heights have to be equal along that motion.
+    at = configuration_of(wide)
+    motion = folded_towards(at.sheet, np.radians(120.0), 12)
+    between = next(one for one in thick.heights.vertices if one.vertex == 4)
+    assert len(of_motion(between, list(at.mechanism.sc.joints), motion.path.angles).rows) == 5
 
 
 def test_a_vertex_of_eight_creases_keeps_a_motion():
