@@ -107,6 +107,9 @@ class Design(Printed):
     defects : DesignDefects
     angles : mapping of str to mapping of str to float
         Joint angles at each configuration, radians.
+    settled : bool or None
+        Whether the search ended where no step makes the design better, or brings it nearer to its start; False if it
+        ended with the last of its steps, None for a design from a store that does not say.
 
     Examples
     --------
@@ -128,6 +131,7 @@ class Design(Printed):
     verdict: str
     defects: DesignDefects
     angles: Mapping[str, Mapping[str, float]]
+    settled: bool | None = None
 
     @property
     def closed(self) -> bool:
@@ -164,6 +168,8 @@ class Design(Printed):
         lines: list[Block] = [f"design from start {self.start}: {'; '.join(self.faults) or 'success'}"]
         lines += [self.verdict] if self.moves else []
         lines.append(f"loop-closure residual {self.error:.1e}")
+        if self.settled is False:
+            lines.append("the search ended with its last step; a run with --begin goes on from there")
         return [*lines, TableBlock(FIGURE_HEADS, self.rows())]
 
     def rows(self, most: int = 3) -> list[tuple[str, str, str]]:
@@ -185,6 +191,7 @@ class Design(Printed):
             "verdict": self.verdict,
             "defects": [list(self.defects.defects), self.defects.traced, list(self.defects.inputs)],
             "angles": {name: dict(angles) for name, angles in self.angles.items()},
+            "settled": self.settled,
         }
 
     def to_json(self) -> dict[str, Any]:
@@ -196,6 +203,7 @@ class Design(Printed):
             "miss": self.miss,
             "residual": self.error,
             "freedoms": self.freedoms,
+            "settled": self.settled,
             "verdict": self.verdict,
             "figures": [figure.to_json() for figure in self.figures],
             "configurations": {
@@ -453,6 +461,7 @@ class DesignSearch:
             record["verdict"],
             DesignDefects(tuple(defects), passed, tuple(inputs)),
             record["angles"],
+            record.get("settled"),
         )
 
 
@@ -493,7 +502,8 @@ def judged(problem: DesignProblem, found: FoundDesign, start: int, wanted: int |
     if wanted and freedoms and freedoms != wanted:
         has = numbered(freedoms, "degree of freedom", "degrees of freedom")
         defects = DesignDefects((f"{has} at the pose, and {wanted} before",), False)
-    return Design(start, found.numbers, mechanism, figures, found.error, freedoms, sentence, defects, angles)
+    judgement = (found.error, freedoms, sentence, defects, angles, found.settled)
+    return Design(start, found.numbers, mechanism, figures, *judgement)
 
 
 def _defects(problem: DesignProblem, found: FoundDesign, freedoms: int | None) -> DesignDefects:

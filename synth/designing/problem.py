@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
-from math import degrees
+from math import degrees, inf
 
 import numpy as np
 
@@ -147,6 +147,10 @@ class DesignProblem:
         starts = self.numbers + np.cumsum([0, *(len(free) for free in self.free)])
         self.columns = [slice(int(a), int(b)) for a, b in pairwise(starts)]
         self.size = int(starts[-1])
+        angles = np.ones(self.size - self.numbers)
+        self.scales = np.concatenate([family.scales, angles])
+        low, high = family.bounds
+        self.bounds = (np.concatenate([low, -inf * angles]), np.concatenate([high, inf * angles]))
         self.drivers = self._drivers()
         self.together = sorted({joint for inputs in self.inputs for joint in inputs})
         self.start = self.joined(family.start, [self.held(k, self.zero) for k in range(len(self.inputs))])
@@ -315,5 +319,6 @@ class DesignProblem:
             step = self.evaluated(unknowns)
         except SynthedraError:
             return None
-        finite = all(np.isfinite(part).all() for part in (step.closure, step.rules, step.wishes))
+        parts = (step.closure, step.rules, step.wishes, step.by_closure, step.by_rules, step.by_wishes)
+        finite = all(np.isfinite(part).all() for part in parts)
         return step if finite else None

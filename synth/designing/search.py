@@ -5,14 +5,17 @@ configurations are closed to the last digit. Theory: docs/theory/design.md.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from hashlib import sha256
+from math import inf, pi
 
 import numpy as np
 
 from graphs.errors import SynthedraError
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
+from synth.designing.least import System, least_squares, least_weight, shortest_step
+from synth.designing.nearest import nearest
 from synth.designing.problem import DesignProblem, DesignStep
 from synth.motion.closure import corrected, exactly_held
 from synth.motion.path import driven_path
@@ -20,19 +23,21 @@ from synth.motion.path import driven_path
 _WEIGHTS = (1.0, 30.0, 1e3)
 """Of closure and rules, one search after the other until configurations can be closed."""
 _STEPS = (40, 30, 30)
-_STIFF = 1e5
+_STIFF = 1e3
 _SMOOTH = (0.1, 0.01)
 """Weights of turns between configurations, one search after the other, where they are to be near to each other."""
 _DAMPING, _MORE, _LESS, _MOST_DAMPING = 1e-3, 4.0, 8.0, 1e3
 _REFINED, _GAIN = 80, 1e-9
 """Most steps along closed designs, and the part of the sum of squares that a step must take away to be followed."""
-_ROUGH, _SETTLED = 1e-8, 1e-15
-"""Where steps or gains are less than the first part, or slopes or misses than the second, a search ends."""
+_ROUGH = 1e-8
+"""Part of the sum of squares that a step must take away, else a search ends."""
 _FIT, _FITTED = 25, 1e-5
 _BETTER = 10.0
 """How many times worse the nearest configuration may fit than another guess, and still be taken."""
-_UNMET = 1e6
-"""A residual where there is no mechanism: no step goes there."""
+_BESIDE = 0.03
+"""How far beside a saddle a search begins, in units of dimensions."""
+_LOOSE = 10.0
+"""Radians of a joint angle that count as much as a unit of dimensions where the nearest design is looked for."""
 _ROUNDS = 8
 
 
@@ -40,13 +45,15 @@ _ROUNDS = 8
 class FoundDesign:
     """Numbers of a design, and its configurations closed as well as they can be.
 
-    `errors` are the loop-closure residuals, `step` all equations there.
+    `errors` are the loop-closure residuals, `step` all equations there; `settled` is whether the search ended where no
+    step makes it better, or brings it nearer to its start, not with the last of its steps.
     """
 
     numbers: Floats
     angles: list[Floats]
     errors: list[float]
     step: DesignStep
+    settled: bool = False
 
     @property
     def error(self) -> float:
@@ -89,16 +96,41 @@ def found_from(
     """
     if problem.tried(problem.joined(numbers, [problem.zero] * len(problem.inputs))) is None:
         return None
-    unknowns = problem.joined(numbers, fitted_angles(problem, numbers, rng, follow=follow))
+    unknowns = start = problem.joined(numbers, fitted_angles(problem, numbers, rng, follow=follow))
+    unknowns = _off_saddle(problem, unknowns, rng)
     for smooth in _SMOOTH if problem.wishes.between else ():
         unknowns = _least(problem, unknowns, 1.0, _STEPS[0], smooth)
     for weight, steps in zip(_WEIGHTS, _STEPS, strict=True):
         unknowns = _least(problem, unknowns, weight, steps)
         found = closed(problem, unknowns)
+        if found is not None and found.error > DOUBLE.closed and weight == _WEIGHTS[-1]:
+            found = closed(problem, _ruled(problem, unknowns, loops=True)) or found
         if found is not None and found.error <= DOUBLE.closed:
-            return _on_one_branch(problem, _refined(problem, found))
+            return _finished(problem, found, start)
     begun = _folded_start(problem, numbers) if problem.wishes.flat_foldable else None
-    return found if begun is None else _on_one_branch(problem, _refined(problem, begun))
+    return found if begun is None else _finished(problem, begun, start)
+
+
+def _finished(problem: DesignProblem, found: FoundDesign, start: Floats) -> FoundDesign:
+    """Return a closed design made as good as can be, then as near to its start, then led along one branch."""
+    return _on_one_branch(problem, _nearest(problem, _refined(problem, found), start))
+
+
+def _off_saddle(problem: DesignProblem, unknowns: Floats, rng: np.random.Generator) -> Floats:
+    """Return unknowns beside some at which no change makes wishes better to first order, else these.
+
+    A mechanism that is symmetric, or a sheet without curvature, may be such a saddle: no step leads away from it.
+    """
+    step = problem.tried(unknowns)
+    assert step is not None
+    off, by = step.residual(1.0), step.jacobian(1.0) * problem.scales
+    size = np.linalg.norm(off)
+    if size <= DOUBLE.closed or np.linalg.norm(off @ by) > DOUBLE.same_configuration * size:
+        return unknowns
+    moved = unknowns.copy()
+    moved[: problem.numbers] += _BESIDE * problem.family.scales * rng.normal(size=problem.numbers)
+    moved = np.clip(moved, *problem.bounds)
+    return unknowns if problem.tried(moved) is None else np.asarray(moved)
 
 
 def _folded_start(problem: DesignProblem, numbers: Floats) -> FoundDesign | None:
@@ -135,7 +167,7 @@ def _on_one_branch(problem: DesignProblem, found: FoundDesign) -> FoundDesign:
     step = problem.tried(problem.joined(found.numbers, [problem.held(k, one) for k, one in enumerate(angles)]))
     if step is None:
         return found
-    traced = FoundDesign(found.numbers, angles, [closure.error(one) for one in angles], step)
+    traced = FoundDesign(found.numbers, angles, [closure.error(one) for one in angles], step, found.settled)
     good = traced.error <= DOUBLE.closed and traced.cost <= found.cost + DOUBLE.closed
     return traced if good else found
 
@@ -151,59 +183,64 @@ def _refined(problem: DesignProblem, found: FoundDesign) -> FoundDesign:
     Steps are those of least squares in which closure and rules weigh so much that they hold to first order; then
     configurations are closed again. So the search follows curved families of closed designs, however narrow.
     """
-    damping, low, high = _DAMPING, *problem.family.bounds
+    damping, scales = _DAMPING, problem.scales
+    bounds = (problem.bounds[0] / scales, problem.bounds[1] / scales)
     for _ in range(_REFINED):
         step, before = found.step, found.cost
-        if before <= _SETTLED**2:
-            break
-        matrix = np.vstack([step.jacobian(_STIFF), damping * np.eye(problem.size)])
-        off = np.concatenate([step.residual(_STIFF), np.zeros(problem.size)])
-        change = np.linalg.lstsq(matrix, -off, rcond=None)[0]
-        moved = problem.joined(found.numbers, found.angles) + change
-        moved[: problem.numbers] = np.clip(moved[: problem.numbers], low, high)
+        if before <= DOUBLE.closed**2:
+            return replace(found, settled=True)
+        here = problem.joined(found.numbers, found.angles) / scales
+        moved = scales * shortest_step(here, step.residual(_STIFF), step.jacobian(_STIFF) * scales, bounds, damping)
         tried = closed(problem, moved)
         if tried is None or tried.error > DOUBLE.closed or tried.cost >= before:
             damping *= _MORE
             if damping > _MOST_DAMPING:
-                break
+                return replace(found, settled=True)
             continue
-        found, damping = tried, damping / _LESS
+        found, damping = tried, max(damping / _LESS, least_weight(tried.cost))
         if before - tried.cost <= _GAIN * before:
-            break
+            return replace(found, settled=True)
     return found
+
+
+def _nearest(problem: DesignProblem, found: FoundDesign, start: Floats) -> FoundDesign:
+    """Return the design nearest to a start that meets the wishes as well, if they are met: then many may meet them."""
+    if found.cost > DOUBLE.derivative**2:
+        return found
+    scales = problem.scales.copy()
+    scales[problem.numbers :] = _LOOSE
+    bounds = (problem.bounds[0] / scales, problem.bounds[1] / scales)
+    here = problem.joined(found.numbers, found.angles)
+    near = nearest(_system(problem, scales), here / scales, start / scales, bounds)
+    tried = closed(problem, near.unknowns * scales) if near.settled else None
+    if tried is None or tried.error > DOUBLE.closed:
+        return replace(found, settled=False)
+    tried = _refined(problem, tried)
+    return tried if tried.cost <= DOUBLE.derivative**2 else replace(found, settled=False)
+
+
+def _system(problem: DesignProblem, scales: Floats, weight: float = 1.0, smooth: float = 0.0) -> System:
+    """Return all equations as a function of the unknowns over some scales."""
+
+    def system(parts: Floats) -> tuple[Floats, Floats] | None:
+        step = problem.tried(parts * scales)
+        return None if step is None else (step.residual(weight, smooth), step.jacobian(weight, smooth) * scales)
+
+    return system
 
 
 def _least(problem: DesignProblem, unknowns: Floats, weight: float, steps: int, smooth: float = 0.0) -> Floats:
     """Return unknowns of least squares: closure and rules with a weight, turns between configurations with another."""
-    from scipy.optimize import least_squares
-
-    last: dict[bytes, DesignStep | None] = {}
-
-    def at(x: Floats) -> DesignStep | None:
-        key = x.tobytes()
-        if key not in last:
-            last.clear()
-            last[key] = problem.tried(x)
-        return last[key]
-
-    first = at(unknowns)
-    assert first is not None
-    size = len(first.residual(weight, smooth))
-
-    def residual(x: Floats) -> Floats:
-        step = at(x)
-        return np.full(size, _UNMET) if step is None else step.residual(weight, smooth)
-
-    def jacobian(x: Floats) -> Floats:
-        step = at(x)
-        return np.zeros((size, len(x))) if step is None else step.jacobian(weight, smooth)
-
-    low, high = np.full(len(unknowns), -np.inf), np.full(len(unknowns), np.inf)
-    low[: problem.numbers], high[: problem.numbers] = problem.family.bounds
-    inside = np.clip(unknowns, low, high)
-    ends = {"xtol": _ROUGH, "ftol": _ROUGH, "gtol": _SETTLED}
-    found = least_squares(residual, inside, jac=jacobian, bounds=(low, high), max_nfev=steps, **ends)
-    return np.asarray(found.x)
+    scales, bounds = problem.scales, problem.bounds
+    found = least_squares(
+        _system(problem, scales, weight, smooth),
+        unknowns / scales,
+        (bounds[0] / scales, bounds[1] / scales),
+        steps,
+        _ROUGH,
+    )
+    assert found is not None
+    return np.asarray(found.unknowns * scales)
 
 
 def fitted_angles(
@@ -263,8 +300,6 @@ def _apart(problem: DesignProblem, number: int, done: int, zero: Floats) -> floa
 
 def _fitted(problem: DesignProblem, numbers: Floats, number: int, guess: Floats) -> tuple[float, Floats]:
     """Return the joint angles near a guess that fit one configuration best, and how badly."""
-    from scipy.optimize import least_squares
-
     alone = problem.alone(number, numbers)
     free = problem.free[number]
 
@@ -273,14 +308,17 @@ def _fitted(problem: DesignProblem, numbers: Floats, number: int, guess: Floats)
         whole[free] = x
         return whole
 
+    def system(x: Floats) -> tuple[Floats, Floats]:
+        off, by = alone(angles(x))
+        return off, by[:, free]
+
     if not len(free):
         off, _ = alone(guess)
         return float(off @ off), guess
-    ends = {"xtol": _FITTED, "ftol": _FITTED, "gtol": _FITTED}
-    found = least_squares(
-        lambda x: alone(angles(x))[0], guess[free], jac=lambda x: alone(angles(x))[1][:, free], max_nfev=_FIT, **ends
-    )
-    return float(found.cost), angles(found.x)
+    reach = np.full(len(free), inf if problem.family.sheet is None else pi)
+    found = least_squares(system, guess[free], (-reach, reach), _FIT, _FITTED)
+    assert found is not None
+    return found.cost / 2.0, angles(found.unknowns)
 
 
 def closed(problem: DesignProblem, unknowns: Floats) -> FoundDesign | None:
@@ -300,13 +338,18 @@ def closed(problem: DesignProblem, unknowns: Floats) -> FoundDesign | None:
     return None if step is None else FoundDesign(numbers, angles, errors, step)
 
 
-def _ruled(problem: DesignProblem, unknowns: Floats) -> Floats:
-    """Return the nearest unknowns at which rules hold and loops close: Newton's method, least steps within bounds."""
+def _ruled(problem: DesignProblem, unknowns: Floats, *, loops: bool = False) -> Floats:
+    """Return the nearest unknowns at which rules hold and loops close: Newton's method, least steps within bounds.
+
+    It ends where rules hold; with `loops` where these close too, which at a limit of the motion angles alone cannot do.
+    """
     for _ in range(_ROUNDS):
         step = problem.tried(unknowns)
-        if step is None or float(np.abs(step.rules).max(initial=0.0)) <= DOUBLE.closed / 100:
+        if step is None:
             break
         matrix, off = np.vstack([step.by_closure, step.by_rules]), np.concatenate([step.closure, step.rules])
-        unknowns = unknowns - np.linalg.lstsq(matrix, off, rcond=DOUBLE.zero)[0]
-        unknowns[: problem.numbers] = np.clip(unknowns[: problem.numbers], *problem.family.bounds)
+        if np.abs(off if loops else step.rules).max(initial=0.0) <= DOUBLE.closed / 100:
+            break
+        change = np.linalg.lstsq(matrix * problem.scales, off, rcond=DOUBLE.zero)[0]
+        unknowns = np.clip(unknowns - problem.scales * change, *problem.bounds)
     return unknowns

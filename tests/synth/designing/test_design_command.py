@@ -16,7 +16,7 @@ WISHES = {
     "format": "synthedra/wishes",
     "version": 1,
     "configurations": [{"name": "open", "inputs": {"0": 40}}],
-    "wishes": [{"kind": "angle", "at": "open", "joint": 3, "equals": 50}],
+    "wishes": [{"kind": "angle", "at": "open", "joint": 3, "equals": -50}],
 }
 
 
@@ -39,7 +39,7 @@ def test_the_command_gives_what_the_function_gives(files):
 def test_the_best_design_is_written_and_does_what_was_wished(files, tmp_path):
     run("design", *files, "--starts", 1, "-o", tmp_path / "new.json", "--picture", tmp_path / "new.svg")
     motion = synth.move(str(tmp_path / "new.json"), drive={0: 0.6981317007977318}, frames=1)
-    assert abs(motion.path.angles[-1][3] - 0.8726646259971648) < 1e-9
+    assert abs(motion.path.angles[-1][3] + 0.8726646259971648) < 1e-9
     assert arcs_of(str(tmp_path / "new.json")) != arcs_of(str(files[0]))
     assert (tmp_path / "new.svg").stat().st_size > 500
 
