@@ -58,7 +58,7 @@ COMMANDS = [
     "convert data/linkages/bennett.json bennett.csv --as table --drive 0=60",
     "design four-bar data/wishes/crank-and-follower.json --starts 1",
     "task data/tasks/lid.json --structure-only",
-    "task data/tasks/lid.json --starts 4 --rounds 1 --workers 1",
+    "task data/tasks/lid.json --starts 2 --rounds 1 --workers 1",
 ]
 
 

@@ -97,7 +97,7 @@ def task(
     --------
     >>> task({"format": "synthedra/task", "version": 1, "types": ["sc"]}, structure_only=True).admitted
     29
-    >>> answer = task("data/tasks/lid.json", starts=4, rounds=1)
+    >>> answer = task("data/tasks/lid.json", starts=2, rounds=1)
     >>> answer.name(answer.best), answer.best.candidate.links
     ('four-bar', (0, 3))
     """

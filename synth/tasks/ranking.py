@@ -116,7 +116,7 @@ class RankedTypes(Printed):
     >>> from synth.tasks.structure import structure_of
     >>> from synth.tasks.task_files import read_task
     >>> structure = structure_of(read_task("data/tasks/lid.json"))
-    >>> ranked_types(structure, halved(structure, starts=4, rounds=1))
+    >>> ranked_types(structure, halved(structure, starts=2, rounds=1))
     <RankedTypes: 1 of 2 types>
     """
 

@@ -41,7 +41,7 @@ def report_page(answer: RankedTypes) -> str:
     Examples
     --------
     >>> from synth.tasks.answer import task
-    >>> page = report_page(task("data/tasks/lid.json", starts=4, rounds=1))
+    >>> page = report_page(task("data/tasks/lid.json", starts=2, rounds=1))
     >>> "four-bar" in page, "<svg" in page
     (True, True)
     """
@@ -97,7 +97,7 @@ def write_report(answer: RankedTypes, path: str | Path, *, force: bool = False) 
     --------
     >>> from tempfile import TemporaryDirectory
     >>> from synth.tasks.answer import task
-    >>> answer = task("data/tasks/lid.json", starts=4, rounds=1)
+    >>> answer = task("data/tasks/lid.json", starts=2, rounds=1)
     >>> with TemporaryDirectory() as folder:
     ...     write_report(answer, Path(folder, "lid.html")).name
     'lid.html'
@@ -133,7 +133,7 @@ def write_designs(answer: RankedTypes, folder: str | Path, *, most: int = _MOST,
     >>> from tempfile import TemporaryDirectory
     >>> from synth.tasks.answer import task
     >>> with TemporaryDirectory() as folder:
-    ...     [path.name for path in write_designs(task("data/tasks/lid.json", starts=4, rounds=1), folder)]
+    ...     [path.name for path in write_designs(task("data/tasks/lid.json", starts=2, rounds=1), folder)]
     ['1-four-bar.json']
     """
     folder = Path(folder)

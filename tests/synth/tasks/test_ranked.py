@@ -27,7 +27,7 @@ def lid(data, **keys):
 
 @pytest.fixture(scope="module")
 def answer(data):
-    return synth.task(data / "tasks" / "lid.json", starts=4, rounds=1)
+    return synth.task(data / "tasks" / "lid.json", starts=2, rounds=1)
 
 
 def test_a_ranked_design_takes_the_poses(answer, data):
@@ -53,7 +53,7 @@ def test_the_report_needs_nothing_else(answer):
 def test_a_store_gives_the_same_answer_when_it_was_stopped(data, tmp_path):
     task = lid(data, distance=[])
     task = {**task, "wishes": {**task["wishes"], "wishes": task["wishes"]["wishes"][:1]}}
-    whole = synth.task(task, starts=4, rounds=1)
+    whole = synth.task(task, starts=2, rounds=1)
     times = []
 
     def stop(number, progress):
@@ -62,16 +62,16 @@ def test_a_store_gives_the_same_answer_when_it_was_stopped(data, tmp_path):
             raise Interrupted
 
     with pytest.raises(Interrupted):
-        synth.task(task, starts=4, rounds=1, store=tmp_path / "store", report=stop)
-    again = synth.task(task, starts=4, rounds=1, store=tmp_path / "store", resume=True)
+        synth.task(task, starts=2, rounds=1, store=tmp_path / "store", report=stop)
+    again = synth.task(task, starts=2, rounds=1, store=tmp_path / "store", resume=True)
     assert again.to_json() == whole.to_json()
     with pytest.raises(StoreError):
-        synth.task(task, starts=4, rounds=1, store=tmp_path / "store")
+        synth.task(task, starts=2, rounds=1, store=tmp_path / "store")
 
 
 def test_other_weights_rank_the_same_rows_anew(data):
     structure = structure_of(read_task(data / "tasks" / "lid.json"))
-    rows = halved(structure, starts=4, rounds=1)
+    rows = halved(structure, starts=2, rounds=1)
     row = next(row for row in rows if row["success"])
     figures = json.loads(row["record"])
     figures["figures"][1][3] = 0.5
@@ -96,11 +96,11 @@ def test_the_better_half_goes_on_with_twice_as_many_starts(data):
     task = replace(task, distances=(), links=task.links)
     structure = structure_of(task)
     assert len(candidates_of(structure)) == 2
-    rows = halved(structure, starts=4, rounds=2)
+    rows = halved(structure, starts=2, rounds=2)
     by_candidate = {number: [row["start"] for row in rows if row["candidate"] == number] for number in (0, 1)}
     done = next(row["candidate"] for row in rows if row["success"] and row["miss"] < 1e-9)
-    assert by_candidate[done] == list(range(4))
-    assert by_candidate[1 - done] == list(range(12))
+    assert by_candidate[done] == list(range(2))
+    assert by_candidate[1 - done] == list(range(6))
 
 
 @pytest.mark.parametrize(
