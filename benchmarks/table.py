@@ -318,11 +318,13 @@ ROWS = {
     "atlas": Row("an atlas to 6 links, each type", "ms", 25, atlas),
     "verdict-1024": Row("verdict on 1 024 panels", "s", 1, of_sheet(32, "mobility")),
     "rank-10000": Row(
-        "exact mobility of 10 000 panels", "s", 5, of_sheet(100, "mobility", "--no-motion"), long=True
+        "mobility of 10 000 panels, without motion", "s", 5, of_sheet(100, "mobility", "--no-motion"), long=True
     ),
-    "rank-100000": Row("the same of 100 000 panels", "s", 20, of_sheet(316, "mobility", "--no-motion"), long=True),
+    "rank-100000": Row(
+        "mobility of 100 000 panels, without motion", "s", 20, of_sheet(316, "mobility", "--no-motion"), long=True
+    ),
     "fold-10000": Row("four frames of 10 000 panels", "s", 10, of_sheet(100, "fold", "--frames", "4"), long=True),
-    "fold-100000": Row("the same of 100 000 panels", "s", 60, of_sheet(316, "fold", "--frames", "4"), long=True),
+    "fold-100000": Row("four frames of 100 000 panels", "s", 60, of_sheet(316, "fold", "--frames", "4"), long=True),
 }  # fmt: skip
 
 
