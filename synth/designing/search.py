@@ -14,8 +14,7 @@ import numpy as np
 from graphs.errors import SynthedraError
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
-from synth.designing.least import System, least_squares, least_weight, shortest_step
-from synth.designing.nearest import nearest
+from synth.designing.least import System, least_squares, least_weight, nearest, shortest_step
 from synth.designing.problem import DesignProblem, DesignStep
 from synth.motion.closure import corrected, exactly_held
 from synth.motion.path import driven_path

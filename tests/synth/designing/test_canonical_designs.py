@@ -12,7 +12,7 @@ from sizes import slow
 
 from synth.designing import Goal, JointAngle, LinkArc, WishedConfiguration, Wishes
 from synth.designing.designs import DesignSearch
-from synth.designing.nearest import nearest
+from synth.designing.least import nearest
 from synth.designing.search import found_from, seeded
 from synth.patterns import generate
 from tests.machines.factors import FACTORS, environment_for, reason_to_leave_out
