@@ -38,7 +38,7 @@ def test_panels_meet_at_twice_the_arc_tangent_of_the_width_over_half_the_thickne
     assert moving.clear_of_hinges(np.array([0]), np.array([1]))[0] == pytest.approx(expected, abs=1e-9)
     meeting = moving.first_meeting()
     assert meeting.panels == (0, 1)
-    assert meeting.angle == pytest.approx(expected, abs=2e-6)
+    assert meeting.angle == pytest.approx(expected, abs=1e-6)
     assert moving.overlaps(np.array([meeting.place - 1e-3]))[0] == 0.0
     assert moving.overlaps(np.array([meeting.place + 1e-2]))[0] > 0.0
 
