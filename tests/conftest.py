@@ -44,11 +44,15 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)
 def pytest_collection() -> Generator[None, object, object]:
-    """Collect tests without looking for garbage, which takes a quarter of the time."""
+    """Collect tests without looking for garbage, which takes a quarter of the time, and keep what was collected apart.
+
+    Modules and thousands of tests live to the end; looking through them again and again took a fifth of the run.
+    """
     gc.disable()
     try:
         return (yield)
     finally:
+        gc.freeze()
         gc.enable()
 
 
