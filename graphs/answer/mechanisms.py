@@ -32,7 +32,8 @@ from graphs.tolerances import DOUBLE
 MOST_JOINTS = 2000
 """Larger mechanisms are ranked on request only: so many joints take a second, ten times as many twenty seconds."""
 
-_MOST_DIAGNOSED = 400
+_MOST_DIAGNOSED = 20_000
+"""Of larger mechanisms it is not found why the count differs: so many joints take a quarter of a minute."""
 _LISTED = 12
 """Joints that are named, at most."""
 
@@ -63,8 +64,10 @@ def with_exact(
 
 def _why_it_differs(answer: MobilityAnswer, mechanism: SCGraph | PolyhedronModel, exact: int) -> str:
     text = f"the exact generic mobility is {exact}, by count {answer.mobility}"
-    if isinstance(mechanism, PolyhedronModel) or len(mechanism.joints) > _MOST_DIAGNOSED:
+    if isinstance(mechanism, PolyhedronModel):
         return text
+    if len(mechanism.joints) > _MOST_DIAGNOSED:
+        return f"{text}; where equations are redundant is not looked for among more than {_MOST_DIAGNOSED} joints"
     diagnosis = diagnose(mechanism)
     if diagnosis.idle:
         regions = sorted(diagnosis.regions, key=len)

@@ -266,9 +266,7 @@ class _ExactElimination:
             seen = Counter(column for row in rows for column in row)
             columns = sorted(seen)
             return columns, [[row.get(column, 0) for column in columns] for row in rows], seen
-        spread = np.ptp(places[numbers], axis=0)
-        order = numbers[np.argsort(places[numbers, int(np.argmax(spread))], kind="stable")]
-        halves = [self.eliminate(half, places) for half in np.array_split(order, 2)]
+        halves = [self.eliminate(half, places) for half in _halves(numbers, places)]
         columns = sorted({column for half in halves for column in half[0]})
         at = {column: place for place, column in enumerate(columns)}
         block = []
@@ -279,6 +277,164 @@ class _ExactElimination:
                 for place, value in zip(to, line, strict=True):
                     block[-1][place] = value
         return columns, block, halves[0][2] + halves[1][2]
+
+
+@dataclass(slots=True)
+class _Front:
+    """What a part of an exact elimination leaves. Its lines have the numbers of the rows they stand for.
+
+    `pivots` are lines that are independent on the `own` columns, the first of `columns`; `solved` is their reduced
+    form, nmod[pivots, columns], with a one at each of the places `ones`. Lines that are `handed` up were freed of the
+    own columns by `shares` of the pivots, nmod[pivots, handed], and are `left` on the other columns.
+    """
+
+    parts: tuple[_Front, ...]
+    columns: list[int]
+    own: int
+    pivots: list[int]
+    solved: Any
+    ones: list[int]
+    handed: list[int]
+    shares: Any
+    left: Any
+    seen: Counter[int]
+
+
+class KernelsModulo:
+    """What solves a large sparse matrix modulo a prime, and which of its rows depend on each other.
+
+    The elimination is that of `rank_modulo`, with what each part did kept. A line that is handed up stands for the row
+    in it that was not used up. So dependent lines that a part finds are followed down into the parts it was made of,
+    each of which adds the pivots that the lines contain. Most are found in small parts, and are few rows.
+
+    Attributes
+    ----------
+    rank : int
+    circuits : list of list of int
+        Smallest dependent sets of rows, as many as there are rows too many; the first row of each is in none after it.
+    """
+
+    def __init__(self, rows: Sequence[Mapping[int, int]], columns: int, prime: int) -> None:
+        self._rows, self._columns, self._prime = rows, columns, prime
+        self._rows_of = Counter(column for row in rows for column in row)
+        self._fronts: list[_Front] = []
+        self.circuits = [[number] for number, row in enumerate(rows) if not row]
+        filled = np.array([number for number, row in enumerate(rows) if row], dtype=np.int64)
+        if len(filled):
+            places = np.zeros((len(rows), 2))
+            places[filled] = _places_of_rows([rows[number] for number in filled.tolist()], columns)
+            self._eliminate(filled, places)
+        self.rank = sum(len(front.pivots) for front in self._fronts)
+
+    def general_solution(self, seed: int = 0) -> list[int]:
+        """Return random numbers, one for each column, that the matrix maps to zero.
+
+        A number is zero where it is so in all solutions; elsewhere with a probability of one over the prime.
+        """
+        values = np.random.default_rng(seed).integers(0, self._prime, self._columns).astype(object)
+        for front in reversed(self._fronts):  # the other columns of a part are those of parts above it
+            pivots = np.array(front.columns)[front.ones]
+            values[pivots] = 0
+            if len(pivots):
+                values[pivots] = _entries(-(front.solved * self._matrix(values[front.columns][:, None])))[:, 0]
+        return [int(value) for value in values]
+
+    def _eliminate(self, numbers: Ints, places: Floats) -> _Front:
+        """Take out the columns that only these rows have; add the dependent sets that this shows."""
+        parts, names, columns, block, seen = self._assembled(numbers, places)
+        mine = np.array([seen[column] == self._rows_of[column] for column in columns.tolist()], dtype=bool)
+        own = int(mine.sum())
+        block = np.concatenate([block[:, mine], block[:, ~mine]], axis=1)
+        pivots, others, shares = self._independent(block[:, :own])
+        solved = self._matrix(block[pivots]).rref()[0]
+        taken = self._matrix(shares).transpose() * self._matrix(block[pivots][:, own:])
+        left = _entries(self._matrix(block[others][:, own:]) - taken)
+        kept, idle, sums = self._independent(left)
+        front = _Front(
+            parts=parts,
+            columns=[*columns[mine].tolist(), *columns[~mine].tolist()],
+            own=own,
+            pivots=names[pivots].tolist(),
+            solved=solved,
+            ones=[int(np.argmax(line)) for line in _entries(solved) != 0],
+            handed=names[others][kept].tolist(),
+            shares=self._matrix(shares[:, kept]),
+            left=left[kept],
+            seen=seen,
+        )
+        self._fronts.append(front)
+        for part in parts:  # what was handed up is in the block
+            part.left, part.seen = None, Counter()
+        if idle:
+            sets = np.arange(len(self.circuits), len(self.circuits) + len(idle))
+            self.circuits += [[row] for row in names[others][idle].tolist()]
+            self._list(sets, front.handed, -sums)
+            weights = np.concatenate([-sums % self._prime, np.eye(len(idle), dtype=np.int64).astype(object)])
+            both = self._matrix(shares[:, [*kept, *idle]])
+            self._descend(sets, front, [*front.handed, *names[others][idle].tolist()], both, weights)
+        return front
+
+    def _descend(self, sets: Ints, front: _Front, lines: Sequence[int], shares: Any, weights: Any) -> None:
+        """Add to sets the rows that some lines of a part contain below, by the weights of lines: [lines, sets]."""
+        pivots = _entries(-(shares * self._matrix(weights)))
+        self._list(sets, front.pivots, pivots)
+        weight_of = dict(zip([*lines, *front.pivots], [*weights, *pivots], strict=True))
+        none = np.zeros(len(sets), dtype=object)  # of lines that followed from others here, and went no further up
+        for part in front.parts:
+            if not part.handed:
+                continue
+            below = np.array([weight_of.get(line, none) for line in part.handed], dtype=object)
+            there = (below != 0).any(axis=0)
+            if there.any():
+                self._descend(sets[there], part, part.handed, part.shares, below[:, there])
+
+    def _list(self, sets: Ints, rows: Sequence[int], weights: Any) -> None:
+        """Add to sets the rows whose weight there, [rows, sets], is not zero."""
+        for row, place in np.argwhere(weights != 0).tolist():
+            self.circuits[sets[place]].append(rows[row])
+
+    def _independent(self, lines: Any) -> tuple[list[int], list[int], Any]:
+        """Return the first independent lines, the others, and the shares of the first in these, [first, others]."""
+        reduced, rank = self._matrix(lines).transpose().rref()
+        table = _entries(reduced)[:rank]
+        first = [int(np.argmax(line)) for line in table != 0]
+        others = [line for line in range(len(lines)) if line not in set(first)]
+        return first, others, table[:, others]
+
+    def _assembled(self, numbers: Ints, places: Floats) -> tuple[tuple[_Front, ...], Ints, Ints, Any, Counter[int]]:
+        """Return the parts of some rows, the lines and columns, the lines in full, and in how many rows columns are."""
+        if len(numbers) <= _EXACT_LEAF:
+            rows = [self._rows[number] for number in numbers.tolist()]
+            seen = Counter(column for row in rows for column in row)
+            columns = np.array(sorted(seen), dtype=np.int64)
+            leaf = np.array([[row.get(column, 0) for column in columns.tolist()] for row in rows], dtype=object)
+            return (), numbers, columns, leaf, seen
+        parts = tuple(self._eliminate(half, places) for half in _halves(numbers, places))
+        beside = [np.array(part.columns[part.own :], dtype=np.int64) for part in parts]
+        columns = np.unique(np.concatenate(beside))
+        names = np.array([line for part in parts for line in part.handed], dtype=np.int64)
+        block = np.zeros((len(names), len(columns)), dtype=object)
+        start = 0
+        for part, of_part in zip(parts, beside, strict=True):
+            block[start : start + len(part.handed), np.searchsorted(columns, of_part)] = part.left
+            start += len(part.handed)
+        return parts, names, columns, block, parts[0].seen + parts[1].seen
+
+    def _matrix(self, lines: Any) -> Any:
+        """Return lines, numbers [m, n], as a matrix modulo the prime."""
+        return matrices()(*lines.shape, lines.ravel().tolist(), self._prime)
+
+
+def _entries(matrix: Any) -> Any:
+    """Return a matrix modulo a prime as numbers of any size: object[m, n]."""
+    values = np.array([int(value) for value in matrix.entries()], dtype=object)
+    return values.reshape(matrix.nrows(), matrix.ncols())
+
+
+def _halves(numbers: Ints, places: Floats) -> list[Ints]:
+    """Return rows by halves, those on either side of the middle of the direction in which they spread most."""
+    spread = np.ptp(places[numbers], axis=0)
+    return np.array_split(numbers[np.argsort(places[numbers, int(np.argmax(spread))], kind="stable")], 2)
 
 
 def _places_of_rows(rows: Sequence[Mapping[int, int]], columns: int) -> Floats:

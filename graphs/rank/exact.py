@@ -19,7 +19,7 @@ import numpy as np
 from graphs.errors import NumericalError
 from graphs.loops.loop import Centre, Loop, added_independent, signed_cycle
 from graphs.mechanism.sc import SCGraph
-from graphs.rank.dissection import matrices, rank_modulo, sparse_modulo
+from graphs.rank.dissection import KernelsModulo, matrices, rank_modulo, sparse_modulo
 from graphs.rank.realisation import PRIMES, Field, GenericRealisation, Line, Point, PrimeField, realise
 from graphs.types import Floats, Ints, JointId, LinkId
 
@@ -292,24 +292,41 @@ def diagnose(mechanism: SCGraph, prime: int = PRIMES[0], *, forced: bool = True,
     field = PrimeField(prime, seed)
     placed = realise(mechanism, field, forced=forced)
     closure = closure_of(mechanism, placed.axes, centres_of_loops(mechanism, placed), field)
+    whole = len(closure.joints) <= _MOST_WHOLE
+    rank, motions, dependent = (_kernels if whole else _kernels_by_parts)(closure, prime)
+    return Diagnosis(
+        mobility=len(closure.joints) - rank,
+        idle=len(dependent),
+        circuits=tuple(tuple(dict.fromkeys(closure.loops[row] for row in sorted(rows))) for rows in dependent),
+        immobile=tuple(joint for joint, rates in motions.items() if not any(rates)),
+        clusters=_clusters(mechanism, placed.axes, motions, prime),
+    )
+
+
+_MOST_WHOLE = 400
+"""Joints of a mechanism whose matrix is not taken apart to find what depends on what."""
+
+
+def _kernels(closure: Closure, prime: int) -> tuple[int, dict[JointId, list[int]], list[list[int]]]:
+    """Return the rank, each joint's rates in a basis of all motions, and smallest dependent sets of rows."""
     matrix = matrix_modulo(closure, prime)
     kernel, freedoms = matrix.nullspace()
-    motions = [[int(kernel[j, k]) for k in range(freedoms)] for j in range(len(closure.joints))]
-    stresses: Any = None
-    idle = 0
-    if closure.rows:
-        stresses, idle = matrix.transpose().nullspace()
-    circuits = tuple(
-        tuple(dict.fromkeys(closure.loops[i] for i in range(len(closure.rows)) if int(stresses[i, k])))
-        for k in range(idle)
-    )
-    return Diagnosis(
-        mobility=freedoms if closure.joints else 0,
-        idle=idle,
-        circuits=circuits,
-        immobile=tuple(joint for joint, rates in zip(closure.joints, motions, strict=True) if not any(rates)),
-        clusters=_clusters(mechanism, placed.axes, dict(zip(closure.joints, motions, strict=True)), prime),
-    )
+    motions = {joint: [int(kernel[j, k]) for k in range(freedoms)] for j, joint in enumerate(closure.joints)}
+    rank = len(closure.joints) - freedoms if closure.joints else 0
+    if not closure.rows:
+        return rank, motions, []
+    stresses, idle = matrix.transpose().nullspace()
+    return rank, motions, [[i for i in range(len(closure.rows)) if int(stresses[i, k])] for k in range(idle)]
+
+
+def _kernels_by_parts(closure: Closure, prime: int) -> tuple[int, dict[JointId, list[int]], list[list[int]]]:
+    """Return the same of a large mechanism, with one general motion: what moves in it moves in some, and no other.
+
+    Joints at rest, and links with equal twists, are so in all motions, but for one chance in the prime of each.
+    """
+    kernels = KernelsModulo(closure.rows, len(closure.joints), prime)
+    motion = kernels.general_solution()
+    return kernels.rank, {joint: [rate] for joint, rate in zip(closure.joints, motion, strict=True)}, kernels.circuits
 
 
 def _clusters(

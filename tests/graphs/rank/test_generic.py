@@ -19,7 +19,8 @@ from graphs.files.formats import read
 from graphs.loops.loop import Loop, signed_cycle
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
-from graphs.rank.dissection import rank_modulo, sparse_modulo
+from graphs.rank import exact
+from graphs.rank.dissection import KernelsModulo, rank_modulo, sparse_modulo
 from graphs.rank.exact import (
     Closure,
     closure_modulo,
@@ -253,8 +254,7 @@ def test_crease_patterns_have_an_exact_mobility(fold_folder, most, least):
     assert checked > least
 
 
-@pytest.mark.parametrize("seed", range(8))
-def test_matrices_that_are_taken_apart_have_the_rank_of_the_whole(seed):
+def random_rows(seed):
     """Bands, blocks that share nothing, and anything; some rows are empty, or sums of others."""
     rng = random.Random(seed)
     prime, columns = PRIMES[seed % 2], rng.randrange(60, 400)
@@ -268,16 +268,80 @@ def test_matrices_that_are_taken_apart_have_the_rank_of_the_whole(seed):
             pair = [rows[rng.randrange(len(rows))], rows[-1]]
             total = {c: sum(row.get(c, 0) for row in pair) % prime for row in pair for c in row}
             rows.append({c: value for c, value in total.items() if value})
+    return rows, columns, prime
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_matrices_that_are_taken_apart_have_the_rank_of_the_whole(seed):
+    rows, columns, prime = random_rows(seed)
     whole = int(sparse_modulo(rows, columns, prime).rank())
     assert rank_modulo(rows, columns, prime) == whole
-    rng.shuffle(rows)
+    random.Random(seed).shuffle(rows)
     assert rank_modulo(rows, columns, prime) == whole < len(rows)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 3, slow(2), slow(4), slow(5), slow(6), slow(7)])
+def test_matrices_that_are_taken_apart_have_the_kernels_of_the_whole(seed):
+    rows, columns, prime = random_rows(seed)
+    kernels = KernelsModulo(rows, columns, prime)
+    whole = sparse_modulo(rows, columns, prime)
+    kernel, freedoms = whole.nullspace()
+    assert kernels.rank == columns - freedoms
+    values = kernels.general_solution()
+    assert all(sum(value * values[column] for column, value in row.items()) % prime == 0 for row in rows)
+    assert [value == 0 for value in values] == [
+        not any(int(kernel[j, k]) for k in range(freedoms)) for j in range(columns)
+    ]
+    # As many sets as rows too many, each with a row that none after it has: they are independent, so they are all.
+    first: set[int] = set()
+    assert len(kernels.circuits) == len(rows) - kernels.rank
+    for circuit in kernels.circuits:
+        assert first.isdisjoint(circuit)
+        first.add(circuit[0])
+        part = sparse_modulo([rows[row] for row in circuit], columns, prime).transpose()
+        stress, one = part.nullspace()
+        assert one == 1
+        assert all(int(stress[line, 0]) for line in range(len(circuit)))
 
 
 def test_a_large_sheet_is_ranked_in_parts():
     closure = closure_modulo(miura(22, 21), PRIMES[1])
     assert len(closure.rows) > 1000
     assert rank_modulo(closure.rows, len(closure.joints), PRIMES[1]) == matrix_modulo(closure, PRIMES[1]).rank()
+
+
+def blocks_in_a_ring(size, around):
+    """Square meshes with two panels of each hinged to the next ones in a ring: each mesh is overconstrained alone."""
+    links, joints, loops = 0, {}, []
+    for k in range(around):
+        mesh = miura(size, size)
+        joints |= {(k, joint): (a + links, b + links) for joint, (a, b) in mesh.joints.items()}
+        loops += [Loop(tuple((k, joint) for joint in loop.joints)) for loop in mesh.loops]
+        joints[k, "next"] = links + size * size - 1, (links + size * size) % (around * size * size)
+        links += size * size
+    return SCGraph(links, joints, loops)
+
+
+@pytest.mark.parametrize(("size", "around"), [(4, 9), slow(7, 9), slow(12, 8)])
+def test_diagnoses_by_parts_are_those_of_the_whole(size, around, monkeypatch):
+    mechanisms = [blocks_in_a_ring(size, around), miura(2, 60), *(random_sc(random.Random(seed)) for seed in range(40))]
+    found = []
+    for most in (0, 10**6):
+        monkeypatch.setattr(exact, "_MOST_WHOLE", most)
+        diagnoses = [diagnose(sc) for sc in mechanisms]
+        found.append([(d.mobility, d.idle, d.immobile, d.clusters, set(d.regions)) for d in diagnoses])
+        assert len(diagnoses[0].regions) == around
+    assert found[0] == found[1]
+
+
+@pytest.mark.parametrize("size", [30, slow(70)])
+def test_a_large_mesh_is_rigid_and_overconstrained_as_counted(size):
+    """By count M = 1 - (n - 2)^2, and nothing moves: all but one of these equations are redundant."""
+    found = diagnose(miura(size, size))
+    joints = 2 * size * (size - 1)
+    assert (found.mobility, found.idle, len(found.immobile)) == (0, (size - 2) ** 2 - 1, joints)
+    assert found.clusters == (tuple(range(size * size)),)
+    assert len(found.regions) == 1
 
 
 def test_circuits_are_smallest_dependent_sets():

@@ -7,6 +7,9 @@ import re
 
 from commands import run
 
+import synth
+from graphs.answer import mechanisms
+
 KEYS = {"file", "class", "links", "joints", "loops", "centres", "mobility", "equations", "exact", "pose",
         "repairs", "warnings"}  # fmt: skip
 
@@ -150,3 +153,13 @@ def test_overconstraint_is_located(data):
     out = run("mobility", data / "wiener" / "mesh-4x4-edge-creases.json").stdout
     assert re.search(r"exact generic mobility is 2, by count 1: 1 redundant closure equation, among joints", out)
     assert "17 joints generically immobile" in out
+
+
+def test_overconstraint_of_a_large_sheet_is_located_up_to_a_limit(monkeypatch):
+    sheet = synth.generate("miura", rows=18, columns=18).mechanism
+    warning = synth.mobility(sheet, motion=False, pose=False).warnings[-1]
+    assert "is 0, by count -255: 255 redundant closure equations, among joints" in warning
+    assert "612 joints generically immobile" in warning
+    monkeypatch.setattr(mechanisms, "_MOST_DIAGNOSED", 600)
+    warning = synth.mobility(sheet, motion=False, pose=False).warnings[-1]
+    assert warning.endswith("where equations are redundant is not looked for among more than 600 joints")
