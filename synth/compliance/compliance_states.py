@@ -15,7 +15,7 @@ from graphs.errors import InvariantError, NumericalError, UnsolvableError, check
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE, canonical_order, leading
 from graphs.types import Flags, Floats, JointId, LinkId
-from synth.compliance.members import Members, State, freedoms_text, number_or_unknown, state_of, states_of_sets
+from synth.compliance.members import Members, SmallestSets, State, freedoms_text, number_or_unknown, state_of, states_of
 from synth.compliance.springs import (
     ElasticLinkage,
     Equilibrium,
@@ -35,6 +35,8 @@ from synth.moving.made import Movable, configuration_of
 
 _LISTED = 20
 """Sets, transitions, poses and modes that are printed; data has all."""
+_NAMED = 12
+"""Members of a set that are named."""
 
 _OTHER_QUESTION = "states reports the degrees of freedom of each set of active members, on the freest branch"
 
@@ -195,11 +197,13 @@ class States(Printed):
     now : State
         Members are active whose springs are not at rest.
     sets : tuple of State
-        For each set of active members, smaller ones first.
+        For each set of active members, smaller ones first; of more than ten members of a few sets.
     transitions : tuple of Transition
         The smallest that make it a mechanism of each class.
     elastic : Elastic or None
         What springs do, where there are any.
+    smallest : SmallestSets or None
+        Of more than ten members, the smallest sets that release a motion.
 
     Examples
     --------
@@ -214,6 +218,7 @@ class States(Printed):
     sets: tuple[State, ...]
     transitions: tuple[Transition, ...]
     elastic: Elastic | None = None
+    smallest: SmallestSets | None = None
 
     @property
     def classes(self) -> tuple[str, ...]:
@@ -230,23 +235,26 @@ class States(Printed):
             "classes": list(self.classes),
             "transitions": [transition.to_json() for transition in self.transitions],
             "elastic": None if self.elastic is None else self.elastic.to_json(),
+            "smallest": None if self.smallest is None else self.smallest.to_json(),
         }
 
     def blocks(self) -> list[Block]:
         """Return the lines and tables that are printed."""
         lines: list[Block] = [
             f"at this configuration: {_summary(self.now)}   ({self.now.certainty})",
-            f"compliant: {self.compliant}",
+            f"compliant: {self.compliant.text(_NAMED)}",
         ]
         if _branches_meet(self.configuration):
             lines.append(f"the sheet lies flat, where motion branches meet; {_folded(self.configuration)}")
-        chosen = _distinctive(self.sets)
+        chosen = _distinctive(self.sets) if self.smallest is None else self._listed_of_many(self.smallest)
         rows = [
-            (str(state.active), number_or_unknown(state.freedoms), state.kind, state.certainty)
+            (state.active.text(_NAMED), number_or_unknown(state.freedoms), state.kind, state.certainty)
             for state in chosen[:_LISTED]
         ]
         lines.append(TableBlock(("active", "DOF", "state", "evidence"), rows, ("DOF",)))
-        if len(self.sets) > len(rows):
+        if self.smallest is not None:
+            lines += self.smallest.lines(len(self.compliant))
+        elif len(self.sets) > len(rows):
             first = "" if len(rows) == len(chosen) else "the first of "
             lines.append(
                 f"{len(rows)} of {numbered(len(self.sets), 'set')}: {first}those whose degrees of freedom change "
@@ -258,6 +266,10 @@ class States(Printed):
         if len(self.transitions) > _LISTED:
             lines.append(f"and {len(self.transitions) - _LISTED} more transitions")
         return [*lines, *([] if self.elastic is None else self.elastic.blocks())]
+
+    def _listed_of_many(self, smallest: SmallestSets) -> list[State]:
+        """Return the states at rest, with all members active, and of the smallest sets that release a motion."""
+        return [self.sets[0], self.sets[-1], *(state for state in smallest.states if state is not self.sets[-1])]
 
     def __repr__(self) -> str:
         return f"<States: {self.now.kind}; {', '.join(self.classes) or 'no class'}>"
@@ -273,7 +285,7 @@ def _distinctive(sets: Sequence[State]) -> list[State]:
 
 
 def _summary(state: State) -> str:
-    active = f", active: {state.active}" if len(state.active) else ""
+    active = f", active: {state.active.text(_NAMED)}" if len(state.active) else ""
     return f"{state.kind} ({freedoms_text(state.freedoms)}{active})"
 
 
@@ -485,12 +497,13 @@ def states(
         raise UnsolvableError("a load path and frequencies require springs; expected the stiffness of a joint")
     if springs is not None:
         _check_regular(at)
-    sets = tuple(states_of_sets(linkage, compliant))
+    sets, smallest = states_of(linkage, compliant)
     analysis = _SpringAnalysis(linkage, compliant, springs or Springs())
     active = analysis.active(linkage.angles)
-    now = next(state for state in sets if state.active.within(active) and active.within(state.active))
+    here = (state for state in sets if state.active.within(active) and active.within(state.active))
+    now = next(here, None) or state_of(linkage, compliant, active)
     elastic = None if springs is None else analysis.elastic(drive, masses)
-    return States(at, compliant, now, sets, tuple(_transitions(sets)), elastic)
+    return States(at, compliant, now, tuple(sets), tuple(_transitions(sets)), elastic, smallest)
 
 
 def _compliant(

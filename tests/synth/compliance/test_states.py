@@ -7,6 +7,7 @@ from math import cos, pi, radians, sin
 import numpy as np
 import pytest
 from commands import run
+from sizes import slow
 
 import synth
 from graphs.edit.edits import lock_joint
@@ -15,7 +16,7 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from graphs.rank.exact import independent_cycles
-from synth.compliance.members import NONE, Members, released, state_of, states_of_sets
+from synth.compliance.members import NONE, Members, SmallestSets, released, smallest_sets, state_of, states_of_sets
 from synth.motion.linkage import linkage_of_axes
 from synth.moving.made import configuration_of
 from synth.patterns import generate
@@ -122,14 +123,99 @@ def test_what_is_refused():
     four = polygon(4)
     with pytest.raises(UnsolvableError, match="nothing is compliant"):
         synth.states(four)
-    with pytest.raises(UnsolvableError, match="expected 10 at most"):
-        synth.states(polygon(12), joints=range(11))
+    with pytest.raises(UnsolvableError, match="11 compliant members with links have too many sets"):
+        synth.states(polygon(12), joints=range(10), links=[11])
+    with pytest.raises(UnsolvableError, match="1001 compliant members are too many; expected 1000 at most"):
+        synth.states(polygon(1002), joints=range(1001))
     with pytest.raises(InvariantError, match="'9' is no joint"):
         synth.states(four, joints=["9"])
     with pytest.raises(InvariantError, match="hangs on one other"):
         synth.states(HingedSolids(SCGraph(2, [(0, 1)]), {0: ((0, 0, 0), (0, 0, 1))}), links=[1])
     with pytest.raises(UnsolvableError, match="requires coordinates"):
         synth.states(synth.read("k1:Cr"), joints=[0])
+
+
+def sheet(name, size, **values):
+    return configuration_of(generate(name, rows=size, columns=size, **values).mechanism).linkage
+
+
+@pytest.mark.parametrize(
+    ("linkage", "members"),
+    [
+        (sheet("miura", 3), 6), (sheet("miura", 3, fold=radians(50)), 8), (sheet("waterbomb", 1), 6),
+        (configuration_of(polygon(7)).linkage, 7), (configuration_of(polygon(4, stretched=True)).linkage, 4),
+        (random_about_a_point(0, 6, 9)[0], 7),
+        slow(sheet("miura", 4), 8), slow(sheet("map", 3), 8),
+        *(slow(random_about_a_point(seed, 8, 12)[0], 8) for seed in range(4)),
+    ],
+)  # fmt: skip
+def test_smallest_sets_are_those_among_all(linkage, members):
+    joints = list(linkage.graph.joints)
+    for seed in range(2):
+        chosen = np.sort(np.random.default_rng(seed).permutation(len(joints))[:members])
+        compliant = Members(tuple(joints[place] for place in chosen))
+        every = {state.active.joints: state.freedoms for state in states_of_sets(linkage, compliant)}
+        states, smallest = smallest_sets(linkage, compliant)
+        assert all(every[state.active.joints] == state.freedoms for state in states)
+        releasing = [names for names, freedoms in every.items() if freedoms > every[()]]
+        size = min(map(len, releasing), default=None)
+        if size is None:
+            assert smallest == SmallestSets((), 1, complete=True)
+            continue
+        found = {state.active.joints for state in smallest.states}
+        assert all(state.freedoms > every[()] for state in smallest.states)
+        assert smallest.at_least <= size <= min(map(len, found))
+        if smallest.complete:
+            assert found == {names for names in releasing if len(names) == size}
+
+
+def test_of_many_members_the_smallest_sets_are_found():
+    """Of 40 axes through a point ranks of velocities say which sets of one, two, three release a motion."""
+    linkage, axes = random_about_a_point(3, links=25, joints=40)
+    compliant = Members(tuple(range(5, 40)))
+    _, smallest = smallest_sets(linkage, compliant)
+    rest = by_velocities(linkage.graph, axes, set(compliant.joints))
+    for size in range(1, 4):
+        releasing = {
+            chosen
+            for chosen in combinations(compliant.joints, size)
+            if by_velocities(linkage.graph, axes, set(compliant.joints) - set(chosen)) > rest
+        }
+        if releasing:
+            break
+    assert smallest.complete
+    assert smallest.at_least == size
+    assert {state.active.joints for state in smallest.states} == releasing
+
+
+@pytest.mark.slow
+def test_a_hundred_members_of_a_ring():
+    """Any four joints turn."""
+    ring = synth.states(polygon(100), joints=range(100))
+    assert ring.classes == ("compliant mechanism", "compliant locking")
+    assert ring.smallest.at_least == 4
+    assert {(len(state.active), state.freedoms) for state in ring.smallest.states} == {(4, 1)}
+    assert "the smallest that release a motion have 4 members; there are at least 1024" in str(ring)
+    assert (len(ring.sets[-1].active), ring.sets[-1].freedoms) == (100, 97)
+
+
+def test_a_hundred_creases():
+    """A folded Miura sheet moves with all its creases only, a flat one with those of a straight line."""
+    folded = generate("miura", rows=8, columns=8, fold=radians(50)).mechanism
+    creases = configuration_of(folded).joints
+    moving = synth.states(folded, joints=creases)
+    assert (moving.smallest.complete, moving.smallest.at_least) == (True, 112)
+    assert [len(state.active) for state in moving.smallest.states] == [112]
+    told = moving.to_json()["smallest"]
+    assert (told["at_least"], told["complete"], len(told["sets"])) == (112, True, 1)
+    flat = synth.states(generate("miura", rows=8, columns=8).mechanism, joints=creases)
+    [line] = flat.smallest.states  # seven vertices on a straight line of eight creases
+    graph = flat.configuration.linkage.graph
+    place = {joint: number for number, joint in enumerate(graph.joints)}
+    directions = flat.configuration.linkage.directions[[place[joint] for joint in line.active.joints]]
+    assert np.abs(np.cross(directions, directions[0])).max() < 1e-9
+    assert (len(directions), line.freedoms, flat.smallest.at_least) == (8, 1, 5)
+    assert "one with 8 releases a motion, and none of fewer than 5 does" in str(flat)
 
 
 def test_the_command(tmp_path):
