@@ -128,8 +128,13 @@ def straight_folds(linkage: PosedLinkage) -> tuple[Ints, ...]:
 Certainty = Literal["proved", "numerical", "not known"]
 Method = Literal["regular pose", "all modes", "second order", "random starts"]
 
-MOST_JOINTS = 600
-"""Larger linkages get no search for all branches: matrices are dense."""
+MOST_JOINTS, MOST_SPARSE = 600, 10_000
+"""Of linkages with more joints than the first branches are looked for only if they have few rates, and are listed only
+if all are found; with more than the second they are not looked for."""
+_MOST_TERMS = 1e8
+"""So large are equations between the rates of such a linkage, at most: their number times the cube of the rates."""
+_MOST_FOLLOWED = 16
+"""So many branches of such a linkage are followed."""
 
 MOST_BRANCHES, MOST_WORK = 128, 1e10
 """So many are looked for at most, with so many products of numbers (a minute): there may be twice as many for each
@@ -167,6 +172,8 @@ class Search:
         Signs of rates: if the search ends early, the branch near to these is among the listed.
     steps : int, optional
         All branches together may be followed so many steps, and each twenty.
+    all_or_none : bool, optional
+        No branch is followed unless all spaces of rates are found, and no equations are left on any.
     """
 
     most: int = 4096
@@ -175,6 +182,7 @@ class Search:
     follow: int | None = None
     towards: Floats | None = None
     steps: int = _STEPS
+    all_or_none: bool = False
 
 
 def search_for(joints: int, towards: Floats | None, *, more: bool = False) -> Search:
@@ -329,9 +337,13 @@ def branches_of(
     branch_search = _BranchSearch(linkage, closure, search or Search())
     spaces, order = branch_search.spaces(), branch_search.order
     if not spaces and branch_search.complete:
-        rigidity = second_order.rigidity_of(linkage, closure, branch_search.search.zero)
+        refuted = branch_search.search.all_or_none  # of many joints in an order in which cases end early
+        rigidity = second_order.rigidity_of(linkage, closure, branch_search.search.zero, refuted=refuted)
         proved = rigidity.certainty == "proved"
         return Branches((), proved, False, True, branch_search.method(spaces), rigidity, order)
+    left = any(space.left for space in spaces)
+    if branch_search.search.all_or_none and (left or not branch_search.complete):
+        return Branches((), False, False, False, branch_search.method(spaces), order=order)
     regular = branch_search.is_regular(spaces)
     cone = branch_search.is_cone()
     branches = branch_search.branches(spaces, proved=cone or (regular and branch_search.full_row_rank()))
@@ -341,6 +353,21 @@ def branches_of(
     return Branches(
         branches, exhaustive and branch_search.complete, regular, branch_search.complete, method, order=order
     )
+
+
+def all_branches_of_many(linkage: PosedLinkage, closure: ClosureEquations, towards: Floats | None) -> Branches | None:
+    """Return the motion branches of a large linkage if all are found; else None.
+
+    That is where they or its rates are too many, equations are left on these, or neither a motion is found nor a proof
+    that there is none.
+    """
+    if closure.joints > MOST_SPARSE:
+        return None
+    if len(linkage.loops) * second_order.rates_at_most(closure, linkage.angles) ** 3 > _MOST_TERMS:
+        return None
+    search = Search(_MOST_FOLLOWED, MOST_WORK / 10.0, follow=_MOST_FOLLOWED, towards=towards, all_or_none=True)
+    branches = branches_of(linkage, closure, search)
+    return branches if branches.complete and branches.no_motion != "not known" else None
 
 
 def first_branch(
@@ -470,6 +497,8 @@ class _BranchSearch:
 
     def full_row_rank(self) -> bool:
         """Tell whether the closure equations are independent at the pose."""
+        if self.closure.joints > second_order.MANY:
+            return bool(self._stresses == 0)
         _, jacobian = self.closure.at(self.linkage.angles)
         return spectrum(jacobian.toarray(), DOUBLE.derivative).rank == self.closure.rows
 

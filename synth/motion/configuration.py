@@ -23,7 +23,7 @@ from graphs.mechanism.sheet import Reading, Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.tolerances import DOUBLE, EPSILON, Tolerances
 from graphs.types import Floats, JointId
-from synth.motion.branches import MOST_JOINTS, Branch, Branches, branches_of, search_for
+from synth.motion.branches import MOST_JOINTS, Branch, Branches, all_branches_of_many, branches_of, search_for
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, moved
 from synth.motion.marked import AssignedBranch, Disagreement, agreeing_best, assigned_branch, nearest_branch
@@ -211,7 +211,9 @@ class Configuration:
     def branches(self) -> Branches | None:
         """The motion branches from here; None for a linkage that is too large to look for all."""
         joints = len(self.linkage.angles)
-        if joints > MOST_JOINTS or (joints > _MOST_FLEXES and self._many_flexes()) or self._one_way_enough():
+        if joints > MOST_JOINTS:
+            return all_branches_of_many(self.linkage, self.closure, self.wanted)
+        if (joints > _MOST_FLEXES and self._many_flexes()) or self._one_way_enough():
             return None
         return branches_of(self.linkage, self.closure, search_for(joints, self.wanted, more=self.more))
 

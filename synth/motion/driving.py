@@ -60,7 +60,7 @@ def beginning(configuration: Configuration, choice: BranchChoice) -> tuple[int |
     branches, towards = configuration.branches, choice.towards(configuration)
     if branches is None or (configuration.one_way and choice.branch is None):
         if choice.branch is not None:
-            limits = f"more than {MOST_JOINTS} joints, or large and with many vertices of more than 4 creases"
+            limits = f"more than {MOST_JOINTS} joints and many branches, or many vertices of more than 4 creases"
             raise UnsolvableError(f"no branches are listed for this mechanism: it has {limits}")
         closure, linkage = configuration.closure, configuration.linkage
         begun = begun_near(closure, linkage, towards) if choice.along else configuration.begun

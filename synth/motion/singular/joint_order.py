@@ -13,6 +13,7 @@ from collections import Counter
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 
 from graphs.geometry import lines_meet
 from graphs.loops.loop import Centre
@@ -23,6 +24,10 @@ from synth.motion.linkage import PosedLinkage, PosedLoop
 
 _BENT = 0.37
 """Invariants x count as 1 / (x + this): sums of squares are alike where their terms are not."""
+
+_MOST_PAIRS = 1500
+"""Joints and centres of which all pairs are related; of more, those that are in one loop or share a link."""
+_PART = 256
 
 _SHARES = (1.0, 0.731, 0.519, 0.347)
 """Weights of the invariants that are added to one."""
@@ -45,8 +50,8 @@ def _labels(linkage: PosedLinkage, marks: Floats | None) -> Ints:
         return relations.order(colours)
     sides = [np.concatenate([sign * marks, np.zeros(relations.centres)]) for sign in _signs(colours, marks)]
     orders = [relations.order(relations.refined(_classes(colours, side))) for side in sides]
-    both, pairs = zip(orders, sides, strict=True), relations.pairs
-    seen = [np.concatenate([side[order], pairs[np.ix_(order, order)].ravel()]) for order, side in both]
+    both = zip(orders, sides, strict=True)
+    seen = [np.concatenate([side[order], relations.seen(order)]) for order, side in both]
     return orders[canonical_order(seen, DOUBLE.zero)[0]]
 
 
@@ -57,7 +62,7 @@ def _swept(linkage: PosedLinkage, labels: Ints) -> Ints:
     if not centres:
         return labels
     around = np.array(list(centres.values()))
-    far = np.linalg.norm(around[:, None] - around[None], axis=2).mean(axis=1)
+    far = np.concatenate([np.linalg.norm(part[:, None] - around, axis=2).mean(axis=1) for part in _parts(around)])
     names = [sorted(rank[list(linkage.loops[number].joints)].tolist()) for number in centres]
     by_name = sorted(range(len(names)), key=names.__getitem__)
     start = by_name[trailing(-far[by_name])]
@@ -83,6 +88,11 @@ def _swept(linkage: PosedLinkage, labels: Ints) -> Ints:
         shared.update(other for joint in new for other in loops_of[joint])
     rest = [joint for joint in range(len(labels)) if joint not in placed]
     return labels[[*placed, *rest]]
+
+
+def _parts(points: Floats) -> list[Floats]:
+    """Return points in parts, so that their distances from all points are few numbers at a time."""
+    return [points[start : start + _PART] for start in range(0, len(points), _PART)]
 
 
 def _is_about(loop: PosedLoop) -> bool:
@@ -125,10 +135,10 @@ class _Relations:
     """Invariant relations of joints and centres to each other: the mean over a class distinguishes its members.
 
     `pairs`, float[n, n], symmetric, the joints first, then the centres of loops about a point: a sum of
-    invariants, each with a share of its own.
+    invariants, each with a share of its own. It is sparse if they are many.
     """
 
-    pairs: Floats
+    pairs: Floats | scipy.sparse.csr_matrix
     joints: int
     centres: int
 
@@ -139,6 +149,8 @@ class _Relations:
         about = [loop for loop in linkage.loops if _is_about(loop)]
         centres = np.array([_centre(linkage, loop) for loop in about]).reshape(-1, 3)
         size = joints + len(about)
+        if size > _MOST_PAIRS:
+            return cls(_near_pairs(linkage, about, centres), joints, len(about))
         distances, passing = np.zeros((size, size)), np.zeros((size, size))
         apart = ((centres[:, None] - centres[None]) ** 2).sum(axis=2)
         unit = apart.mean() if about else 1.0
@@ -158,6 +170,14 @@ class _Relations:
         invariants = (1.0 / (distances + _BENT), passing, between, moments)
         pairs = sum(share * one for share, one in zip(_SHARES, invariants, strict=True))
         return cls(np.asarray(pairs), joints, len(about))
+
+    def seen(self, order: Ints) -> Floats:
+        """Return the relations of the joints in an order, as one array; places of those that are not zero if sparse."""
+        if isinstance(self.pairs, np.ndarray):
+            return np.asarray(self.pairs[np.ix_(order, order)].ravel())
+        there = self.pairs[order][:, order].tocoo()
+        first = np.lexsort((there.col, there.row))
+        return np.concatenate([there.row[first], there.col[first], there.data[first]]).astype(float)
 
     def refined(self, colours: Ints) -> Ints:
         """Return the classes that relations to the classes before tell apart, until these are no more."""
@@ -180,6 +200,35 @@ class _Relations:
             colours = 2 * colours
             colours[int(np.argmax(here == several[0]))] -= 1
             colours = self.refined(np.unique(colours, return_inverse=True)[1])
+
+
+def _near_pairs(linkage: PosedLinkage, about: list[PosedLoop], centres: Floats) -> scipy.sparse.csr_matrix:
+    """Return the relations of a large linkage: of joints that share a link or a loop, and of these to its centre."""
+    joints, size = len(linkage.angles), len(linkage.angles) + len(about)
+    loops = [list(loop.joints) for loop in about]
+    lengths = [len(loop) for loop in loops]
+    around = np.repeat(np.arange(len(about)), lengths), np.concatenate([np.zeros(0, dtype=np.int64), *loops])
+    within = scipy.sparse.csr_matrix((np.ones(len(around[0])), around), shape=(len(about), joints))
+    number = {link: place for place, link in enumerate(linkage.graph.nodes)}
+    ends = np.array([[number[link] for link in pair] for pair in linkage.graph.joints.values()])
+    of_links = np.repeat(np.arange(joints), 2), ends.ravel()
+    at_links = scipy.sparse.csr_matrix((np.ones(2 * joints), of_links), shape=(joints, len(number)))
+    shared = at_links @ at_links.T
+    near = (shared + within.T @ within).tocoo()
+    one, other = (places[near.row != near.col].astype(np.int64) for places in (near.row, near.col))
+    cosines = (linkage.directions[one] * linkage.directions[other]).sum(axis=1)
+    off = np.cross(linkage.points, linkage.directions)
+    moments = (linkage.directions[one] * off[other]).sum(axis=1) + (linkage.directions[other] * off[one]).sum(axis=1)
+    largest = (moments**2).max(initial=0.0)
+    values = _SHARES[0] / _BENT + _SHARES[1] * np.asarray(shared[one, other]).ravel()
+    values = values + _SHARES[2] / (cosines**2 + _BENT)
+    values = values + (_SHARES[3] * moments**2 / largest if largest > DOUBLE.flat**2 else 0.0)
+    to_centre = np.full(len(around[0]), _SHARES[0] / _BENT + _SHARES[1])
+    rows = np.concatenate([one, around[1], joints + around[0]])
+    columns = np.concatenate([other, joints + around[0], around[1]])
+    return scipy.sparse.csr_matrix(
+        (np.concatenate([values, to_centre, to_centre]), (rows, columns)), shape=(size, size)
+    )
 
 
 def _classes(colours: Ints, seen: Floats) -> Ints:

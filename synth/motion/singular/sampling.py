@@ -34,6 +34,8 @@ def located(closure: ClosureEquations, angles: Floats) -> Floats:
     the end of a path is taken across its flexes to where these are zero, before its rank is. It is returned as it
     is where no values but zeros are up to `Tolerances.singular`, or they do not vanish near it.
     """
+    if closure.joints > second_order.MANY and _as_many_nearly(closure, angles):
+        return angles
     matrix = closure.at(angles)[1].toarray()
     if not _nearly(singular_values(matrix)):
         return angles
@@ -55,6 +57,13 @@ def _nearly(values: Floats) -> int:
     """Return how many singular values are small, and not zero."""
     largest = values.max(initial=0.0)
     return int(((values > DOUBLE.zero * largest) & (values <= DOUBLE.singular * largest)).sum())
+
+
+def _as_many_nearly(closure: ClosureEquations, angles: Floats) -> bool:
+    """Tell whether singular values of a large linkage are small only where they are zero; or it is too large to see."""
+    nearly = second_order.rates_at_most(closure, angles)
+    too_large = closure.joints > second_order.MOST_WHOLE
+    return too_large or nearly == second_order.rates_at(closure, angles).shape[1]
 
 
 def _across(closure: ClosureEquations, angles: Floats, parts: Split) -> Floats:

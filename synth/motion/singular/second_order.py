@@ -21,17 +21,20 @@ from typing import Literal
 import numpy as np
 import scipy
 
+from graphs.errors import NumericalError
 from graphs.loops.loop import Centre
-from graphs.rank.singular_values import inertia, null_space, null_vectors, row_space, spectrum, split
-from graphs.tolerances import DOUBLE, canonical_basis, canonical_order, signed
+from graphs.rank.dissection import number_below
+from graphs.rank.singular_values import inertia, null_space, null_vectors, row_space, singular_values, spectrum, split
+from graphs.tolerances import DOUBLE, canonical_basis, canonical_order, pivots, signed
 from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import PosedLinkage, PosedLoop
 from synth.motion.tangent import TangentSpace
 from synth.motion.walk.step import Allowance
 
-MOST_ROWS = 600
-"""Self-stresses of several loops together are looked for up to so many closure equations."""
+MOST_ROWS, MOST_SHARED = 600, 12
+"""Self-stresses of several loops together are looked for up to so many closure equations; of more, what they say of
+no more rates than that."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,16 +89,13 @@ def shared_quadrics(
     of those of the loops alone (`quadrics_of`), on these rates. The matrix of all closure equations is dense here.
     """
     size = tangent.shape[1]
-    twists = [_twists(linkage, loop) for loop in linkage.loops]
-    rows = np.cumsum([0, *map(len, twists)])
-    matrix = np.zeros((rows[-1], len(tangent)))
-    seen = np.zeros((size, size, rows[-1]))  # by each closure equation, on the tangent space
-    for loop, block, start, end in zip(linkage.loops, twists, rows, rows[1:], strict=False):
-        joints = list(loop.joints)
-        matrix[start:end, joints] = block
-        here = tangent[joints]
-        seen[:, :, start:end] = np.einsum("ia,ijw,jb->abw", here, _second_order(block), here, optimize=True)
-    stresses = null_space(matrix.T, zero) if size and rows[-1] else np.zeros((rows[-1], 0))
+    blocks, seen = _second_order_by_loops(linkage, tangent)
+    rows = seen.shape[2]
+    matrix, start = np.zeros((rows, len(tangent))), 0
+    for loop, block in zip(linkage.loops, blocks, strict=True):
+        matrix[start : start + len(block), list(loop.joints)] = block
+        start += len(block)
+    stresses = null_space(matrix.T, zero) if size and rows else np.zeros((rows, 0))
     if not stresses.shape[1]:
         return []
     forms = (seen @ stresses).reshape(size * size, -1).T
@@ -104,16 +104,65 @@ def shared_quadrics(
     return [Quadric(places, tangent @ form @ tangent.T) for form in beyond]
 
 
+def _second_order_by_loops(linkage: PosedLinkage, tangent: Floats) -> tuple[list[Floats], Floats]:
+    """Return the twists of each loop, and what closure equations see of pairs of rates: float[s, s, rows]."""
+    size = tangent.shape[1]
+    twists = [_twists(linkage, loop) for loop in linkage.loops]
+    rows = np.cumsum([0, *map(len, twists)])
+    seen = np.zeros((size, size, rows[-1]))
+    for loop, block, start, end in zip(linkage.loops, twists, rows, rows[1:], strict=False):
+        here = tangent[list(loop.joints)]
+        seen[:, :, start:end] = np.einsum("ia,ijw,jb->abw", here, _second_order(block), here, optimize=True)
+    return twists, seen
+
+
 def all_quadrics(linkage: PosedLinkage, tangent: Floats, zero: float = DOUBLE.zero) -> list[Quadric]:
-    """Return the equations of the loops alone and, up to `MOST_ROWS` closure equations, `shared_quadrics`.
+    """Return the equations of the loops alone and `shared_quadrics`; of many closure equations for few rates only.
 
     Loops without a centre that are listed are a choice among many: what they have alone is among the shared ones.
     """
-    if rows_of(linkage) > MOST_ROWS:
+    large = rows_of(linkage) > MOST_ROWS and tangent.shape[1]
+    if large and (tangent.shape[1] > MOST_SHARED or _in_a_plane(linkage)):
         return quadrics_of(linkage, zero)
     centred = replace(linkage, loops=tuple(loop for loop in linkage.loops if loop.centre is not Centre.NONE))
     alone = quadrics_of(centred, zero)
-    return alone + shared_quadrics(linkage, tangent, alone, zero)
+    if not large:
+        return alone + shared_quadrics(linkage, tangent, alone, zero)
+    try:
+        return alone + _shared_of_many(linkage, tangent, alone, zero)
+    except NumericalError:
+        return quadrics_of(linkage, zero)
+
+
+def _in_a_plane(linkage: PosedLinkage) -> bool:
+    """Tell whether all axes lie in directions of a plane, and all loops are about points: none share a self-stress."""
+    about = all(loop.centre is Centre.FINITE for loop in linkage.loops)
+    return about and bool(singular_values(linkage.directions)[-1] <= DOUBLE.parallel)
+
+
+def _shared_of_many(linkage: PosedLinkage, tangent: Floats, alone: Sequence[Quadric], zero: float) -> list[Quadric]:
+    """Return `shared_quadrics` of many closure equations, without their self-stresses.
+
+    All self-stresses together see of second-order terms what no rates make up for. That part of them, for each pair of
+    the rates, has the same row space as what an orthonormal basis of self-stresses sees.
+    """
+    size = tangent.shape[1]
+    blocks, seen = _second_order_by_loops(linkage, tangent)
+    lengths = [len(block) for block in blocks]
+    joints = [np.tile(loop.joints, length) for loop, length in zip(linkage.loops, lengths, strict=True)]
+    rows = np.repeat(np.arange(sum(lengths)), np.repeat([len(loop.joints) for loop in linkage.loops], lengths))
+    entries = np.concatenate([block.ravel() for block in blocks]), (rows, np.concatenate(joints))
+    space = TangentSpace(scipy.sparse.csr_matrix(entries, shape=(sum(lengths), len(tangent))))
+    forms = np.zeros((sum(lengths), size, size))
+    for one in range(size):
+        for other in range(one, size):
+            forms[:, one, other] = forms[:, other, one] = space.beyond(seen[one, other])
+    known = local_forms(tangent, alone).reshape(-1, size * size)
+    flat = np.asarray(np.linalg.qr(forms.reshape(-1, size * size), mode="r"))
+    beyond = _beyond(flat, known, zero).reshape(-1, size, size)
+    few = pivots(tangent)  # the rates of these joints are those of all
+    shares = np.linalg.inv(tangent[few])
+    return [Quadric(tuple(few), shares.T @ form @ shares) for form in beyond]
 
 
 def rows_of(linkage: PosedLinkage) -> int:
@@ -214,7 +263,10 @@ def _shares(points: Floats) -> Floats | None:
 
 
 _STEPS = 40
-_MANY = 600
+MANY = 600
+MOST_WHOLE = 1500
+"""The closure equations of more joints than the first are taken as a full matrix only where sparse factors do not
+decide, and never of more than the second."""
 _CASE = 3e4
 """Work on a case besides that on its matrices, in products of numbers."""
 _LOST = 10.0
@@ -308,15 +360,52 @@ def equations_by_size(quadrics: Sequence[Quadric]) -> list[tuple[Ints, Ints, Flo
 def rates_at(closure: ClosureEquations, angles: Floats, zero: float = DOUBLE.zero) -> Floats:
     """Return the rates at which loops stay closed to first order: float[J, s], orthonormal columns.
 
-    By singular values; of many joints by orthogonal columns, the largest of what is left first, which takes a
-    third of the time. The columns depend on the space alone (`graphs.tolerances`).
+    By singular values. Of many joints random rates are freed of what parts the loops, as many as there are singular
+    values near zero; where one of these is not zero, by orthogonal columns, the largest of what is left first. The
+    columns depend on the space alone (`graphs.tolerances`).
     """
+    if closure.joints > MANY and closure.rows and zero <= _EXACTLY:
+        rates = _freed_rates(closure, angles, zero)
+        if rates is not None:
+            return rates
     matrix = closure.at(angles)[1].toarray()
-    if closure.joints <= _MANY:
+    if closure.joints <= MANY:
         return null_space(matrix, zero)
     columns, triangle, _ = scipy.linalg.qr(matrix.T, pivoting=True, overwrite_a=True, check_finite=False)
     sizes = np.abs(np.diag(triangle))
     return canonical_basis(columns[:, int((sizes > zero * sizes.max(initial=0.0)).sum()) :])
+
+
+def rates_at_most(closure: ClosureEquations, angles: Floats) -> int:
+    """Return how many rates close to first order, or nearly: singular values near zero, counted by inertia."""
+    return number_below(closure.at(angles)[1], DOUBLE.singular)
+
+
+def _least_part(closure: ClosureEquations, angles: Floats) -> float | None:
+    """Return what the least singular value is at least, as part of the largest; None if one may be zero."""
+    sizes = abs(closure.at(angles)[1])
+    largest = np.sqrt(sizes.sum(axis=0).max() * sizes.sum(axis=1).max())  # no singular value is larger
+    return None if rates_at_most(closure, angles) else float(DOUBLE.singular / largest)
+
+
+_EXACTLY = 1e-8
+"""What is zero at coordinates that are exact but for rounding, in the largest linkages."""
+_SPARE = 2
+"""Random rates beyond those that are expected to be independent."""
+
+
+def _freed_rates(closure: ClosureEquations, angles: Floats, zero: float) -> Floats | None:
+    """Return the rates that close of many joints by sparse factors; None where it is unclear how many there are."""
+    count = rates_at_most(closure, angles)
+    space = closure.space(closure.evaluated(angles)[1])
+    chance = np.random.default_rng(closure.joints).normal(size=(count + _SPARE, closure.joints))
+    try:
+        freed = np.array([space.free(rates) for rates in chance]).T
+    except NumericalError:
+        return None
+    independent = row_space(freed.T, DOUBLE.zero_rate)
+    parted = np.abs(closure.at(angles)[1] @ independent).max(initial=0.0)
+    return independent if independent.shape[1] == count and parted <= zero else None
 
 
 def _within_one(space: RateSpace, spaces: Sequence[RateSpace], kept: Mapping[int, Sequence[int]], zero: float) -> bool:
@@ -437,7 +526,9 @@ class Rigidity:
         return "proved" if self.proof else "not known"
 
 
-def rigidity_of(linkage: PosedLinkage, closure: ClosureEquations | None = None, zero: float = DOUBLE.zero) -> Rigidity:
+def rigidity_of(
+    linkage: PosedLinkage, closure: ClosureEquations | None = None, zero: float = DOUBLE.zero, *, refuted: bool = False
+) -> Rigidity:
     """Look for a proof that a linkage cannot move from its configuration.
 
     Parameters
@@ -448,6 +539,8 @@ def rigidity_of(linkage: PosedLinkage, closure: ClosureEquations | None = None, 
         Of this linkage, if already computed.
     zero : float, optional
         Singular values and eigenvalues below this part of the largest are zero.
+    refuted : bool, optional
+        Whether all cases are known to leave no rates.
 
     Examples
     --------
@@ -465,6 +558,9 @@ def rigidity_of(linkage: PosedLinkage, closure: ClosureEquations | None = None, 
     tangent = rates_at(closure, linkage.angles, zero)
     flexes = tangent.shape[1]
     if not flexes:
+        if closure.joints > MANY:
+            margin = _least_part(closure, linkage.angles)
+            return Rigidity("no rates" if margin else None, 0, margin, None, ())
         values = spectrum(closure.at(linkage.angles)[1].toarray(), DOUBLE.derivative)
         proved = values.rank == closure.joints
         return Rigidity("no rates" if proved else None, 0, values.smallest if closure.joints else None, None, ())
@@ -473,5 +569,5 @@ def rigidity_of(linkage: PosedLinkage, closure: ClosureEquations | None = None, 
     if definite is not None:
         stress = definite[0] / [np.abs(quadric.form).max() for quadric in quadrics]
         return Rigidity("definite stress", flexes, definite[1], stress, quadrics)
-    proof: Proof | None = None if next(spaces_within(tangent, quadrics, zero), None) else "cases"
+    proof: Proof | None = "cases" if refuted or not next(spaces_within(tangent, quadrics, zero), None) else None
     return Rigidity(proof, flexes, None, None, quadrics)

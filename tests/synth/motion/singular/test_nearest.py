@@ -1,17 +1,20 @@
 """Spaces of rates near to wanted ones, of linkages too large for all of them: against all of them."""
 
 from dataclasses import replace
+from math import radians
 
 import numpy as np
 import pytest
+from folding_patterns import spoked_cube
 from sizes import slow
 
 from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE, Tolerances
-from synth.motion import configuration as configurations
+from synth.motion import branches as branches_module, configuration as configurations
+from synth.motion.branches import MOST_JOINTS, all_branches_of_many, branches_of
 from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import linkage_of_sheet
-from synth.motion.singular import nearest
+from synth.motion.linkage import linkage_of_axes, linkage_of_sheet
+from synth.motion.singular import joint_order, nearest, second_order
 from synth.motion.singular.nearest import begun_near, spaces_near
 from synth.motion.singular.second_order import (
     _quadrics_of_loop,
@@ -21,6 +24,8 @@ from synth.motion.singular.second_order import (
     rates_near,
     spaces_within,
 )
+from synth.moving.made import configuration_of
+from synth.patterns import generate
 from synth.patterns.creases import fan, map_sheet, miura
 from synth.verdict.judged import mobility
 from synth.verdict.verdict import AsWritten
@@ -85,6 +90,7 @@ def test_where_all_choices_leave_nothing_it_is_rigid(sheet):
 @pytest.mark.parametrize(("rows", "columns", "rigid_rows"), [(5, 4, 4), slow(7, 5, 5)])
 def test_large_sheets_are_judged_so(rows, columns, rigid_rows, monkeypatch):
     monkeypatch.setattr(configurations, "MOST_JOINTS", 20)
+    monkeypatch.setattr(configurations, "all_branches_of_many", lambda *_: None)
     sheet = map_sheet(rows, columns)
     unmarked = "".join(letter if letter == "B" else "U" for letter in sheet.assignments)
     verdict = mobility(replace(sheet, assignments=unmarked), exact=False).verdict
@@ -105,6 +111,7 @@ def test_a_large_sheet_begins_as_it_is_assigned(monkeypatch):
     sheet = miura(4, 4, 1.0)
     asked = "".join({"V": "+", "M": "-"}.get(letter, "") for letter in sheet.assignments)
     monkeypatch.setattr(configurations, "MOST_JOINTS", 20)
+    monkeypatch.setattr(configurations, "all_branches_of_many", lambda *_: None)
     [way] = mobility(sheet, exact=False).verdict.branches
     assert way.signs == asked
 
@@ -152,3 +159,91 @@ def test_equations_of_all_loops_together_are_those_of_each(sheet):
     assert [one.joints for one in together] == [one.joints for one in alone]
     for one, other in zip(together, alone, strict=True):
         np.testing.assert_allclose(one.form, other.form, atol=1e-15)
+
+
+def as_if_large(monkeypatch):
+    """Have sparse factors do what full matrices do for linkages of few joints."""
+    monkeypatch.setattr(second_order, "MANY", 0)
+    monkeypatch.setattr(second_order, "MOST_ROWS", 0)
+    monkeypatch.setattr(joint_order, "_MOST_PAIRS", 0)
+    monkeypatch.setattr(branches_module, "_MOST_FOLLOWED", 100)
+
+
+def linkage_of(name, **values):
+    return configuration_of(generate(name, **values).mechanism).linkage
+
+
+def rank_on(quadrics, basis):
+    forms = second_order.local_forms(basis, quadrics)
+    return np.linalg.matrix_rank(forms.reshape(len(quadrics), -1), tol=1e-8) if forms.size else 0
+
+
+@pytest.mark.parametrize(
+    "linkage",
+    [
+        linkage_of("miura", rows=3, columns=4), linkage_of("map", rows=3, columns=3), linkage_of("bennett"),
+        linkage_of("miura", rows=4, columns=5, fold=radians(40)), linkage_of("3-crr"), linkage_of("goldberg"),
+        linkage_of_axes(*spoked_cube()), linkage_of_sheet(bent(miura(4, 4, 1.0))),
+        slow(linkage_of("miura", rows=5, columns=5)), slow(linkage_of_sheet(bent(miura(7, 7, 1.0)))),
+        slow(linkage_of("kaleidocycle")), slow(linkage_of("miura", rows=9, columns=9, fold=radians(40))),
+    ],
+)  # fmt: skip
+def test_sparse_factors_find_what_full_matrices_do(linkage, monkeypatch):
+    closure = ClosureEquations(linkage)
+    whole = second_order.rates_at(closure, linkage.angles)
+    quadrics, branches = second_order.all_quadrics(linkage, whole), branches_of(linkage)
+    as_if_large(monkeypatch)
+    rates = second_order.rates_at(closure, linkage.angles)
+    assert rates.shape == whole.shape
+    assert np.abs(rates - whole).max(initial=0.0) < 1e-12
+    sparse = second_order.all_quadrics(linkage, rates)
+    assert rank_on(quadrics, whole) == rank_on(sparse, whole) == rank_on([*quadrics, *sparse], whole)
+    found = all_branches_of_many(linkage, closure, np.ones(closure.joints))
+    assert (found.exhaustive, found.regular, found.no_motion) == (
+        branches.exhaustive, branches.regular, branches.no_motion,
+    )  # fmt: skip
+    assert len(found.branches) == len(branches.branches)
+    for one, projector in zip(found.branches, projectors([one.space for one in found.branches]), strict=True):
+        same = [
+            other
+            for other, its in zip(branches.branches, projectors([one.space for one in branches.branches]), strict=True)
+            if np.abs(projector - its).max() < 1e-9
+        ]
+        assert [(other.freedoms, other.certainty, other.still) for other in same] == [
+            (one.freedoms, one.certainty, one.still)
+        ]
+
+
+def test_the_order_of_many_joints_is_that_of_the_mechanism(monkeypatch, rng):
+    """Of an irregular sheet no two joints are alike, so joints in another order are put into the same one."""
+    monkeypatch.setattr(joint_order, "_MOST_PAIRS", 0)
+    linkage = linkage_of_sheet(bent(miura(5, 6, 1.0), 0.02))
+    shuffled = rng.permutation(len(linkage.angles))
+    other = joint_order.in_order(linkage, shuffled)
+    assert (shuffled[joint_order.joint_order(other)] == joint_order.joint_order(linkage)).all()
+
+
+@pytest.mark.parametrize("size", [18, slow(60)])
+def test_the_branch_of_a_large_folded_sheet_is_listed(size):
+    at = configuration_of(generate("miura", rows=size, columns=size, fold=radians(50)).mechanism)
+    assert len(at.joints) > MOST_JOINTS
+    [branch] = at.branches.branches
+    assert (branch.freedoms, branch.certainty, at.branches.regular, at.branches.exhaustive) == (
+        1,
+        "numerical",
+        True,
+        True,
+    )
+    jacobian = at.closure.at(at.linkage.angles)[1]
+    assert np.abs(jacobian @ branch.rates).max() < 1e-10
+    if size < 20:
+        values = np.linalg.svd(jacobian.toarray(), compute_uv=False)
+        assert (values < 1e-9 * values[0]).sum() == 1
+
+
+@pytest.mark.slow
+def test_a_large_general_sheet_is_proved_rigid():
+    """All cases of its flat state leave no rates, as is so of small ones; the folded image of no vertex closes."""
+    at = configuration_of(bent(miura(19, 19, 1.0), 0.02))
+    assert len(at.joints) > MOST_JOINTS
+    assert (at.branches.no_motion, at.branches.rigidity.proof) == ("proved", "cases")
