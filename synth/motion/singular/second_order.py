@@ -364,7 +364,7 @@ def rates_at(closure: ClosureEquations, angles: Floats, zero: float = DOUBLE.zer
     values near zero; where one of these is not zero, by orthogonal columns, the largest of what is left first. The
     columns depend on the space alone (`graphs.tolerances`).
     """
-    if closure.joints > MANY and closure.rows and zero <= _EXACTLY:
+    if closure.joints > MANY and closure.rows and zero <= _EXACTLY * DOUBLE.zero:
         rates = _freed_rates(closure, angles, zero)
         if rates is not None:
             return rates
@@ -388,8 +388,8 @@ def _least_part(closure: ClosureEquations, angles: Floats) -> float | None:
     return None if rates_at_most(closure, angles) else float(DOUBLE.singular / largest)
 
 
-_EXACTLY = 1e-8
-"""What is zero at coordinates that are exact but for rounding, in the largest linkages."""
+_EXACTLY = 10.0
+"""Times what is zero in few joints is zero in the largest linkages at coordinates that are exact but for rounding."""
 _SPARE = 2
 """Random rates beyond those that are expected to be independent."""
 

@@ -170,13 +170,19 @@ _NUDGE = 1e-3
 """Rates for second differences, radians."""
 
 
+_MOST_WHOLE = 1500
+"""Joints of a linkage whose closure equations are taken apart as a full matrix."""
+
+
 def other_ways(closure: ClosureEquations, angles: Floats) -> int | None:
     """Return how many other motion branches pass through a singular configuration of a curve, to second order.
 
     Rates r of the kernel close to second order if w . H(r, r) = 0 for all self-stresses w: where the kernel is a
     plane, quadratic forms in two variables. If they are multiples of one, its two lines are two branches. Angles,
-    float[J], are radians. None where the kernel is not a plane, or second order does not decide.
+    float[J], are radians. None where the kernel is not a plane, second order does not decide, or joints are too many.
     """
+    if closure.joints > _MOST_WHOLE:
+        return None
     parts = split(closure.dense(angles), DOUBLE.singular)
     kernel, stresses = parts.kernel.T, parts.cokernel.T
     if len(kernel) != 2:

@@ -16,6 +16,7 @@ from typing import Any, Literal
 import numpy as np
 
 from graphs.errors import numbered, shown
+from graphs.rank.dissection import number_below
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId
 from synth.motion.closure import ClosureEquations, Corrected, corrected, exactly_held
@@ -251,8 +252,13 @@ class Step:
         return corrected(self.closure, turned) if np.abs(beside - turned).max() <= near else None
 
 
-WATCHED = 400
-"""Linkages of more joints are not watched: to look into a step all their singular values are needed."""
+WATCHED = 10_000
+"""Linkages of more joints are not watched."""
+_WHOLE = 400
+"""To look into a step of up to so many joints all their singular values are taken; of more only that which is followed,
+and those near zero are counted."""
+_SHARPENED = 3
+"""Steps of inverse iteration for that value, from its vector at the end of the step."""
 SINGULAR = 10.0 * DOUBLE.singular
 """A least singular value that is all but zero."""
 _DIP = 0.1
@@ -277,6 +283,8 @@ class RankWatch:
         self._steps: list[Step] = []
         self._lengths: list[float] = []
         self._looks = 0
+        # many joints have singular values this small where they are only near to lie flat
+        self._zero = DOUBLE.singular if closure.joints <= _WHOLE else DOUBLE.clear
         self.singular = False
 
     @property
@@ -304,7 +312,7 @@ class RankWatch:
         if self._looks >= _MOST_LOOKS:
             return None
         drop = None
-        if flat or abs(value) <= DOUBLE.singular:
+        if flat or abs(value) <= self._zero:
             drop = self._deficient(step.after.angles, step)
         elif len(self._values) > 1 and self._values[-2] * value < 0.0:
             drop = self._examined(step)
@@ -362,6 +370,8 @@ class RankWatch:
         expected = step.cubic()
 
         def square(part: float) -> float:
+            if self._closure.joints > _WHOLE:
+                return self._square_followed(expected(part))
             return float(self._squares(expected(part))[freedoms])
 
         from scipy.optimize import minimize_scalar  # takes a third of a second to load
@@ -373,7 +383,16 @@ class RankWatch:
         drop = self._zeros(angles) - self._zeros(step.before.angles)
         return (angles, drop) if drop > 0 else None
 
+    def _square_followed(self, angles: Floats) -> float:
+        """Return the square of the singular value of the vector that is followed, sharpened there."""
+        space, across = self._closure.space(self._closure.evaluated(angles)[1]), self._across
+        for _ in range(_SHARPENED):
+            across = space.sharpened(across)
+        return length_of(space.image(across)) ** 2
+
     def _zeros(self, angles: Floats) -> int:
+        if self._closure.joints > _WHOLE:
+            return number_below(self._closure.at(angles)[1], self._zero)
         return int((self._squares(angles) <= DOUBLE.singular**2).sum())
 
     def _squares(self, angles: Floats) -> Floats:

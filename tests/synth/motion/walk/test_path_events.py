@@ -13,6 +13,7 @@ from synth.folding.motion import fold
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_axes
 from synth.motion.path import driven_path
+from synth.motion.walk import step
 from synth.patterns.creases import fan, miura
 
 
@@ -53,7 +54,7 @@ def test_turning_points_of_the_driver_are_passed():
     by_crank = driven_path(closure, linkage.angles, [0], np.append(np.radians([80, 150, 220]), path.angles[-1][0]))
     np.testing.assert_allclose(by_crank.angles[-1], path.angles[-1], atol=1e-9)
     for top in path.events:  # the crank a little before and after: the driver is less far at both
-        near = [driven_path(closure, top.angles, [0], [top.angles[0] + step]).angles[-1][6] for step in (-0.01, 0.01)]
+        near = [driven_path(closure, top.angles, [0], [top.angles[0] + aside]).angles[-1][6] for aside in (-0.01, 0.01)]
         assert len(set(np.sign(np.array(near) - top.angles[6]))) == 1
 
 
@@ -83,8 +84,11 @@ def test_a_rocker_turns_back_where_crank_and_coupler_are_in_line():
     assert "turns back" in path.stopped
 
 
+@pytest.mark.parametrize("whole", [400, 0])
 @pytest.mark.parametrize("angles", [(80, 200), pytest.param((90, 200), marks=pytest.mark.slow), (45, 90, 100, 200)])
-def test_a_parallelogram_stays_one_past_its_flat_position(angles):
+def test_a_parallelogram_stays_one_past_its_flat_position(angles, whole, monkeypatch):
+    """By all singular values, and as of linkages of many joints by the one that is followed."""
+    monkeypatch.setattr(step, "_WHOLE", whole)
     linkage = four_bar((0, 0), (2, 0), (2, 1), (0, 1))
     path = driven_path(ClosureEquations(linkage), linkage.angles, [0], np.radians(angles))
     assert path.stopped == ""
@@ -116,7 +120,7 @@ def test_a_vertex_that_folds_flat_does_so_exactly(driven):
 
 
 @pytest.mark.parametrize(
-    "size", [(2, 2), pytest.param((3, 3), marks=pytest.mark.slow), pytest.param((6, 6), marks=pytest.mark.slow)]
+    "size", [(2, 2), *(pytest.param(size, marks=pytest.mark.slow) for size in ((3, 3), (6, 6), (15, 15), (40, 40)))]
 )
 def test_a_miura_sheet_folds_flat(size):
     sheet = miura(*size, np.radians(60))
@@ -126,6 +130,7 @@ def test_a_miura_sheet_folds_flat(size):
     assert folded.path.stopped == ""
     assert np.abs(folded.path.angles[-1]).tolist() == [np.pi] * len(joints)
     assert kinds(folded.path) == ["rank drop", "limit"]
+    assert folded.path.events[0].drop == sum(size) - 3  # one freedom before, and all lines when flat
     assert folded.closure < 1e-12
 
 
