@@ -412,49 +412,80 @@ static int64_t place_of(const Pattern *p, int32_t one, int32_t other)
     return p->panel[block] + (column - p->first[block]) * rows + low;
 }
 
-enum { TILE = 4 };
+enum { TILE = 4, ROWS = 8, ACROSS = 8 * TILE };
 
-/* Where loader, compiler and processor can, loops that take up most of the time run four numbers at once: a second copy
-   is made of them. Sums keep their order, so the numbers are the same. */
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
-#define WIDE __attribute__((target_clones("avx2", "default")))
-#else
+/* Where loader, compiler and processor can, loops that take up most of the time run four or eight numbers at once:
+   copies are made of them. Sums keep their order, so the numbers are the same. */
+#if !defined(WIDE) && defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__)
+#define WIDE __attribute__((target_clones("avx512f", "avx2", "default")))
+#elif !defined(WIDE)
 #define WIDE
 #endif
 
-/* Take off from `target`, at rows `to` of its columns, the products of rows of a panel, `ld` apart, of w columns with
-   diagonal `d` (d[q * step]): of all m rows with the first k. Entries above the diagonal are written and never read. */
+/* Fetch in good time what is read 1024 numbers on, or back: a factor is larger than what the processor keeps. */
+#ifdef __GNUC__
+#define INLINED static inline __attribute__((always_inline))
+#define FETCHED(place, way) __builtin_prefetch((const void *)((uintptr_t)(place) + (way) * 1024 * (int)sizeof(double)))
+#else
+#define INLINED static inline
+#define FETCHED(place, way) ((void)0)
+#endif
+
+/* What is taken off from: rows `to` of the columns `column` of a full matrix, which are `ld` apart. */
+typedef struct {
+    double *entries;
+    int64_t ld;
+    const int32_t *to, *column;
+} Target;
+
+/* Take off from a target, at `rows` rows from row i and `across` columns from column j on, sums of products: of the same
+   rows of w columns `at`, `ld` apart, with the numbers `by`, four for each of them. */
+INLINED void tile_taken_off(const Target *target, int64_t i, int rows, int64_t j, int64_t across, const double *at,
+                            int64_t ld, int64_t w, const double *by)
+{
+    double sum[TILE][ROWS] = {{0.0}};
+    for (int64_t q = 0; q < w; q++, at += ld, by += TILE)
+        for (int c = 0; c < TILE; c++)
+            for (int r = 0; r < rows; r++) sum[c][r] += at[r] * by[c];
+    const int32_t *to = target->to + i;
+    int together = to[rows - 1] - to[0] == rows - 1;
+    for (int64_t c = 0; c < across; c++) {
+        double *out = target->entries + target->column[j + c] * target->ld;
+        if (together)
+            for (int r = 0; r < rows; r++) out[to[0] + r] -= sum[c][r];
+        else
+            for (int r = 0; r < rows; r++) out[to[r]] -= sum[c][r];
+    }
+}
+
+/* Take off from a target the products of rows of a panel, `ld` apart, of w columns with diagonal `d` (d[q * step]): of
+   all m rows with the first k, eight tiles of columns for each of rows. Entries above the diagonal are written and
+   never read. */
 WIDE static void taken_off(const double *panel, int64_t ld, int64_t w, const double *d, int64_t step, int64_t m, int64_t k,
-                      double *target, int64_t target_ld, const int32_t *to, const int32_t *column, double *scaled)
+                      Target target, double *scaled)
 {
     if (w == 1) { /* too little for tiles */
         for (int64_t j = 0; j < k; j++) {
-            double *out = target + column[j] * target_ld, share = panel[j] * *d;
-            for (int64_t i = j; i < m; i++) out[to[i]] -= panel[i] * share;
+            double *out = target.entries + target.column[j] * target.ld, share = panel[j] * *d;
+            for (int64_t i = j; i < m; i++) out[target.to[i]] -= panel[i] * share;
         }
         return;
     }
-    for (int64_t j = 0; j < k; j += TILE) {
-        int64_t across = k - j < TILE ? k - j : TILE, i = j;
-        for (int64_t q = 0; q < w; q++)
-            for (int64_t c = 0; c < TILE; c++)
-                scaled[q * TILE + c] = c < across ? panel[q * ld + j + c] * d[q * step] : 0.0;
-        for (; i + TILE <= m; i += TILE) {
-            double sum[TILE][TILE] = {{0.0}};
-            const double *at = panel + i, *by = scaled;
-            for (int64_t q = 0; q < w; q++, at += ld, by += TILE)
-                for (int c = 0; c < TILE; c++)
-                    for (int r = 0; r < TILE; r++) sum[c][r] += at[r] * by[c];
-            for (int64_t c = 0; c < across; c++) {
-                double *out = target + column[j + c] * target_ld;
-                for (int r = 0; r < TILE; r++) out[to[i + r]] -= sum[c][r];
-            }
-        }
-        for (; i < m; i++) {
-            double sum[TILE] = {0.0};
+    for (int64_t from = 0; from < k; from += ACROSS) {
+        int64_t end = from + ACROSS < k ? from + ACROSS : k, rows;
+        for (int64_t j = from; j < end; j += TILE)
             for (int64_t q = 0; q < w; q++)
-                for (int c = 0; c < TILE; c++) sum[c] += panel[q * ld + i] * scaled[q * TILE + c];
-            for (int64_t c = 0; c < across; c++) target[column[j + c] * target_ld + to[i]] -= sum[c];
+                for (int64_t c = 0; c < TILE; c++)
+                    scaled[(j - from) * w + q * TILE + c] = j + c < end ? panel[q * ld + j + c] * d[q * step] : 0.0;
+        for (int64_t i = from; i < m; i += rows) {
+            rows = m - i >= ROWS ? ROWS : m - i >= TILE ? TILE : 1;
+            for (int64_t j = from; j < end && j < i + rows; j += TILE) {
+                const double *at = panel + i, *by = scaled + (j - from) * w;
+                int64_t across = end - j < TILE ? end - j : TILE;
+                if (rows == ROWS) tile_taken_off(&target, i, ROWS, j, across, at, ld, w, by);
+                else if (rows == TILE) tile_taken_off(&target, i, TILE, j, across, at, ld, w, by);
+                else tile_taken_off(&target, i, 1, j, across, at, ld, w, by);
+            }
         }
     }
 }
@@ -464,8 +495,8 @@ WIDE static void panel_factorised(double *panel, int64_t rows, int64_t columns, 
 {
     for (int64_t j = 0; j < columns; j += TILE) {
         int64_t end = j + TILE < columns ? j + TILE : columns;
-        if (j) taken_off(panel + j, rows, j, panel, rows + 1, rows - j, end - j, panel + j * rows + j, rows, each, each,
-                         scaled);
+        Target target = {panel + j * rows + j, rows, each, each};
+        if (j) taken_off(panel + j, rows, j, panel, rows + 1, rows - j, end - j, target, scaled);
         for (int64_t c = j; c < end; c++) {
             double *own = panel + c * rows;
             for (int64_t q = j; q < c; q++) {
@@ -504,7 +535,7 @@ static int part_new(Part *t, Lists lists, int side)
     const Pattern *p = lists.p;
     memset(t, 0, sizeof *t);
     t->lists = lists, t->side = side;
-    t->scaled = malloc(TILE * (p->most + 1) * sizeof *t->scaled), t->map = malloc((p->n + 1) * sizeof *t->map);
+    t->scaled = malloc(ACROSS * (p->most + 1) * sizeof *t->scaled), t->map = malloc((p->n + 1) * sizeof *t->map);
     t->to = malloc((p->most + 1) * sizeof *t->to), t->each = malloc((p->most + 1) * sizeof *t->each);
     t->waiting = malloc(2 * (p->blocks + 1) * sizeof *t->waiting);
     if (!(t->scaled && t->map && t->to && t->each && t->waiting)) return 0;
@@ -544,8 +575,8 @@ static void block_factorised(Part *t, int32_t b)
         while (end < whole && other[end] < p->first[b + 1]) end++;
         for (int64_t r = from; r < whole; r++) t->to[r - from] = t->map[other[r]];
         const double *left = l->values + p->panel[c];
-        taken_off(left + from, whole, width, left, whole + 1, whole - from, end - from, panel, rows, t->to, t->to,
-                  t->scaled);
+        Target target = {panel, rows, t->to, t->to};
+        taken_off(left + from, whole, width, left, whole + 1, whole - from, end - from, target, t->scaled);
         if (end < whole) left_to_next(t, c, end);
     }
     panel_factorised(panel, rows, columns, t->each, t->scaled);
@@ -588,6 +619,43 @@ static int pattern_factorised(const Pattern *p, double *values)
     return good;
 }
 
+/* Take off the columns of a panel, each as often as the unknown at its diagonal says, from all rows below that. */
+WIDE static void columns_taken_off(const double *panel, int64_t rows, int64_t columns, double *below)
+{
+    int64_t c = 0;
+    for (; c + TILE <= columns; c += TILE) { /* four at once, each number in the order of the columns */
+        const double *p0 = panel + c * rows, *p1 = p0 + rows, *p2 = p1 + rows, *p3 = p2 + rows;
+        for (int64_t i = 0; i < TILE * rows; i += 8) FETCHED(p0 + i, 1);
+        double v0 = below[c], v1 = below[c + 1] - p0[c + 1] * v0;
+        double v2 = below[c + 2] - p0[c + 2] * v0 - p1[c + 2] * v1;
+        double v3 = below[c + 3] - p0[c + 3] * v0 - p1[c + 3] * v1 - p2[c + 3] * v2;
+        below[c + 1] = v1, below[c + 2] = v2, below[c + 3] = v3;
+        for (int64_t r = c + TILE; r < rows; r++)
+            below[r] = below[r] - p0[r] * v0 - p1[r] * v1 - p2[r] * v2 - p3[r] * v3;
+    }
+    for (; c < columns; c++) {
+        const double *own = panel + c * rows;
+        double value = below[c];
+        for (int64_t r = c + 1; r < rows; r++) below[r] -= own[r] * value;
+    }
+}
+
+/* Solve with the columns of a panel, the last first: unknowns below its columns are known. */
+static void columns_solved(const double *panel, int64_t rows, int64_t columns, double *below)
+{
+    for (int64_t c = columns - 1; c >= 0; c--) {
+        const double *own = panel + c * rows;
+        double sums[TILE] = {0.0}, value = below[c] / own[c];
+        int64_t r = c + 1;
+        for (; r + TILE <= rows; r += TILE) {
+            FETCHED(own + r, -1);
+            for (int t = 0; t < TILE; t++) sums[t] += own[r + t] * below[r + t];
+        }
+        for (; r < rows; r++) value -= own[r] * below[r];
+        below[c] = value - ((sums[0] + sums[1]) + (sums[2] + sums[3]));
+    }
+}
+
 /* Solve with the factor, x in the order of elimination, in place; `below` has room for the rows of a block. */
 static void pattern_solved(const Pattern *p, const double *values, double *x, double *below)
 {
@@ -601,34 +669,24 @@ static void pattern_solved(const Pattern *p, const double *values, double *x, do
             continue;
         }
         for (int64_t r = 0; r < rows; r++) below[r] = r < columns ? own[r] : 0.0;
-        for (int64_t c = 0; c < columns; c++, panel += rows) {
-            double value = below[c];
-            for (int64_t r = c + 1; r < rows; r++) below[r] -= panel[r] * value;
-        }
+        columns_taken_off(panel, rows, columns, below);
         for (int64_t r = 0; r < columns; r++) own[r] = below[r];
         for (int64_t r = columns; r < rows; r++) x[row[r]] += below[r];
     }
     for (int64_t b = p->blocks - 1; b >= 0; b--) {
         int64_t rows = p->at[b + 1] - p->at[b], columns = p->first[b + 1] - p->first[b];
-        const double *panel = values + p->panel[b] + columns * rows;
+        const double *panel = values + p->panel[b];
         const int32_t *row = p->row + p->at[b];
         double *own = x + p->first[b];
         if (columns == 1) {
-            double value = own[0] / panel[-rows];
-            for (int64_t r = 1; r < rows; r++) value -= panel[r - rows] * x[row[r]];
+            double value = own[0] / panel[0];
+            for (int64_t r = 1; r < rows; r++) value -= panel[r] * x[row[r]];
             own[0] = value;
             continue;
         }
         for (int64_t r = 0; r < columns; r++) below[r] = own[r];
         for (int64_t r = columns; r < rows; r++) below[r] = x[row[r]];
-        for (int64_t c = columns - 1; c >= 0; c--) {
-            panel -= rows;
-            double sums[TILE] = {0.0}, value = below[c] / panel[c];
-            int64_t r = c + 1;
-            for (; r + TILE <= rows; r += TILE)
-                for (int t = 0; t < TILE; t++) sums[t] += panel[r + t] * below[r + t];
-            for (; r < rows; r++) value -= panel[r] * below[r];
-            own[c] = below[c] = value - ((sums[0] + sums[1]) + (sums[2] + sums[3]));
-        }
+        columns_solved(panel, rows, columns, below);
+        for (int64_t r = 0; r < columns; r++) own[r] = below[r];
     }
 }

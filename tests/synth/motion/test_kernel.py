@@ -11,6 +11,7 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from synth.folding.configuration import configuration_of_sheet
 from synth.motion import closure as closing
+from synth.motion import kernel as of_library
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.kernel import SOURCE, KernelFactor, kernel
 from synth.motion.linkage import linkage_of_axes
@@ -118,6 +119,27 @@ def test_blocks_of_a_sheet_are_factorised(rows, columns, monkeypatch):
     normal = matrix.T @ matrix
     normal += 0.1 * max(normal.diagonal().max(), 1.0) * scipy.sparse.identity(fast.joints)
     np.testing.assert_allclose(normal @ KernelFactor(fast._kernel, entries, 0.1).solved(right), right, atol=1e-13)
+
+
+@needs_library
+def test_copies_for_wide_registers_change_no_digit(tmp_path, monkeypatch):
+    """The same source without these copies answers with the same bytes: factors, solutions, and Newton's method."""
+    narrow = tmp_path / SOURCE.name
+    narrow.write_text(f"#define WIDE\n{SOURCE.read_text()}")
+    (tmp_path / "factor.h").write_text(SOURCE.with_name("factor.h").read_text())
+    if build(narrow):
+        pytest.skip(build(narrow))
+    linkage = configuration_of_sheet(generate("miura", rows=36, columns=44, fold=0.7).mechanism).linkage
+    rng = np.random.default_rng(0)
+    start, right = linkage.angles + 0.01 * rng.normal(size=len(linkage.angles)), rng.normal(size=len(linkage.angles))
+    answers = []
+    for source in (SOURCE, narrow):
+        monkeypatch.setattr(of_library, "SOURCE", source)
+        equations = ClosureEquations(linkage)
+        entries = equations.evaluated(start)[1]
+        answers.append([KernelFactor(equations._kernel, entries, 0.1).solved(right), corrected(equations, start).angles])
+    for one, other in zip(*answers, strict=True):
+        assert one.tobytes() == other.tobytes()
 
 
 @needs_library
