@@ -15,7 +15,7 @@ import synth.moving
 from graphs.errors import UnsolvableError
 from synth.cli import options
 from synth.cli.output import about, console, plain, print_json, print_result, progress_line, table, tell_written
-from synth.cli.reading import AT, MECHANISM, PRECISION, precise, read
+from synth.cli.reading import AT, MECHANISM, PRECISION, precise, read, set_aside
 
 if TYPE_CHECKING:
     from graphs.convert import Mechanism
@@ -101,11 +101,12 @@ def fold(
         raise click.UsageError("--drive, --along and --all exclude each other; try one of them")
     if output is not None:
         check_motion_file(output, force=force)
-    mechanism = read(file, warn=False)
+    with set_aside():
+        mechanism = read(file, warn=False)
+        with about(file):
+            at = synth.moving.configuration_of(precise(mechanism))
+            graph = at.linkage.graph
     with about(file):
-        mechanism = precise(mechanism)
-        at = synth.moving.configuration_of(mechanism)
-        graph = at.linkage.graph
         with progress_line() as show:
             motion = synth.move(
                 at, drive=options.driven_angles(graph, drive),
