@@ -90,11 +90,16 @@ def vertex_cycles(sheet: Sheet, hinged: HingedFaces) -> dict[tuple[int, ...], in
     return dict(list(distinct.values())[::-1])
 
 
+def _sides_in_order(around: Sequence[int]) -> list[Edge]:
+    """Return the sides of a face, each with the lesser vertex first; that before a vertex stands before it."""
+    return [(a, b) if a < b else (b, a) for a, b in sides_of_face(around)]
+
+
 def _sides_of_corners(sheet: Sheet) -> dict[tuple[int, int], tuple[Edge, Edge]]:
     """Return the two edges of each face, by its number, at each of its vertices."""
     corners = {}
     for index, around in enumerate(sheet.faces):
-        sides = [(a, b) if a < b else (b, a) for a, b in sides_of_face(around)]
+        sides = _sides_in_order(around)
         corners.update({(index, vertex): (sides[i - 1], sides[i]) for i, vertex in enumerate(around)})
     return corners
 
@@ -102,8 +107,10 @@ def _sides_of_corners(sheet: Sheet) -> dict[tuple[int, int], tuple[Edge, Edge]]:
 def _closed_fans(sheet: Sheet, faces_at: Mapping[Edge, Sequence[int]]) -> list[tuple[int, list[tuple[Edge, int]]]]:
     """Return each vertex with faces all round, with its edges and the faces entered across them, in order."""
     at_vertex: dict[int, dict[int, tuple[Edge, Edge]]] = defaultdict(dict)
-    for (face, vertex), sides in _sides_of_corners(sheet).items():
-        at_vertex[vertex][face] = sides
+    for index, around in enumerate(sheet.faces):
+        sides = _sides_in_order(around)
+        for vertex, before, after in zip(around, (sides[-1], *sides), sides, strict=False):
+            at_vertex[vertex][index] = before, after
     fans = []
     for centre, sides_of in at_vertex.items():
         left = dict.fromkeys(sides_of)
@@ -112,6 +119,8 @@ def _closed_fans(sheet: Sheet, faces_at: Mapping[Edge, Sequence[int]]) -> list[t
             fan = list(_fan(start, sides_of[start][1], sides_of, faces_at))
             if fan and fan[-1][1] == start:
                 fans.append((centre, fan))
+                if len(fan) == len(sides_of):
+                    break
             else:  # its other half is no fan of its own
                 fan += _fan(start, sides_of[start][0], sides_of, faces_at)
             for face in (start, *(face for _, face in fan)):

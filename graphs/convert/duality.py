@@ -107,7 +107,10 @@ def mechanism_of_sheet(sheet: Sheet, *, hinge_flat: bool = False, geometry: bool
     )
     pieces = _pieces(joint_of_edge)
     places = sheet.coordinates or ((),) * sheet.vertices
-    ends = {joint: max(some, key=lambda ends: dist(*(places[v] for v in ends))) for joint, some in pieces.items()}
+    ends = {
+        joint: some[0] if len(some) == 1 else max(some, key=lambda ends: dist(*(places[v] for v in ends)))
+        for joint, some in pieces.items()
+    }
     if geometry and sheet.coordinates is not None and sc.spatial_loops:
         sc = _with_loops(sc, loops_with_centres(sheet, boundary_cycles(sheet, hinged), ends), notes)
     split = sum(joint is not None for joint in joint_of_edge.values()) - len(joints)

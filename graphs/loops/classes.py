@@ -239,7 +239,7 @@ def _nothing_forced(loops: Sequence[Loop]) -> bool:
     The search ends early, with no, where a joint has many loops, since pairs of them are looked at one by one.
     """
     through: dict[JointId, list[int]] = {}
-    pairs: set[tuple[int, int]] = set()
+    pairs: set[int] = set()  # of two loops other < i: i * number of loops + other
     for i, loop in enumerate(loops):
         if not loop.has_centre:
             continue
@@ -248,9 +248,10 @@ def _nothing_forced(loops: Sequence[Loop]) -> bool:
         for joint in loop.joints:
             others = through.setdefault(joint, [])
             for other in others:
-                if (other, i) in pairs:
+                pair = i * len(loops) + other
+                if pair in pairs:
                     return False
-                pairs.add((other, i))
+                pairs.add(pair)
             others.append(i)
             if len(others) > FEW:
                 return False

@@ -280,9 +280,9 @@ def with_all_edges(sheet: Sheet) -> Sheet:
     Sides between two faces that were not listed are unassigned creases, in the order of the faces, and come first:
     their places in the list are the ids of their joints. Other sides are borders.
     """
-    listed = {frozenset(edge) for edge in sheet.edges}
-    sides = Counter((min(side), max(side)) for face in sheet.faces for side in sides_of_face(face))
-    missing = [(side, faces) for side, faces in sides.items() if frozenset(side) not in listed]
+    listed = {(a, b) if a < b else (b, a) for a, b in sheet.edges}
+    sides = Counter((a, b) if a < b else (b, a) for face in sheet.faces for a, b in sides_of_face(face))
+    missing = [(side, faces) for side, faces in sides.items() if side not in listed]
     if not missing:
         return sheet
     creases = tuple(side for side, faces in missing if faces > 1)

@@ -26,8 +26,10 @@ _APART = radians(3.0)
 """Between poses that are looked at no joint turns by more."""
 _REFINED = 10
 """Halvings of the way between two frames."""
-_BLOCK = 256
-"""Pieces whose boxes are compared with all others near them at a time."""
+_PAIRS = 1_000_000
+"""Pairs of pieces whose boxes are compared at a time, about."""
+_MORE = 1e-9
+"""By this part strips are wider than the widest piece: rounding puts none into the next but one."""
 
 
 class PanelShapes:
@@ -64,27 +66,37 @@ class PanelShapes:
         return low, high
 
     def _near(self, corners: Floats) -> Iterator[tuple[Ints, Ints]]:
-        """Yield pairs of pieces of different panels whose boxes meet, the lesser panel first, block by block.
+        """Yield pairs of pieces of different panels whose boxes meet, the lesser panel first, some at a time.
 
-        Pieces stand in the order in which they begin along one axis: none meets one that begins where it has ended.
+        Pieces lie in strips across one axis, as wide as the largest of them, in each of which they stand in the order
+        in which they begin along another axis. One meets none beyond the next strip on either side, and in these
+        none that begins where it has ended; of two the one that begins first looks for the other.
         """
         low, high = corners.min(axis=1) - self._touching, corners.max(axis=1)
-        along = int(np.ptp(low, axis=0).argmax())
-        order = np.argsort(low[:, along], kind="stable")
-        low, high, panel = low[order], high[order], self._panel[order]
-        ends = np.searchsorted(low[:, along], high[:, along], side="right")
-        for start in range(0, len(order), _BLOCK):
-            block = slice(start, start + _BLOCK)
-            others = slice(start, int(ends[block].max()))
-            number = np.arange(others.start, others.stop)
-            meet = (number[: len(ends[block]), None] < number) & (number < ends[block, None])
-            meet &= panel[block, None] != panel[others]
-            for axis in {0, 1, 2} - {along}:
-                meet &= low[block, None, axis] <= high[others, axis]
-                meet &= low[others, axis] <= high[block, None, axis]
-            one, other = (order[place + start] for place in np.nonzero(meet))
-            swapped = self._panel[one] > self._panel[other]
-            yield np.where(swapped, other, one), np.where(swapped, one, other)
+        across, along = np.argsort(np.ptp(low, axis=0), kind="stable")[1:]
+        width = float((high - low)[:, across].max()) * (1.0 + _MORE)
+        strip = ((low[:, across] - low[:, across].min()) / width).astype(np.int64) + 1
+        count = len(strip)
+        begins = np.argsort(low[:, along], kind="stable")
+        rank = np.empty(count, dtype=np.int64)  # the place of each in the order along
+        rank[begins] = np.arange(count)
+        ended = np.searchsorted(low[begins, along], high[:, along], side="right")
+        places = strip * count + rank
+        order = np.argsort(places)
+        places = places[order]
+        for beside in (-1, 0, 1):
+            row = (strip + beside) * count
+            first = np.searchsorted(places, row + rank + 1)
+            others = np.searchsorted(places, row + ended) - first
+            for pieces in _in_parts(others):
+                one = np.repeat(pieces, others[pieces])
+                begun = np.cumsum(others[pieces]) - others[pieces]
+                other = order[np.arange(len(one)) + np.repeat(first[pieces] - begun, others[pieces])]
+                meet = (low[one] <= high[other]).all(axis=1) & (low[other] <= high[one]).all(axis=1)
+                meet &= self._panel[one] != self._panel[other]
+                one, other = one[meet], other[meet]
+                swapped = self._panel[one] > self._panel[other]
+                yield np.where(swapped, other, one), np.where(swapped, one, other)
 
     def _cross(self, corners: Floats, normals: Floats, first: Ints, second: Ints) -> Flags:
         """Tell which pairs of pieces cross: bool[pairs]. Most stand on one side of the other's plane, and are done."""
@@ -116,6 +128,13 @@ class PanelShapes:
         low = np.minimum(np.where(passes, at, np.inf), np.where(in_plane, along, np.inf)).min(axis=1)
         high = np.maximum(np.where(passes, at, -np.inf), np.where(in_plane, along, -np.inf)).max(axis=1)
         return low, high
+
+
+def _in_parts(numbers: Ints) -> Iterator[Ints]:
+    """Yield the places of numbers that are not zero, in their order, by parts that add up to `_PAIRS` or little more."""
+    kept = np.flatnonzero(numbers > 0)
+    parts = np.cumsum(numbers[kept]) // _PAIRS
+    yield from np.split(kept, np.flatnonzero(np.diff(parts)) + 1)
 
 
 def shapes_of_panels(sheet: Sheet, mechanism: SheetMechanism, flat: Floats, tolerances: Tolerances) -> PanelShapes:

@@ -17,7 +17,7 @@ from graphs.answer.mechanisms import sheet_in_frame
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet, opened
 from graphs.errors import UnsolvableError, check_argument
 from graphs.files.accepted import mechanism_for
-from graphs.mechanism.precision import keeping, precision_of_sheet, stated
+from graphs.mechanism.precision import in_space, keeping, precision_of_sheet, stated
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId
@@ -206,7 +206,8 @@ class SheetConfiguration(Configuration):
         def places(angles: Floats) -> Floats:
             return self.placed(angles).points
 
-        here = places(self.linkage.angles[None])[0]
+        assert self.sheet.coordinates is not None
+        here = in_space(self.sheet.coordinates)
         return Collision(shapes_of_panels(self.sheet, self.mechanism, here, self.tolerances), places)
 
 

@@ -17,7 +17,7 @@ from graphs.errors import UnsolvableError
 from graphs.geometry import crossing
 from graphs.loops.loop import Centre
 from graphs.mechanism.precision import in_space
-from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.sheet import Sheet, corners_of_faces, panel_of_faces
 from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations
 from synth.motion.derivatives import AxisDependence, BodyPoses, BodyTree, Sensitivity, spatial
@@ -34,15 +34,10 @@ def vertex_places(
     assert sheet.coordinates is not None
     local = (in_space(sheet.coordinates) - linkage.middle) / linkage.extent
     rotation, shift = placed_links(linkage, angles, largest_panel(mechanism.panels))
-    corners = np.array(
-        [
-            (link, vertex)
-            for link, faces in enumerate(mechanism.panels)
-            for vertex in dict.fromkeys(vertex for face in faces for vertex in sheet.faces[face])
-        ],
-        dtype=np.int64,
-    ).reshape(-1, 2)
-    links, vertices = corners.T
+    vertices, _, faces = corners_of_faces(sheet.faces)
+    links = panel_of_faces(mechanism.panels)[faces]
+    order = np.argsort(links, kind="stable")
+    links, vertices = links[order], vertices[order]
     placed, first = np.unique(vertices, return_index=True)  # each by the first of its panels
     places = np.broadcast_to(local, (len(angles), *local.shape)).copy()
     apart = np.zeros(len(angles))

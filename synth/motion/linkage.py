@@ -184,9 +184,8 @@ def _posed(graph: SCGraph, points: Floats, directions: Floats, angles: Floats, a
     column = {joint: place for place, joint in enumerate(graph.joints)}
     loops = []
     for loop in independent_cycles(graph):
-        signed = list(signed_cycle(loop.joints, graph.joints))
-        joints, signs = tuple(column[joint] for joint, _ in signed), tuple(sign for _, sign in signed)
-        loops.append(PosedLoop(joints, signs, loop.centre))
+        order, signs = zip(*signed_cycle(loop.joints, graph.joints), strict=True)
+        loops.append(PosedLoop(tuple(map(column.__getitem__, order)), signs, loop.centre))
     middle = all_points.mean(axis=0) if len(all_points) else np.zeros(3)
     extent = extent_of(all_points) or 1.0
     return PosedLinkage(graph, (points - middle) / extent, directions, angles, tuple(loops), extent, middle)
