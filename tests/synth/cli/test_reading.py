@@ -1,5 +1,6 @@
 """Options on how a drawing is read: wherever one is read, and in the same words."""
 
+import gc
 import json
 
 import click
@@ -8,6 +9,7 @@ from click.testing import CliRunner
 
 from graphs.files.formats import read
 from synth.cli.main import main
+from synth.cli.reading import set_aside
 
 SVG = (
     '<svg xmlns="http://www.w3.org/2000/svg"><rect width="10" height="10" stroke="black"/><g id="folds">'
@@ -97,3 +99,33 @@ def test_what_cannot_be_stated_is_bad_usage(word, drawing):
     for command in ("mobility", "draw"):
         result = run(command, drawing, "--colour", word, *(("-o", "a.svg") if command == "draw" else ()))
         assert result.exit_code == 2, result.output
+
+
+@pytest.fixture
+def nothing_set_aside():
+    """No objects are out of garbage collections; afterwards those are again that were."""
+    before = gc.get_freeze_count()
+    gc.unfreeze()
+    yield
+    if before:
+        gc.freeze()
+
+
+@pytest.mark.usefixtures("nothing_set_aside")
+def test_what_is_read_is_set_aside_until_the_command_ends(data):
+    with click.Context(main):
+        with set_aside():
+            assert not gc.isenabled()
+        assert gc.isenabled()
+        aside = gc.get_freeze_count()
+        with set_aside():  # once is enough
+            assert gc.isenabled()
+        assert 0 < gc.get_freeze_count() <= aside
+    assert gc.get_freeze_count() == 0
+    with click.Context(main), pytest.raises(KeyError), set_aside():
+        raise KeyError
+    assert (gc.isenabled(), gc.get_freeze_count()) == (True, 0)
+    assert run("fold", data / "patterns" / "four-bar-vertex.fold", "--frames", 1).exit_code == 0
+    assert (gc.isenabled(), gc.get_freeze_count()) == (True, 0)
+    assert run("fold", data / "index.json").exit_code == 2
+    assert (gc.isenabled(), gc.get_freeze_count()) == (True, 0)

@@ -10,6 +10,7 @@ from sizes import slow
 
 from graphs.files.formats import write
 from graphs.mechanism.sheet import Sheet
+from synth.folding import collisions
 from synth.folding.collisions import PanelShapes
 from synth.folding.motion import fold
 from synth.patterns.creases import miura
@@ -137,8 +138,9 @@ def test_the_command_line_ends_before_a_collision(tmp_path):
 
 
 @pytest.mark.parametrize("largest", [0.05, 2.0])
-def test_pairs_whose_boxes_meet_are_those_of_all_pairs(largest):
+def test_pairs_whose_boxes_meet_are_those_of_all_pairs(largest, monkeypatch):
     """More pieces than are compared at a time, some of a panel of two, boxes of all sizes; every pair by itself."""
+    monkeypatch.setattr(collisions, "_PAIRS", 100)
     rng = np.random.default_rng(int(100 * largest))
     count = 300
     corners = rng.uniform(0.0, 1.0, (count, 1, 3)) + rng.uniform(0.0, largest, (count, 1, 1)) * rng.uniform(
