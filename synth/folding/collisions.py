@@ -131,7 +131,7 @@ class PanelShapes:
 
 
 def _in_parts(numbers: Ints) -> Iterator[Ints]:
-    """Yield the places of numbers that are not zero, in their order, by parts that add up to `_PAIRS` or little more."""
+    """Yield the places of numbers that are not zero, in order, by parts that add up to `_PAIRS` or little more."""
     kept = np.flatnonzero(numbers > 0)
     parts = np.cumsum(numbers[kept]) // _PAIRS
     yield from np.split(kept, np.flatnonzero(np.diff(parts)) + 1)

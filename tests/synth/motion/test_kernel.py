@@ -10,8 +10,7 @@ from graphs.compiled import build, library, place_of
 from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from synth.folding.configuration import configuration_of_sheet
-from synth.motion import closure as closing
-from synth.motion import kernel as of_library
+from synth.motion import closure as closing, kernel as of_library
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.kernel import SOURCE, KernelFactor, kernel
 from synth.motion.linkage import linkage_of_axes
@@ -137,7 +136,9 @@ def test_copies_for_wide_registers_change_no_digit(tmp_path, monkeypatch):
         monkeypatch.setattr(of_library, "SOURCE", source)
         equations = ClosureEquations(linkage)
         entries = equations.evaluated(start)[1]
-        answers.append([KernelFactor(equations._kernel, entries, 0.1).solved(right), corrected(equations, start).angles])
+        answers.append(
+            [KernelFactor(equations._kernel, entries, 0.1).solved(right), corrected(equations, start).angles]
+        )
     for one, other in zip(*answers, strict=True):
         assert one.tobytes() == other.tobytes()
 
