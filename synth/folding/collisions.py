@@ -28,8 +28,8 @@ _REFINED = 10
 """Halvings of the way between two frames."""
 _PAIRS = 1_000_000
 """Pairs of pieces whose boxes are compared at a time, about."""
-_MORE = 1e-9
-"""By this part strips are wider than the widest piece: rounding puts none into the next but one."""
+_WIDER = 1.25
+"""Strips are so many times as wide as the widest piece: rounding puts none into the next but one."""
 
 
 class PanelShapes:
@@ -68,13 +68,13 @@ class PanelShapes:
     def _near(self, corners: Floats) -> Iterator[tuple[Ints, Ints]]:
         """Yield pairs of pieces of different panels whose boxes meet, the lesser panel first, some at a time.
 
-        Pieces lie in strips across one axis, as wide as the largest of them, in each of which they stand in the order
+        Pieces lie in strips across one axis, wider than the largest of them, in each of which they stand in the order
         in which they begin along another axis. One meets none beyond the next strip on either side, and in these
         none that begins where it has ended; of two the one that begins first looks for the other.
         """
         low, high = corners.min(axis=1) - self._touching, corners.max(axis=1)
         across, along = np.argsort(np.ptp(low, axis=0), kind="stable")[1:]
-        width = float((high - low)[:, across].max()) * (1.0 + _MORE)
+        width = float((high - low)[:, across].max()) * _WIDER
         strip = ((low[:, across] - low[:, across].min()) / width).astype(np.int64) + 1
         count = len(strip)
         begins = np.argsort(low[:, along], kind="stable")
