@@ -30,6 +30,7 @@ from synth.designing.wish_files import read_wishes
 from synth.designing.wishes import POSE, PointsOn, Unit, Wishes
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.writing import svg_text
+from synth.motion.closure import ClosureEquations
 from synth.moving.made import configuration_of
 from synth.patterns.catalogue import GENERATORS
 from synth.verdict.judged import verdict_of_motion
@@ -528,8 +529,7 @@ def _defects(problem: DesignProblem, found: FoundDesign, freedoms: int | None) -
     one, drivers = DesignDefects((), False), problem.together
     goals = np.zeros((0, len(drivers)))
     if len(angles) > 1 and freedoms == 1 and problem.drivers:
-        every = [(traced(closure, names, angles, joint, in_order=wishes.in_order), joint) for joint in problem.drivers]
-        one, driver = next((pair for pair in every if not pair[0].defects), every[0])
+        one, driver = _best_driven(problem, closure, names, angles)
         drivers, goals = [driver], np.array(one.inputs)[1:, None]
     elif len(angles) > 1 and freedoms == len(drivers):
         one, goals = traced_together(closure, names, angles, drivers), np.array(angles)[1:, drivers]
@@ -542,6 +542,20 @@ def _defects(problem: DesignProblem, found: FoundDesign, freedoms: int | None) -
         ends = (names[0], "the flat sheet")
         crossed = collision_on_the_way(closure, ends, angles[:1], np.array([[turns]]), [driver], collision)
     return replace(one, defects=(crossed,)) if crossed else one
+
+
+def _best_driven(
+    problem: DesignProblem, closure: ClosureEquations, names: Sequence[str], angles: Sequence[Floats]
+) -> tuple[DesignDefects, int]:
+    """Return the first joint that may be driven without defects, and these; else the first joint and its defects."""
+    first: tuple[DesignDefects, int] | None = None
+    for joint in problem.drivers:
+        one = traced(closure, names, angles, joint, in_order=problem.wishes.in_order), joint
+        first = first or one
+        if not one[0].defects:
+            return one
+    assert first is not None
+    return first
 
 
 _NEAR_FLAT = 0.1

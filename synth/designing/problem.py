@@ -157,13 +157,17 @@ class DesignProblem:
         self._contradictions()
 
     def _drivers(self) -> list[int]:
-        """Return the joints that may be driven: as stated, of the first input, else any of the fixed link."""
+        """Return the joints that may be driven: as stated, of the first input, else any of the fixed link.
+
+        A configuration that gives all joints, a flat state for one, has no input: without others any joint may be.
+        """
         frame, wishes = self.frame, self.wishes
         if wishes.driver is not None:
             return [frame.joint(wishes.driver)]
-        given = next((joint for inputs in self.inputs for joint in inputs), None)
-        if given is not None:
-            return [given]
+        given = [list(inputs) for inputs in self.inputs if inputs]
+        first = next((joints[:1] for joints in given if len(joints) < self.joints), None)
+        if given:
+            return first or given[0]
         return [place for place, joint in enumerate(frame.joints) if self.family.ground in frame.graph.joints[joint]]
 
     def _contradictions(self) -> None:

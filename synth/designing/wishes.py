@@ -581,7 +581,8 @@ class Wishes:
     rules : tuple of Wish
         What must hold, whatever else is missed.
     driver : str or None
-        The driven joint; by default that of the first given input, else one of the fixed link.
+        The driven joint; by default that of the first given input, any if a configuration gives all joints, else one of
+        the fixed link.
     fixed : tuple of str
         Dimensions that stay.
     parameters : mapping of str to float
