@@ -27,6 +27,14 @@ def poses(*quaternions: list[float]) -> dict[str, Any]:
     }
 
 
+def at_inputs(angles: list[float], quaternions: list[list[float]]) -> dict[str, Any]:
+    """Return wishes for the output: an orientation for each angle of the driven joint."""
+    wishes = poses(*quaternions)
+    for one, angle in zip(wishes["configurations"], angles, strict=True):
+        one["inputs"] = {"base-input": angle}
+    return {"driver": "base-input", **wishes}
+
+
 def from_the_first(quaternions: list[tuple[float, float, float, float]]) -> list[list[float]]:
     """Return orientations from the first of several on, as rotations from it, with nine decimals."""
     first, *others = (Rotation.from_quat(one, scalar_first=True) for one in quaternions)
@@ -60,6 +68,14 @@ TASKS: dict[str, dict[str, Any]] = {
         "generators": {name: {} for name in FAMILIES},
         "distance": [{"roles": ["base", "input"], "number": 1}, {"roles": ["base", "output"], "number": 1}],
         "relative_mobility": [{"roles": ["base", "output"], "number": 1}],
+        "wishes": {
+            "driver": "base-input",
+            "configurations": [{"name": "turned", "inputs": {"base-input": 30}}],
+            "wishes": [
+                {"kind": "arc", "joints": ["base-input", "base-output"], "equals": 50},
+                {"kind": "angle", "at": "turned", "joint": "base-output", "equals": -45},
+            ],
+        },
     },
     "straight-lift": {
         "title": "a platform that rises and does not turn",
@@ -91,6 +107,55 @@ TASKS: dict[str, dict[str, Any]] = {
         "wishes": {
             "configurations": [{"name": "packed"}],
             "wishes": [{"kind": "ratio", "at": "packed", "of": "area", "over": "pose", "at_most": 0.5}],
+        },
+    },
+}
+
+TASKS |= {
+    "four-fingers": {
+        "title": "a sheet with five degrees of freedom that opens in two ways: panels across its middle turn apart "
+        "about either of two axes",
+        "links": [8, 16],
+        "degrees_of_freedom": 5,
+        "form": "sheet",
+        "types": ["generators"],
+        "symmetry": [4, None],
+        "distance": [{"roles": ["base", "output"], "number": [4, None]}],
+        "wishes": {**poses(turned((1, 0, 0), 90), turned((0, 1, 0), 90)), "in_order": False},
+    },
+    "on-a-cone": {
+        "title": "a linkage on a cone that takes a panel through two orientations at two angles of its crank",
+        "roles": ["base", "input", "output"],
+        "form": "cone",
+        "distance": [{"roles": ["base", "input"], "number": 1}, {"roles": ["base", "output"], "number": 2}],
+        "wishes": at_inputs([30, 60], [turned((6, 1, 0), 36), turned((5, 2, 0), 68)]),
+    },
+    "pop-up": {
+        "title": "a panel that stays parallel to one half of a card while the card is closed",
+        "roles": ["base", "input", "output"],
+        "links": 4,
+        "form": "sheet",
+        "types": ["scd", "generators"],
+        "centres_at_infinity": True,
+        "distance": [{"roles": ["base", "output"], "number": 2}, {"roles": ["input", "output"], "number": 1}],
+        "wishes": at_inputs([45, 90], [[1, 0, 0, 0], [1, 0, 0, 0]]),
+    },
+    "carton": {
+        "title": "a carton: a panel of its floor goes down while the wall beside it is turned outward",
+        "roles": ["base", "input", "output"],
+        "links": 8,
+        "system": "hybrid",
+        "centres": 3,
+        "symmetry": [4, None],
+        "types": ["generators", "sc"],
+        "centres_at_infinity": True,
+        "distance": [{"roles": ["base", "input"], "number": 1}, {"roles": ["base", "output"], "number": 1}],
+        "wishes": {
+            "configurations": [{"name": "wider"}],
+            "wishes": [
+                {"kind": "orientation", "at": "wider", "link": "input", "quaternion": turned((0, 0, 1), 15)},
+                {"kind": "orientation", "at": "wider", "link": "output", "quaternion": turned((1, 0, 0), 20)},
+            ],
         },
     },
 }

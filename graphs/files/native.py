@@ -312,8 +312,9 @@ def linkage_from_document(value: Mapping[str, Any], check: Checker) -> SurfaceLi
     path = check.path
     kind = next(kind for kind, name in _FORMATS.items() if name == value["format"])
     sizes, surface = _SIZES[kind], _SURFACE[kind]
-    check.mapping(value, "", _CHAIN_KEYS, ("ground", sizes, "steps", surface))
-    chain = read_sc({key: value[key] for key in value if key not in (sizes, "steps", surface)}, check)
+    own = (sizes, "steps", surface, "azimuth_deg")
+    check.mapping(value, "", _CHAIN_KEYS, ("ground", *own))
+    chain = read_sc({key: value[key] for key in value if key not in own}, check)
     if not chain.loops:
         raise FileError(path, "loops", "no loops", f"the loops that lie on the {kind}")
     if kind == "cylinder":
@@ -323,12 +324,15 @@ def linkage_from_document(value: Mapping[str, Any], check: Checker) -> SurfaceLi
     if sizes in value:
         if surface in value:
             raise FileError(path, surface, f"a {kind} with {sizes}", f"steps: {sizes} determine the {kind}")
+        if "azimuth_deg" in value:
+            raise FileError(path, "azimuth_deg", f"an azimuth with {sizes}", "an azimuth with steps")
         pairs = _pairs(value[sizes], sizes, chain, check)
         on_cone = kind == "cone"
         return SurfaceLinkage(chain, angles=pairs if on_cone else None, lengths=None if on_cone else pairs)
     steps = _pairs(value["steps"], "steps", chain, check)
     on_surface = _surface(value[surface], surface, check) if surface in value else None
-    linkage = SurfaceLinkage(chain, steps=steps, surface=on_surface)
+    azimuth = radians(check.number(value.get("azimuth_deg", 0), "azimuth_deg"))
+    linkage = SurfaceLinkage(chain, steps=steps, surface=on_surface, azimuth=azimuth)
     placed = check.build(lambda: places_of_steps(steps), place="steps")
     missing = [joint for joint in chain.joints if joint not in placed]
     if missing:
@@ -383,6 +387,8 @@ def linkage_document(linkage: SurfaceLinkage) -> dict[str, Any]:
         if pairs is not None:
             number_of = _in_file if _RANGES[key][2] else float
             document[key] = [[written(a), written(b), number_of(x)] for (a, b), x in pairs.items()]
+    if linkage.steps is not None and _in_file(linkage.azimuth):
+        document["azimuth_deg"] = _in_file(linkage.azimuth)
     surface = linkage.surface
     if isinstance(surface, Cone):
         document["lambda_deg"] = _in_file(surface.angle)

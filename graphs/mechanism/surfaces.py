@@ -236,6 +236,8 @@ class SurfaceLinkage:
         Signed projected angles, radians; they lead to every joint.
     surface : Cone, Cylinder or None
         With steps, where it is known.
+    azimuth : float
+        With steps: the azimuth of the joint that they name first, radians.
 
     Examples
     --------
@@ -248,6 +250,7 @@ class SurfaceLinkage:
     steps: Mapping[Pair, float] | None = None
     surface: Surface | None = None
     lengths: Mapping[Pair, float] | None = None
+    azimuth: float = 0.0
 
     @classmethod
     def loop(cls, sizes: Sequence[float], kind: Literal["cone", "cylinder"] = "cone") -> SurfaceLinkage:
@@ -295,7 +298,8 @@ class SurfaceLinkage:
         steps = (_shorter_way(float(b) - float(a)) for a, b in pairwise(places))
         if isinstance(surface, Cylinder):
             chain = as_planar(chain)
-        return cls(chain, steps=dict(zip(pairwise(chain.joints), steps, strict=True)), surface=surface)
+        every = dict(zip(pairwise(chain.joints), steps, strict=True))
+        return cls(chain, steps=every, surface=surface, azimuth=_shorter_way(float(places[0])))
 
     @property
     def kind(self) -> Literal["cone", "cylinder"]:
@@ -321,7 +325,7 @@ class SurfaceLinkage:
         Raises `InvariantError` if the steps disagree, or do not lead to every joint.
         """
         placed = places_of_steps(self.steps or {})
-        return [placed[joint] for joint in self.chain.joints]
+        return [self.azimuth + placed[joint] for joint in self.chain.joints]
 
 
 def _shorter_way(step: float) -> float:

@@ -156,6 +156,10 @@ _CREASES = (
         "bird-base", "Bird base", creases.bird_base, (), lambda _: 5,
         "on each of its 16 branches; the tips are at 2 - sqrt(2) of half the side", "tradition", True,
     ),
+    Generator(
+        "fortune-teller", "Fortune teller", creases.fortune_teller, (), lambda _: 5,
+        "on each of its 17 branches: a corner is folded back, or follows its diagonal", "Wiener 2016, 4.1.4.4", True,
+    ),
 )  # fmt: skip
 
 

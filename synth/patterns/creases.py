@@ -56,6 +56,22 @@ def bird_base() -> Sheet:
     return sheet_of_faces([(0, 0), *corners, *middles, *tips], faces, "Bird base", letters)
 
 
+def fortune_teller() -> Sheet:
+    """Return the fortune teller: a square with diagonals, lines between middles of sides, and creases across corners.
+
+    Eight triangles are about the centre, and a pair at each corner. The creases across a corner meet its diagonal at
+    right angles: the corner is folded back, and its diagonal stays flat, or it follows its diagonal. It is unassigned:
+    it opens in two ways.
+    """
+    places: list[Place] = [(0, 0), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)]
+    places += [(0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5), (0.5, -0.5)]
+    faces: list[tuple[int, ...]] = []
+    for k in range(4):
+        before, corner, after, bend = 2 * k + 1, 2 * k + 2, (2 * k + 2) % 8 + 1, 9 + k
+        faces += [(0, before, bend), (0, bend, after), (bend, before, corner), (bend, corner, after)]
+    return sheet_of_faces(places, faces, "Fortune teller")
+
+
 def miura(rows: int, columns: int, sector: float, straight: float = 1.0, zigzag: float = 1.0) -> Sheet:
     """Return a flat Miura sheet: ``rows`` panels along each straight line, ``columns`` along each zigzag."""
     # K. Miura, "Method of packaging and deployment of large membranes in space" (1985).

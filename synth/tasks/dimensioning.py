@@ -33,6 +33,7 @@ from graphs.types import JointId, LinkId
 from synth.designing.designs import Design, DesignSearch
 from synth.designing.search import seeded
 from synth.designing.wish_files import wishes_of_document
+from synth.patterns.catalogue import GENERATORS
 from synth.realisation.realised import realise as sheet_realisation
 from synth.tasks.placements import Placement
 from synth.tasks.record import Task, renamed
@@ -149,6 +150,9 @@ class CandidateSearch:
 
     def search(self, start: int) -> DesignSearch:
         """Return the search from a random member of the type; of a generator, from its parameters."""
+        if self.type.values is not None and all(one.unit == "count" for one in GENERATORS[self.type.code].parameters):
+            assert self.type.made is not None  # without parameters that may change, its vertices or axes do
+            return DesignSearch(self.type.made, self.wishes, _SPREAD, self.seed, ground=self.base)
         if self.type.values is not None:
             wishes = replace(self.wishes, parameters={**self.type.values, **self.wishes.parameters})
             return DesignSearch(self.candidate.code, wishes, _SPREAD, self.seed, ground=self.base)

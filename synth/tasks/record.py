@@ -32,7 +32,8 @@ OF_FORM: Mapping[str, tuple[str, ...]] = {
 """Where types of a form can come from."""
 LINKS = Limits(4, 6)
 """Numbers of links, if a task does not say."""
-_MOST_LINKS = 12
+_MOST_LINKS, _MOST_OF_GENERATORS = 12, 100
+"""Links of types that are enumerated, and of what generators make."""
 _OF_LINKS, _OF_JOINTS = ("link",), ("joint", "joints", "near", "far", "driver", "arcs", "inputs")
 """Keys of wishes under which links and joints are named."""
 
@@ -151,8 +152,9 @@ class Task:
         self._check_roles()
 
     def _check_structure(self) -> None:
-        if self.links.most is None or self.links.most > _MOST_LINKS:
-            raise InvariantError("links", f"{limits_text(self.links)} links", f"at most {_MOST_LINKS}", ("links", 0))
+        most = _MOST_OF_GENERATORS if set(self.sources) == {"generators"} else _MOST_LINKS
+        if self.links.most is None or self.links.most > most:
+            raise InvariantError("links", f"{limits_text(self.links)} links", f"at most {most}", ("links", 0))
         if self.freedoms < 1:
             raise InvariantError("degrees of freedom", str(self.freedoms), "1 or more", ("degrees_of_freedom", 0))
         if self.form == "cone" and self.system not in ("any", "spherical"):

@@ -31,6 +31,7 @@ from graphs.joints.linkage import JointedLinkage
 from graphs.joints.revolutes import revolutes_of
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed, TableBlock
 from graphs.rank.exact import exact_mobility, independent_cycles, relative_mobilities
@@ -261,8 +262,7 @@ def requirements_on_types(task: Task) -> list[Requirement]:
 
 
 def _open(one: CandidateType) -> int:
-    drawing = getattr(one.mechanism, "drawing", None)
-    return 0 if drawing is None else sum(side is None for sides in drawing.sides.values() for side in sides)
+    return one.mechanism.counts.open_edges if isinstance(one.mechanism, SCDGraph) else 0
 
 
 def requirements_on_placements(task: Task) -> list[Requirement]:
