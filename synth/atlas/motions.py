@@ -62,8 +62,8 @@ _CANDIDATES = 32
 """Candidates by signature that are compared exactly."""
 _NOWHERE = 100.0
 """Distances beyond are those of motions that have no signature."""
-_AT_ONCE = 1 << 15
-"""Signatures of a block, which are compared at a time."""
+_FIRST, _AT_ONCE = 1 << 12, 1 << 16
+"""Signatures of the first block, whose nearest ones bound which others are looked at; and of the largest ones."""
 _TRIED = "try `synth atlas motions ATLAS.sqlite`"
 
 
@@ -449,7 +449,8 @@ def like(
             if curve.closed:
                 distances = nearest(signatures.circuits, curve.circuit_numbers()[None])
             else:
-                distances = arc_distances(signatures, goals)
+                farthest = best[-1].distance if len(best) == _CANDIDATES else np.inf
+                distances = arc_distances(signatures, goals, farthest)
             compared += len(distances)
             few = np.argsort(distances, kind="stable")[:_CANDIDATES]
             first = np.cumsum([0, *(count for _, _, count in units)])
@@ -479,6 +480,7 @@ def _blocks(path: Path, connection: sqlite3.Connection, kind: str) -> Iterator[t
     """Yield the signatures of all units, some units at a time, so that memory is bounded."""
     units: list[_Unit] = []
     arrays: list[Signatures] = []
+    most = _FIRST
     query = f"SELECT chain, unit, {kind}_circuits, {kind}_spans FROM motions ORDER BY chain, unit"
     for code, number, circuits, spans in connection.execute(query):
         arrays.append(
@@ -488,9 +490,9 @@ def _blocks(path: Path, connection: sqlite3.Connection, kind: str) -> Iterator[t
             )
         )
         units.append((code, number, len(arrays[-1].circuits)))
-        if sum(count for _, _, count in units) >= _AT_ONCE:
+        if sum(count for _, _, count in units) >= most:
             yield units, Signatures(*map(np.concatenate, zip(*arrays, strict=True)))
-            units, arrays = [], []
+            units, arrays, most = [], [], min(4 * most, _AT_ONCE)
     if units:
         yield units, Signatures(*map(np.concatenate, zip(*arrays, strict=True)))
 

@@ -41,6 +41,8 @@ _HARMONICS = {24: (0, 2, 4), 12: (0, 1, 2, 3), 6: (0, 1, 2, 3), 18: (0, 1, 2, 3)
 """Fourier coefficients that are kept, for each distance in places; odd ones of half a circuit vanish."""
 _SHORTEST = 1e-2
 """A motion of fewer radians has no signature: the links hardly move against each other."""
+_SLACK = 1e-3
+"""More than running sums in single precision are off, as a distance."""
 FAR = np.float32(1e3)
 """The numbers of a motion that has no signature: it is far from all others."""
 
@@ -59,10 +61,12 @@ class Signatures(NamedTuple):
 
 def angles_between(first: Floats, second: Floats) -> Floats:
     """Return the angles between rotations, float[..., 4], or unit vectors, float[..., 3], radians."""
+    gap, whole = first - second, 2.0
+    square = np.einsum("...i,...i->...", gap, gap)
     if first.shape[-1] == 4:
-        gap = np.minimum(np.linalg.norm(first - second, axis=-1), np.linalg.norm(first + second, axis=-1))
-        return np.asarray(4.0 * np.arcsin(np.minimum(gap / 2.0, 1.0)))
-    return np.asarray(2.0 * np.arcsin(np.minimum(np.linalg.norm(first - second, axis=-1) / 2.0, 1.0)))
+        gap, whole = first + second, 4.0
+        square = np.minimum(square, np.einsum("...i,...i->...", gap, gap))
+    return np.asarray(whole * np.arcsin(np.minimum(np.sqrt(square) / 2.0, 1.0)))
 
 
 def signatures_of(rows: Floats) -> Signatures:
@@ -352,19 +356,61 @@ class ArcGoal(NamedTuple):
     places: Ints
 
 
-def arc_distances(signatures: Signatures, goals: Sequence[ArcGoal]) -> Floats:
-    """Return how far each circuit, in its nearest place, is from holding an arc: root mean square, float[n]."""
+def arc_distances(signatures: Signatures, goals: Sequence[ArcGoal], limit: float = np.inf) -> Floats:
+    """Return how far each circuit, in its nearest place, is from holding an arc: root mean square, float[n].
+
+    Circuits that are farther than a limit may have infinity instead: means and spreads along the arc prove it.
+    """
     lengths = signatures.circuits[:, 0] * 4.0 * np.pi
-    found = np.full(len(lengths), np.inf)
+    order = np.argsort(lengths)
+    ordered, found = lengths[order], np.full(len(lengths), np.inf)
     for goal in goals:
-        who = np.flatnonzero((lengths >= goal.least) & (lengths < goal.most))
+        who = order[np.searchsorted(ordered, goal.least) : np.searchsorted(ordered, goal.most)]
+        spans = signatures.spans[who]
+        if limit < np.inf:
+            near = np.flatnonzero(_least_distances(spans, goal) <= limit + _SLACK)
+            who, spans = who[near], spans[near]
         if not len(who):
             continue
         place, column = goal.places.T
-        there = signatures.spans[who][:, (np.arange(ROUND)[:, None] + place) % ROUND, column]
+        there = spans[:, (np.arange(ROUND)[:, None] + place) % ROUND, column]
         misses = nearest(there.reshape(-1, len(place)), goal.numbers).reshape(len(who), ROUND)
         found[who] = misses.min(axis=1) / np.sqrt(len(place))
     return found
+
+
+def _least_distances(spans: npt.NDArray[np.float32], goal: ArcGoal) -> Floats:
+    """Return what an arc is at least off each circuit, from spans float32[n, 24, 2]: float[n].
+
+    Of numbers x and y let a and b be the means, s and t the distances from these: |x - y|^2 is n (a - b)^2 plus the
+    square of a distance between vectors of the lengths s and t, so at least n (a - b)^2 + (s - t)^2. Both are those
+    of windows round the circuit, sums of which are differences of running sums; of all phases of the arc the
+    nearest a and s are taken, each by itself.
+    """
+    if not len(spans):
+        return np.zeros(0)
+    squares = np.zeros((len(spans), ROUND), np.float32)
+    places = np.arange(ROUND)
+    for column in range(len(SPANS)):
+        own = goal.places[:, 1] == column
+        count = int(own.sum())
+        if not count:
+            continue
+        wanted = goal.numbers[:, own]
+        middle = np.float32(wanted.mean())  # near it squares keep their digits
+        means = wanted.mean(axis=1)
+        spreads = np.linalg.norm(wanted - means[:, None], axis=1)
+        window = ((places[:, None] - places) % ROUND < count).astype(np.float32) / np.float32(np.sqrt(count))
+        here = spans[:, :, column] - middle
+        mean = here @ window  # times the root of the count
+        here *= here
+        spread = here @ (window * np.float32(np.sqrt(count)))
+        spread -= mean * mean
+        np.sqrt(np.maximum(spread, 0.0, out=spread), out=spread)
+        for numbers, off in ((mean, (means - middle) * np.sqrt(count)), (spread, spreads)):
+            beyond = numbers - np.clip(numbers, np.float32(off.min()), np.float32(off.max()))
+            squares += beyond * beyond
+    return np.asarray(np.sqrt(squares.min(axis=1) / len(goal.places)))
 
 
 def nearest(numbers: npt.NDArray[np.float32], goals: Floats) -> Floats:

@@ -231,3 +231,24 @@ def test_hidden_members_come_near_members_of_the_atlas(moving_atlas: Atlas, tmp_
         off.append(rows[0].distance)
     assert found == 30
     assert np.median(off) < np.radians(6.0)
+
+
+@pytest.mark.parametrize("part", [0.34, 0.5, 0.9])
+def test_what_a_limit_leaves_out_is_farther_and_the_rest_is_as_without(part: float) -> None:
+    """The search of every place of every circuit is the second method; a bound leaves out most of them."""
+    random = np.random.default_rng(4)
+    parameter = np.arange(128) / 128
+    stretched = random.uniform(0.5, 1.6, (400, 1, 4))
+    rows = unit(smooth(parameter)[None] * stretched)
+    signatures = signatures_of(rows)
+    whole = MotionCurve.of(rows[7], closed=True)
+    goals = MotionCurve.of(elsewhere(whole.at(whole.length * part * np.linspace(0.0, 1.0, 150)), 6)).goals()
+    every = arc_distances(signatures, goals)
+    assert int(every.argmin()) == 7
+    for place in (1, 10, 32):
+        limit = float(np.sort(every)[place])
+        bounded = arc_distances(signatures, goals, limit)
+        near = every <= limit
+        assert np.abs(bounded[near] - every[near]).max() < 1e-6
+        assert (bounded[~near] > limit).all()
+        assert np.isinf(bounded).sum() > np.isinf(every).sum() + 20
