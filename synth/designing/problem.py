@@ -271,9 +271,8 @@ class DesignProblem:
         closure, every = self.frame.closure(design, len(angles)), np.concatenate(angles)
         off, jacobian = closure.at(every)
         twists, zeros = (np.tile(part, (len(angles), 1)) for part in design.dependence.arrays)
-        opened = closure.opened(off)
-        whole = self._by_numbers(opened @ (closure.by_axes(every) @ twists - jacobian @ zeros))
-        by_angles = (opened @ jacobian).toarray()
+        whole = self._by_numbers(closure.opened(off, closure.by_axes(every) @ twists - jacobian @ zeros))
+        by_angles = closure.opened(off, jacobian.toarray())
         for number, (columns, free) in enumerate(zip(self.columns, self.free, strict=True)):
             whole[:, columns] = by_angles[:, number * self.joints + free]
         return off, whole
@@ -307,7 +306,7 @@ class DesignProblem:
 
         def equations(angles: Floats) -> tuple[Floats, Floats]:
             off, jacobian = closure.at(angles)
-            values, slopes = [off], [(closure.opened(off) @ jacobian).toarray()]
+            values, slopes = [off], [closure.opened(off, jacobian.toarray())]
             pose = PosedDesign(frame, design, angles)
             for wish in own:
                 part, factor = wish.missed(pose), wish.weight / wish.scale(frame.extent)

@@ -54,12 +54,12 @@ def traced(
     """
     start = angles[0]
     values = np.array([one[driver] for one in angles])
-    shortest = _traced_to(closure, start, driver, values[0] + np.cumsum(_steps(values, 0)))
-    others = [_traced_to(closure, start, driver, values[0] + np.cumsum(_steps(values, sense))) for sense in (1, -1)]
-    for path, goals in [*others, *([] if in_order else [shortest])]:
-        if _passed(path, angles) is None:
+    missed: int | None = None
+    for sense in (1, -1, 0):
+        path, goals = _traced_to(closure, start, driver, values[0] + np.cumsum(_steps(values, sense)))
+        missed = _passed(path, angles)
+        if missed is None and (sense or not in_order):
             return DesignDefects((), True, tuple(goals.tolist()))
-    missed = _passed(shortest[0], angles)
     if missed is None:
         return DesignDefects(("the driven joint passes the configurations out of order",), True)
     circuit = _on_circuit(closure, angles, driver)

@@ -200,19 +200,20 @@ class ClosureEquations:
         places = (np.concatenate(rows), np.concatenate(columns))
         return scipy.sparse.csr_matrix((np.concatenate(values), places), shape=(self.rows, 6 * self.joints))
 
-    def opened(self, residual: Floats) -> scipy.sparse.csr_matrix:
-        """Return by what derivatives are multiplied where loops are open by a residual: sparse float[rows, rows].
+    def opened(self, residual: Floats, derivatives: Floats) -> Floats:
+        """Return derivatives float[rows, n] as they are where loops are open by a residual float[rows].
 
         Derivatives are twists of the last link against the first; these turn the residual, a rotation vector and a
         shift, as they do at closed loops only to first order.
         """
-        blocks, start = [], 0
+        turned, start = np.empty_like(derivatives), 0
         for group in self._groups:
-            size = len(group.joints) * group.equations
-            blocks.append(group.opened(residual[start : start + size].reshape(-1, group.equations)))
-            start += size
-        data = [block for group in blocks for block in group]
-        return scipy.sparse.block_diag(data, format="csr") if data else scipy.sparse.csr_matrix((0, 0))
+            loops = len(group.joints)
+            rows = slice(start, start + loops * group.equations)
+            by = group.opened(residual[rows].reshape(loops, group.equations))
+            turned[rows] = (by @ derivatives[rows].reshape(*by.shape[:2], -1)).reshape(turned[rows].shape)
+            start = rows.stop
+        return turned
 
     @cached_property
     def _pattern(self) -> tuple[Ints, Ints, Ints]:
