@@ -18,6 +18,7 @@ BY_NAME = {"parameters", "equations", "counts", "driven", "driven_deg", "angles_
            "left_out", "placements_left_out"}  # fmt: skip
 """Keys of objects whose own keys are names: of parameters, equations, joints."""
 
+MOTIONS = "atlas motions small.sqlite --members 10"
 COMMANDS = [
     "mobility data/patterns/bird-base.fold",
     "mobility data/wampler/fig7.json --exact",
@@ -59,6 +60,8 @@ COMMANDS = [
     "design four-bar data/wishes/crank-and-follower.json --starts 1",
     "task data/tasks/lid.json --structure-only",
     "task data/tasks/lid.json --starts 2 --rounds 1 --workers 1",
+    MOTIONS,
+    "atlas like data/orientations/tipparthi.json small.sqlite",
 ]
 
 
@@ -89,10 +92,17 @@ def test_every_command_that_prints_json_is_told():
         assert f"`synth {name}" in PAGE, name
 
 
+ATLAS = "atlas build --max-links 4 --creases 0 --no-realise -o small.sqlite"
+"""What lines of an atlas begin with, and motions those that look for some."""
+
+
 @pytest.mark.parametrize("line", COMMANDS)
 def test_every_key_is_told(line, tmp_path, monkeypatch):
     (tmp_path / "data").symlink_to(ROOT / "data")
     monkeypatch.chdir(tmp_path)
+    before = [ATLAS] * line.startswith("atlas") + [MOTIONS] * line.startswith("atlas like")
+    for each in before:
+        assert CliRunner().invoke(main, each.split()).exit_code == 0
     result = CliRunner().invoke(main, [*line.split(), "--json"])
     assert result.exit_code in (0, 1), result.output
     told = {key for key in keys_of(json.loads(result.stdout)) if re.fullmatch(r"[a-zA-Z]\w*", key)}

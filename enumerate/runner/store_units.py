@@ -303,8 +303,8 @@ def _holds_only(connection: sqlite3.Connection, table: UnitTable, whole: tuple[i
     return bool(table.promised() == rows)
 
 
-def rebuild_store(path: Path, findings: Findings) -> None:
-    """Put a store that holds the whole units only in the place of a damaged one.
+def rebuild_store(path: Path, findings: Findings, others: Sequence[str] = ()) -> None:
+    """Put a store that holds the whole units only in the place of a damaged one, and the rows of some other tables.
 
     Raises `StoreError` or `OpenError` if it cannot be written; the damaged one stays.
     """
@@ -316,7 +316,7 @@ def rebuild_store(path: Path, findings: Findings) -> None:
     repaired = unfinished.path / place.name
     try:
         with naming(path):
-            _copy(place, repaired, findings)
+            _copy(place, repaired, findings, others)
         shutil.copymode(place, repaired)
         for ending in ("-wal", "-shm", "-journal"):  # else SQLite would take them for those of the new one
             Path(f"{place}{ending}").unlink(missing_ok=True)
@@ -326,7 +326,7 @@ def rebuild_store(path: Path, findings: Findings) -> None:
         unfinished.release()
 
 
-def _copy(source: Path, target: Path, findings: Findings) -> None:
+def _copy(source: Path, target: Path, findings: Findings, others: Sequence[str]) -> None:
     meta: Mapping[str, Any] = {**findings.meta, "complete": False}
     with closing(sqlite3.connect(target, isolation_level=None)) as repaired, reading(source) as damaged:
         repaired.execute("PRAGMA journal_mode=WAL")
@@ -338,4 +338,24 @@ def _copy(source: Path, target: Path, findings: Findings) -> None:
             assert unit is not None
             assert rows is not None  # they were read a moment ago
             ours.add(number, unit.first, rows, unit.seconds)
+        for name in others:
+            _copy_table(damaged, repaired, name)
         repaired.execute("COMMIT")
+
+
+def _copy_table(damaged: sqlite3.Connection, repaired: sqlite3.Connection, name: str) -> None:
+    """Copy the rows of a table that can be read; whether they are as they were written its owner has to see."""
+    listed = partial(damaged.execute, "SELECT sql FROM sqlite_master WHERE type = 'table' AND name = ?", (name,))
+    statement = _despite_damage(lambda: listed().fetchone(), None)
+    if statement is None:
+        return
+    repaired.execute(statement[0])
+    for number in _despite_damage(lambda: damaged.execute(f"SELECT rowid FROM {name}").fetchall(), []):
+        row = _despite_damage(partial(_row_of, damaged, name, number), None)
+        if row is not None:
+            repaired.execute(f"INSERT INTO {name} VALUES ({', '.join('?' * len(row))})", row)
+
+
+def _row_of(damaged: sqlite3.Connection, name: str, number: tuple[int]) -> tuple[Any, ...] | None:
+    found: tuple[Any, ...] | None = damaged.execute(f"SELECT * FROM {name} WHERE rowid = ?", number).fetchone()
+    return found

@@ -9,6 +9,7 @@ import click
 
 import synth.tasks
 from graphs.errors import InvariantError
+from graphs.printing import plain
 from synth.cli import options
 from synth.cli.output import about, check_output, print_result, progress_line, tell_written
 
@@ -17,9 +18,8 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("task", type=options.FILE_NAME)
+@click.argument("words", metavar="[new] TASK", type=options.FILE_NAME, nargs=-1, required=True)
 @options.flag("--structure-only", "List the types and placements that can do it by structure, and design none.")
-@options.flag("--new", "Ask questions, and write the task to TASK.")
 @options.number(
     "--starts", "N", "Searches for each type and placement in the first round; each round doubles them.", 1,
     most=100_000, default=2,
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 @options.FORCE
 @options.JSON
 def task(
-    task: str, structure_only: bool, new: bool, starts: int, rounds: int, seed: int, weigh: tuple[str, ...],
+    words: tuple[str, ...], structure_only: bool, starts: int, rounds: int, seed: int, weigh: tuple[str, ...],
     store: str | None, resume: bool, workers: int | None, scheduler: str | None, output: str | None,
     report: str | None, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
@@ -47,18 +47,22 @@ def task(
     cannot do it are counted by reasons. Roles are placed in all ways up to symmetries of the type. Each placement is
     designed from random members of the type; after each round the better half goes on with twice as many starts. A
     design counts only if it meets its wishes to 1e-6, its loops close, the verdict says that it moves, and its driven
-    joint passes the configurations in order without turning back.
+    joint passes the configurations in order without turning back. The word new before TASK asks questions, and writes
+    the task to TASK.
 
     \b
     Examples:
-      synth task --new lid.json
+      synth task new lid.json
       synth task lid.json --structure-only
       synth task lid.json --store lid --report lid.html -o designs
       synth task lid.json --store lid --resume --weigh 2=0.1
 
     Exit status 1: no design.
     """
-    if new:
+    task = words[-1]
+    if len(words) > 1:
+        if words[:-1] != ("new",):
+            raise click.UsageError(f"expected TASK, or new TASK, got {plain(' '.join(words))}")
         check_output(task, force=force)
         synth.tasks.write_task(_document_of_questions(), task, force=force)
         tell_written(task)

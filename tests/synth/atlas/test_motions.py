@@ -17,6 +17,7 @@ from graphs.errors import FileError, InvariantError, StoreError
 from graphs.files.formats import mechanism_of_id
 from graphs.geometry import unit
 from graphs.types import Floats
+from synth.atlas.building import AtlasPlan, build_atlas
 from synth.atlas.motions import add_motions, like, motion_curve, planned_motions, stored_motions
 from synth.atlas.opened import Atlas, open_atlas
 from synth.atlas.signatures import MotionCurve, arc_distances, difference, signatures_of
@@ -252,3 +253,18 @@ def test_what_a_limit_leaves_out_is_farther_and_the_rest_is_as_without(part: flo
         assert np.abs(bounded[near] - every[near]).max() < 1e-6
         assert (bounded[~near] > limit).all()
         assert np.isinf(bounded).sum() > np.isinf(every).sum() + 20
+
+
+def test_an_atlas_that_is_repaired_keeps_its_motions(moving_atlas: Atlas, tmp_path: Path) -> None:
+    place = tmp_path / "repaired.sqlite"
+    shutil.copy(moving_atlas.path, place)
+    with closing(sqlite3.connect(place)) as connection, connection:
+        connection.execute("DELETE FROM type WHERE rowid = 3")
+    with pytest.warns(UserWarning, match="repaired a damaged store"):
+        build_atlas(place, AtlasPlan(6, realised=False), resume=True)
+    rows = []
+    for path in (place, moving_atlas.path):
+        with closing(sqlite3.connect(path)) as connection:
+            rows.append(connection.execute("SELECT * FROM motions ORDER BY chain, unit").fetchall())
+    assert rows[0] == rows[1]
+    assert open_atlas(place).about() == moving_atlas.about()

@@ -96,11 +96,14 @@ def test_a_task_is_checked_before_it_is_written(tmp_path):
 def test_questions_write_a_task(tmp_path):
     place = tmp_path / "lid.json"
     answers = "a lid\nn\n1\n4\n4\nspace\nspherical\n0.7,0.7,0,0\n\n"
-    result = CliRunner().invoke(main, ["task", str(place), "--new"], input=answers)
+    result = CliRunner().invoke(main, ["task", "new", str(place)], input=answers)
     assert result.exit_code == 0, result.output
     jsonschema.validate(json.loads(place.read_text()), SCHEMA)
     task = read_task(place)
     assert (task.title, task.links.most, task.system) == ("a lid", 4, "spherical")
     assert task.wishes["wishes"][0]["quaternion"] == [0.7, 0.7, 0.0, 0.0]
-    again = CliRunner().invoke(main, ["task", str(place), "--new"], input=answers)
+    again = CliRunner().invoke(main, ["task", "new", str(place)], input=answers)
     assert again.exit_code == 2
+    strange = CliRunner().invoke(main, ["task", "old", str(place)])
+    assert strange.exit_code == 2
+    assert "expected TASK, or new TASK, got old" in strange.output
