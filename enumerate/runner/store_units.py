@@ -350,7 +350,8 @@ def _copy_table(damaged: sqlite3.Connection, repaired: sqlite3.Connection, name:
     if statement is None:
         return
     repaired.execute(statement[0])
-    for number in _despite_damage(lambda: damaged.execute(f"SELECT rowid FROM {name}").fetchall(), []):
+    numbers: list[tuple[int]] = _despite_damage(lambda: damaged.execute(f"SELECT rowid FROM {name}").fetchall(), [])
+    for number in numbers:
         row = _despite_damage(partial(_row_of, damaged, name, number), None)
         if row is not None:
             repaired.execute(f"INSERT INTO {name} VALUES ({', '.join('?' * len(row))})", row)
