@@ -44,7 +44,7 @@ class SqliteSink:
         Takes, now and then, the part of a store to be resumed that has been looked through, 0 to 1.
     """
 
-    others: Sequence[str] = ()
+    _others: Sequence[str] = ()
     """Names of tables that are no rows of the job, and are kept when a store is repaired."""
 
     def __init__(
@@ -112,7 +112,7 @@ class SqliteSink:
         findings = store_units.examine_store(self.path, units, self._looking)
         self._complete = findings.sound and meta["complete"]
         if not findings.sound:
-            store_units.rebuild_store(self.path, findings, self.others)
+            store_units.rebuild_store(self.path, findings, self._others)
             whole = len(findings.whole)
             self._tell(f"{self.path}: repaired a damaged store; kept {whole} of {units} units")
 

@@ -211,7 +211,7 @@ class AtlasSink(SqliteSink):
     `command` is the recorded command that made it; the options are those of `SqliteSink`.
     """
 
-    others = ("motions",)
+    _others = ("motions",)
 
     def __init__(self, path: str | Path, command: str, **options: Any) -> None:
         super().__init__(path, **options)

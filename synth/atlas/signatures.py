@@ -41,7 +41,7 @@ _HARMONICS = {24: (0, 2, 4), 12: (0, 1, 2, 3), 6: (0, 1, 2, 3), 18: (0, 1, 2, 3)
 """Fourier coefficients that are kept, for each distance in places; odd ones of half a circuit vanish."""
 _SHORTEST = 1e-2
 """A motion of fewer radians has no signature: the links hardly move against each other."""
-_SLACK = 1e-3
+_SLACK = 2e-3
 """More than running sums in single precision are off, as a distance."""
 FAR = np.float32(1e3)
 """The numbers of a motion that has no signature: it is far from all others."""
