@@ -5,8 +5,8 @@
 draws members of the chains of up to six links (their axes are random directions), takes the circuit of two links that
 share no joint at 64 frames in unknown frames of reference, and turns each frame by errors of 1e-3 radians about each
 axis. `synth atlas like` finds the nearest members of an atlas; the search of `synth design` refines them, fewest links
-first, until one takes 16 poses to the noise and its own circuit differs from the motion by no more. Where it ends at
-axes that coincide, and so at more degrees of freedom, the whole circuit is fitted instead. It is found if that has no
+first, until one takes 16 poses to the noise and its own circuit differs from the motion by no more. Where the circuit
+of the design is not the motion, or does not close, the whole circuit is fitted instead. It is found if that has no
 more links than the hidden one. Prints a line for each and writes benchmarks/results/hidden_types.json, with each miss.
 """
 
@@ -165,8 +165,8 @@ def led(near: NearMotion, curve: MotionCurve) -> float:
     """Return the difference from a motion to which axes of a member come whose whole circuit is fitted, radians.
 
     Levenberg and Marquardt's method for the angles between 24 places of the circuit, by two turns of each axis and by
-    the place where it begins: a circuit that closes has one degree of freedom, while the search for poses may end at
-    axes that coincide, and so at more degrees of freedom.
+    the place where it begins: so the motion is on one circuit that closes, while the search for poses may end
+    at linkages that take them one by one.
     """
     circuit = _Circuit(near, curve)
     axes = np.array(list(near.axes.values()))
