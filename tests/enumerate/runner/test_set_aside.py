@@ -9,6 +9,14 @@ from enumerate.runner.running import run
 from enumerate.runner.sinks import RowSink
 
 
+@pytest.fixture(autouse=True)
+def _nothing_is_set_aside():
+    """Let the collector look through what the tests themselves set aside, and set it aside again."""
+    gc.unfreeze()
+    yield
+    gc.freeze()
+
+
 @dataclass(frozen=True)
 class Frozen(Counting):
     """How many objects garbage collections do not look through where units are worked on."""
