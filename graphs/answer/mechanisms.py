@@ -32,8 +32,8 @@ from graphs.tolerances import DOUBLE
 MOST_JOINTS = 2000
 """Larger mechanisms are ranked on request only: so many joints take a second, ten times as many twenty seconds."""
 
-_MOST_DIAGNOSED = 20_000
-"""Of larger mechanisms it is not found why the count differs: so many joints take a quarter of a minute."""
+_DIAGNOSED_UNASKED, _MOST_DIAGNOSED = 400, 20_000
+"""Of larger mechanisms it is found on request only why the count differs, and never: seconds, a quarter of a minute."""
 _LISTED = 12
 """Joints that are named, at most."""
 
@@ -59,15 +59,19 @@ def with_exact(
     answer = replace(answer, exact=exact)
     if exact.mobility == answer.mobility:
         return answer
-    return answer.with_notes(warnings=[_why_it_differs(answer, mechanism, exact.mobility)])
+    return answer.with_notes(warnings=[_why_it_differs(answer, mechanism, exact.mobility, demanded)])
 
 
-def _why_it_differs(answer: MobilityAnswer, mechanism: SCGraph | PolyhedronModel, exact: int) -> str:
+def _why_it_differs(
+    answer: MobilityAnswer, mechanism: SCGraph | PolyhedronModel, exact: int, demanded: bool
+) -> str:
     text = f"the exact generic mobility is {exact}, by count {answer.mobility}"
     if isinstance(mechanism, PolyhedronModel):
         return text
     if len(mechanism.joints) > _MOST_DIAGNOSED:
         return f"{text}; where equations are redundant is not looked for among more than {_MOST_DIAGNOSED} joints"
+    if len(mechanism.joints) > _DIAGNOSED_UNASKED and not demanded:
+        return f"{text}; --exact says where equations are redundant"
     diagnosis = diagnose(mechanism)
     if diagnosis.idle:
         regions = sorted(diagnosis.regions, key=len)

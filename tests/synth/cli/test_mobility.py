@@ -155,11 +155,14 @@ def test_overconstraint_is_located(data):
     assert "17 joints generically immobile" in out
 
 
-def test_overconstraint_of_a_large_sheet_is_located_up_to_a_limit(monkeypatch):
+def test_overconstraint_of_a_large_sheet_is_located_on_request_up_to_a_limit(monkeypatch):
     sheet = synth.generate("miura", rows=18, columns=18).mechanism
-    warning = synth.mobility(sheet, motion=False, pose=False).warnings[-1]
-    assert "is 0, by count -255: 255 redundant closure equations, among joints" in warning
-    assert "612 joints generically immobile" in warning
+
+    def note(**options):
+        return synth.mobility(sheet, motion=False, pose=False, **options).warnings[-1]
+
+    assert note() == "the exact generic mobility is 0, by count -255; --exact says where equations are redundant"
+    assert "is 0, by count -255: 255 redundant closure equations, among joints" in note(exact=True)
+    assert "612 joints generically immobile" in note(exact=True)
     monkeypatch.setattr(mechanisms, "_MOST_DIAGNOSED", 600)
-    warning = synth.mobility(sheet, motion=False, pose=False).warnings[-1]
-    assert warning.endswith("where equations are redundant is not looked for among more than 600 joints")
+    assert note(exact=True).endswith("where equations are redundant is not looked for among more than 600 joints")
