@@ -62,9 +62,7 @@ def with_exact(
     return answer.with_notes(warnings=[_why_it_differs(answer, mechanism, exact.mobility, demanded)])
 
 
-def _why_it_differs(
-    answer: MobilityAnswer, mechanism: SCGraph | PolyhedronModel, exact: int, demanded: bool
-) -> str:
+def _why_it_differs(answer: MobilityAnswer, mechanism: SCGraph | PolyhedronModel, exact: int, demanded: bool) -> str:
     text = f"the exact generic mobility is {exact}, by count {answer.mobility}"
     if isinstance(mechanism, PolyhedronModel):
         return text
