@@ -29,6 +29,8 @@ from synth.motion.tangent import REGULAR, TangentSpace, largest_of
 
 _SMALL = 0.01
 """Radians, below which a series is taken."""
+MOST_WHOLE = 1500
+"""Joints of the largest linkage whose closure equations are taken apart as a full matrix."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,7 @@ import numpy as np
 from graphs.rank.singular_values import Split, inertia, singular_values, split
 from graphs.tolerances import DOUBLE, leading, signed, trailing
 from graphs.types import Floats, Ints
-from synth.motion.closure import ClosureEquations, corrected
+from synth.motion.closure import MOST_WHOLE, ClosureEquations, corrected
 from synth.motion.linkage import PosedLinkage, moved
 from synth.motion.path import PathOptions, driven_path
 from synth.motion.singular import second_order
@@ -62,7 +62,7 @@ def _nearly(values: Floats) -> int:
 def _as_many_nearly(closure: ClosureEquations, angles: Floats) -> bool:
     """Tell whether singular values of a large linkage are small only where they are zero; or it is too large to see."""
     nearly = second_order.rates_at_most(closure, angles)
-    too_large = closure.joints > second_order.MOST_WHOLE
+    too_large = closure.joints > MOST_WHOLE
     return too_large or nearly == second_order.rates_at(closure, angles).shape[1]
 
 

@@ -264,9 +264,8 @@ def _shares(points: Floats) -> Floats | None:
 
 _STEPS = 40
 MANY = 600
-MOST_WHOLE = 1500
-"""The closure equations of more joints than the first are taken as a full matrix only where sparse factors do not
-decide, and never of more than the second."""
+"""The closure equations of more joints are taken as a full matrix only where sparse factors do not decide, and never
+of more than `synth.motion.closure.MOST_WHOLE`."""
 _CASE = 3e4
 """Work on a case besides that on its matrices, in products of numbers."""
 _LOST = 10.0

@@ -11,7 +11,7 @@ import numpy as np
 from graphs.rank.singular_values import rank_of, row_space, split
 from graphs.tolerances import DOUBLE, pivots
 from graphs.types import Flags, Floats, Ints, JointId
-from synth.motion.closure import ClosureEquations, Corrected, corrected
+from synth.motion.closure import MOST_WHOLE, ClosureEquations, Corrected, corrected
 from synth.motion.tangent import TangentSpace
 from synth.motion.walk.step import Step, named
 from synth.motion.walk.walking import Event, Walk, only_rates
@@ -170,10 +170,6 @@ _NUDGE = 1e-3
 """Rates for second differences, radians."""
 
 
-_MOST_WHOLE = 1500
-"""Joints of a linkage whose closure equations are taken apart as a full matrix."""
-
-
 def other_ways(closure: ClosureEquations, angles: Floats) -> int | None:
     """Return how many other motion branches pass through a singular configuration of a curve, to second order.
 
@@ -181,7 +177,7 @@ def other_ways(closure: ClosureEquations, angles: Floats) -> int | None:
     plane, quadratic forms in two variables. If they are multiples of one, its two lines are two branches. Angles,
     float[J], are radians. None where the kernel is not a plane, second order does not decide, or joints are too many.
     """
-    if closure.joints > _MOST_WHOLE:
+    if closure.joints > MOST_WHOLE:
         return None
     parts = split(closure.dense(angles), DOUBLE.singular)
     kernel, stresses = parts.kernel.T, parts.cokernel.T
