@@ -44,8 +44,9 @@ def test_what_is_no_mechanism_is_told(verb, thing, told):
 
 
 def test_a_graph_is_no_sheet():
-    with pytest.raises(TypeError, match="fold: an object of type SCGraph; expected a Sheet"):
+    with pytest.raises(TypeError, match=r"fold: the SC graph has no coordinates; expected a Sheet; .* synth\.realise"):
         synth.fold("k1:Cr")
+    assert synth.fold(synth.realise("k1:Cr").sheet, frames=2).path.angles.shape[1] == 4
 
 
 def test_a_branch_of_five_thousand_digits_is_no_branch(data):

@@ -4,11 +4,13 @@ from pathlib import Path
 from types import UnionType
 from typing import TypeAlias, TypeVar, overload
 
-from graphs.convert.table import Mechanism
-from graphs.errors import InvariantError, check_argument
+from graphs.convert.table import Mechanism, kind_in_words
+from graphs.errors import ArgumentError, InvariantError, check_argument
 from graphs.files.formats import read
 from graphs.mechanism.precision import stated
+from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.vertex_edge import VertexEdgeGraph
 
 MechanismLike: TypeAlias = Mechanism | str | Path
 """A mechanism as `read` returns it, the path of its file, or an id."""
@@ -26,12 +28,16 @@ def mechanism_for(verb: str, mechanism: T | str | Path, kinds: UnionType) -> T |
 def mechanism_for(verb: str, mechanism: object, kinds: type | UnionType = Mechanism) -> object:
     """Return the mechanism that a verb was called with, read if it is a path or an id.
 
-    Raise ArgumentError, by the name of the verb, if it is not of the kinds that the verb takes.
+    Raise ArgumentError, by the name of the verb, if it is not of the kinds that the verb takes; for a type in the
+    place of a crease pattern it says how to give it coordinates.
 
     >>> mechanism_for("identify", "k1:Cr")
     <SCGraph: 4 links, 4 joints, 1 centre>
     """
     value = read(mechanism) if isinstance(mechanism, str | Path) else mechanism
+    if kinds is Sheet and isinstance(value, SCGraph | VertexEdgeGraph):
+        what = f"{verb}: the {kind_in_words(value)} has no coordinates; expected a Sheet"
+        raise ArgumentError(f"{what}; try `synth realise`, in Python synth.realise(...).sheet")
     check_argument(verb, value, kinds)
     return value
 

@@ -234,7 +234,8 @@ def configuration_of_sheet(
     """
     sheet = stated(sheet_in_frame(sheet, frame), precision)
     if sheet.coordinates is None:
-        raise UnsolvableError(f"motion needs coordinates, and {sheet!r} has none")
+        without = "motion requires coordinates, and the sheet has none"
+        raise UnsolvableError(f"{without}; try `synth realise`, in Python synth.realise")
     read = precision_of_sheet(sheet)
     whole = keeping(with_all_edges(sheet), read)
     flat = flattened(whole, read) if mend else None

@@ -103,8 +103,8 @@ def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
 
 def _without_coordinates(mechanism: object) -> UnsolvableError:
     """Return the error of a mechanism that cannot move since its coordinates are not known."""
-    kind = kind_in_words(mechanism)
-    return UnsolvableError(f"motion requires coordinates, and the {kind} has none; try synth realise")
+    what = f"motion requires coordinates, and the {kind_in_words(mechanism)} has none"
+    return UnsolvableError(f"{what}; try `synth realise`, in Python synth.realise")
 
 
 def _check_only_rods(model: PolyhedronModel) -> None:

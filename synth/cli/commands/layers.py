@@ -11,7 +11,7 @@ import click
 import synth.drawing.mechanisms
 import synth.folding
 import synth.layering
-from graphs.errors import InvariantError, check_argument
+from graphs.errors import InvariantError
 from synth.cli import options
 from synth.cli.output import about, check_output, plain, print_answer, print_json, print_result, tell_written
 from synth.cli.reading import MECHANISM, PRECISION, precise_sheet, read
@@ -122,13 +122,13 @@ def layers(
     ):  # fmt: skip
         raise click.UsageError("--may-stay-flat goes with --frame, --order, -o, --json and --precision only")
     from graphs.answer.mechanisms import sheet_in_frame
+    from graphs.files.accepted import mechanism_for
     from graphs.mechanism import Sheet
 
     running = RunOptions(counts, workers, scheduler, resume, quiet=as_json, force=force and not resume, counting=True)
     mechanism = read(file)
     with about(file):
-        check_argument("layers", mechanism, Sheet)
-        sheet = sheet_in_frame(precise_sheet(mechanism), frame)
+        sheet = sheet_in_frame(precise_sheet(mechanism_for("layers", mechanism, Sheet)), frame)
         if may_stay_flat is not None:
             _print_staying(sheet, may_stay_flat, which["order"], output, file, force=force, as_json=as_json)
             return

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import click
 
 import synth.thickening
-from graphs.errors import check_argument
 from synth.cli import options
 from synth.cli.output import about, check_output, print_answer, print_json, tell_written
 from synth.cli.reading import MECHANISM, PRECISION, precise_sheet, read
@@ -88,13 +87,13 @@ def thicken(
       synth thicken miura.fold --thickness 6 --size 300 -o thick.json
       synth thicken miura.fold --thickness 6 --scale 100 -o thick.gltf
     """
+    from graphs.files.accepted import mechanism_for
     from graphs.mechanism import Sheet
 
     check_output(output, force=force)
     mechanism = read(file)
     with about(file):
-        check_argument("thicken", mechanism, Sheet)
-        sheet = precise_sheet(mechanism)
+        sheet = precise_sheet(mechanism_for("thicken", mechanism, Sheet))
         thick = synth.thickening.thicken(
             sheet,
             thickness=thickness,
