@@ -14,7 +14,16 @@ import networkx as nx
 
 from graphs.convert.link_joint import sc_from_link_joint_graph
 from graphs.convert.table import Mechanism, to_sc, to_sheet
-from graphs.errors import FileError, InvariantError, OpenError, UnsolvableError, check_argument, numbered
+from graphs.errors import (
+    ArgumentError,
+    FileError,
+    InvariantError,
+    OpenError,
+    UnsolvableError,
+    check_argument,
+    numbered,
+    shown,
+)
 from graphs.files import losses
 from graphs.files.atomic import Beside
 from graphs.files.bare import (
@@ -199,6 +208,8 @@ def read(
         file that is no drawing.
     InvariantError
         If a colour or an assignment is not valid.
+    ArgumentError
+        If the kind is not a class.
 
     Examples
     --------
@@ -207,6 +218,8 @@ def read(
     ...
     graphs.errors.OpenError: no such file.json: no such file; expected a file
     """
+    if kind is not None and not isinstance(kind, type):
+        raise ArgumentError(f"read: the kind {shown(kind)}; expected a class of mechanisms, such as synth.Sheet")
     mechanism = _read_one(path, colours, layers)
     if kind is not None and not isinstance(mechanism, kind):
         raise FileError(str(path), "", f"a mechanism of the kind {type(mechanism).__name__}", kind.__name__)

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from graphs.errors import FileError, shown
+from graphs.errors import ArgumentError, FileError, shown
 from graphs.files.formats import read, read_all, write
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
@@ -255,3 +255,5 @@ def test_a_mechanism_of_another_kind_than_stated_is_refused():
     assert isinstance(read("k1:Cr", kind=SCGraph), SCGraph)
     with pytest.raises(FileError, match="k1:Cr: a mechanism of the kind SCGraph; expected Sheet"):
         read("k1:Cr", kind=Sheet)
+    with pytest.raises(ArgumentError, match=r"read: the kind .sheet.; expected a class of mechanisms"):
+        read("k1:Cr", kind="sheet")
