@@ -44,6 +44,7 @@ EXEMPT = {
     ("graphs/rank/pose.py", "_SPREAD"): "how far off a plane is nearly flat",
     ("synth/assembly/family.py", "_LEVENBERG"): "regularisation of steps",
     ("synth/atlas/signatures.py", "_SHORTEST"): "motion that is too short for a signature",
+    ("synth/atlas/signatures.py", "_NUDGE"): "step of differences",
     ("synth/members/circuits.py", "_FIRST"): "length of a step that finds rates",
     ("synth/members/circuits.py", "_SHORTEST"): "length of a step at which a circuit is given up",
     ("synth/assembly/family.py", "_NEAR_END"): "distance in which a singular configuration is looked for",

@@ -42,12 +42,15 @@ from graphs.types import Floats, JointId, LinkId
 from synth.atlas.opened import Atlas
 from synth.atlas.signatures import (
     CIRCUIT,
+    FEW,
+    QUICK,
     ROUND,
     SPANS,
     MotionCurve,
     Signatures,
     arc_distances,
     difference,
+    differences_in_order,
     nearest,
     signatures_of,
 )
@@ -59,9 +62,11 @@ _VERSION = 1
 _UNIT = 256
 """Members of a unit: a row of the table."""
 _CANDIDATES = 32
-"""Candidates by signature that are compared exactly."""
-_NOWHERE = 100.0
-"""Distances beyond are those of motions that have no signature."""
+"""Candidates that are compared exactly."""
+_OF_FEW, _MOST_SINGLE = 1000, 24
+"""Candidates by signature that are first compared roughly with single orientations or points; most of these."""
+_NOWHERE, _UNLIKE = 100.0, 10.0
+"""Distances beyond are those of motions that have no signature; distance of other motions that hold no such arc."""
 _FIRST, _AT_ONCE = 1 << 12, 1 << 16
 """Signatures of the first block, whose nearest ones bound which others are looked at; and of the largest ones."""
 _TRIED = "try `synth atlas motions ATLAS.sqlite`"
@@ -303,7 +308,8 @@ class NearMotion:
     Attributes
     ----------
     distance : float
-        Root mean square of differences of relative angles, radians (`synth.atlas.signatures.difference`).
+        Root mean square of differences of relative angles, radians (`synth.atlas.signatures.difference`; for single
+        orientations or points `differences_in_order`).
     chain, name : str, str or None
         Id of the chain, and its name in the literature.
     types : tuple of str
@@ -351,18 +357,22 @@ class NearMotions(Printed):
         Nearest first.
     compared : int
         Number of signatures.
+    sparse : bool
+        Whether the rows of the motion were compared as single orientations or points in order.
     """
 
     motion: MotionCurve
     rows: tuple[NearMotion, ...]
     compared: int
+    sparse: bool = False
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on."""
         return {
             "motion": {
                 "of": "two links" if self.motion.rotates else "a point", "closed": self.motion.closed,
-                "length_deg": degrees(self.motion.length),
+                "length_deg": None if self.sparse else degrees(self.motion.length),
+                "in_order": len(self.motion.rows) if self.sparse else None,
             },
             "compared": self.compared,
             "nearest": [row.to_json() for row in self.rows],
@@ -373,6 +383,9 @@ class NearMotions(Printed):
         kind = "a circuit" if self.motion.closed else "an arc"
         of = "the motion of two links" if self.motion.rotates else "the path of a point"
         along = f"{of} is {kind} of {degrees(self.motion.length):.1f}°, compared with {self.compared} of the atlas"
+        if self.sparse:
+            of = numbered(len(self.motion.rows), "orientation" if self.motion.rotates else "point")
+            along = f"{of} in order on one circuit, compared with {self.compared} motions of the atlas"
         if not self.rows:
             return [f"no member of the atlas moves so far: {along}"]
         best = self.rows[0]
@@ -394,6 +407,7 @@ def like(
     *,
     links: Sequence[int] = (),
     closed: bool | None = None,
+    sparse: bool | None = None,
     limit: int = 10,
 ) -> NearMotions:
     """Find the members in the table of motions of an atlas that move most like a motion, as starts for design.
@@ -411,20 +425,24 @@ def like(
     closed : bool, optional
         Whether the motion is a circuit; by default if its last row is its first one again. An arc of a third of a
         circuit or more is found in it.
+    sparse : bool, optional
+        Whether the rows are single orientations or points that a circuit is to pass in order, at most 24, and no
+        frames of one motion; by default if they are fewer than 12, and `closed` is not stated.
     limit : int, optional
         Largest number of members.
 
     Returns
     -------
     NearMotions
-        Of the 32 members nearest by signature those that differ least; each pair of links of a member is one.
+        Of the 32 members nearest by signature those that differ least; each pair of links of a member is one. With
+        single orientations or points those of 1000, roughly compared.
 
     Raises
     ------
     StoreError
         If the atlas has no table of motions.
     InvariantError
-        If there are fewer than three different rows, or no such faces.
+        If there are fewer than three different rows, more than 24 that are sparse, or no such faces.
 
     Examples
     --------
@@ -440,27 +458,51 @@ def like(
     ('four-bar chain', 40)
     """
     curve = motion_curve(motion, links=links, closed=closed)
-    best: list[_Candidate] = []
-    compared = 0
+    if sparse is None:
+        sparse = closed is None and len(curve.rows) < FEW
+    if sparse and len(curve.rows) > _MOST_SINGLE:
+        what = f"{len(curve.rows)} rows that are sparse"
+        raise InvariantError("motion", what, f"at most {_MOST_SINGLE} single orientations or points")
     with reading(atlas.path) as connection:
         _check_table(connection, atlas.path)
-        goals = [] if curve.closed else curve.goals()
-        for units, signatures in _blocks(atlas.path, connection, "motion" if curve.rotates else "path"):
-            if curve.closed:
-                distances = nearest(signatures.circuits, curve.circuit_numbers()[None])
-            else:
-                farthest = best[-1].distance if len(best) == _CANDIDATES else np.inf
-                distances = arc_distances(signatures, goals, farthest)
-            compared += len(distances)
-            few = np.argsort(distances, kind="stable")[:_CANDIDATES]
-            first = np.cumsum([0, *(count for _, _, count in units)])
-            for place in few[distances[few] < _NOWHERE].tolist():
-                unit_of_it = int(np.searchsorted(first, place, side="right")) - 1
-                code, number, _ = units[unit_of_it]
-                best.append(_Candidate(float(distances[place]), code, number, place - int(first[unit_of_it])))
-            best = heapq.nsmallest(_CANDIDATES, best)
-        rows = _compared(atlas, connection, curve, best)
-    return NearMotions(curve, tuple(rows[:limit]), compared)
+        best, compared = _candidates(atlas.path, connection, curve, sparse=sparse)
+        traced = _traced(atlas.path, connection, curve, best)
+    if sparse and traced:
+        circuits = np.stack([one.rows for one in traced])
+        few = np.argsort(differences_in_order(circuits, curve.rows, QUICK)[0], kind="stable")[:_CANDIDATES]
+        traced, off = [traced[place] for place in few], differences_in_order(circuits[few], curve.rows)[0].tolist()
+    else:
+        off = [difference(curve, MotionCurve.of(one.rows, closed=True)) for one in traced]
+    return NearMotions(curve, _near_motions(atlas, curve, traced, off)[:limit], compared, sparse)
+
+
+def _candidates(
+    path: Path, connection: sqlite3.Connection, curve: MotionCurve, *, sparse: bool
+) -> tuple[list[_Candidate], int]:
+    """Return the motions that are nearest by signature, and the number of signatures.
+
+    Single orientations or points are joined by a spline: that says little, so many are taken, of small tables all.
+    """
+    most = _OF_FEW if sparse else _CANDIDATES
+    best: list[_Candidate] = []
+    compared = 0
+    goals = [] if curve.closed else curve.goals()
+    for units, signatures in _blocks(path, connection, "motion" if curve.rotates else "path"):
+        if curve.closed:
+            distances = nearest(signatures.circuits, curve.circuit_numbers()[None])
+        else:
+            distances = arc_distances(signatures, goals, best[-1].distance if len(best) == most else np.inf)
+        if sparse:
+            distances = np.where(signatures.circuits[:, 0] < _NOWHERE, np.minimum(distances, _UNLIKE), np.inf)
+        compared += len(distances)
+        few = np.argsort(distances, kind="stable")[:most]
+        first = np.cumsum([0, *(count for _, _, count in units)])
+        for place in few[distances[few] < _NOWHERE].tolist():
+            unit_of_it = int(np.searchsorted(first, place, side="right")) - 1
+            code, number, _ = units[unit_of_it]
+            best.append(_Candidate(float(distances[place]), code, number, place - int(first[unit_of_it])))
+        best = heapq.nsmallest(most, best)
+    return best, compared
 
 
 class _Candidate(NamedTuple):
@@ -497,11 +539,21 @@ def _blocks(path: Path, connection: sqlite3.Connection, kind: str) -> Iterator[t
         yield units, Signatures(*map(np.concatenate, zip(*arrays, strict=True)))
 
 
-def _compared(
-    atlas: Atlas, connection: sqlite3.Connection, curve: MotionCurve, best: Sequence[_Candidate]
-) -> list[NearMotion]:
-    """Trace candidates anew, and return them in the order in which they differ from a motion."""
-    rows = []
+class _Traced(NamedTuple):
+    """A candidate: its chain and links, directions float[J + N, 3] of axes and points, its circuit float[M, d]."""
+
+    chain: SCGraph
+    code: str
+    pair: _Pair
+    directions: Floats
+    rows: Floats
+
+
+def _traced(
+    path: Path, connection: sqlite3.Connection, curve: MotionCurve, best: Sequence[_Candidate]
+) -> list[_Traced]:
+    """Return the circuits of candidates, traced anew, each member once."""
+    traced = []
     for code in dict.fromkeys(candidate.chain for candidate in best):
         chain = mechanism_of_id(code)
         pairs = _pairs(chain, points=not curve.rotates)
@@ -509,24 +561,37 @@ def _compared(
         shape = (-1, len(chain.joints) + len(chain), 3)
         query = "SELECT axes FROM motions WHERE chain = ? AND unit = ?"
         units = {
-            number: _array(atlas.path, connection.execute(query, (code, number)).fetchone()[0], float, shape)
+            number: _array(path, connection.execute(query, (code, number)).fetchone()[0], float, shape)
             for number in {number for number, _, _ in places}
         }
-        directions = np.stack([units[number][member] for number, member, _ in places])
+        members = {key: place for place, key in enumerate(dict.fromkeys(key[:2] for key in places))}
+        directions = np.stack([units[number][member] for number, member in members])
         circuits = circuits_of(chain, directions[:, : len(chain.joints)])
         rotations = circuits.rotations()
-        name, types = _named(atlas, code)
-        for place, (_, _, number) in enumerate(places):
-            pair = pairs[number]
-            own = directions[[place]]
-            turned = {link: rotations[link][[place]] for link in pair}
-            traced = MotionCurve.of(_curve(chain, turned, pair, own, points=not curve.rotates)[0], closed=True)
-            axes = dict(zip(chain.joints, map(plain_vector, own[0]), strict=False))  # points follow the axes
-            point = None if curve.rotates else plain_vector(own[0, len(chain.joints) + list(chain).index(pair.second)])
-            off = float(difference(curve, traced))
-            if np.isfinite(off):
-                rows.append(NearMotion(off, code, name, types, (pair.first, pair.second), axes, point))
-    return sorted(rows, key=lambda row: (round(row.distance, 9), len(row.axes), row.chain))
+        for number, member, which in places:
+            place = members[number, member]
+            if circuits.closed[place]:
+                turned = {link: rotations[link][[place]] for link in pairs[which]}
+                rows = _curve(chain, turned, pairs[which], directions[[place]], points=not curve.rotates)[0]
+                traced.append(_Traced(chain, code, pairs[which], directions[place], rows))
+    return traced
+
+
+def _near_motions(
+    atlas: Atlas, curve: MotionCurve, traced: Sequence[_Traced], off: Sequence[float]
+) -> tuple[NearMotion, ...]:
+    """Return candidates in the order in which they differ from a motion; those that do not move so far are left out."""
+    named = {code: _named(atlas, code) for code in dict.fromkeys(one.code for one in traced)}
+    rows = []
+    for one, distance in zip(traced, off, strict=True):
+        if not np.isfinite(distance):
+            continue
+        axes = dict(zip(one.chain.joints, map(plain_vector, one.directions), strict=False))  # points follow the axes
+        place = len(one.chain.joints) + list(one.chain).index(one.pair.second)
+        point = None if curve.rotates else plain_vector(one.directions[place])
+        links = (one.pair.first, one.pair.second)
+        rows.append(NearMotion(float(distance), one.code, *named[one.code], links, axes, point))
+    return tuple(sorted(rows, key=lambda row: (round(row.distance, 9), len(row.axes), row.chain)))
 
 
 def _named(atlas: Atlas, code: str) -> tuple[str | None, tuple[str, ...]]:

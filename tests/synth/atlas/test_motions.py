@@ -6,11 +6,13 @@ import json
 import shutil
 import sqlite3
 from contextlib import closing
+from itertools import product as product_of
 from pathlib import Path
 
 import numpy as np
 import pytest
 from commands import run
+from scipy.optimize import differential_evolution
 
 import synth
 from graphs.errors import FileError, InvariantError, StoreError
@@ -20,7 +22,14 @@ from graphs.types import Floats
 from synth.atlas.building import AtlasPlan, build_atlas
 from synth.atlas.motions import add_motions, like, motion_curve, planned_motions, stored_motions
 from synth.atlas.opened import Atlas, open_atlas
-from synth.atlas.signatures import MotionCurve, arc_distances, difference, signatures_of
+from synth.atlas.signatures import (
+    MotionCurve,
+    angles_between,
+    arc_distances,
+    difference,
+    differences_in_order,
+    signatures_of,
+)
 from synth.guidance.orientations import write_orientations
 from synth.members.circuits import circuits_of, product, relative
 
@@ -114,6 +123,87 @@ def test_members_are_found_by_their_own_motions(moving_atlas: Atlas) -> None:
             assert (best.chain, set(best.links)) == (code, {first, second})
             assert np.abs(np.array(list(best.axes.values())) - directions[0, :joints]).max() < 1e-12
             assert (best.point is None) != points
+
+
+def in_space(first: Floats, second: Floats) -> float:
+    """By how much vectors miss others that are turned or mirrored, of quaternions either sign: the second method."""
+    least = np.inf
+    for signs in product_of([1.0, -1.0], repeat=len(first) - 1 if first.shape[1] == 4 else 0):
+        signed = second * np.concatenate([[1.0], signs, np.ones(len(first) - 1 - len(signs))])[:, None]
+        left, _, right = np.linalg.svd(first.T @ signed)
+        least = min(least, float(np.abs(first @ (left @ right) - signed).max()))
+    return least
+
+
+@pytest.mark.parametrize(("code", "first", "second", "backwards"), [("k1:Cr", 0, 3, False), ("k1:E`hW", 3, 4, True)])
+def test_five_orientations_are_found_on_the_circuit_from_which_they_are(
+    moving_atlas: Atlas, code: str, first: int, second: int, backwards: bool
+) -> None:
+    with closing(sqlite3.connect(moving_atlas.path)) as connection:
+        axes = connection.execute("SELECT axes FROM motions WHERE chain = ?", (code,)).fetchone()[0]
+    chain = mechanism_of_id(code)
+    joints = len(chain.joints)
+    directions = np.frombuffer(axes[:-4]).reshape(-1, joints + len(chain), 3)[[11]]
+    turned = circuits_of(chain, directions[:, :joints], frames=500).rotations()
+    circuit = relative(turned[first], turned[second])[0]
+    own = elsewhere(circuit[[333, 402, 20, 111, 240]], 8)[:: -1 if backwards else 1]
+    answer = like(moving_atlas, own)
+    best = answer.rows[0]
+    assert best.distance < 1e-3
+    assert (best.chain, set(best.links)) == (code, {first, second})
+    assert np.abs(np.array(list(best.axes.values())) - directions[0, :joints]).max() < 1e-12
+    assert answer.rows[1].distance > 2e-3
+    off, places = differences_in_order(circuit[None], own)
+    passed = MotionCurve.of(circuit, closed=True)
+    taken = passed.at(passed.length * places[0])
+    assert off[0] < 1e-3
+    assert in_space(own, taken) < 2e-3
+    steps = np.diff(places[0], append=places[0, 0]) * (-1.0 if backwards else 1.0)
+    assert (np.remainder(steps, 1.0).sum(), (steps < 0.0).sum()) == (pytest.approx(1.0), 1)
+
+
+def test_places_in_order_are_as_near_as_those_of_another_search() -> None:
+    """Evolution of the places, read from splines, is the second method."""
+    random = np.random.default_rng(3)
+    circuits = unit(smooth(np.arange(256) / 256)[None] * random.uniform(0.4, 1.8, (6, 1, 4)))
+    wanted = unit(smooth(np.array([0.1, 0.35, 0.5, 0.62, 0.9])) * random.uniform(0.6, 1.5, 4))
+    found, places = differences_in_order(circuits, wanted)
+    one, other = np.triu_indices(5, 1)
+    angles = angles_between(wanted[one], wanted[other])
+    for off, own, rows in zip(found, places, circuits, strict=True):
+        curve = MotionCurve.of(rows, closed=True)
+
+        def missed(parts: Floats, curve: MotionCurve = curve) -> Floats:
+            at = curve.at(curve.length * parts)
+            return np.asarray(
+                np.sqrt(((angles_between(at[..., one, :], at[..., other, :]) - angles) ** 2).mean(axis=-1))
+            )
+
+        assert missed(own) == pytest.approx(off, abs=1e-5)
+        for way in (1.0, -1.0):
+            evolved = differential_evolution(
+                lambda x, way=way: missed(way * (x[:1] + np.concatenate([0.0 * x[:1], np.sort(x[1:], axis=0)])).T),
+                [(0.0, 1.0)] * 5, vectorized=True, updating="deferred", seed=1, maxiter=60, popsize=12, polish=False,
+            )  # fmt: skip
+            assert off < evolved.fun + 1e-3
+
+
+def test_few_orientations_are_no_motion_unless_it_is_stated(moving_atlas: Atlas, tmp_path: Path) -> None:
+    rows = smooth(np.arange(30) / 40)
+    sparse = like(moving_atlas, rows[::4], limit=2)
+    assert sparse.sparse
+    assert (sparse.to_json()["motion"]["in_order"], sparse.to_json()["motion"]["length_deg"]) == (8, None)
+    assert "8 orientations in order on one circuit, compared with 432 motions of the atlas" in str(sparse)
+    assert not like(moving_atlas, rows[::4], closed=False, limit=1).sparse
+    assert not like(moving_atlas, rows, limit=1).sparse
+    with pytest.raises(InvariantError, match="30 rows that are sparse; expected at most 24"):
+        like(moving_atlas, rows, sparse=True)
+    points = tmp_path / "points.csv"
+    points.write_text("\n".join(",".join(map(repr, row)) for row in unit(rows[::6, 1:]).tolist()))
+    result = run("atlas", "like", str(points), str(moving_atlas.path), "--sparse", "--json")
+    assert json.loads(result.stdout)["motion"] == {"of": "a point", "closed": False, "length_deg": None, "in_order": 5}
+    result = run("atlas", "like", str(points), str(moving_atlas.path), "--dense", "--json")
+    assert json.loads(result.stdout)["motion"]["in_order"] is None
 
 
 def test_what_is_found_names_the_types_and_is_a_linkage(moving_atlas: Atlas) -> None:
