@@ -28,8 +28,9 @@ _FIGURES = 6
 _MET = 9
 """Decimals of a miss by which designs are compared."""
 _HEADS = ("rank", "type", "links", "roles", "largest miss", "sensitivity", "travel", "Pareto")
+_CIRCUIT = "on another circuit"
 _FAULTS = {
-    "on another circuit": "configurations on several circuits",
+    _CIRCUIT: "configurations on several circuits",
     "turns back": "a driven joint that turns back",
     "out of order": "configurations out of order",
     "do not lead straight": "inputs that do not lead straight on",
@@ -42,6 +43,15 @@ _FAULTS = {
 }
 """What is counted of a design that meets the wishes and is no success, by a part of its first fault."""
 _NO_MEMBER = "no member that moves"
+_SHORT = {
+    "configurations on several circuits": "circuit",
+    "a driven joint that turns back": "branch",
+    "configurations out of order": "order",
+}
+"""Defects of a design that meets the wishes, by their names in Chase and Mirth 1993."""
+_MISSED_HEADS = ("not ranked", "links", "roles", "largest miss", "defect", "starts by defect")
+_MOST_MISSED = 10
+"""Types that are not ranked, and are printed."""
 
 
 @dataclass(frozen=True)
@@ -109,6 +119,8 @@ class RankedTypes(Printed):
     starts : int
         How many starts were made.
     seed : int
+    outcomes : mapping of (str, str) to mapping of str to int
+        For each source and id of a type, numbers of starts: successes, and by the reason why they are none.
 
     Examples
     --------
@@ -125,6 +137,7 @@ class RankedTypes(Printed):
     missed: tuple[RankedDesign, ...]
     starts: int
     seed: int = 0
+    outcomes: Mapping[tuple[str, str], Mapping[str, int]] = field(default_factory=dict)
 
     @property
     def task(self) -> Task:
@@ -184,6 +197,20 @@ class RankedTypes(Printed):
             for place, one in enumerate(self.ranked, 1)
         ]  # fmt: skip
 
+    def ranked_table(self) -> TableBlock:
+        """Return the table of ranked designs."""
+        return TableBlock(_HEADS, self.rows(), ("rank", "links"))
+
+    def missed_table(self, most: int | None = None) -> TableBlock:
+        """Return the table of types that are not ranked, nearest first: defects of the best design, of all starts."""
+        rows = []
+        for one in self.missed[:most]:
+            starts = self.outcomes.get((one.candidate.source, one.candidate.code), {})
+            counts = ", ".join(f"{_SHORT.get(reason, reason)}: {number}" for reason, number in starts.items())
+            miss = "met" if one.meets else f"{one.miss:.1e}"
+            rows.append((self.name(one), str(self.links(one)), self._roles(one), miss, one.faults, counts))
+        return TableBlock(_MISSED_HEADS, rows, ("links",))
+
     def _roles(self, one: RankedDesign) -> str:
         return ", ".join(f"{role} {link}" for role, link in zip(self.task.roles, one.candidate.links, strict=True))
 
@@ -191,7 +218,11 @@ class RankedTypes(Printed):
         """Return the lines that are printed."""
         lines: list[Block] = list(self.first_lines())
         if self.ranked:
-            lines.append(TableBlock(_HEADS, self.rows(), ("rank", "links")))
+            lines.append(self.ranked_table())
+        if self.missed:
+            lines.append(self.missed_table(_MOST_MISSED))
+        if len(self.missed) > _MOST_MISSED:
+            lines.append(f"and {numbered(len(self.missed) - _MOST_MISSED, 'type')} farther off")
         return lines
 
     def to_json(self) -> dict[str, Any]:
@@ -222,6 +253,7 @@ class RankedTypes(Printed):
             "travel_deg": None if one.travel is None else degrees(one.travel),
             "pareto": one.pareto,
             "faults": one.faults,
+            "outcomes": dict(self.outcomes.get((one.candidate.source, one.candidate.code), {})),
         }
 
 
@@ -268,7 +300,8 @@ def ranked_types(
     marked.sort(key=lambda pair: (not pair[1], *_ranks(figures(pair[0])), pair[0].candidate.number))
     ranked = tuple(_with_mark(one, pareto) for one, pareto in marked)
     missed = sorted((one for one in best if not (one.meets and not one.faults)), key=_order)
-    return RankedTypes(structure, ranked, tuple(missed), len(rows), seed)
+    outcomes = {key: dict(sorted(Counter(map(_outcome, some)).items())) for key, some in by_type.items()}
+    return RankedTypes(structure, ranked, tuple(missed), len(rows), seed, outcomes)
 
 
 def _ranks(figures: tuple[float, int, float]) -> tuple[float, ...]:
@@ -286,10 +319,23 @@ def _with_mark(one: RankedDesign, pareto: bool) -> RankedDesign:
     return RankedDesign(**{**values, "pareto": pareto})
 
 
-def _order(one: RankedDesign) -> tuple[bool, float, float, int, int]:
-    """Return the order of designs of one type: successes, then the nearest, then the least sensitive."""
+def _order(one: RankedDesign) -> tuple[float, ...]:
+    """Return the order of designs of one type: successes, then the nearest, the least defects, the least sensitive."""
     sound = one.meets and not one.faults
-    return not sound, round(one.miss, _MET), one.figures[2], one.candidate.number, one.start
+    return not sound, round(one.miss, _MET), *_defects(one), one.figures[2], one.candidate.number, one.start
+
+
+def _defects(one: RankedDesign) -> tuple[int, int]:
+    """Return how bad the faults of a design are: it has none, its motion has defects, or it does not move as it is to.
+
+    The second number is that of the configurations on other circuits than the first.
+    """
+    if not one.faults:
+        return 0, 0
+    if _fault(one) not in _SHORT:
+        return 2, 0
+    apart = [fault for fault in one.faults.split("; ") if _CIRCUIT in fault]
+    return 1, sum(fault.partition(": ")[2].count(",") + 1 for fault in apart)
 
 
 def _of_row(candidate: Candidate, row: Mapping[str, Any], weights: Mapping[int, float]) -> RankedDesign:
@@ -313,5 +359,14 @@ def _reason(one: RankedDesign) -> str:
         return _NO_MEMBER
     if not one.meets:
         return f"misses above {WITHIN:g}"
-    first = next((words for part, words in _FAULTS.items() if part in one.faults), None)
-    return first or "a design that does not move"
+    return _fault(one)
+
+
+def _fault(one: RankedDesign) -> str:
+    """Return what is counted of the faults of a design."""
+    return next((words for part, words in _FAULTS.items() if part in one.faults), "a design that does not move")
+
+
+def _outcome(one: RankedDesign) -> str:
+    """Return what is counted of a start."""
+    return "success" if one.meets and not one.faults else _reason(one)

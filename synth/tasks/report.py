@@ -47,10 +47,9 @@ def report_page(answer: RankedTypes) -> str:
     """
     title = answer.task.title or "Task"
     lines = "".join(f"<p>{escape(line)}</p>" for line in answer.first_lines())
-    table = html_of(answer.blocks()[len(answer.first_lines()) :])
+    table = html_of([answer.ranked_table()]) if answer.ranked else ""
     parts = [_section(answer, place, one) for place, one in enumerate(answer.ranked[:_MOST], 1)]
-    fell = [(answer.name(one), str(answer.links(one)), f"{one.miss:.1e}", one.faults) for one in answer.missed]
-    others = html_of([TableBlock(("type", "links", "largest miss", "faults"), fell, ("links",))]) if fell else ""
+    others = html_of([answer.missed_table()]) if answer.missed else ""
     left = answer.structure.placements_left_out
     placements = f"<p>placements left out: {escape(reasons_text(left))}</p>" if left else ""
     body = f"<h1>{escape(title)}</h1>{lines}{placements}{table}{''.join(parts)}"

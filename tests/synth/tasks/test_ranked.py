@@ -7,12 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from cranks import lines_apart
 from scipy.spatial.transform import Rotation
 
 import synth
-from enumerate.runner import Interrupted
+from enumerate.runner import Interrupted, Limits
 from graphs.errors import InvariantError, StoreError
 from synth.cli.main import main
+from synth.guidance.fourbars import four_bar_of, four_bars
+from synth.guidance.orientations import Orientations
+from synth.guidance.synthesis import dyads_of_five
 from synth.motion.linkage import link_motions
 from synth.moving.made import configuration_of
 from synth.tasks import candidates_of, ranked_types, read_task, report_page, structure_of
@@ -79,6 +83,61 @@ def test_other_weights_rank_the_same_rows_anew(data):
     assert not ranked_types(structure, missed).ranked
     assert ranked_types(structure, missed, {1: 0.0}).ranked
     assert ranked_types(structure, missed).fell_out["misses above 1e-06"] == 1
+
+
+def row_of(candidate, start, faults, miss=0.0):
+    record = {"figures": [["wish", "rad", miss, miss, {}]], "defects": [[], True, []], "error": 0.0}
+    return {"candidate": candidate, "start": start, "faults": faults, "record": json.dumps(record)}
+
+
+def test_types_that_are_not_ranked_come_by_their_defects(data):
+    structure = structure_of(read_task(data / "tasks" / "five-orientations.json"))
+    number = {one.type_of().name: one.number for one in candidates_of(structure)}
+    rows = [
+        row_of(number["four-bar"], 0, "on another circuit than pose: pose 3, pose 4"),
+        row_of(number["four-bar"], 1, "on another circuit than pose: pose 3"),
+        row_of(number["four-bar"], 2, "", miss=0.1),
+        row_of(number["watt"], 0, "the driven joint turns back between pose 2 and pose 3"),
+        row_of(number["stephenson"], 0, "degrees of freedom of the design: 2"),
+    ]
+    found = ranked_types(structure, rows)
+    assert [(found.name(one), one.start) for one in found.missed] == [("watt", 0), ("four-bar", 1), ("stephenson", 0)]
+    assert found.to_json()["missed"][1]["outcomes"] == {
+        "configurations on several circuits": 2,
+        "misses above 1e-06": 1,
+    }
+    table = found.blocks()[-1]
+    assert [row[-1] for row in table.rows] == [
+        "branch: 1", "circuit: 2, misses above 1e-06: 1", "other degrees of freedom: 1",
+    ]  # fmt: skip
+    assert "pose 3" in report_page(found)
+
+
+@pytest.mark.slow
+def test_four_bars_through_five_orientations_fail_by_defects_as_all_pairs_of_dyads_do(data):
+    """All four-bars of the dyads are the second method: none is free of defects."""
+    task = read_task(data / "tasks" / "five-orientations.json")
+    turns = [[1.0, 0.0, 0.0, 0.0], *(wish["quaternion"] for wish in task.wishes["wishes"])]
+    orientations = Orientations(np.array(turns))
+    dyads = dyads_of_five(orientations).dyads
+    assert all(one.defects for one in four_bars(orientations, dyads))
+    found = synth.task(replace(task, links=Limits(4, 4)), starts=4, rounds=1)
+    assert not found.ranked
+    [one] = found.missed
+    assert sum(found.to_json()["missed"][0]["outcomes"].values()) == 4
+    design = found.design(one)
+    joints, axes = design.mechanism.chain.joints, design.mechanism.axes
+    base, output = one.candidate.links
+
+    def axis(first, second):
+        return np.array(next(axes[joint][1] for joint, ends in joints.items() if set(ends) == {first, second}))
+
+    pair = []
+    for arm in set(design.mechanism.chain.nodes) - {base, output}:
+        apart = [max(lines_apart(d.fixed, axis(base, arm)), lines_apart(d.moving, axis(arm, output))) for d in dyads]
+        assert min(apart) < 1e-8
+        pair.append(dyads[int(np.argmin(apart))])
+    assert four_bar_of(orientations, *pair).circuit_defect == ("on another circuit" in one.faults)
 
 
 def test_an_empty_answer_says_what_was_nearest(data, tmp_path):
