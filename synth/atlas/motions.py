@@ -385,7 +385,8 @@ class NearMotions(Printed):
         along = f"{of} is {kind} of {degrees(self.motion.length):.1f}°, compared with {self.compared} of the atlas"
         if self.sparse:
             of = numbered(len(self.motion.rows), "orientation" if self.motion.rotates else "point")
-            along = f"{of} in order on one circuit, compared with {self.compared} motions of the atlas"
+            number = f"{_OF_FEW} of {self.compared}" if self.compared > _OF_FEW else str(self.compared)
+            along = f"{of} in order on one circuit, compared with {number} motions of the atlas"
         if not self.rows:
             return [f"no member of the atlas moves so far: {along}"]
         best = self.rows[0]

@@ -52,7 +52,7 @@ FEW = 12
 """Rows below which they are single orientations or points, and chords the parameter of a spline through them."""
 _COMPARED, _SHIFTS = 24, 8
 """Places of a motion that are compared with another; shifts of the other between two of them."""
-_AT_ONCE, _EVEN, _DAMPED, _NUDGE = 32, 128, 0.01, 3e-4
+_AT_ONCE, _EVEN, _DAMPED, _NUDGE = 32, 256, 0.01, 3e-4
 """Circuits that are compared with single orientations at once; places round each that are joined by cubics; damping
 of least squares at first; parts of a circuit by which differences are taken."""
 
