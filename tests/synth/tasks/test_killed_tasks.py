@@ -7,7 +7,10 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from clusters import cluster
 from runs import SYNTH, contents, kill, units_in, wait_for
+
+import synth
 
 pytestmark = pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks for worker processes in /proc")
 
@@ -54,3 +57,19 @@ def test_a_task_that_is_killed_five_times_gives_the_same_report(data, tmp_path):
     for number in range(ROUNDS):
         stores = [contents(tmp_path / name / f"round-{number}.sqlite") for name in ("alone", "two", "killed")]
         assert stores[0] == stores[1] == stores[2]
+
+
+@pytest.mark.slow
+def test_a_cluster_that_loses_a_worker_gives_the_same_answer(data, tmp_path):
+    pytest.importorskip("distributed", reason="needs Dask: pip install 'synthedra[dask]'")
+    task, starts = data / "tasks" / "lid.json", {"starts": 6, "rounds": 1}
+    alone = synth.task(task, **starts)
+    with cluster(tmp_path, 2) as (address, processes):
+
+        def lose(_round, progress):
+            if progress.done == 1:
+                processes[1].kill()
+
+        found = synth.task(task, **starts, store=tmp_path / "store", scheduler=address, report=lose)
+    assert found.to_json() == alone.to_json()
+    assert units_in(tmp_path / "store" / "round-0.sqlite") == 6
