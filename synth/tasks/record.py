@@ -32,6 +32,7 @@ OF_FORM: Mapping[str, tuple[str, ...]] = {
 """Where types of a form can come from."""
 LINKS = Limits(4, 6)
 """Numbers of links, if a task does not say."""
+_NUMBERS = ("links", "loops", "centres", "symmetry", "open_edges", "explicit_centres", "implicit_centres")
 _MOST_LINKS, _MOST_OF_GENERATORS = 12, 100
 """Links of types that are enumerated, and of what generators make."""
 _OF_LINKS, _OF_JOINTS = ("link",), ("joint", "joints", "near", "far", "driver", "arcs", "inputs")
@@ -78,6 +79,15 @@ def limits_text(limits: Limits) -> str:
     return f"{limits.least} to {limits.most}" if limits.least else f"at most {limits.most}"
 
 
+def centres_text(limits: Limits, kind: str) -> str:
+    """Return limits of the number of centres of a kind in words.
+
+    >>> centres_text(Limits(1, 1), "explicit"), centres_text(Limits(0, 0), "implicit")
+    ('1 explicit centre', '0 implicit centres')
+    """
+    return f"{limits_text(limits)} {kind} centre{'' if limits.most == 1 else 's'}"
+
+
 @dataclass(frozen=True)
 class Task:
     """What a mechanism is to do, of whatever type.
@@ -104,6 +114,9 @@ class Task:
         Loops without a centre of SC graphs, and whether centres may be at infinity.
     open_edges : Limits
         Of SCD graphs.
+    explicit_centres, implicit_centres : Limits
+        Of sheets: numbers of bounded faces whose centre is a vertex of the links, and of those whose centre the links
+        leave open (remote centres). A sheet without implicit centres and spatial loops has no holes.
     mobilities, distances : tuple of RolePair
         Relative mobility of two roles, and the number of joints between them.
     wishes : mapping, optional
@@ -139,6 +152,8 @@ class Task:
     spatial: int = 0
     infinite: bool = False
     open_edges: Limits = ANY_NUMBER
+    explicit_centres: Limits = ANY_NUMBER
+    implicit_centres: Limits = ANY_NUMBER
     mobilities: tuple[RolePair, ...] = ()
     distances: tuple[RolePair, ...] = ()
     wishes: Mapping[str, Any] | None = None
@@ -162,6 +177,12 @@ class Task:
             raise InvariantError(
                 "system", wrong, "system spherical: the axes of a cone meet at its apex", ("system", 0)
             )
+        for kind in ("explicit", "implicit"):
+            name = f"{kind}_centres"
+            if self.form != "sheet" and getattr(self, name) != ANY_NUMBER:
+                words = centres_text(getattr(self, name), kind)
+                expected = "form sheet: whether a centre is a vertex of the links is known of sheets"
+                raise InvariantError("form", f"form {self.form} and {words} exclude each other", expected, (name, 0))
         for source in self.sources:
             if source not in OF_FORM[self.form]:
                 wrong = f"form {self.form} and types from {source} exclude each other"
@@ -221,7 +242,7 @@ class Task:
         return {
             "roles": list(self.roles),
             "freedoms": self.freedoms,
-            **{name: _listed(getattr(self, name)) for name in ("links", "loops", "centres", "symmetry", "open_edges")},
+            **{name: _listed(getattr(self, name)) for name in _NUMBERS},
             **{name: getattr(self, name) for name in ("system", "form", "spatial", "infinite")},
             **{name: list(getattr(self, name)) for name in ("sources", "joints")},
             "generators": None if self.generators is None else {k: dict(v) for k, v in self.generators.items()},

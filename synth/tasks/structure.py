@@ -20,16 +20,18 @@ import numpy as np
 from enumerate.chains.jobs import chain_rows
 from enumerate.chains.names import name_of
 from enumerate.chains.query import ChainQuery
+from enumerate.runner.job import ANY_NUMBER, Limits
 from enumerate.sc.jobs import sc_rows
 from enumerate.sc.query import SCQuery
 from enumerate.scd.jobs import scd_rows
-from graphs.convert.table import Mechanism, to_sc
-from graphs.errors import InvariantError, numbered
+from graphs.convert.table import Mechanism, to_sc, to_scd
+from graphs.errors import InvariantError, SynthedraError, numbered
 from graphs.identity.chains import chain_from_id, chain_id, class_code, symmetries_of_links
 from graphs.identity.drawings import mechanism_from_map_id
 from graphs.joints.linkage import JointedLinkage
 from graphs.joints.revolutes import revolutes_of
 from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.drawing import FaceKind
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet
@@ -42,7 +44,7 @@ from synth.motion.derivatives import BodyTree, dependence_on_axes
 from synth.moving.made import configuration_of
 from synth.patterns.catalogue import GENERATORS
 from synth.tasks.placements import Placement, placements_of
-from synth.tasks.record import RolePair, Task, limits_text
+from synth.tasks.record import RolePair, Task, centres_text, limits_text
 
 _SIDES = 4
 """Most sides of a link of an enumerated SCD graph, joints and open edges together."""
@@ -50,7 +52,7 @@ PLANAR = "planar chains"
 """Chains all of whose axes are parallel; `chains` are spherical."""
 _LEFT_OUT_FIRST = (
     "the same as another type", "links", "form", "kinds of joints", "loops", "mobility", "system", "centres",
-    "open edges", "symmetry",
+    "open edges", "explicit centres", "implicit centres", "symmetry",
 )  # fmt: skip
 _OF_PLACEMENTS = ("distance", "no joint for a wish", "relative mobility")
 
@@ -138,6 +140,16 @@ class CandidateType:
         if len(classes) > 1:
             return "hybrid"
         return "spherical" if classes[0].centre is Centre.FINITE else "planar"
+
+    @cached_property
+    def drawn(self) -> SCDGraph | None:
+        """The SCD graph of the links, if the order of their sides is known: of sheets."""
+        if isinstance(self.mechanism, SCDGraph):
+            return self.mechanism
+        try:
+            return to_scd(self.made) if isinstance(self.made, Sheet) else None
+        except SynthedraError:
+            return None
 
     @cached_property
     def symmetry(self) -> int:
@@ -256,9 +268,24 @@ def requirements_on_types(task: Task) -> list[Requirement]:
         Requirement(
             "open edges", f"{limits_text(task.open_edges)} open edges", lambda one: _open(one) in task.open_edges
         ),
+        *_of_centres(FaceKind.EXPLICIT, task.explicit_centres),
+        *_of_centres(FaceKind.IMPLICIT, task.implicit_centres),
         Requirement("symmetry", f"{limits_text(task.symmetry)} symmetries", lambda one: one.symmetry in task.symmetry),
     ]
     return sorted(every, key=lambda one: _LEFT_OUT_FIRST.index(one.reason))
+
+
+def _of_centres(kind: FaceKind, limits: Limits) -> list[Requirement]:
+    """Return the requirement on the number of centres of a kind of face, if there is one."""
+    if limits == ANY_NUMBER:
+        return []
+    reason = f"{kind.value} centres"
+
+    def admits(one: CandidateType) -> bool:
+        scd = one.drawn
+        return scd is not None and sum(scd.drawing.kind_of_face(face.index) is kind for face in scd.faces) in limits
+
+    return [Requirement(reason, centres_text(limits, kind.value), admits)]
 
 
 def _open(one: CandidateType) -> int:

@@ -25,6 +25,8 @@ _LIMITS = {
     "centres": ANY_NUMBER,
     "symmetry": ONE_OR_MORE,
     "open_edges": ANY_NUMBER,
+    "explicit_centres": ANY_NUMBER,
+    "implicit_centres": ANY_NUMBER,
 }
 _PAIRS = {"relative_mobility": "mobilities", "distance": "distances"}
 _OPTIONAL = (

@@ -117,6 +117,10 @@ def _document_of_questions() -> dict[str, Any]:
     forms, systems = click.Choice(synth.tasks.FORMS), click.Choice(synth.tasks.SYSTEMS)
     document["form"] = click.prompt("Where it lies", type=forms, default="space", err=True)
     document["system"] = click.prompt("Kind of system", type=systems, default="any", err=True)
+    if document["form"] == "sheet" and click.confirm(
+        "Must all centres be explicit, vertices of the links (none remote, left open)?", default=False, err=True
+    ):
+        document["implicit_centres"] = 0
     wishes: list[dict[str, Any]] = []
     names: list[str] = []
     click.echo("Rotations of the output from its first pose, each a quaternion W,X,Y,Z; an empty line ends.", err=True)

@@ -1,6 +1,7 @@
 """Types and placements of a task: numbers by second methods, reasons, and what contradicts itself."""
 
 import json
+from dataclasses import replace
 from itertools import combinations, permutations
 
 import networkx as nx
@@ -11,6 +12,7 @@ import synth
 from enumerate.chains import chains
 from enumerate.runner import Limits
 from enumerate.sc import sc_graphs
+from enumerate.scd.jobs import scd_rows
 from graphs.errors import InvariantError
 from graphs.identity import class_code
 from graphs.loops.loop import Loop
@@ -103,7 +105,34 @@ def test_overconstrained_families_are_found_by_their_generators():
     assert all(relative[frozenset(pair)] == 1 for pair in combinations(range(4), 2))
 
 
+@pytest.mark.parametrize(("links", "placed"), [(4, 6), (6, 24)])
+def test_sheets_without_implicit_centres_are_those_of_the_enumeration(links, placed):
+    """Single sheets without holes (docs/sequences.md); each centre is explicit or implicit."""
+    sheets = {row["code"] for row in scd_rows(links, 1, 4, sheets=True)}
+    task = Task((), links=Limits(links, links), form="sheet", sources=("scd",), implicit_centres=Limits(0, 0))
+    structure = structure_of(task)
+    assert {one.type.code for one in structure.placed} == sheets
+    assert len(sheets) == placed
+    assert structure.left_out == {"implicit centres": structure.types - placed}
+    loops = links // 2 - 1
+    explicit = structure_of(replace(task, implicit_centres=Limits(0), explicit_centres=Limits(loops)))
+    assert {one.type.code for one in explicit.placed} == sheets
+
+
+def test_generators_of_sheets_have_explicit_centres_and_a_tube_an_implicit_one():
+    names = {"miura": {}, "miura-tube": {}, "slit-array": {}}
+    task = Task((), links=Limits(4, 20), form="sheet", sources=("generators",), generators=names)
+    for key, codes in (("explicit_centres", ["miura", "miura-tube"]), ("implicit_centres", ["miura-tube"])):
+        structure = structure_of(replace(task, **{key: Limits(1)}))
+        assert [one.type.code for one in structure.placed] == codes
+
+
 BAD = [
+    (
+        {"form": "sheet", "types": ["scd"], "links": 4, "explicit_centres": 0, "implicit_centres": 0},
+        "0 explicit centres and 0 implicit centres exclude each other",
+    ),
+    ({"implicit_centres": 1}, "form space and 1 implicit centre exclude each other; expected form sheet"),
     ({"links": 5, "types": ["sc"]}, "5 links and 1 degree of freedom exclude each other"),
     ({"links": 4, "types": ["sc"], "centres": 2}, "no type of 4 links and 1 degree of freedom has 2 centres"),
     (

@@ -25,6 +25,8 @@ WHOLE = {
     "centres": 1,
     "symmetry": [1, 8],
     "open_edges": 0,
+    "explicit_centres": [0, None],
+    "implicit_centres": [0, None],
     "system": "spherical",
     "form": "space",
     "types": ["sc", "generators"],
@@ -91,6 +93,14 @@ def test_a_task_is_checked_before_it_is_written(tmp_path):
     with pytest.raises(FileError, match="unknown key"):
         write_task({**HEAD, "x": 1}, tmp_path / "task.json")
     assert not list(tmp_path.iterdir())
+
+
+def test_a_sheet_is_asked_whether_its_centres_are_explicit(tmp_path):
+    place = tmp_path / "sheet.json"
+    result = CliRunner().invoke(main, ["task", "new", str(place)], input="a sheet\nn\n1\n4\n6\nsheet\nany\ny\n\n")
+    assert result.exit_code == 0, result.output
+    task = read_task(place)
+    assert (task.form, task.implicit_centres.most, task.explicit_centres.most) == ("sheet", 0, None)
 
 
 def test_questions_write_a_task(tmp_path):
