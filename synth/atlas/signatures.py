@@ -462,7 +462,7 @@ def _choices(evenly: _Evenly, wanted: Floats, way: int, effort: Effort) -> Float
     return _apart(sums, places, effort)
 
 
-def _apart(sums: Floats, places: Ints, effort: Effort) -> Floats:
+def _apart(sums: npt.NDArray[np.float32], places: Ints, effort: Effort) -> Floats:
     """Return the best choices that differ by two places or more, as parts of circuits that never decrease."""
     size, who, chosen = effort.places, np.arange(len(sums)), []
     for _ in range(effort.starts):
