@@ -2,9 +2,11 @@
 
     python benchmarks/stowed_designs.py [NAME ...]
 
-A Miura sheet, a box that pops up from a card, and two types of eight links. The box is that of `synth design`: along
+A Miura sheet, a storey of Kresling's pattern, a box that pops up from a card, and two types of eight links. The box is that of `synth design`: along
 principal axes, edges at least so long as the thickness; its size is the product of the two longest edges. Ratios of
-default and design are measured again by `synth.fold` from the flat sheet, with collisions looked for on the way.
+default and design are measured again by `synth.fold` from the sheet as it is drawn, with collisions looked for on the
+way. The storey, whose polygons are open, has six degrees of freedom and six driven creases: those of the default while
+crease 2 is pushed in, in whole degrees.
 Figures are written to benchmarks/results/stowed_designs.json.
 """
 
@@ -69,6 +71,11 @@ def _generated(name: str, **parameters: float) -> Callable[[], synth.Sheet]:
 
 CASES = {
     "Miura, 9 panels": Case(_generated("miura"), {"2": 40.0}, {"2": 150.0}, "miura"),
+    "storey of Kresling's pattern": Case(
+        _generated("kresling"),
+        {"1": -27.0, "2": 0.0, "7": -43.0, "14": -27.0, "19": -68.0, "22": -27.0},
+        {"1": -41.0, "2": 157.0, "7": -53.0, "14": -43.0, "19": -105.0, "22": -41.0},
+    ),
     "box from a card": Case(_generated("box-pop-up"), {"1": 90.0}, {"1": 170.0}, "box-pop-up", convex=False),
     "eight links, number 23": Case(_eight_links(23), {"1": 18.0}, {"1": 125.0}),
     "eight links, number 69": Case(_eight_links(69), {"3": 18.0}, {"3": 116.0}),
