@@ -2,11 +2,11 @@
 
     python benchmarks/stowed_designs.py [NAME ...]
 
-A Miura sheet, a storey of Kresling's pattern, a box that pops up from a card, and two types of eight links. The box is that of `synth design`: along
-principal axes, edges at least so long as the thickness; its size is the product of the two longest edges. Ratios of
-default and design are measured again by `synth.fold` from the sheet as it is drawn, with collisions looked for on the
-way. The storey, whose polygons are open, has six degrees of freedom and six driven creases: those of the default while
-crease 2 is pushed in, in whole degrees.
+A Miura sheet, a storey of Kresling's pattern, a box that pops up from a card, and two types of eight links. The box is
+that of `synth design`: along principal axes, edges at least so long as the thickness; its size is the product of the
+two longest edges. Ratios of default and design are measured again by `synth.fold` from the sheet as it is drawn, with
+collisions looked for on the way. The storey, whose polygons are open, has six degrees of freedom and six driven
+creases, at angles of the default while its crease 2 is pushed in, in whole degrees.
 Figures are written to benchmarks/results/stowed_designs.json.
 """
 

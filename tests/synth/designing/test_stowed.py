@@ -3,13 +3,16 @@
 import runpy
 from pathlib import Path
 
+import numpy as np
 import pytest
 from sizes import slow
 
 from graphs.mechanism.sheet import Sheet
 from synth.designing import Goal, JointAngle, SheetArea, WishedConfiguration, Wishes, design
 
-BENCHMARK = runpy.run_path(str(Path(__file__).resolve().parents[3] / "benchmarks" / "stowed_designs.py"))
+BENCHMARKS = Path(__file__).resolve().parents[3] / "benchmarks"
+BENCHMARK = runpy.run_path(str(BENCHMARKS / "stowed_designs.py"))
+FLASHERS = runpy.run_path(str(BENCHMARKS / "flashers.py"))
 QUICK = "eight links, number 23"
 
 
@@ -21,6 +24,32 @@ def test_boxes_are_a_third_smaller(name):
     assert figures["area_changed"] < 1e-12
     assert figures["residual"] <= 1e-12
     assert figures["no_collision"]
+
+
+@pytest.mark.parametrize("sides", [3, 4, 6, 8])
+def test_a_flasher_of_the_plane_wraps_its_hub_and_lengths_have_exact_derivatives(sides):
+    """On a sphere that is nearly a plane lengths agree but for its curvature, which shrinks with its radius."""
+    openings = []
+    for radius in (1e3, 1e4):
+        flasher = FLASHERS["Flasher"](sides, radius=radius)
+        openings.append(float(np.abs(flasher.misses(flasher.start())[0]).max()))
+    assert openings[0] < 1e-4
+    assert openings[1] == pytest.approx(openings[0] / 100, rel=0.01)
+    flasher = FLASHERS["Flasher"](sides)
+    numbers, step = flasher.start(), 1e-6
+    ends = [[flasher.misses(numbers + sign * step * one)[0] for sign in (1, -1)] for one in np.eye(len(numbers))]
+    differences = np.array([(ahead - behind) / (2 * step) for ahead, behind in ends]).T
+    assert np.abs(flasher.misses(numbers)[1] - differences).max() < 1e-7
+
+
+@pytest.mark.parametrize("sides", [3, 4, 6, 8])
+def test_flashers_on_a_sphere_close_where_they_are_stowed(sides):
+    """Lengths agree; as a second method the deployed sheet closes at the fold angles of the stowed one."""
+    figures = FLASHERS["row"](sides, starts=2)
+    assert figures["sound"] == 2
+    assert max(figures["opening"], figures["closure_stowed"], figures["off_sphere"]) <= 1e-12
+    assert not figures["panels_cross_deployed"]
+    assert figures["verdict"] == f"Rigid-foldable from this configuration: {2 * sides} degrees of freedom."
 
 
 def test_panels_that_pass_through_each_other_make_no_design():
