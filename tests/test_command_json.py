@@ -52,6 +52,7 @@ COMMANDS = [
     "thicken data/realised/chain-RR.fold --thickness 0.01 --no-collisions",
     "dyads --orientations data/orientations/tipparthi.json",
     "fourbar --orientations data/orientations/crank-rocker.json --best 1",
+    "sixbar --orientations data/orientations/tipparthi.json",
     "cone move data/surfaces/fig11-stephenson.json",
     "order --orientations data/orientations/tipparthi.json --axis 1,2,3",
     "convert data/wiener/watt.json made.graphml --lossy",

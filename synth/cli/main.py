@@ -59,6 +59,7 @@ _SECTIONS: dict[str, dict[str, str]] = {
         "order": "Check whether a crank about a fixed axis guides a body through orientations in order.",
         "dyads": "Find the RR dyads that guide a body through orientations.",
         "fourbar": "Find the four-bars that guide their coupler through orientations.",
+        "sixbar": "Find six-bars that guide a body through five orientations.",
     },
 }
 """Headings of the help to subcommands with their lines in it: it is printed without loading them."""
@@ -70,7 +71,7 @@ _FILES = {
     "edit": ("reduce", "edit"),
     "convert": ("convert", "reconstruct", "id"),
     "surfaces": ("cone", "cylinder"),
-    "guidance": ("order", "dyads", "fourbar"),
+    "guidance": ("order", "dyads", "fourbar", "sixbar"),
 }
 """Files of `synth.cli.commands` that hold several commands; every other command has a file of its name."""
 

@@ -1,4 +1,4 @@
-"""``synth order``, ``synth dyads`` and ``synth fourbar``: a body guided through orientations."""
+"""``synth order``, ``dyads``, ``fourbar`` and ``sixbar``: a body guided through orientations."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from synth.cli.output import about, check_output, check_picture, console, plain,
 
 if TYPE_CHECKING:
     from synth.guidance.order import Direction
+    from synth.guidance.six_bars import Carrier
 
 _ORIENTATIONS = options.value(
     "--orientations file", "FILE", "File of three or more orientations (docs/native-json.md).", required=True,
@@ -186,6 +187,52 @@ def fourbar(
         out.print(_table_of_cones(listed))
     if motion is not None:
         out.print(f"written: {plain(motion, 4096)} ({frames} orientations)")
+
+
+@click.command()
+@_ORIENTATIONS
+@options.number("--best", "K", "Number of six-bars after which the search ends.", most=100, default=1)
+@options.number(
+    "--tries",
+    "N",
+    "Largest number of ways from orientation to orientation to try; seconds each.",
+    most=100_000,
+    default=200,
+)
+@options.choice("--driven", ("ground", "body"), "Link whose joint with the dyad is driven; by default either.")
+@options.output("Write the best six-bar at orientation 1 as hinged solids.", "OUT.json", "-o --output")
+@options.output("Write the motion of its body, as orientations.", "OUT.json", "--motion")
+@options.FORCE
+@options.JSON
+def sixbar(
+    file: str, best: int, tries: int, driven: Carrier | None, output: str | None, motion: str | None, force: bool,
+    as_json: bool,
+) -> None:  # fmt: skip
+    """Find six-bars that guide a body through five orientations in order, on one circuit and one branch.
+
+    The body is held by a dyad that takes all five orientations, one of whose joints is driven and turns one way, and
+    a point of the body is led by the coupler of a four-bar: Stephenson's six-bar, in two forms. Every six-bar listed
+    was traced from the first orientation to the last. Exit status 1: none was found, which proves nothing.
+
+    \b
+    Example:
+      synth sixbar --orientations data/orientations/tipparthi.json -o six-bar.json
+    """
+    check_output(output, force=force)
+    check_output(motion, force=force)
+    orientations = synth.guidance.read_orientations(file)
+    with about(file):
+        found = synth.guidance.six_bars(orientations, most=best, tries=tries, driven=driven)
+    if not found.six_bars:
+        print_result(found, {"file": file}, as_json=as_json)
+        sys.exit(1)
+    if output is not None:
+        from graphs.files.formats import write
+
+        write(found.six_bars[0].linkage, output, force=force)
+    if motion is not None:
+        synth.guidance.write_orientations(found.six_bars[0].motion.quaternions, motion, force=force)
+    print_result(found, {"file": file}, as_json=as_json, written=[output, motion])
 
 
 def _cones_json(four_bar: synth.guidance.GuidedFourBar) -> dict[str, Any]:

@@ -136,6 +136,7 @@ def test_shell_completion_knows_the_commands():
         "order",
         "dyads",
         "fourbar",
+        "sixbar",
     }
 
 
