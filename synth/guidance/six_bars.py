@@ -60,14 +60,14 @@ second round; of each round the steps, and the weights of the five orientations 
 _SHORTEST, _APART, _OFF_AXIS, _REACH = 0.3, 0.1, 0.15, 0.01
 """What is kept away from: sines of arcs; squared sines between the fixed axes, and between the point and the axis of
 the body; and how far the coupler is from stretched."""
-_CROSSINGS, _LONGER = (0.05, 0.1, 0.2, 0.3, 0.4), 60
+_CROSSINGS, _LONGER = (0.05, 0.1, 0.2, 0.3, 0.4), 300
 """What dF/dv is to be at least, in the search and afterwards; and steps of each improvement."""
 _ALIKE = 1e-3
 """Joint lines of two improved linkages that differ by less, in radians, are those of one."""
 _SMOOTH = 0.01
 """Weight of the graph's bumps."""
-_DIFFERENCE = 1e-6
-"""Radians by which derivatives are taken."""
+_DIFFERENCE, _BESIDE = 1e-6, 1e-4
+"""Radians by which derivatives are taken; and those that are derived once more."""
 _LONGEST, _NEWTON_STEPS, _STRAY = 0.3, 12, 0.3
 """Longest step of an unknown, steps of Newton's method, and by how much neighbours on a traced graph may differ from
 what derivatives foretell: radians."""
@@ -403,8 +403,8 @@ class _Fit:
         other = self._smooth + (bumps @ self._bumps.T if bumps.shape[-1] else 0.0)
         held, side = self.graph.held, signs[..., :1]
         miss, room = _off_curve(four_bar, held.points(self._driven, other, body), side)
-        beside, _ = _off_curve(four_bar, held.points(self._driven, other + _DIFFERENCE, body), side)
-        crossing = signs[..., 1:] * (beside - miss) / _DIFFERENCE
+        beside, _ = _off_curve(four_bar, held.points(self._driven, other + _BESIDE, body), side)
+        crossing = signs[..., 1:] * (beside - miss) / _BESIDE
         one, two = _axis(four_bar[..., 0], four_bar[..., 1]), _axis(four_bar[..., 2], four_bar[..., 3])
         apart = np.stack(
             [1.0 - (one * two).sum(axis=-1) ** 2 - _APART, 1.0 - (body @ held.moving) ** 2 - _OFF_AXIS], -1
@@ -610,7 +610,7 @@ def _six_bar(orientations: Orientations, graph: _Graph, numbers: Floats, side: F
     fixed, other = _axis(numbers[[0, 2]], numbers[[1, 3]])
     first = orientations.matrices[0]
     into_ground = np.eye(3) if held.carrier == "ground" else first
-    steering = np.array([fixed, a[0, 0], point[0], c[0, 0], other]) @ into_ground.T
+    steering = facing(np.array([fixed, a[0, 0], point[0], c[0, 0], other]) @ into_ground.T)
     matrices = held.matrices(way.driven, way.other)
     keys = tuple(range(0, len(matrices), _FINE))
     missed = Rotation.from_matrix(np.swapaxes(orientations.matrices, 1, 2) @ matrices[list(keys)]).magnitude()
