@@ -49,7 +49,7 @@ from synth.guidance.fourbars import four_bars as four_bars
 from synth.guidance.guiding import guiding_dyads as guiding_dyads
 from synth.guidance.order import analyse_order as analyse_order
 from synth.guidance.orientations import Orientations as Orientations
-from synth.guidance.six_bars import six_bars as six_bars
+from synth.guidance.sixbars import six_bars as six_bars
 from synth.layering.answer import layers as layers
 from synth.members.sweeping import sweep as sweep
 from synth.moving.motion import in_configuration as in_configuration, move as move

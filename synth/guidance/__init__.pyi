@@ -30,7 +30,7 @@ from synth.guidance.orientations import (
     read_orientations as read_orientations,
     write_orientations as write_orientations,
 )
-from synth.guidance.six_bars import GuidedSixBar as GuidedSixBar, GuidedSixBars as GuidedSixBars, six_bars as six_bars
+from synth.guidance.sixbars import GuidedSixBar as GuidedSixBar, GuidedSixBars as GuidedSixBars, six_bars as six_bars
 from synth.guidance.synthesis import (
     DyadsOfFive as DyadsOfFive,
     dyads_by_least_squares as dyads_by_least_squares,

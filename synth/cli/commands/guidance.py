@@ -18,7 +18,7 @@ from synth.cli.output import about, check_output, check_picture, console, plain,
 
 if TYPE_CHECKING:
     from synth.guidance.order import Direction
-    from synth.guidance.six_bars import Carrier
+    from synth.guidance.sixbars import Carrier
 
 _ORIENTATIONS = options.value(
     "--orientations file", "FILE", "File of three or more orientations (docs/native-json.md).", required=True,

@@ -9,7 +9,7 @@ import synth
 from graphs.errors import UnsolvableError
 from graphs.geometry import angles_between, rotations, unit
 from synth.guidance import Orientations, dyads_of_five, four_bars, read_orientations, six_bars
-from synth.guidance.six_bars import _coupler, _graphs, _off_curve
+from synth.guidance.sixbars import _coupler, _graphs, _off_curve
 
 
 def body_by_walking(six_bar, place):

@@ -95,6 +95,13 @@ class GuidedSixBar:
         the point of the body, from orientation 1 to 5: zero is a dead point.
     residual : float
         Largest miss of an orientation by the traced linkage, radians.
+
+    Examples
+    --------
+    >>> from synth.guidance import read_orientations, six_bars
+    >>> [found] = six_bars(read_orientations("data/orientations/tipparthi.json"), driven="body").six_bars
+    >>> found.linkage, found.driven, np.degrees(found.inputs).round().tolist()
+    (<HingedSolids: 6 links, 7 joints>, 'body', [0.0, 121.0, 175.0, 258.0, 312.0])
     """
 
     orientations: Orientations
@@ -153,6 +160,11 @@ class GuidedSixBars(Printed):
     six_bars : tuple of GuidedSixBar
     tried, graphs : int
         How many ways through the five points of a torus were tried, and how many there are.
+
+    Examples
+    --------
+    >>> GuidedSixBars(Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7]), (), 0, 0)
+    <GuidedSixBars: 0 six-bars without defects>
     """
 
     orientations: Orientations
