@@ -95,6 +95,7 @@ orientations = synth.Orientations(np.eye(4))
 dyads = synth.guiding_dyads(orientations)
 reveal_type(synth.guiding_dyads(np.zeros((0, 5, 3, 3))).count)
 reveal_type((dyads, synth.analyse_order(orientations, (0.0, 0.0, 1.0)), synth.four_bars(orientations, dyads.dyads)))
+reveal_type(synth.six_bars(orientations, driven="ground").six_bars)
 
 wished = synth.design(linkage, "wishes.json", starts=2)
 reveal_type((wished, wished.best, wished.pareto))
