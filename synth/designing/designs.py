@@ -162,7 +162,8 @@ class Design(Printed):
         return (*opened, *still, *self.defects.defects)
 
     def __repr__(self) -> str:
-        return f"<Design: largest miss {self.miss:.1e}, {'success' if self.success else '; '.join(self.faults)}>"
+        misses = "all wishes met" if self.miss <= _MET else f"largest miss {self.miss:.1e}"
+        return f"<Design: {misses}, {'success' if self.success else '; '.join(self.faults)}>"
 
     def blocks(self) -> list[Block]:
         """Return the lines that are printed."""
@@ -364,7 +365,7 @@ class DesignSearch:
     >>> from synth.patterns import generate
     >>> wish = LinkArc(joints=("0", "1"), goal=Goal(equals=1.0))
     >>> DesignSearch(generate("four-bar").mechanism, Wishes((wish,))).design(0)
-    <Design: largest miss 0.0e+00, success>
+    <Design: all wishes met, success>
     """
 
     def __init__(

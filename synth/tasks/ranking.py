@@ -182,7 +182,8 @@ class RankedTypes(Printed):
         if not self.ranked and self.missed:
             one = self.missed[0]
             fault = f"; {one.faults}" if one.faults else ""
-            lines.append(f"nearest: {self.name(one)} ({self._roles(one)}), largest miss {one.miss:.2e}{fault}")
+            miss = "all wishes met" if round(one.miss, _MET) == 0.0 else f"largest miss {one.miss:.2e}"
+            lines.append(f"nearest: {self.name(one)} ({self._roles(one)}), {miss}{fault}")
         return lines
 
     def rows(self) -> list[tuple[str, ...]]:

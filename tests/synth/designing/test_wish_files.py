@@ -134,7 +134,7 @@ def test_what_cannot_change_or_has_no_coordinates_is_refused():
     wish = Wishes((JointAngle(joint="3", goal=Goal(equals=0.4)),), fixed=("0", "1", "2", "3"))
     with pytest.raises(UnsolvableError, match="nothing of the mechanism may change"):
         design(FOUR_BAR, wish)
-    with pytest.raises(UnsolvableError, match="has none; try synth realise"):
+    with pytest.raises(UnsolvableError, match="has none; try `synth realise`"):
         design(str(ROOT / "data" / "wiener" / "watt.json"), Wishes(wish.wishes))
     with pytest.raises(InvariantError, match="there is no parameter 'width'"):
         design(GENERATORS["bennett"], Wishes(wish.wishes, fixed=("width",)))

@@ -87,4 +87,4 @@ def test_bad_input_is_told_in_one_line(data, words, told):
 def test_a_sheet_without_coordinates_does_not_fold(tmp_path):
     place = tmp_path / "bare.fold"
     place.write_text('{"faces_vertices": [[0, 1, 2], [2, 1, 3]], "edges_vertices": [[1, 2]]}', encoding="utf-8")
-    assert "needs coordinates" in run("fold", place, code=2).stderr
+    assert "requires coordinates" in run("fold", place, code=2).stderr
