@@ -39,6 +39,18 @@ def kind_in_words(mechanism: object) -> str:
     return " ".join(word if word.isupper() else word.lower() for word in words)
 
 
+def without_coordinates(mechanism: object) -> UnsolvableError:
+    """Return the error of a mechanism that cannot move since its coordinates are not known.
+
+    Examples
+    --------
+    >>> print(without_coordinates(SCGraph(2, [(0, 1)])))
+    motion requires coordinates, and the SC graph has none; try `synth realise`, in Python synth.realise
+    """
+    what = f"motion requires coordinates, and the {kind_in_words(mechanism)} has none"
+    return UnsolvableError(f"{what}; try `synth realise`, in Python synth.realise")
+
+
 def to_sc(mechanism: Mechanism) -> SCGraph:
     """Return the SC graph of a mechanism; for a linkage on a cone, or hinged solids, the chain.
 

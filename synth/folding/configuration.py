@@ -15,7 +15,8 @@ import numpy as np
 
 from graphs.answer.mechanisms import sheet_in_frame
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet, opened
-from graphs.errors import UnsolvableError, check_argument
+from graphs.convert.table import without_coordinates
+from graphs.errors import check_argument
 from graphs.files.accepted import mechanism_for
 from graphs.mechanism.precision import in_space, keeping, precision_of_sheet, stated
 from graphs.mechanism.sheet import Sheet, with_all_edges
@@ -234,8 +235,7 @@ def configuration_of_sheet(
     """
     sheet = stated(sheet_in_frame(sheet, frame), precision)
     if sheet.coordinates is None:
-        without = "motion requires coordinates, and the sheet has none"
-        raise UnsolvableError(f"{without}; try `synth realise`, in Python synth.realise")
+        raise without_coordinates(sheet)
     read = precision_of_sheet(sheet)
     whole = keeping(with_all_edges(sheet), read)
     flat = flattened(whole, read) if mend else None

@@ -21,7 +21,7 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from graphs.errors import UnsolvableError, numbered
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.geometry import across, facing, frame_about, rotated, rotations, unit
 from graphs.joints.linkage import plain_vector
 from graphs.loops.loop import Centre, Loop
@@ -55,8 +55,8 @@ _BETWEEN, _CLOSER, _FINE = 6, 20, 60
 """Points of a graph between two orientations in the search, in its last round, and where it is traced."""
 _DRAWN, _STARTS, _KEPT, _LAST, _CHOSEN = 4000, 80, 16, 6, 3
 _ROUNDS = ((25, 2.0, 0.2, 0.3), (60, 5.0, 0.5, 0.3), (100, 5.0, 1.0, 0.3), (100, 5.0, 0.3, 1.0))
-"""Linkages that are drawn, how many of them are starts of a search, and how many are kept after its first and its
-second round; of each round the steps, and the weights of the five orientations and of the points between."""
+"""Linkages that are drawn, how many of them are starts of a search, and how many are kept after its first, second and
+third round; of each round the steps, and the weights of the five orientations, of the points between, and of dF/dv."""
 _SHORTEST, _APART, _OFF_AXIS, _REACH = 0.3, 0.1, 0.15, 0.01
 """What is kept away from: sines of arcs; squared sines between the fixed axes, and between the point and the axis of
 the body; and how far the coupler is from stretched."""
@@ -95,6 +95,8 @@ class GuidedSixBar:
         the point of the body, from orientation 1 to 5: zero is a dead point.
     residual : float
         Largest miss of an orientation by the traced linkage, radians.
+    motion : BodyMotion
+        From orientation 1 to 5, by angles of the driven joint.
 
     Examples
     --------
@@ -112,7 +114,7 @@ class GuidedSixBar:
     inputs: Floats
     transmission: float
     residual: float
-    _traced: BodyMotion
+    motion: BodyMotion
 
     @property
     def form(self) -> str:
@@ -126,11 +128,6 @@ class GuidedSixBar:
         loops = [Loop(joints, Centre.FINITE) for joints in ((2, 3, 5, 6), around)]
         chain = SCGraph(6, list(_LINKS[self.four_bar_on]), loops)
         return HingedSolids(chain, {joint: ((0.0, 0.0, 0.0), plain_vector(self.axes[joint])) for joint in range(7)})
-
-    @property
-    def motion(self) -> BodyMotion:
-        """The motion of the body from orientation 1 to 5, by angles of the driven joint."""
-        return self._traced
 
     def __repr__(self) -> str:
         crossing = f"transmission {degrees(self.transmission):.1f} degrees"
@@ -158,7 +155,7 @@ class GuidedSixBars(Printed):
     ----------
     orientations : Orientations
     six_bars : tuple of GuidedSixBar
-    tried, graphs : int
+    tried, ways : int
         How many ways through the five points of a torus were tried, and how many there are.
 
     Examples
@@ -170,7 +167,7 @@ class GuidedSixBars(Printed):
     orientations: Orientations
     six_bars: tuple[GuidedSixBar, ...]
     tried: int
-    graphs: int
+    ways: int
 
     def __repr__(self) -> str:
         return f"<GuidedSixBars: {numbered(len(self.six_bars), 'six-bar')} without defects>"
@@ -181,7 +178,7 @@ class GuidedSixBars(Printed):
             "orientations": len(self.orientations),
             "sixbars": [six_bar.to_json() for six_bar in self.six_bars],
             "tried": self.tried,
-            "ways": self.graphs,
+            "ways": self.ways,
         }
 
     def blocks(self) -> list[Block]:
@@ -200,7 +197,7 @@ class GuidedSixBars(Printed):
             for number, each in enumerate(self.six_bars, start=1)
         ]
         found = f"{len(self.orientations)} orientations: {numbered(len(self.six_bars), 'six-bar')} without defects"
-        tried = f"{self.tried} of {numbered(self.graphs, 'way')} from orientation to orientation tried"
+        tried = f"{self.tried} of {numbered(self.ways, 'way')} from orientation to orientation tried"
         return [f"{found}; {tried}", *([TableBlock(heads, rows, ["turns by", "transmission"])] if rows else [])]
 
 
@@ -231,6 +228,8 @@ def six_bars(
     ------
     UnsolvableError
         If there are not five, or no dyad, or infinitely many, take them.
+    InvariantError
+        If `driven` is neither link, or `most` or `tries` are not positive.
 
     Examples
     --------
@@ -240,6 +239,11 @@ def six_bars(
     >>> found.form, found.residual < 1e-12
     ('Stephenson III', True)
     """
+    if driven is not None and driven not in _CARRIERS:
+        raise InvariantError("driven", shown(driven), "'ground' or 'body'")
+    for name, number in (("most", most), ("tries", tries)):
+        if number < 1:
+            raise InvariantError(name, shown(number), "1 or more")
     dyads = dyads_of_five(orientations).dyads
     if not dyads:
         raise UnsolvableError("no dyad takes these orientations: all six solutions are complex")
@@ -382,7 +386,7 @@ class _Fit:
         self.weights[:5], self.weights[5:] = of_orientations, between
 
     def _parts(self, driven: Floats) -> tuple[Floats, Floats]:
-        """Return a smooth graph at some angles, float[K], and the bumps that are added to it, float[K, 8]."""
+        """Return a smooth graph at some angles, float[K], and the bumps that are added to it, float[K, 12]."""
         from scipy.interpolate import PchipInterpolator
 
         graph = self.graph

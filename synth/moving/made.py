@@ -12,7 +12,7 @@ import networkx as nx
 import numpy as np
 
 from graphs.answer.mechanisms import precision_of_steps
-from graphs.convert.table import Mechanism, kind_in_words, to_sheet
+from graphs.convert.table import Mechanism, to_sheet, without_coordinates
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.files.accepted import MechanismLike
 from graphs.files.formats import read
@@ -101,15 +101,9 @@ def linkage_of_rods(model: PolyhedronModel) -> PosedLinkage:
     return linkage_of_axes(SCGraph(links, joints), axes)
 
 
-def _without_coordinates(mechanism: object) -> UnsolvableError:
-    """Return the error of a mechanism that cannot move since its coordinates are not known."""
-    what = f"motion requires coordinates, and the {kind_in_words(mechanism)} has none"
-    return UnsolvableError(f"{what}; try `synth realise`, in Python synth.realise")
-
-
 def _check_only_rods(model: PolyhedronModel) -> None:
     if not model.coordinates:
-        raise _without_coordinates(model)
+        raise without_coordinates(model)
     more = {
         "remote centres": model.centres,
         "points on lines": model.on_line,
@@ -282,7 +276,7 @@ def _made(mechanism: Movable, orientations: Orientations | None) -> tuple[PosedL
         if orientations is None:
             raise UnsolvableError("a guided four-bar has its moving axes in the body; expected its orientations")
         return _of_guided(mechanism, orientations.matrices[0]), _EXACTLY
-    raise _without_coordinates(mechanism)
+    raise without_coordinates(mechanism)
 
 
 def with_precision(mechanism: Mechanism, precision: float | None) -> Mechanism | Configuration:
@@ -307,7 +301,7 @@ def _with_slides(mechanism: JointedLinkage) -> tuple[PosedLinkage, Precision]:
     """Return a linkage of revolute and prismatic joints, and how precise its coordinates are."""
     axes = {joint: (place.point, place.axes[0]) for joint, place in mechanism.places.items()}
     if not axes:
-        raise _without_coordinates(mechanism)
+        raise without_coordinates(mechanism)
     slides = [joint for joint, kind in mechanism.kinds.items() if kind is JointKind.PRISMATIC]
     return _with_centres(linkage_of_axes(mechanism.chain, axes, slides=slides)), _precision_of_axes(axes)
 

@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 from sizes import slow
 
 import synth
-from graphs.errors import UnsolvableError
+from graphs.errors import InvariantError, UnsolvableError
 from graphs.geometry import angles_between, rotations, unit
 from synth.guidance import Orientations, dyads_of_five, four_bars, read_orientations, six_bars
 from synth.guidance.sixbars import _coupler, _graphs, _off_curve
@@ -92,3 +92,17 @@ def test_other_than_five_orientations_are_refused():
     turned = Rotation.random(4, np.random.default_rng(1))
     with pytest.raises(UnsolvableError, match="4 orientations; six dyads require 5"):
         six_bars(Orientations.from_rotation(turned))
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"driven": "crank"}, "'crank'; expected 'ground' or 'body'"),
+        ({"most": 0}, "0; expected 1 or more"),
+        ({"tries": -1}, "-1; expected 1 or more"),
+    ],
+)
+def test_options_that_are_none_are_refused(options, message, data):
+    five = read_orientations(data / "orientations" / "tipparthi.json")
+    with pytest.raises(InvariantError, match=message):
+        six_bars(five, **options)
