@@ -39,18 +39,20 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.types import Floats, JointId, LinkId
+from synth.atlas.in_order import QUICK, differences_in_order
 from synth.atlas.opened import Atlas
 from synth.atlas.signatures import (
     CIRCUIT,
     FEW,
-    QUICK,
+    NO_SPANS,
     ROUND,
     SPANS,
+    Fit,
     MotionCurve,
     Signatures,
     arc_distances,
     difference,
-    differences_in_order,
+    joined,
     nearest,
     signatures_of,
 )
@@ -61,10 +63,11 @@ _VERSION = 1
 """Version of the table, and of what its numbers mean."""
 _UNIT = 256
 """Members of a unit: a row of the table."""
-_CANDIDATES = 32
-"""Candidates that are compared exactly."""
-_OF_FEW, _MOST_SINGLE = 1000, 24
-"""Candidates by signature that are first compared roughly with single orientations or points; most of these."""
+_CANDIDATES, _OF_FEW, _MOST_SINGLE = 32, 1000, 24
+"""Candidates by signature that are compared exactly; those that are first compared roughly with single orientations or
+points; most of these."""
+_STAGES = ((8, 1, 1), (20, 3, 10), (100, 10, 5))
+"""Steps of a fit, with which part of the candidates of a chain, and with how many at least."""
 _NOWHERE, _UNLIKE = 100.0, 10.0
 """Distances beyond are those of motions that have no signature; distance of other motions that hold no such arc."""
 _FIRST, _AT_ONCE = 1 << 12, 1 << 16
@@ -317,7 +320,7 @@ class NearMotion:
     links : tuple of two link ids
         The motion is that of the second against the first.
     axes : mapping of joint id to 3 floats
-        Directions, where the member was drawn.
+        Directions, where the member was drawn, or as they were fitted.
     point : tuple of 3 floats, optional
         Direction of the point of the second link whose path was compared.
     """
@@ -359,12 +362,15 @@ class NearMotions(Printed):
         Number of signatures.
     sparse : bool
         Whether the rows of the motion were compared as single orientations or points in order.
+    fitted : int
+        Number of members whose axes were changed to move more like the motion.
     """
 
     motion: MotionCurve
     rows: tuple[NearMotion, ...]
     compared: int
     sparse: bool = False
+    fitted: int = 0
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on."""
@@ -375,6 +381,7 @@ class NearMotions(Printed):
                 "in_order": len(self.motion.rows) if self.sparse else None,
             },
             "compared": self.compared,
+            "fitted": self.fitted,
             "nearest": [row.to_json() for row in self.rows],
         }  # fmt: skip
 
@@ -385,8 +392,9 @@ class NearMotions(Printed):
         along = f"{of} is {kind} of {degrees(self.motion.length):.1f}°, compared with {self.compared} of the atlas"
         if self.sparse:
             of = numbered(len(self.motion.rows), "orientation" if self.motion.rotates else "point")
-            number = f"{_OF_FEW} of {self.compared}" if self.compared > _OF_FEW else str(self.compared)
-            along = f"{of} in order on one circuit, compared with {number} motions of the atlas"
+            some = f"{_OF_FEW} of " if self.compared > _OF_FEW else ""
+            along = f"{of} in order on one circuit, compared with {some}{self.compared} motions of the atlas"
+        along += f"; the axes of {numbered(self.fitted, 'member')} were fitted to it" if self.fitted else ""
         if not self.rows:
             return [f"no member of the atlas moves so far: {along}"]
         best = self.rows[0]
@@ -410,6 +418,7 @@ def like(
     closed: bool | None = None,
     sparse: bool | None = None,
     limit: int = 10,
+    fit: int = 0,
 ) -> NearMotions:
     """Find the members in the table of motions of an atlas that move most like a motion, as starts for design.
 
@@ -431,19 +440,23 @@ def like(
         frames of one motion; by default if they are fewer than 12, and `closed` is not stated.
     limit : int, optional
         Largest number of members.
+    fit : int, optional
+        Number of members, nearest by signature, whose axes are changed until they move more like the motion: all a
+        few steps, the best of them further, and the best of these until no step makes them better. Of two links only.
 
     Returns
     -------
     NearMotions
-        Of the 32 members nearest by signature those that differ least; each pair of links of a member is one. With
-        single orientations or points those of 1000, roughly compared.
+        Of the 32 members nearest by signature, or those that were fitted, those that differ least; each pair of links
+        of a member is one. With single orientations or points those of 1000, roughly compared.
 
     Raises
     ------
     StoreError
         If the atlas has no table of motions.
     InvariantError
-        If there are fewer than three different rows, more than 24 that are sparse, or no such faces.
+        If there are fewer than three different rows, more than 24 that are sparse, no such faces, or members are to
+        be fitted to a path of a point or to single orientations.
 
     Examples
     --------
@@ -461,34 +474,36 @@ def like(
     curve = motion_curve(motion, links=links, closed=closed)
     if sparse is None:
         sparse = closed is None and len(curve.rows) < FEW
+    if fit and (sparse or not curve.rotates):
+        what = "single orientations" if curve.rotates else "the path of a point"
+        raise InvariantError("fit", what, "a motion of two links")
     if sparse and len(curve.rows) > _MOST_SINGLE:
-        what = f"{len(curve.rows)} rows that are sparse"
-        raise InvariantError("motion", what, f"at most {_MOST_SINGLE} single orientations or points")
+        raise InvariantError("motion", f"{len(curve.rows)} rows that are sparse", f"at most {_MOST_SINGLE}")
     with reading(atlas.path) as connection:
         _check_table(connection, atlas.path)
-        best, compared = _candidates(atlas.path, connection, curve, sparse=sparse)
-        traced = _traced(atlas.path, connection, curve, best)
+        most = fit or (_OF_FEW if sparse else _CANDIDATES)
+        best, compared = _candidates(atlas.path, connection, curve, most, sparse=sparse)
+        traced = _traced(atlas.path, connection, curve, best, fit=bool(fit))
     if sparse and traced:
         circuits = np.stack([one.rows for one in traced])
         few = np.argsort(differences_in_order(circuits, curve.rows, QUICK)[0], kind="stable")[:_CANDIDATES]
         traced, off = [traced[place] for place in few], differences_in_order(circuits[few], curve.rows)[0].tolist()
     else:
-        off = [difference(curve, MotionCurve.of(one.rows, closed=True)) for one in traced]
-    return NearMotions(curve, _near_motions(atlas, curve, traced, off)[:limit], compared, sparse)
+        off = [difference(curve, MotionCurve.of(one.rows, closed=True, even=True)) for one in traced]
+    near = _near_motions(atlas, curve, traced, off)[:limit]
+    return NearMotions(curve, near, compared, sparse, len(best) if fit else 0)
 
 
 def _candidates(
-    path: Path, connection: sqlite3.Connection, curve: MotionCurve, *, sparse: bool
+    path: Path, connection: sqlite3.Connection, curve: MotionCurve, most: int, *, sparse: bool
 ) -> tuple[list[_Candidate], int]:
-    """Return the motions that are nearest by signature, and the number of signatures.
+    """Return the motions that are nearest by signature, a number of them at most, and the number of signatures.
 
     Single orientations or points are joined by a spline: that says little, so many are taken, of small tables all.
     """
-    most = _OF_FEW if sparse else _CANDIDATES
     best: list[_Candidate] = []
-    compared = 0
-    goals = [] if curve.closed else curve.goals()
-    for units, signatures in _blocks(path, connection, "motion" if curve.rotates else "path"):
+    compared, goals = 0, [] if curve.closed else curve.goals()
+    for units, signatures in _blocks(path, connection, "motion" if curve.rotates else "path", arcs=not curve.closed):
         if curve.closed:
             distances = nearest(signatures.circuits, curve.circuit_numbers()[None])
         else:
@@ -519,25 +534,25 @@ _Unit = tuple[str, int, int]
 """The chain and the number of a unit, and how many signatures it has."""
 
 
-def _blocks(path: Path, connection: sqlite3.Connection, kind: str) -> Iterator[tuple[list[_Unit], Signatures]]:
-    """Yield the signatures of all units, some units at a time, so that memory is bounded."""
+def _blocks(
+    path: Path, connection: sqlite3.Connection, kind: str, *, arcs: bool
+) -> Iterator[tuple[list[_Unit], Signatures]]:
+    """Yield the signatures of all units, some units at a time, with spans for arcs; the next ones take their memory."""
     units: list[_Unit] = []
     arrays: list[Signatures] = []
+    memory = [np.zeros((0, CIRCUIT), np.float32), NO_SPANS]
     most = _FIRST
-    query = f"SELECT chain, unit, {kind}_circuits, {kind}_spans FROM motions ORDER BY chain, unit"
+    spans_of = f"{kind}_spans" if arcs else "NULL"
+    query = f"SELECT chain, unit, {kind}_circuits, {spans_of} FROM motions ORDER BY chain, unit"
     for code, number, circuits, spans in connection.execute(query):
-        arrays.append(
-            Signatures(
-                _array(path, circuits, np.float32, (-1, CIRCUIT)),
-                _array(path, spans, np.float32, (-1, ROUND, len(SPANS))),
-            )
-        )
-        units.append((code, number, len(arrays[-1].circuits)))
+        own = _array(path, circuits, np.float32, (-1, CIRCUIT))
+        arrays.append(Signatures(own, _array(path, spans, np.float32, (-1, ROUND, len(SPANS))) if arcs else NO_SPANS))
+        units.append((code, number, len(own)))
         if sum(count for _, _, count in units) >= most:
-            yield units, Signatures(*map(np.concatenate, zip(*arrays, strict=True)))
+            yield units, joined(arrays, memory)
             units, arrays, most = [], [], min(4 * most, _AT_ONCE)
     if units:
-        yield units, Signatures(*map(np.concatenate, zip(*arrays, strict=True)))
+        yield units, joined(arrays, memory)
 
 
 class _Traced(NamedTuple):
@@ -551,9 +566,9 @@ class _Traced(NamedTuple):
 
 
 def _traced(
-    path: Path, connection: sqlite3.Connection, curve: MotionCurve, best: Sequence[_Candidate]
+    path: Path, connection: sqlite3.Connection, curve: MotionCurve, best: Sequence[_Candidate], *, fit: bool
 ) -> list[_Traced]:
-    """Return the circuits of candidates, traced anew, each member once."""
+    """Return the circuits of candidates, traced anew, fitted to the motion or not, each member once."""
     traced = []
     for code in dict.fromkeys(candidate.chain for candidate in best):
         chain = mechanism_of_id(code)
@@ -565,12 +580,18 @@ def _traced(
             number: _array(path, connection.execute(query, (code, number)).fetchone()[0], float, shape)
             for number in {number for number, _, _ in places}
         }
-        members = {key: place for place, key in enumerate(dict.fromkeys(key[:2] for key in places))}
-        directions = np.stack([units[number][member] for number, member in members])
-        circuits = circuits_of(chain, directions[:, : len(chain.joints)])
+        sources = [place if fit else place[:2] for place in places]  # a member is fitted for each pair of its links
+        members = {source: place for place, source in enumerate(dict.fromkeys(sources))}
+        directions = np.stack([units[source[0]][source[1]] for source in members])
+        axes = directions[:, : len(chain.joints)]
+        if fit:
+            search = Fit(chain, axes, [pairs[source[2]] for source in members], curve)
+            search.run([(steps, max(least, len(members) // part)) for steps, part, least in _STAGES])
+            axes[:] = search.axes
+        circuits = circuits_of(chain, axes)
         rotations = circuits.rotations()
-        for number, member, which in places:
-            place = members[number, member]
+        for source, (_, _, which) in zip(sources, places, strict=True):
+            place = members[source]
             if circuits.closed[place]:
                 turned = {link: rotations[link][[place]] for link in pairs[which]}
                 rows = _curve(chain, turned, pairs[which], directions[[place]], points=not curve.rotates)[0]

@@ -20,17 +20,20 @@ Theory: docs/theory/atlas.md.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import InvariantError
+from graphs.geometry import unit
+from graphs.mechanism.sc import SCGraph
 from graphs.tolerances import DOUBLE, MARGIN
-from graphs.types import Floats, Ints
+from graphs.types import Floats, Ints, LinkId
+from synth.members.circuits import Circuits, across, circuits_of, product, relative
 
 CIRCUIT, ROUND, SPANS = 16, 24, (3, 6)
 """Numbers of a circuit; places round it, and numbers of places from each to those to which it has angles."""
@@ -44,7 +47,7 @@ _HARMONICS = {24: (0, 2, 4), 12: (0, 1, 2, 3), 6: (0, 1, 2, 3), 18: (0, 1, 2, 3)
 _SHORTEST = 1e-2
 """A motion of fewer radians has no signature: the links hardly move against each other."""
 _SLACK = 2e-3
-"""More than running sums in single precision are off, as a distance."""
+"""More than sums and products in single precision are off, as a distance."""
 FAR = np.float32(1e3)
 """The numbers of a motion that has no signature: it is far from all others."""
 
@@ -52,25 +55,6 @@ FEW = 12
 """Rows below which they are single orientations or points, and chords the parameter of a spline through them."""
 _COMPARED, _SHIFTS = 24, 8
 """Places of a motion that are compared with another; shifts of the other between two of them."""
-_AT_ONCE, _EVEN, _DAMPED, _NUDGE = 32, 256, 0.01, 3e-4
-"""Circuits that are compared with single orientations at once; places round each that are joined by cubics; damping
-of least squares at first; parts of a circuit by which differences are taken."""
-
-
-class Effort(NamedTuple):
-    """How hard places for single orientations are looked for, in each direction of travel round a circuit.
-
-    Places of which some are chosen, choices that are kept, those of them that are refined, and with how many steps;
-    the best quarter of these is refined by twice as many steps again.
-    """
-
-    places: int
-    choices: int
-    starts: int
-    steps: int
-
-
-QUICK, THOROUGH = Effort(36, 128, 8, 5), Effort(54, 256, 24, 8)
 
 
 class Signatures(NamedTuple):
@@ -78,6 +62,20 @@ class Signatures(NamedTuple):
 
     circuits: npt.NDArray[np.float32]
     spans: npt.NDArray[np.float32]
+
+
+NO_SPANS = np.zeros((0, ROUND, len(SPANS)), np.float32)
+
+
+def joined(arrays: Sequence[Signatures], memory: list[npt.NDArray[np.float32]]) -> Signatures:
+    """Return the signatures of units as one, in memory that is used again."""
+    joined = []
+    for number, parts in enumerate(zip(*arrays, strict=True)):
+        size = sum(map(len, parts))
+        if size > len(memory[number]):
+            memory[number] = np.empty((size + size // 4, *parts[0].shape[1:]), np.float32)
+        joined.append(np.concatenate(parts, out=memory[number][:size]))
+    return Signatures(*joined)
 
 
 def angles_between(first: Floats, second: Floats) -> Floats:
@@ -103,7 +101,7 @@ def signatures_of(rows: Floats) -> Signatures:
     >>> numbers[:2].round(4).tolist()  # half a turn, and at half the circuit the angle 180 degrees
     [0.5, 1.0]
     """
-    around = _Around(rows)
+    around = Around(rows)
     moving = around.lengths >= _SHORTEST
     lengths = np.where(moving, around.lengths, 1.0)
     at = around.at(np.broadcast_to(np.arange(_PLACES) / _PLACES, (len(lengths), _PLACES)))
@@ -126,7 +124,7 @@ def _circuit_numbers(lengths: Floats, at: Floats) -> Floats:
     return np.stack(columns, axis=1)
 
 
-class _Around:
+class Around:
     """Circuits by frames float[n, M, d], read at parts of their lengths."""
 
     def __init__(self, rows: Floats) -> None:
@@ -204,11 +202,12 @@ class MotionCurve:
     _length: float
 
     @classmethod
-    def of(cls, rows: Floats, *, closed: bool | None = None) -> MotionCurve:
+    def of(cls, rows: Floats, *, closed: bool | None = None, even: bool = False) -> MotionCurve:
         """Return the curve through rotations, float[n, 4], or points of a sphere, float[n, 3], of any lengths.
 
         Equal rows that follow each other are one. Without `closed` the curve is a circuit if its last row is its
-        first one again. InvariantError if there are fewer than three different rows, or one of them is zero.
+        first one again. Rows are `even` at equal steps of a smooth parameter; otherwise it is found out whether their
+        numbers are one. InvariantError if there are fewer than three different rows, or one of them is zero.
         """
         vectors = np.array(rows, dtype=float)
         if vectors.ndim != 2 or vectors.shape[1] not in (3, 4) or not np.isfinite(vectors).all():
@@ -219,14 +218,14 @@ class MotionCurve:
             raise InvariantError("motion", f"row {int(sizes.argmin()) + 1} is zero", "a rotation or a direction")
         vectors /= sizes[:, None]
         again = np.concatenate([[np.inf], angles_between(vectors[:-1], vectors[1:])]) <= DOUBLE.parallel
-        vectors = vectors[~again]
+        vectors, even = vectors[~again], even and not again.any()
         ends_meet = len(vectors) > 1 and bool(angles_between(vectors[0], vectors[-1]) <= DOUBLE.same_configuration)
         whole = ends_meet if closed is None else closed
         if whole and ends_meet:
             vectors = vectors[:-1]
         if len(vectors) < 3:
             raise InvariantError("motion", f"{len(vectors)} different rows", "3 or more")
-        return cls(vectors, whole, *_by_arc_length(vectors, closed=whole))
+        return cls(vectors, whole, *_by_arc_length(vectors, closed=whole, even=even))
 
     @property
     def length(self) -> float:
@@ -272,7 +271,7 @@ class MotionCurve:
         return ArcGoal(length * 2.0**-half, length * 2.0**half, np.concatenate(numbers, axis=1), np.array(places))
 
 
-def _by_arc_length(rows: Floats, *, closed: bool) -> tuple[tuple[Floats, Floats], object, float]:
+def _by_arc_length(rows: Floats, *, closed: bool, even: bool) -> tuple[tuple[Floats, Floats], object, float]:
     """Return arc lengths with the parameter there, a spline by that parameter, and the whole length."""
     from scipy.interpolate import CubicSpline
 
@@ -284,13 +283,13 @@ def _by_arc_length(rows: Floats, *, closed: bool) -> tuple[tuple[Floats, Floats]
         if rows.shape[1] == 4 and vectors[-1] @ vectors[0] < 0.0:  # back after two rounds only
             vectors = np.concatenate([vectors, -vectors])
         vectors = np.concatenate([vectors, vectors[:1]])
-    knots = _knots(vectors, closed=closed)
+    knots = np.arange(len(vectors), dtype=float) if even else _knots(vectors, closed=closed)
     spline = CubicSpline(knots, vectors, bc_type="periodic" if closed else "not-a-knot")
     end = knots[len(rows) if closed else -1]
     fine = np.linspace(0.0, end, max(4096, 8 * len(rows)) + 1)
     middle = (fine[:-1] + fine[1:]) / 2.0
-    speeds = [np.linalg.norm(spline(at, 1) - _radial(spline, at), axis=1) for at in (fine[:-1], middle, fine[1:])]
-    arcs = (speeds[0] + 4.0 * speeds[1] + speeds[2]) * np.diff(fine) / 6.0 * (2.0 if rows.shape[1] == 4 else 1.0)
+    ends, between = (_speeds(spline, at) for at in (fine, middle))
+    arcs = (ends[:-1] + 4.0 * between + ends[1:]) * np.diff(fine) / 6.0 * (2.0 if rows.shape[1] == 4 else 1.0)
     along = np.concatenate([[0.0], np.cumsum(arcs)])
     return (along, fine), spline, float(along[-1])
 
@@ -315,10 +314,11 @@ def _knots(vectors: Floats, *, closed: bool) -> Floats:
     return np.arange(len(vectors), dtype=float) if off[1] < (1.0 - MARGIN) * off[0] else chords
 
 
-def _radial(spline: object, at: Floats) -> Floats:
-    """Return the part of derivatives along the vectors themselves, which turns nothing."""
+def _speeds(spline: object, at: Floats) -> Floats:
+    """Return the lengths of derivatives less their parts along the vectors themselves, which turn nothing."""
     vectors, rates = spline(at), spline(at, 1)  # type: ignore[operator]
-    return np.asarray(vectors * (vectors * rates).sum(axis=1, keepdims=True) / (vectors**2).sum(axis=1, keepdims=True))
+    along = np.einsum("ni,ni->n", vectors, rates) / np.einsum("ni,ni->n", vectors, vectors)
+    return np.asarray(np.linalg.norm(rates - along[:, None] * vectors, axis=1))
 
 
 def difference(motion: MotionCurve, circuit: MotionCurve) -> float:
@@ -326,7 +326,7 @@ def difference(motion: MotionCurve, circuit: MotionCurve) -> float:
 
     What is compared are angles between all pairs of 24 places of the motion, equally far apart, with those of an arc
     of the same length, which begins anywhere and goes either way; a circuit is compared with the whole of another.
-    It is infinite if the circuit is shorter than the motion, by more than a hundredth.
+    For an arc it is infinite if the circuit is shorter, by more than a hundredth.
 
     Examples
     --------
@@ -339,179 +339,44 @@ def difference(motion: MotionCurve, circuit: MotionCurve) -> float:
     """
     from scipy.optimize import minimize_scalar
 
-    if motion.length > 1.01 * circuit.length:
-        return float("inf")
     whole = motion.closed and circuit.closed
+    if not whole and motion.length > 1.01 * circuit.length:
+        return float("inf")
     places = np.arange(_COMPARED) / (_COMPARED if whole else _COMPARED - 1)
     one, other = np.triu_indices(_COMPARED, 1)
     mine = motion.at(motion.length * places)
-    wanted = angles_between(mine[one], mine[other])
     reach = circuit.length if whole else min(motion.length, circuit.length)
     free = circuit.length if circuit.closed else circuit.length - reach
-
-    def off(begin: Floats, way: float) -> Floats:
-        at = circuit.at(begin[:, None] + way * reach * places)
-        return np.asarray(np.sqrt(((angles_between(at[:, one], at[:, other]) - wanted) ** 2).mean(axis=1)))
-
     count = _COMPARED * _SHIFTS
-    gap = free / count
+    gap, begin = free / count, np.linspace(0.0, free, count + 1)
+    at = circuit.at(begin[:, None] + reach * places)
+    cosines = np.clip((at @ at.swapaxes(1, 2))[:, one, other], -1.0, 1.0)
+    angles = 2.0 * np.arccos(np.abs(cosines)) if circuit.rotates else np.arccos(cosines)
+    starts = []
+    for way in (1, -1):
+        wanted = angles_between(mine[::way][one], mine[::way][other])
+        coarse = np.sqrt(((angles - wanted) ** 2).mean(axis=1))
+        starts.append((float(coarse.min()), float(begin[coarse.argmin()]), wanted))
     best = np.inf
-    for way in (1.0, -1.0):
-        begin = gap * np.arange(count + 1) + (0.0 if way > 0.0 or circuit.closed else reach)
-        coarse = off(np.asarray(begin, dtype=float), way)
-        start = float(begin[int(coarse.argmin())])
-        refined = minimize_scalar(
-            lambda at, way=way: float(off(np.array([at]), way)[0]),
-            bounds=(start - gap, start + gap), method="bounded", options={"xatol": 1e-9 * circuit.length},
-        ) if gap > 0.0 else None  # fmt: skip
-        best = min(best, float(coarse.min()), np.inf if refined is None else float(refined.fun))
+    for least, start, wanted in sorted(starts, key=lambda each: each[0]):
+        if least - 2.0 * gap >= best:  # no angle changes by more than twice the shift
+            break
+
+        def square(begin: float, wanted: Floats = wanted) -> float:  # smooth where it is zero
+            at = circuit.at(begin + reach * places)
+            return float(((angles_between(at[one], at[other]) - wanted) ** 2).mean())
+
+        squares = [square(start)]
+        if gap > 0.0:
+            options = {"xatol": 1e-9 * circuit.length}
+            bounds = (start - gap, start + gap)
+            squares.append(minimize_scalar(square, bounds=bounds, method="bounded", options=options).fun)
+        best = min(best, float(np.sqrt(min(squares))))
     return float(best)
 
 
-def differences_in_order(circuits: Floats, rows: Floats, effort: Effort = THOROUGH) -> tuple[Floats, Floats]:
-    """Return by how much circuits miss single orientations or points in order, and where they come nearest to these.
-
-    Compared are the angles between all pairs of `rows`, float[k, d], k at least 3, and those between k places that
-    follow each other within one round of a circuit, either way: frames of reference have no meaning. Choices among
-    places of equal distances are refined by least squares; a nearer choice may be missed. Circuits, float[n, M, d],
-    are as for `signatures_of`. The differences, float[n], are root mean squares in radians, the places, float[n, k],
-    parts of the circuits.
-
-    Examples
-    --------
-    >>> turn = np.linspace(0, 2 * np.pi, 256, endpoint=False)
-    >>> path = np.stack([np.cos(turn), np.sin(turn), 0.5 * np.cos(2 * turn)], axis=1)
-    >>> path /= np.linalg.norm(path, axis=1)[:, None]
-    >>> circle = np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
-    >>> off, _ = differences_in_order(np.stack([circle, path]), path[[200, 130, 100, 40, 10]][:, [1, 2, 0]])
-    >>> bool(off[1] < 1e-6 < 0.1 < off[0])
-    True
-    """
-    wanted = angles_between(rows[:, None], rows[None])
-    count = len(wanted)
-    widest = [min(wanted[i, i - 1], wanted[i, i - 2], wanted[i - 1, i - 2]) for i in range(count)]
-    first = int(np.argmax(np.round(widest, 6))) - 2  # the first three, which are chosen together, are far apart
-    order = np.arange(first, first + count) % count
-    wanted = wanted[np.ix_(order, order)]
-    found = []
-    for begin in range(0, len(circuits), _AT_ONCE):
-        evenly = _Evenly(circuits[begin : begin + _AT_ONCE])
-        parts = np.concatenate([way * _choices(evenly, wanted, way, effort) for way in (1, -1)], axis=1)
-        ways = np.broadcast_to(np.repeat([1.0, -1.0], effort.starts), parts.shape[:2])
-        for steps, kept in ((effort.steps, max(1, effort.starts // 4)), (2 * effort.steps, 1)):
-            off, parts = _refined(evenly, parts, ways, wanted, steps)
-            best = np.argsort(off, axis=1, kind="stable")[:, :kept]
-            parts, ways = np.take_along_axis(parts, best[..., None], axis=1), np.take_along_axis(ways, best, axis=1)
-        found.append((off.min(axis=1), parts[:, 0]))
-    off, places = (np.concatenate(some) for some in zip(*found, strict=True))
-    return off, np.remainder(places[:, np.argsort(order)], 1.0)
-
-
-class _Evenly:
-    """Circuits at places of equal distances, read between these by cubics: faster than by `_Around`."""
-
-    def __init__(self, circuits: Floats) -> None:
-        at = _Around(circuits).at(np.broadcast_to(np.arange(-1, _EVEN + 2) / _EVEN, (len(circuits), _EVEN + 3)))
-        if at.shape[2] == 4:  # of two quaternions of a rotation the nearer one
-            dots = (at[:, 1:] * at[:, :-1]).sum(axis=2)
-            at[:, 1:] *= np.cumprod(np.where(dots < 0.0, -1.0, 1.0), axis=1)[..., None]
-        self._rows, self.count = at, len(circuits)
-
-    def at(self, parts: Floats) -> Floats:
-        """Return unit vectors at parts of the lengths, float[n, ..., d]."""
-        along = np.remainder(parts, 1.0) * _EVEN
-        place = np.minimum(along.astype(np.int64), _EVEN - 1)
-        t = along - place
-        a, b, c = t + 1.0, t - 1.0, t - 2.0
-        who = np.arange(self.count).reshape(-1, *(1,) * (parts.ndim - 1))
-        total = np.zeros((*parts.shape, self._rows.shape[2]))
-        for node, weight in enumerate((-t * b * c / 6.0, a * b * c / 2.0, -a * t * c / 2.0, a * t * b / 6.0)):
-            total += weight[..., None] * self._rows[who, place + node]
-        return np.asarray(total / np.linalg.norm(total, axis=-1, keepdims=True))
-
-
-def _choices(evenly: _Evenly, wanted: Floats, way: int, effort: Effort) -> Floats:
-    """Return choices of places in one direction that miss angles float[k, k] least: parts of circuits float[n, S, k].
-
-    Three places are chosen together, from all, then one after the other; the least sums of squares are kept.
-    """
-    circuits, size, count = evenly.count, effort.places, len(wanted)
-    at = evenly.at(np.broadcast_to(way * np.arange(size) / size, (circuits, size)))
-    table = angles_between(at[:, :, None], at[:, None]).astype(np.float32)
-    squares = {pair: (table - np.float32(wanted[pair])) ** 2 for pair in combinations(range(count), 2)}
-    later = np.array(np.triu_indices(size))  # how far the second and third place are after the first
-    first = np.repeat(np.arange(size), later.shape[1])
-    second, third = ((first + np.tile(each, size)) % size for each in later)
-    sums = np.zeros((circuits, len(first)), np.float32)
-    three = (first, second, third)
-    for one, other in combinations(range(3), 2):
-        sums += np.take(squares[one, other].reshape(circuits, -1), three[one] * size + three[other], axis=1)
-    who = np.arange(circuits)[:, None]
-    kept = np.argpartition(sums, effort.choices, axis=1)[:, : effort.choices]
-    sums, places = sums[who, kept], np.stack(three, axis=1)[kept]
-    for number in range(3, count):
-        more = np.repeat(sums[:, :, None], size, axis=2)
-        for before in range(number):
-            more += squares[before, number][who, places[:, :, before]]
-        offset = (np.arange(size) - places[:, :, :1]) % size
-        more[offset < offset[who, np.arange(effort.choices), places[:, :, -1]][:, :, None]] = np.inf
-        more = more.reshape(circuits, -1)
-        kept = np.argpartition(more, effort.choices, axis=1)[:, : effort.choices]
-        sums = more[who, kept]
-        places = np.concatenate([places[who, kept // size], (kept % size)[:, :, None]], axis=2)
-    return _apart(sums, places, effort)
-
-
-def _apart(sums: npt.NDArray[np.float32], places: Ints, effort: Effort) -> Floats:
-    """Return the best choices that differ by two places or more, as parts of circuits that never decrease."""
-    size, who, chosen = effort.places, np.arange(len(sums)), []
-    for _ in range(effort.starts):
-        chosen.append(places[who, sums.argmin(axis=1)])
-        gap = np.abs((places - chosen[-1][:, None] + size // 2) % size - size // 2).max(axis=2)
-        sums = np.where(gap < 2, np.inf, sums)
-    starts = np.stack(chosen, axis=1)
-    offsets = (starts - starts[:, :, :1]) % size
-    spread = 0.5 * np.arange(starts.shape[2]) / starts.shape[2]  # equal places are no start for least squares
-    return np.asarray((starts[:, :, :1] + offsets + spread) / size)
-
-
-def _refined(evenly: _Evenly, parts: Floats, ways: Floats, wanted: Floats, steps: int) -> tuple[Floats, Floats]:
-    """Return how much parts of circuits, float[n, B, k], miss angles float[k, k] once they are refined, and the parts.
-
-    The method is that of Levenberg and Marquardt; parts keep their order, each in its way, float[n, B].
-    """
-    at, way = evenly.at, ways[..., None]
-    one, other = np.triu_indices(len(wanted), 1)
-    angles, pairs = wanted[one, other], np.arange(len(one))
-
-    def misses(some: Floats, others: Floats) -> Floats:
-        return angles_between(some[:, :, one], others[:, :, other]) - angles
-
-    here = at(parts)
-    miss = misses(here, here)
-    damping, nudge = np.full(parts.shape[:2], _DAMPED), _NUDGE * way
-    for _ in range(steps):
-        behind, ahead = at(parts - nudge), at(parts + nudge)  # of two equal places neither may overtake the other
-        rates = np.zeros((*parts.shape[:2], len(pairs), parts.shape[2]))
-        rates[:, :, pairs, one] = (miss - misses(behind, here)) / nudge
-        rates[:, :, pairs, other] = (misses(here, ahead) - miss) / nudge
-        gram = np.swapaxes(rates, 2, 3) @ rates
-        sizes = np.einsum("...ii->...i", gram)
-        damped = damping[..., None] * sizes + DOUBLE.clear * sizes.sum(axis=2, keepdims=True)
-        gram += np.eye(len(wanted)) * damped[..., None]
-        step = np.linalg.solve(gram, np.swapaxes(rates, 2, 3) @ miss[..., None])[..., 0]
-        along = np.maximum.accumulate(way * (parts - step), axis=2)
-        trial = way * np.minimum(along, along[:, :, :1] + 1.0)
-        there = at(trial)
-        off = misses(there, there)
-        better = (off**2).sum(axis=2) < (miss**2).sum(axis=2)
-        parts, miss = (np.where(better[..., None], *pair) for pair in ((trial, parts), (off, miss)))
-        here = np.where(better[..., None, None], there, here)
-        damping = np.where(better, damping / 5.0, damping * 5.0)
-    return np.sqrt((miss**2).mean(axis=2)), parts
-
-
-class ArcGoal(NamedTuple):
+@dataclass(frozen=True)
+class ArcGoal:
     """An arc laid on circuits of lengths from `least` to `most`: ratios float[Q, m], of places and spans int[m, 2]."""
 
     least: float
@@ -519,62 +384,112 @@ class ArcGoal(NamedTuple):
     numbers: Floats
     places: Ints
 
+    @cached_property
+    def middle(self) -> np.float32:
+        """Mean of all ratios; differences from it keep their digits."""
+        return np.float32(self.numbers.mean())
+
+    @cached_property
+    def within(self) -> npt.NDArray[np.bool_]:
+        """Which of the 48 ratios round a circuit are of the arc, if it begins at each place: bool[48, 24]."""
+        within = np.zeros((ROUND, len(SPANS), ROUND), dtype=bool)
+        begin = np.arange(ROUND)[:, None]
+        within[(begin + self.places[:, 0]) % ROUND, self.places[:, 1], begin] = True
+        return within.reshape(-1, ROUND)
+
+    @cached_property
+    def laid(self) -> npt.NDArray[np.float32]:
+        """The ratios less their middle where they are then, elsewhere 0: float32[Q * 24, 48]."""
+        laid = np.zeros((len(self.numbers), ROUND, ROUND, len(SPANS)), np.float32)
+        begin = np.arange(ROUND)[:, None]
+        laid[:, begin, (begin + self.places[:, 0]) % ROUND, self.places[:, 1]] = (self.numbers - self.middle)[:, None]
+        return laid.reshape(-1, ROUND * len(SPANS))
+
+    @cached_property
+    def ranges(self) -> Floats:
+        """Middles and halves of the ranges of sums of ratios over the roots of their counts: float[2, spans]."""
+        own = [self.numbers[:, self.places[:, 1] == column] for column in range(len(SPANS))]
+        sums = np.array([numbers.sum(axis=1) / np.sqrt(numbers.shape[1]) for numbers in own])
+        least, most = sums.min(axis=1), sums.max(axis=1)
+        return np.stack([(most + least) / 2.0, (most - least) / 2.0])
+
 
 def arc_distances(signatures: Signatures, goals: Sequence[ArcGoal], limit: float = np.inf) -> Floats:
     """Return how far each circuit, in its nearest place, is from holding an arc: root mean square, float[n].
 
-    Circuits that are farther than a limit may have infinity instead: means and spreads along the arc prove it.
+    Circuits that are farther than a limit may have infinity instead: means along the arc prove it, or products in
+    single precision.
     """
     lengths = signatures.circuits[:, 0] * 4.0 * np.pi
-    order = np.argsort(lengths)
-    ordered, found = lengths[order], np.full(len(lengths), np.inf)
-    for goal in goals:
-        who = order[np.searchsorted(ordered, goal.least) : np.searchsorted(ordered, goal.most)]
-        spans = signatures.spans[who]
-        if limit < np.inf:
-            near = np.flatnonzero(_least_distances(spans, goal) <= limit + _SLACK)
-            who, spans = who[near], spans[near]
-        if not len(who):
-            continue
-        place, column = goal.places.T
-        there = spans[:, (np.arange(ROUND)[:, None] + place) % ROUND, column]
-        misses = nearest(there.reshape(-1, len(place)), goal.numbers).reshape(len(who), ROUND)
-        found[who] = misses.min(axis=1) / np.sqrt(len(place))
+    edges = [*(goal.least for goal in goals), goals[-1].most]
+    who = np.flatnonzero((lengths >= edges[0]) & (lengths < edges[-1]))
+    who = who[np.argsort(lengths[who])]
+    ends = np.searchsorted(lengths[who], edges)
+    spans, found = signatures.spans.reshape(len(lengths), -1), np.full(len(lengths), np.inf)
+    sizes = [len(goal.places) for goal in goals]
+    for size in dict.fromkeys(sizes):
+        first, last = sizes.index(size), sizes.index(size) + sizes.count(size)  # goals of a size follow each other
+        own = who[ends[first] : ends[last]]
+        goal_of = np.repeat(np.arange(last - first), np.diff(ends[first : last + 1]))
+        found[own] = _distances(spans[own], goals[first:last], goal_of, limit)
     return found
 
 
-def _least_distances(spans: npt.NDArray[np.float32], goal: ArcGoal) -> Floats:
-    """Return what an arc is at least off each circuit, from spans float32[n, 24, 2]: float[n].
+_Ratios = npt.NDArray[np.float32]
+"""Ratios of circuits, float32[n, 48]."""
 
-    Of numbers x and y let a and b be the means, s and t the distances from these: |x - y|^2 is n (a - b)^2 plus the
-    square of a distance between vectors of the lengths s and t, so at least n (a - b)^2 + (s - t)^2. Both are those
-    of windows round the circuit, sums of which are differences of running sums; of all phases of the arc the
-    nearest a and s are taken, each by itself.
+
+def _distances(spans: _Ratios, goals: Sequence[ArcGoal], goal_of: Ints, limit: float) -> Floats:
+    """Return the distances of circuits, each from one of goals of as many places, in the order of goals."""
+    found, near = np.full(len(spans), np.inf), np.arange(len(spans))
+    if limit < np.inf:
+        for bound in (_by_means, _by_products):
+            kept = np.flatnonzero(bound(spans, goals, goal_of) <= limit + _SLACK)
+            near, spans, goal_of = near[kept], spans[kept], goal_of[kept]
+    for goal, rows in _each(goals, goal_of):
+        place, column = goal.places.T
+        there = spans[rows].reshape(-1, ROUND, len(SPANS))[:, (np.arange(ROUND)[:, None] + place) % ROUND, column]
+        misses = nearest(there.reshape(-1, len(place)), goal.numbers).reshape(-1, ROUND)
+        found[near[rows]] = misses.min(axis=1) / np.sqrt(len(place))
+    return found
+
+
+def _each(goals: Sequence[ArcGoal], goal_of: Ints) -> Iterator[tuple[ArcGoal, slice]]:
+    """Yield the goals of some circuits, and which circuits these are."""
+    ends = np.searchsorted(goal_of, np.arange(len(goals) + 1)).tolist()
+    for goal, first, last in zip(goals, ends[:-1], ends[1:], strict=True):
+        if last > first:
+            yield goal, slice(first, last)
+
+
+def _by_means(spans: _Ratios, goals: Sequence[ArcGoal], goal_of: Ints) -> Floats:
+    """Return what arcs are at least off circuits, by the means of their ratios for each span.
+
+    Of n numbers x and y with the means a and b, |x - y|^2 is at least n (a - b)^2. Means are those of windows round the
+    circuit; of all phases of the arc the nearest b is taken.
     """
-    if not len(spans):
-        return np.zeros(0)
-    squares = np.zeros((len(spans), ROUND), np.float32)
-    places = np.arange(ROUND)
-    for column in range(len(SPANS)):
-        own = goal.places[:, 1] == column
-        count = int(own.sum())
-        if not count:
-            continue
-        wanted = goal.numbers[:, own]
-        middle = np.float32(wanted.mean())  # near it squares keep their digits
-        means = wanted.mean(axis=1)
-        spreads = np.linalg.norm(wanted - means[:, None], axis=1)
-        window = ((places[:, None] - places) % ROUND < count).astype(np.float32) / np.float32(np.sqrt(count))
-        here = spans[:, :, column] - middle
-        mean = here @ window  # times the root of the count
-        here *= here
-        spread = here @ (window * np.float32(np.sqrt(count)))
-        spread -= mean * mean
-        np.sqrt(np.maximum(spread, 0.0, out=spread), out=spread)
-        for numbers, off in ((mean, (means - middle) * np.sqrt(count)), (spread, spreads)):
-            beyond = numbers - np.clip(numbers, np.float32(off.min()), np.float32(off.max()))
-            squares += beyond * beyond
-    return np.asarray(np.sqrt(squares.min(axis=1) / len(goal.places)))
+    within = goals[0].within.reshape(ROUND, len(SPANS), 1, ROUND) * np.eye(len(SPANS))[None, :, :, None]
+    windows = (within / np.sqrt(within.sum(axis=(0, 1)))).reshape(ROUND * len(SPANS), -1).astype(np.float32)
+    middles, halves = np.stack([goal.ranges for goal in goals]).astype(np.float32).transpose(1, 2, 0)[..., goal_of]
+    sums = (windows.T @ spans.T).reshape(len(SPANS), ROUND, -1)
+    sums -= middles[:, None]
+    beyond = np.abs(sums, out=sums)
+    beyond -= halves[:, None]
+    np.maximum(beyond, 0.0, out=beyond)
+    beyond *= beyond
+    return np.asarray(np.sqrt(beyond.sum(axis=0).min(axis=0) / len(goals[0].places)))
+
+
+def _by_products(spans: _Ratios, goals: Sequence[ArcGoal], goal_of: Ints) -> Floats:
+    """Return the distances of circuits but for the rounding of |x|^2 - 2 x y + |y|^2 in single precision."""
+    squares = np.zeros(len(spans))
+    for goal, rows in _each(goals, goal_of):
+        shifted = spans[rows] - goal.middle
+        mixed = (-2.0 * goal.laid) @ shifted.T
+        mixed += (goal.laid * goal.laid).sum(axis=1)[:, None]
+        own = goal.within.T.astype(np.float32) @ (shifted * shifted).T
+        squares[rows] = (mixed.reshape(-1, ROUND, len(shifted)).min(axis=0) + own).min(axis=0) / len(goal.places)
+    return np.sqrt(np.maximum(squares, 0.0))
 
 
 def nearest(numbers: npt.NDArray[np.float32], goals: Floats) -> Floats:
@@ -588,3 +503,166 @@ def nearest(numbers: npt.NDArray[np.float32], goals: Floats) -> Floats:
         mixed += (others * others).sum(axis=1)
         squares += mixed.min(axis=1)
     return np.asarray(np.sqrt(np.maximum(squares, 0.0)))
+
+
+_FIT_FRAMES, _BEGINNINGS, _TOGETHER, _NUDGE = 128, 96, 64, 1e-5
+"""Frames of circuits whose axes are fitted; places where a motion may begin on them; members whose slopes are found
+together; step of differences, radians."""
+_DAMPING, _FACTOR, _MOST_DAMPING, _LONGEST = 1e-2, 8.0, 1e4, 0.3
+"""Damping of steps at first, over the mean of squares of slopes, the factor by which it changes, and the most; the
+most radians of a step."""
+_SLOW = 1e-4
+"""Part of the sum of squares below which a gain ends the fit of a member."""
+
+
+class Fit:
+    """Members of a chain whose axes are changed until two of their links move like a motion.
+
+    Levenberg and Marquardt's method for the angles between 24 places of the motion and as many of the circuit, by two
+    turns of each axis and the place where the motion begins; all members go a step together. The motion stays on
+    one circuit, which closes: a step to a member whose circuit does not is not taken.
+
+    Attributes
+    ----------
+    axes : float[N, J, 3]
+        Unit vectors, where members are now.
+    costs : float[N]
+        Sums of squares of differences of angles, infinite for a circuit that does not close.
+    """
+
+    def __init__(
+        self, chain: SCGraph, axes: Floats, pairs: Sequence[tuple[LinkId, LinkId]], motion: MotionCurve
+    ) -> None:
+        self.axes, self.costs = unit(axes), np.full(len(axes), np.inf)
+        self._chain, self._pairs, self._motion = chain, list(pairs), motion
+        self._places = np.arange(_COMPARED) / (_COMPARED if motion.closed else _COMPARED - 1)
+        self._wanted = self._angles(motion.at(motion.length * self._places)[None])[0]
+        size = 2 * axes.shape[1] + 1
+        self._angles_of = np.zeros((len(axes), _FIT_FRAMES, axes.shape[1]))
+        self._offs = np.full((len(axes), len(self._wanted)), np.inf)
+        self._slopes = np.zeros((len(axes), len(self._wanted), size))
+        self._damping = np.full(len(axes), _DAMPING)
+        self._begins, self._ways = np.zeros(len(axes)), np.ones(len(axes))
+        self._stale, self._ended = np.ones(len(axes), dtype=bool), np.zeros(len(axes), dtype=bool)
+        self._begin()
+
+    def run(self, stages: Sequence[tuple[int, int]]) -> None:
+        """Go so many steps with so many of the members, the best ones, stage by stage."""
+        for steps, kept in stages:
+            best = np.argsort(self.costs, kind="stable")[:kept]
+            for _ in range(steps):
+                under_way = best[~self._ended[best]]
+                if not len(under_way):
+                    break
+                self.step(under_way)
+
+    def step(self, who: Ints) -> None:
+        """Go a step with some members, where it makes them better; else the next one is shorter."""
+        slopes, off = self.slopes(who), self._offs[who]
+        gram = slopes.swapaxes(1, 2) @ slopes
+        size = np.trace(gram, axis1=1, axis2=2) / gram.shape[1] + DOUBLE.zero
+        gram += (self._damping[who] * size)[:, None, None] * np.eye(gram.shape[1])
+        change = -np.linalg.solve(gram, slopes.swapaxes(1, 2) @ off[..., None])[..., 0]
+        change *= np.minimum(1.0, _LONGEST / np.maximum(np.abs(change).max(axis=1), DOUBLE.zero))[:, None]
+        turns = (change[:, :-1].reshape(*self.axes[who].shape[:2], 2, 1) * across(self.axes[who])).sum(axis=2)
+        axes, begins = unit(self.axes[who] + np.cross(turns, self.axes[who])), self._begins[who] + change[:, -1]
+        circuits, tried = self._tried(who, axes, begins)
+        costs = (tried**2).sum(axis=1)
+        good = costs < self.costs[who]
+        better = who[good]
+        gained = 1.0 - costs[good] / self.costs[better]
+        self._ended[better] = gained < _SLOW
+        self._keep(better, circuits.angles[good], tried[good])
+        self.axes[better], self._begins[better] = axes[good], begins[good]
+        self._damping[who] *= np.where(good, 1.0 / _FACTOR, _FACTOR)
+        self._ended[who] |= self._damping[who] > _MOST_DAMPING
+
+    def _keep(self, who: Ints, angles: Floats, offs: Floats) -> None:
+        self._angles_of[who], self._offs[who], self._stale[who] = angles, offs, True
+        self.costs[who] = (offs**2).sum(axis=1)
+
+    @staticmethod
+    def _angles(at: Floats) -> Floats:
+        """Return the angles between all pairs of 24 places, radians up to a whole turn: [n, 276].
+
+        Each quaternion is the one nearer to that of the place before; so angles are smooth beyond half a turn too.
+        """
+        near = (at[:, 1:] * at[:, :-1]).sum(axis=2) >= 0.0
+        signs = np.cumprod(np.where(near, 1.0, -1.0), axis=1)
+        at = np.concatenate([at[:, :1], at[:, 1:] * signs[..., None]], axis=1)
+        one, other = np.triu_indices(_COMPARED, 1)
+        gap = at[:, one] - at[:, other]
+        return np.asarray(4.0 * np.arcsin(np.minimum(np.sqrt(np.einsum("npi,npi->np", gap, gap)) / 2.0, 1.0)))
+
+    def _parts(self, who: Ints, lengths: Floats, begins: Floats) -> Floats:
+        """Return where places of the motion are on circuits, as parts of their lengths: float[n, 24]."""
+        reach = np.ones(len(lengths)) if self._motion.closed else self._motion.length / lengths
+        return begins[:, None] + (self._ways[who] * reach)[:, None] * self._places
+
+    def _misses(self, who: Ints, around: Around, begins: Floats) -> Floats:
+        return np.asarray(self._angles(around.at(self._parts(who, around.lengths, begins))) - self._wanted)
+
+    def _rows(self, who: Ints, circuits: Circuits) -> Floats:
+        """Return the motions of the two links of some members."""
+        turned = circuits.rotations()
+        rows = np.empty((*circuits.angles.shape[:2], 4))
+        for place, (first, second) in enumerate(self._pairs[member] for member in who.tolist()):
+            rows[place] = relative(turned[first][place], turned[second][place])
+        return rows
+
+    def _tried(self, who: Ints, axes: Floats, begins: Floats) -> tuple[Circuits, Floats]:
+        """Return circuits with other axes, and by how much they miss; infinite where they do not close."""
+        circuits = circuits_of(self._chain, axes, frames=_FIT_FRAMES)
+        offs = np.full((len(who), len(self._wanted)), np.inf)
+        good = np.flatnonzero(circuits.closed)
+        if len(good):
+            around = Around(self._rows(who, circuits)[good])
+            offs[good] = self._misses(who[good], around, begins[good])
+        return circuits, offs
+
+    def _begin(self) -> None:
+        """Find where motions begin on the circuits, and which way they go."""
+        who = np.arange(len(self.axes))
+        circuits = circuits_of(self._chain, self.axes, frames=_FIT_FRAMES)
+        rows = self._rows(who, circuits)
+        back = self._angles(self._motion.at(self._motion.length * self._places[::-1])[None])[0]
+        for member in np.flatnonzero(circuits.closed):
+            around, own = Around(rows[[member]]), who[[member]]
+            reach = float((self._parts(own, around.lengths, np.zeros(1)))[0, -1])
+            begins = np.arange(_BEGINNINGS) / _BEGINNINGS
+            at = around.at((begins[:, None] + reach * self._places / self._places[-1]).reshape(1, -1))[0]
+            angles = self._angles(at.reshape(_BEGINNINGS, _COMPARED, -1))
+            costs = [((angles - wanted) ** 2).sum(axis=1) for wanted in (self._wanted, back)]
+            turned = int(costs[1].min() < costs[0].min())
+            begin = float(begins[int(costs[turned].argmin())])
+            self._begins[member], self._ways[member] = ((begin, 1.0), (begin + reach, -1.0))[turned]
+        good = np.flatnonzero(circuits.closed)
+        self._ended[:] = ~circuits.closed
+        self._keep(good, circuits.angles[good], self._misses(good, Around(rows[good]), self._begins[good]))
+
+    def misses_of(self, axes: Floats) -> Floats:
+        """Return by how much angles of all members miss with other axes, float[N, 276], where motions begin as now."""
+        return self._tried(np.arange(len(axes)), axes, self._begins)[1]
+
+    def slopes(self, who: Ints) -> Floats:
+        """Return the derivatives of misses of some members by two turns of each axis and the beginning: [n, 276, C]."""
+        stale = who[self._stale[who]]
+        for first in range(0, len(stale), _TOGETHER):
+            self._renew(stale[first : first + _TOGETHER])
+        return self._slopes[who]
+
+    def _renew(self, who: Ints) -> None:
+        """Find slopes by differences of frames along which loops stay closed."""
+        closed = np.ones(len(who), dtype=bool)
+        circuits = Circuits(self._chain, self.axes[who], self._angles_of[who], closed)
+        rows, rates = circuits.with_rates([self._pairs[member] for member in who.tolist()])
+        turns = np.concatenate([np.zeros((*rates.shape[:3], 1)), 0.5 * _NUDGE * rates], axis=-1)
+        moved = unit(rows[:, :, None] + product(turns, np.broadcast_to(rows[:, :, None], turns.shape)))
+        count = moved.shape[2]
+        around = Around(moved.swapaxes(1, 2).reshape(-1, *rows.shape[1:]))
+        every, begins = np.repeat(who, count), np.repeat(self._begins[who], count)
+        there = self._misses(every, around, begins).reshape(len(who), count, -1)
+        shifted = self._misses(who, Around(rows), self._begins[who] + _NUDGE)
+        there = np.concatenate([there, shifted[:, None]], axis=1)
+        self._slopes[who] = (there - self._offs[who, None]).swapaxes(1, 2) / _NUDGE
+        self._stale[who] = False

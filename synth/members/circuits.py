@@ -7,6 +7,7 @@ circuit goes on through the turning points of every other joint. Segments are ta
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +18,7 @@ from graphs.geometry import unit
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.rank.exact import independent_cycles
+from graphs.tolerances import DOUBLE
 from graphs.types import Flags, Floats, Ints, JointId, LinkId
 from synth.assembly.family import family_of
 from synth.members.dimensions import checked_axes, type_of
@@ -59,20 +61,82 @@ class Circuits:
         """
         first = next(iter(self.chain.nodes))
         turned = {first: np.broadcast_to([1.0, 0.0, 0.0, 0.0], (*self.angles.shape[:2], 4))}
-        queue = [first]
-        ends = list(self.chain.joints.values())
-        while queue:
-            link = queue.pop(0)
-            for joint, (one, other) in enumerate(ends):
-                if link not in (one, other):
-                    continue
-                after, sign = (other, 0.5) if link == one else (one, -0.5)
-                if after not in turned:
-                    half = sign * self.angles[..., joint, None]
-                    turn = np.concatenate([np.cos(half), np.sin(half) * self.axes[:, None, joint]], axis=-1)
-                    turned[after] = product(turned[link], turn)
-                    queue.append(after)
+        for link, after, joint, sign in _tree(self.chain):
+            half = 0.5 * sign * self.angles[..., joint, None]
+            turn = np.concatenate([np.cos(half), np.sin(half) * self.axes[:, None, joint]], axis=-1)
+            turned[after] = product(turned[link], turn)
         return turned
+
+    def with_rates(self, pairs: Sequence[tuple[LinkId, LinkId]]) -> tuple[Floats, Floats]:
+        """Return the motions of two links, one pair for each member, and how they change with the axes.
+
+        Parameters
+        ----------
+        pairs : sequence of two link ids
+            The motion is that of the second link in the frame of the first.
+
+        Returns
+        -------
+        float[N, M, 4]
+            Unit quaternions, scalar first.
+        float[N, M, 2J, 3]
+            Rates of rotation in the frame of the first link, radians for each radian by which an axis is turned about
+            each of the two directions of `across`. Loops stay closed, while joint angles change as little as they can.
+        """
+        names = list(self.chain.nodes)
+        first, second = ([names.index(pair[side]) for pair in pairs] for side in (0, 1))
+        turned = self.rotations()
+        every, member = np.stack([turned[name] for name in names]), np.arange(len(self.axes))
+        seen = relative(every[first, member], every)
+        matrices = _matrices(seen)
+        paths = {name: np.zeros(len(self.chain.joints)) for name in names}
+        for link, after, joint, sign in _tree(self.chain):
+            paths[after] = paths[link].copy()
+            paths[after][joint] = sign
+        ends = list(self.chain.joints.values())
+        loops = np.array([paths[one] - paths[other] for one, other in ends]) + np.eye(len(ends))
+        loops = loops[np.abs(loops).sum(axis=1) > 0.0]  # joints of the tree close none
+        one, other = ([names.index(pair[side]) for pair in ends] for side in (0, 1))
+        axes = np.einsum("jnmab,njb->nmja", matrices[one], self.axes)
+        moved = np.einsum("jnmab,njkb->nmjka", matrices[one] - matrices[other], across(self.axes))
+        shape = (*axes.shape[:2], 3 * len(loops), -1)
+        closing = np.einsum("lj,nmja->nmlaj", loops, axes).reshape(shape)
+        opened = np.einsum("lj,nmjka->nmlajk", loops, moved).reshape(shape)
+        gram = closing @ closing.swapaxes(2, 3) + DOUBLE.zero * np.eye(shape[2])
+        turns = -closing.swapaxes(2, 3) @ np.linalg.solve(gram, opened)
+        way = np.array([paths[names[b]] - paths[names[a]] for a, b in zip(first, second, strict=True)])[:, None, :]
+        rates = (way[..., None] * axes).swapaxes(2, 3) @ turns
+        rates = rates.swapaxes(2, 3) + (way[..., None, None] * moved).reshape(*rates.shape[:2], -1, 3)
+        return seen[second, member], np.asarray(rates)
+
+
+def across(axes: Floats) -> Floats:
+    """Return two unit vectors across each axis, float[..., 2, 3]."""
+    other = np.where(np.abs(axes[..., :1]) < 0.6, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
+    first = unit(np.cross(axes, other))
+    return np.stack([first, np.cross(axes, first)], axis=-2)
+
+
+def _tree(chain: SCGraph) -> Iterator[tuple[LinkId, LinkId, int, float]]:
+    """Yield the steps from the first link to all others: a link, the next one, the joint, and its sign."""
+    first = next(iter(chain.nodes))
+    reached, queue = {first}, [first]
+    while queue:
+        link = queue.pop(0)
+        for joint, (one, other) in enumerate(chain.joints.values()):
+            after, sign = (other, 1.0) if link == one else (one, -1.0)
+            if link in (one, other) and after not in reached:
+                reached.add(after)
+                queue.append(after)
+                yield link, after, joint, sign
+
+
+def _matrices(turns: Floats) -> Floats:
+    """Return the matrices of rotations by unit quaternions, float[..., 3, 3]."""
+    from scipy.spatial.transform import Rotation
+
+    matrices = Rotation.from_quat(turns.reshape(-1, 4), scalar_first=True).as_matrix()
+    return np.asarray(matrices.reshape(*turns.shape[:-1], 3, 3))
 
 
 def product(first: Floats, second: Floats) -> Floats:
@@ -200,25 +264,29 @@ class _Tracing:
 
     def _keep(self, who: Ints, angles: Floats, steps: Floats, reached: Ints) -> None:
         """Add the frames that were reached; end circuits that are closed."""
-        for frame in range(_AT_ONCE):
-            some = (reached > frame) & ~self.closed[who]
-            added = who[some]
-            place = self.count[added]
-            self.angles[added, place] = angles[some, frame]
-            self.rate[added] = steps[some, frame]
-            self.count[added] += 1
-            self._close(added, place)
+        places = self.count[who, None] + np.arange(_AT_ONCE)
+        passed = self._passed(who, angles) & (places > 2) & (np.arange(_AT_ONCE) < reached[:, None])
+        ends = passed.any(axis=1)
+        kept = np.where(ends, passed.argmax(axis=1) + 1, reached)
+        self.angles[who[:, None], places] = angles  # those beyond the kept ones are replaced later
+        moved = kept > 0
+        self.rate[who[moved]] = steps[moved, kept[moved] - 1]
+        self.count[who] += kept
+        self._close(who[ends])
         self.step[who] = np.where(reached > 0, np.minimum(_STEP, 2.0 * self.step[who]), self.step[who] / 2.0)
 
-    def _close(self, who: Ints, place: Ints) -> None:
-        """Close the circuits whose last step passes their start in the direction in which they left it."""
-        near = []
-        for frames in (place - 1, place):
-            off = np.remainder(self.angles[who, frames] + np.pi, 2.0 * np.pi) - np.pi
-            near.append(((off * self.start[who]).sum(axis=1), np.abs(off).max(axis=1) <= 2.0 * _STEP))
-        (before, was_near), (after, is_near) = near
-        passed = was_near & is_near & (before < 0.0) & (after >= 0.0) & (place > 2)
-        for member, last in zip(who[passed], place[passed], strict=True):
+    def _passed(self, who: Ints, angles: Floats) -> Flags:
+        """Return which steps pass the start of the circuit in the direction in which it was left: bool[n, F]."""
+        frames = np.concatenate([self.angles[who, self.count[who] - 1][:, None], angles], axis=1)
+        with np.errstate(invalid="ignore"):
+            off = np.remainder(frames + np.pi, 2.0 * np.pi) - np.pi
+            along = (off * self.start[who, None]).sum(axis=2)
+            near = np.abs(off).max(axis=2) <= 2.0 * _STEP
+        return np.asarray(near[:, :-1] & near[:, 1:] & (along[:, :-1] < 0.0) & (along[:, 1:] >= 0.0))
+
+    def _close(self, who: Ints) -> None:
+        """Close circuits whose last step passes their start."""
+        for member, last in zip(who, self.count[who] - 1, strict=True):
             wound = 2.0 * np.pi * np.round(self.angles[member, last] / (2.0 * np.pi))
             # frames that are all but the first one again would be knots of no length
             off = np.abs(self.angles[member, last - 3 : last] - wound).max(axis=1)

@@ -6,7 +6,6 @@ from synth.tasks.dimensioning import (
     candidates_of as candidates_of,
     random_member as random_member,
 )
-from synth.tasks.placements import placements_of as placements_of
 from synth.tasks.ranking import RankedDesign as RankedDesign, RankedTypes as RankedTypes, ranked_types as ranked_types
 from synth.tasks.record import FORMS as FORMS, SYSTEMS as SYSTEMS, RolePair as RolePair, Task as Task
 from synth.tasks.report import report_page as report_page, write_designs as write_designs, write_report as write_report
@@ -14,6 +13,7 @@ from synth.tasks.structure import (
     CandidateType as CandidateType,
     PlacedType as PlacedType,
     TaskStructure as TaskStructure,
+    placements_of as placements_of,
     structure_of as structure_of,
 )
 from synth.tasks.task_files import read_task as read_task, task_schema as task_schema, write_task as write_task

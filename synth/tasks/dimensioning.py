@@ -35,9 +35,8 @@ from synth.designing.search import seeded
 from synth.designing.wish_files import wishes_of_document
 from synth.patterns.catalogue import GENERATORS
 from synth.realisation.realised import realise as sheet_realisation
-from synth.tasks.placements import Placement
 from synth.tasks.record import Task, renamed
-from synth.tasks.structure import CandidateType, TaskStructure
+from synth.tasks.structure import CandidateType, Placement, TaskStructure
 from synth.tasks.task_files import wishes_document
 
 STARTS, ROUNDS = 2, 4

@@ -8,10 +8,10 @@ which of its requirements exclude each other. Guide: docs/guides/from-a-task.md.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, permutations
 from typing import Any
 
 import networkx as nx
@@ -43,8 +43,10 @@ from graphs.types import JointId, LinkId
 from synth.motion.derivatives import BodyTree, dependence_on_axes
 from synth.moving.made import configuration_of
 from synth.patterns.catalogue import GENERATORS
-from synth.tasks.placements import Placement, placements_of
 from synth.tasks.record import RolePair, Task, centres_text, limits_text
+
+Placement = tuple[LinkId, ...]
+"""The link of each role, in the order of the roles."""
 
 _SIDES = 4
 """Most sides of a link of an enumerated SCD graph, joints and open edges together."""
@@ -554,3 +556,57 @@ def _contradiction(
     return InvariantError(
         "structure", f"no type of {size} meets all requirements, though any two", "fewer requirements"
     )
+
+
+def placements_of(mechanism: SCGraph, roles: int, *, alike: bool = True) -> list[Placement]:
+    """Return placements of so many roles on different links, one of each orbit of the automorphisms.
+
+    Parameters
+    ----------
+    mechanism : SCGraph
+    roles : int
+    alike : bool, optional
+        Whether placements that an automorphism maps to each other count once. Members of an overconstrained family
+        have less symmetry than their type, so of these all placements count.
+
+    Returns
+    -------
+    list of tuple of link id
+        The first of each orbit, by the order of the links.
+
+    Examples
+    --------
+    Two roles on a four-bar: beside each other, or opposite.
+
+    >>> from graphs.loops.loop import Loop
+    >>> ring = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> placements_of(ring, 2)
+    [(0, 1), (0, 2)]
+    """
+    links = list(mechanism.nodes)
+    number = {link: place for place, link in enumerate(links)}
+    generators = []
+    if alike and roles:
+        generators = [[number[moved[link]] for link in links] for moved in symmetries_of_links(mechanism)]
+    first = _first_of_orbits(permutations(range(len(links)), roles), generators)
+    return [tuple(links[place] for place in one) for one in first]
+
+
+def _first_of_orbits(
+    tuples: Iterator[tuple[int, ...]], generators: Collection[Sequence[int]]
+) -> Iterator[tuple[int, ...]]:
+    """Yield the first tuple of each orbit, in their order: all others are reached from it by generators."""
+    reached: set[tuple[int, ...]] = set()
+    for one in tuples:
+        if one in reached:
+            continue
+        yield one
+        front = [one]
+        reached.add(one)
+        while front:
+            here = front.pop()
+            for moved in generators:
+                image = tuple(moved[place] for place in here)
+                if image not in reached:
+                    reached.add(image)
+                    front.append(image)

@@ -282,11 +282,14 @@ def motions(atlas: str, members: int, max_links: int, seed: int, force: bool, as
     "By default they are if there are fewer than 12, and neither --closed nor --open is stated.",
 )
 @options.number("--best", "K", "Largest number of members to list.", most=32, default=10)
+@options.number(
+    "--fit", "K", "Number of members whose axes are changed until they move more like the motion.", 0, 1024, default=0
+)
 @options.output("Write the nearest member as a linkage about a centre, a start for `synth design`.", "OUT.json")
 @options.FORCE
 @options.JSON
 def like(
-    motion: str, atlas: str, links: tuple[int, ...], closed: bool | None, sparse: bool | None, best: int,
+    motion: str, atlas: str, links: tuple[int, ...], closed: bool | None, sparse: bool | None, best: int, fit: int,
     output: str | None, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Find the members of an atlas in which two links move most like a motion, or a point most along a path.
@@ -295,13 +298,14 @@ def like(
     (a point of a sphere), 4 (a quaternion, scalar first: one link in the frame of the other) or 8 (quaternions of
     both links). Frames of reference, direction and speed have no meaning, nor has the order of the links. An arc is
     found in circuits up to three times as long. A few orientations or points say nothing of the motion between them:
-    members are compared by how near one circuit of theirs comes to all of them in order. The atlas requires a table of
-    motions: `synth atlas motions`.
+    members are compared by how near one circuit of theirs comes to all of them in order. With --fit members come
+    nearer by least squares: random ones are some degrees off. The atlas requires a table of motions: `synth atlas
+    motions`.
 
     \b
     Examples:
       synth atlas like data/orientations/tipparthi.json atlas.sqlite
-      synth atlas like folded.fold atlas.sqlite --links 0,2 -o start.json
+      synth atlas like folded.fold atlas.sqlite --links 0,2 --fit 64 -o start.json
     """
     from synth.atlas.motions import stored_motions
 
@@ -309,7 +313,7 @@ def like(
     opened = synth.atlas.open_atlas(atlas)
     size = stored_motions(opened)
     click.echo(f"searching {size.blocks()[0]} in the file, at most 300 MB of memory", err=True)
-    answer = synth.atlas.like(opened, motion, links=links, closed=closed, sparse=sparse, limit=best)
+    answer = synth.atlas.like(opened, motion, links=links, closed=closed, sparse=sparse, limit=best, fit=fit)
     if output is not None:
         if not answer.rows:
             raise UnsolvableError("-o requires a member that moves so far, and the atlas has none")

@@ -15,23 +15,18 @@ from commands import run
 from scipy.optimize import differential_evolution
 
 import synth
+import synth.atlas.motions
 from graphs.errors import FileError, InvariantError, StoreError
 from graphs.files.formats import mechanism_of_id
 from graphs.geometry import unit
 from graphs.types import Floats
 from synth.atlas.building import AtlasPlan, build_atlas
+from synth.atlas.in_order import differences_in_order
 from synth.atlas.motions import add_motions, like, motion_curve, planned_motions, stored_motions
 from synth.atlas.opened import Atlas, open_atlas
-from synth.atlas.signatures import (
-    MotionCurve,
-    angles_between,
-    arc_distances,
-    difference,
-    differences_in_order,
-    signatures_of,
-)
+from synth.atlas.signatures import Fit, MotionCurve, angles_between, arc_distances, difference, signatures_of
 from synth.guidance.orientations import write_orientations
-from synth.members.circuits import circuits_of, product, relative
+from synth.members.circuits import across, circuits_of, product, relative
 
 ROOT = Path(__file__).resolve().parents[3]
 MEMBERS = 24
@@ -308,6 +303,8 @@ def test_the_commands_answer_as_python_does(moving_atlas: Atlas, tmp_path: Path)
     assert [row["distance_deg"] for row in answer] == pytest.approx([row["distance_deg"] for row in expected])
     assert "at most 300 MB of memory" in result.stderr
     assert len(synth.read(start).axes) in (4, 7)
+    result = run("atlas", "like", str(place), str(moving_atlas.path), "--closed", "--fit", "4")
+    assert "; the axes of 4 members were fitted to it" in result.stdout
     result = run("atlas", "motions", str(moving_atlas.path), "--members", str(MEMBERS))
     assert f"{3 * MEMBERS} members of 3 chains" in result.stdout
 
@@ -352,6 +349,108 @@ def test_what_a_limit_leaves_out_is_farther_and_the_rest_is_as_without(part: flo
         assert np.abs(bounded[near] - every[near]).max() < 1e-6
         assert (bounded[~near] > limit).all()
         assert np.isinf(bounded).sum() > np.isinf(every).sum() + 20
+
+
+@pytest.mark.parametrize("part", [0.34, 0.6])
+def test_blocks_that_are_bounded_find_what_one_block_of_all_finds(
+    moving_atlas: Atlas, part: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    turned = circuits_of(mechanism_of_id("k1:E@zO"), np.random.default_rng(8).normal(size=(1, 7, 3))).rotations()
+    arc = relative(turned[0], turned[3])[0][: int(256 * part)]
+    found = []
+    for first in (40, 1 << 20):
+        monkeypatch.setattr(synth.atlas.motions, "_FIRST", first)
+        monkeypatch.setattr(synth.atlas.motions, "_AT_ONCE", 80)
+        answer = like(moving_atlas, arc, closed=False, limit=32)
+        found.append((answer.compared, [(row.distance, row.chain, row.links, row.axes) for row in answer.rows]))
+    assert found[0] == found[1]
+    assert len(found[0][1]) > 10
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_the_difference_is_that_of_the_best_of_many_beginnings_both_ways(closed: bool) -> None:
+    turn = 2.0 * np.pi * np.arange(300)[:, None] / 300
+    rows = np.hstack([np.cos(turn), np.sin(turn), 0.4 * np.cos(2 * turn + 1.0), 0.5 * np.sin(3 * turn + 0.3) + 0.5])
+    whole = MotionCurve.of(unit(rows), closed=True)
+    stretched = MotionCurve.of(unit(rows * [1.0, 0.9, 1.1, 1.0]), closed=True)
+    rows = stretched.at(stretched.length * np.linspace(0.2, 1.2 if closed else 0.6, 200))
+    motion = MotionCurve.of(rows[::-1], closed=closed)
+    places = np.arange(24) / (24 if closed else 23)
+    reach = whole.length if closed else motion.length
+    begins = whole.length * np.arange(4000) / 4000
+    mine = motion.at(motion.length * places)
+    best = []
+    for way in (1.0, -1.0):
+        theirs = whole.at(begins[:, None] + way * reach * places)
+        off = [
+            angles_between(theirs[:, one], theirs[:, other]) - angles_between(mine[one], mine[other])
+            for one in range(24)
+            for other in range(one)
+        ]
+        best.append(float(np.sqrt((np.array(off) ** 2).mean(axis=0)).min()))
+    assert abs(best[0] - best[1]) > 0.01  # the ways differ
+    assert min(best) - 1e-4 < difference(motion, whole) <= min(best) + 1e-12
+
+
+def six_bars(seed: int, count: int) -> tuple[Floats, list[tuple[int, int]]]:
+    """Axes of six-bars of Watt's chain, and two links of each."""
+    axes = unit(np.random.default_rng(seed).normal(size=(count, 7, 3)))
+    return axes, [((0, 2), (1, 3), (2, 5), (0, 3), (1, 4), (0, 5))[number % 6] for number in range(count)]
+
+
+@pytest.mark.parametrize("part", [1.0, 0.4])
+def test_slopes_of_a_fit_are_differences_of_circuits_that_are_traced(part: float) -> None:
+    """The second method turns each axis by 1e-4 radians both ways, and traces the circuits anew."""
+    axes, pairs = six_bars(0, 4)
+    whole = MotionCurve.of(smooth(np.arange(300) / 300), closed=True)
+    motion = whole if part == 1.0 else MotionCurve.of(whole.at(whole.length * part * np.linspace(0.0, 1.0, 60)))
+    fit = Fit(mechanism_of_id("k1:E`hW"), axes, pairs, motion)
+    misses = {}
+    for column in (0, 3, 9, 12):
+        turn = 1e-4 * across(axes)[:, column // 2, column % 2]
+        for way in (1.0, -1.0):
+            turned = axes.copy()
+            turned[:, column // 2] += np.cross(way * turn, axes[:, column // 2])
+            misses[column, way] = fit.misses_of(unit(turned))
+    slopes = fit.slopes(np.arange(4))
+    for column in (0, 3, 9, 12):
+        traced = (misses[column, 1.0] - misses[column, -1.0]) / 2e-4
+        off = np.linalg.norm(slopes[:, :, column] - traced, axis=1)
+        assert (off < 0.05 * np.linalg.norm(traced, axis=1) + 0.01).all()
+
+
+@pytest.mark.parametrize("part", [1.0, 0.5])
+def test_axes_that_are_a_little_off_are_fitted_to_the_motion(part: float) -> None:
+    axes, pairs = six_bars(0, 6)
+    chain = mechanism_of_id("k1:E`hW")
+    turned = circuits_of(chain, axes).rotations()
+    random = np.random.default_rng(3)
+    for member in (1, 5):
+        first, second = pairs[member]
+        rows = elsewhere(relative(turned[first], turned[second])[member], 4)[::-1]
+        motion = MotionCurve.of(rows[: int(256 * part)], closed=part == 1.0)
+        begun = unit(axes[[member] * 4] + 0.02 * random.normal(size=(4, 7, 3)))
+        fit = Fit(chain, begun, [(first, second)] * 4, motion)
+        before = fit.costs.copy()
+        fit.run([(3, 4), (40, 2)])
+        assert (fit.costs <= before).all()
+        assert np.sqrt(fit.costs.min() / 276) < 2e-4 < 2e-3 < np.sqrt(before.min() / 276)
+
+
+def test_members_are_fitted_and_only_to_motions_of_two_links(moving_atlas: Atlas) -> None:
+    axes, pairs = six_bars(5, 1)
+    first, second = pairs[0]
+    turned = circuits_of(mechanism_of_id("k1:E`hW"), axes).rotations()
+    motion = relative(turned[first], turned[second])[0]
+    near, fitted = (like(moving_atlas, motion, closed=True, fit=fit) for fit in (0, 6))
+    assert fitted.fitted == 6
+    assert fitted.rows[0].distance < 0.5 * near.rows[0].distance
+    best = fitted.rows[0]
+    again = circuits_of(mechanism_of_id(best.chain), [list(best.axes.values())]).rotations()
+    own = MotionCurve.of(relative(again[best.links[0]], again[best.links[1]])[0], closed=True)
+    assert difference(MotionCurve.of(motion, closed=True), own) == pytest.approx(best.distance, abs=1e-4)
+    with pytest.raises(InvariantError, match="the path of a point; expected a motion of two links"):
+        like(moving_atlas, smooth(np.arange(20) / 20)[:, :3], fit=3)
 
 
 def test_an_atlas_that_is_repaired_keeps_its_motions(moving_atlas: Atlas, tmp_path: Path) -> None:
