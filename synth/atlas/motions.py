@@ -580,7 +580,7 @@ def _traced(
             number: _array(path, connection.execute(query, (code, number)).fetchone()[0], float, shape)
             for number in {number for number, _, _ in places}
         }
-        sources = [place if fit else place[:2] for place in places]  # a member is fitted for each pair of its links
+        sources: list[tuple[int, ...]] = [place if fit else place[:2] for place in places]  # fitted for each pair
         members = {source: place for place, source in enumerate(dict.fromkeys(sources))}
         directions = np.stack([units[source[0]][source[1]] for source in members])
         axes = directions[:, : len(chain.joints)]
