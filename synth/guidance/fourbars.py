@@ -332,13 +332,13 @@ def _body_at(orientations: Orientations, four_bar: GuidedFourBar, angles: Floats
     fixed, beta = follower.fixed, follower.link_angle
     out = rotated(-unit(across(driver.fixed, fixed)), fixed, psi)  # psi is counted from the ground link prolonged
     following = np.asarray(np.cos(beta) * fixed + np.sin(beta) * out)
-    return np.asarray(_frame(driven, following) @ _frame(driver.moving[None], follower.moving[None])[0].T)
+    return np.asarray(frames(driven, following) @ frames(driver.moving[None], follower.moving[None])[0].T)
 
 
-def _frame(a: Floats, b: Floats) -> Floats:
+def frames(a: Floats, b: Floats) -> Floats:
     """Return right-handed frames, as columns: the first axis along a, the second in the plane of a and b."""
     normal = unit(np.cross(a, b))
-    return np.stack([a, np.cross(normal, a), normal], axis=2)
+    return np.stack([a, np.cross(normal, a), normal], axis=-1)
 
 
 @dataclass(frozen=True, slots=True)

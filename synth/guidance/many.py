@@ -224,19 +224,29 @@ def _polished(
     g, w = (axes / np.linalg.norm(axes, axis=2, keepdims=True) for axes in (fixed, moving))
     number, place = np.nonzero(np.ones(g.shape[:2], dtype=bool) if which is None else which)
     one, other, of = g[number, place], w[number, place], conditions[number]
+    active = np.arange(len(one))
     for _ in range(_STEPS):
-        by_w, by_g = np.einsum("si,skij->skj", one, of), np.einsum("skij,sj->ski", of, other)
-        rows = np.zeros((len(one), 6, 6), dtype=one.dtype)
-        rows[:, :4, :3], rows[:, :4, 3:], rows[:, 4, :3], rows[:, 5, 3:] = by_g, by_w, one.conj(), other.conj()
-        right = np.zeros((len(one), 6), dtype=one.dtype)
-        right[:, :4] = -np.einsum("skj,sj->sk", by_w, other)
-        regular = np.abs(np.linalg.det(rows)) > 0.0
-        step = np.zeros_like(right)
-        step[regular] = np.linalg.solve(rows[regular], right[regular, :, None])[..., 0]
-        one, other = one + step[:, :3], other + step[:, 3:]
-        one, other = (axes / np.linalg.norm(axes, axis=1, keepdims=True) for axes in (one, other))
+        step = _newton_step(one[active], other[active], of[active])
+        for axes, moved in ((one, one[active] + step[:, :3]), (other, other[active] + step[:, 3:])):
+            axes[active] = moved / np.linalg.norm(moved, axis=1, keepdims=True)
+        active = active[np.linalg.norm(step, axis=1) > DOUBLE.derivative]  # the error left is the square of a step
+        if not len(active):
+            break
     g[number, place], w[number, place] = one, other
     return g, w
+
+
+def _newton_step(g: npt.NDArray[Any], w: npt.NDArray[Any], conditions: Floats) -> npt.NDArray[Any]:
+    """Return changes of solutions, unit vectors [S, 3], across both: [S, 6]; zero where there is no one step."""
+    by_w, by_g = np.einsum("si,skij->skj", g, conditions), np.einsum("skij,sj->ski", conditions, w)
+    rows = np.zeros((len(g), 6, 6), dtype=g.dtype)
+    rows[:, :4, :3], rows[:, :4, 3:], rows[:, 4, :3], rows[:, 5, 3:] = by_g, by_w, g.conj(), w.conj()
+    right = np.zeros((len(g), 6), dtype=g.dtype)
+    right[:, :4] = -np.einsum("skj,sj->sk", by_w, w)
+    regular = np.abs(np.linalg.det(rows)) > 0.0
+    step = np.zeros_like(right)
+    step[regular] = np.linalg.solve(rows[regular], right[regular, :, None])[..., 0]
+    return step
 
 
 def _told_apart(conditions: Floats, fixed: npt.NDArray[Any], moving: npt.NDArray[Any]) -> Flags:

@@ -1,98 +1,90 @@
-"""Spherical six-bars that guide a body through five orientations, by one driven joint that turns one way.
+"""Watt's six-bars that guide a body through five orientations, by one driven joint that turns one way.
 
-A dyad that takes all five orientations (`synth.guidance.synthesis`) holds the body with two freedoms: u, the angle of
-the joint that is driven, and v, that of its other joint. The orientations are five points of the torus of u and v.
-A point b of the body is hinged to the coupler of a four-bar on the ground, whose coupler curve is one equation
-F(u, v) = 0. The linkage takes the orientations in order, on one circuit and one branch, if and only if a graph v(u)
-of solutions leads through the five points with u growing, or falling, and dF/dv is not zero along it. Of curves
-F = 0 through the five points there is a family of six parameters; one is looked for that stays near a smooth graph.
+A chain of three joints leads from the ground by links 1 and 2 to the body; its arcs and the two axes at its ends
+decide the angles at which it takes five orientations. Two bars leave it one freedom: bar 4 from the ground to link 2,
+a dyad of the five orientations of link 2, and bar 5 from link 1 or bar 4 to the body, a dyad of the five orientations
+of the body relative to that (Soh and McCarthy 2008, six-bars as constrained 3R chains). Of the six solutions of
+either one is a link of the linkage already, so that another is real.
 
-Exchanging ground and body gives linkages whose four-bar is on the body. Both have two links of three joints that are
-not neighbours: Stephenson's six-bar, its third and second form. Theory: docs/theory/guidance.md.
+The linkage is two four-bars in a row, the first driven at the ground. It takes the orientations on one circuit and
+one branch if neither bar gets in line with the link that it steers, from orientation 1 to 5. Chains have six
+parameters; populations of them are changed at random as long as they get nearer to that. Exchanging ground and body
+gives linkages that are driven at the body. Theory: docs/theory/guidance.md.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import partial
 from itertools import product
 from math import degrees
-from typing import Any, Literal, NamedTuple, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
-from graphs.geometry import across, facing, frame_about, rotated, rotations, unit
+from graphs.geometry import across, angles_between, crossing, rotated, rotations, unit
 from graphs.joints.linkage import plain_vector
 from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
-from graphs.types import Floats
-from synth.guidance.dyads import Dyad, facing_on
-from synth.guidance.fourbars import BodyMotion
+from graphs.types import Flags, Floats
+from synth.guidance.dyads import facing_on
+from synth.guidance.fourbars import BodyMotion, frames
+from synth.guidance.many import dyads_of_sets
 from synth.guidance.orientations import Orientations
-from synth.guidance.synthesis import dyads_of_five
 
 Carrier: TypeAlias = Literal["ground", "body"]
 
 _TURN = 2.0 * np.pi
 _CARRIERS: tuple[Carrier, Carrier] = ("ground", "body")
-_LINKS = {"ground": ((0, 1), (1, 2), (0, 3), (3, 4), (4, 2), (4, 5), (5, 0)),
-          "body": ((0, 1), (1, 2), (2, 3), (3, 4), (4, 0), (4, 5), (5, 2))}  # fmt: skip
-"""Joints of the linkage, by the link that carries the four-bar: 0 the ground, 1 the link of the dyad, 2 the body, 3
-and 5 the cranks of the four-bar, 4 its coupler."""
-_MOST_TURNS = 2.0
-"""Turns of a driven joint; in one of its senses any takes five orientations in order in so many."""
-_JOINTS = {"ground": "0, on the ground", "body": "1, on the body"}
-_FORMS = {"ground": "Stephenson III", "body": "Stephenson II"}
+_ANCHORS = (1, 4)
+_FOUR_BARS = {1: ((0, 1, 4, 3), (1, 2, 6, 5)), 4: ((0, 1, 4, 3), (4, 2, 6, 5))}
+"""The links that may carry bar 5, and the joints of both four-bars by that link."""
+_JOINTS = {"ground": "0, on the ground", "body": "0, on the body"}
 
-_FOUR_BAR, _POINT, _BUMPS = 9, 2, 3
-"""Unknowns of a four-bar with a coupler point; of the point of the body; and, of the graph, between two
-orientations."""
-_BETWEEN, _CLOSER, _FINE = 6, 20, 60
-"""Points of a graph between two orientations in the search, in its last round, and where it is traced."""
-_DRAWN, _STARTS, _KEPT, _LAST, _CHOSEN = 4000, 80, 16, 6, 3
-_ROUNDS = ((25, 2.0, 0.2, 0.3), (60, 5.0, 0.5, 0.3), (100, 5.0, 1.0, 0.3), (100, 5.0, 0.3, 1.0))
-"""Linkages that are drawn, how many of them are starts of a search, and how many are kept after its first, second and
-third round; of each round the steps, and the weights of the five orientations, of the points between, and of dF/dv."""
-_SHORTEST, _APART, _OFF_AXIS, _REACH = 0.3, 0.1, 0.15, 0.01
-"""What is kept away from: sines of arcs; squared sines between the fixed axes, and between the point and the axis of
-the body; and how far the coupler is from stretched."""
-_CROSSINGS, _LONGER = (0.05, 0.1, 0.2, 0.3, 0.4), 300
-"""What dF/dv is to be at least, in the search and afterwards; and steps of each improvement."""
-_ALIKE = 1e-3
-"""Joint lines of two improved linkages that differ by less, in radians, are those of one."""
-_SMOOTH = 0.01
-"""Weight of the graph's bumps."""
-_DIFFERENCE, _BESIDE = 1e-6, 1e-4
-"""Radians by which derivatives are taken; and those that are derived once more."""
-_LONGEST, _NEWTON_STEPS, _STRAY = 0.3, 12, 0.3
-"""Longest step of an unknown, steps of Newton's method, and by how much neighbours on a traced graph may differ from
-what derivatives foretell: radians."""
+_DRAWS, _DRAWN, _STARTS = 4, 100_000, 1500
+"""How many times so many chains are drawn for a population, and how many that take the orientations in order start
+it."""
+_KEPT, _STEPS, _LONGER = (60, 40, 26, 17, 12), 30, 60
+"""Chains that are kept for each round of steps, and steps by which what was found is improved."""
+_BETWEEN, _CLOSER, _FINE = 6, 24, 60
+"""Points between two orientations in the search, in the improvement, and where a motion is traced."""
+_SHORTEST, _REACH, _LEAST_TURN = 0.15, 0.003, 0.03
+"""What chains and bars keep: sines of their arcs, how far links 1 and 2 are from stretched, and the angle by which
+the driven joint turns between orientations, in radians."""
+_SAFE, _ENOUGH = 0.03, 0.1
+"""Sine of the angle between a bar and its link at the orientations before the motion between them is looked at, and
+that beyond which more does not count."""
+_OPEN, _ROOMY = 5e-4, 0.01
+"""Room of a four-bar that closes, 1 - |cos| of that angle, and that beyond which more does not count."""
+_FIRST, _LARGEST, _SMALLEST, _GROWS, _SHRINKS = 0.1, 0.4, 1e-3, 1.5, 0.87
+"""Size of a change of each parameter, in radians, and how it follows success and failure."""
+_UNUSABLE = -1.0
+"""Sine of a bar that is none, or too short."""
+_SOLVED = 3.0
+"""Score of a chain whose linkage takes the orientations without a defect."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class GuidedSixBar:
-    """A spherical six-bar that guides a body through five orientations without a defect.
+    """A spherical six-bar of Watt that guides a body through five orientations without a defect.
 
     Attributes
     ----------
     orientations : Orientations
-    dyad : Dyad
-        Through all orientations.
-    four_bar_on : "ground" or "body"
-        The link that carries the four-bar.
     driven : "ground" or "body"
-        The driven joint: that of the dyad on the ground, joint 0, or that on the body, joint 1.
+        The link that carries the driven joint, joint 0.
+    anchor : 1 or 4
+        The link that carries bar 5: the driven one, or bar 4.
     axes : float[7, 3]
         Directions of the joints of `linkage`, at orientation 1.
     inputs : float[5]
         Angles of the driven joint from orientation 1, radians, growing or falling.
     transmission : float
-        Least angle, radians, between the coupler curve and the circle on which the driven joint, held fast, leaves
-        the point of the body, from orientation 1 to 5: zero is a dead point.
+        Least angle, radians, between a bar and the link that it steers, or its supplement, from orientation 1 to 5:
+        zero is a dead point.
     residual : float
         Largest miss of an orientation by the traced linkage, radians.
     motion : BodyMotion
@@ -101,15 +93,15 @@ class GuidedSixBar:
     Examples
     --------
     >>> from synth.guidance import read_orientations, six_bars
-    >>> [found] = six_bars(read_orientations("data/orientations/tipparthi.json"), driven="body").six_bars
-    >>> found.linkage, found.driven, np.degrees(found.inputs).round().tolist()
-    (<HingedSolids: 6 links, 7 joints>, 'body', [0.0, 121.0, 175.0, 258.0, 312.0])
+    >>> five = read_orientations("data/orientations/crank-rocker.json")
+    >>> [found] = six_bars(five, driven="ground").six_bars
+    >>> found.linkage, found.driven, found.residual < 1e-10
+    (<HingedSolids: 6 links, 7 joints>, 'ground', True)
     """
 
     orientations: Orientations
-    dyad: Dyad
-    four_bar_on: Carrier
     driven: Carrier
+    anchor: int
     axes: Floats
     inputs: Floats
     transmission: float
@@ -117,29 +109,26 @@ class GuidedSixBar:
     motion: BodyMotion
 
     @property
-    def form(self) -> str:
-        """Name of the six-bar."""
-        return _FORMS[self.four_bar_on]
+    def links(self) -> tuple[tuple[int, int], ...]:
+        """The links of each joint: 0 the ground, 3 the body, 4 and 5 bars."""
+        near, far = (0, 3) if self.driven == "ground" else (3, 0)
+        return ((near, 1), (1, 2), (2, far), (near, 4), (4, 2), (self.anchor, 5), (5, far))
 
     @property
     def linkage(self) -> HingedSolids:
-        """The linkage at orientation 1: link 0 is the ground, link 2 the body."""
-        around = (0, 1, 4, 3, 2) if self.four_bar_on == "ground" else (0, 1, 2, 3, 4)
-        loops = [Loop(joints, Centre.FINITE) for joints in ((2, 3, 5, 6), around)]
-        chain = SCGraph(6, list(_LINKS[self.four_bar_on]), loops)
+        """The linkage at orientation 1: link 0 is the ground, link 3 the body."""
+        loops = [Loop(joints, Centre.FINITE) for joints in _FOUR_BARS[self.anchor]]
+        chain = SCGraph(6, list(self.links), loops)
         return HingedSolids(chain, {joint: ((0.0, 0.0, 0.0), plain_vector(self.axes[joint])) for joint in range(7)})
 
     def __repr__(self) -> str:
-        crossing = f"transmission {degrees(self.transmission):.1f} degrees"
-        return f"<GuidedSixBar: {self.form}, driven on the {self.driven}, {crossing}>"
+        return f"<GuidedSixBar: driven on the {self.driven}, transmission {degrees(self.transmission):.1f} degrees>"
 
     def to_json(self) -> dict[str, Any]:
         """Return the six-bar as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {
-            "form": self.form,
-            "four_bar_on": self.four_bar_on,
-            "dyad": self.dyad.to_json(),
             "driven": self.driven,
+            "joints": [list(pair) for pair in self.links],
             "axes": self.axes.tolist(),
             "inputs_deg": np.degrees(self.inputs).tolist(),
             "transmission_deg": degrees(self.transmission),
@@ -155,19 +144,18 @@ class GuidedSixBars(Printed):
     ----------
     orientations : Orientations
     six_bars : tuple of GuidedSixBar
-    tried, ways : int
-        How many ways through the five points of a torus were tried, and how many there are.
+    tried : int
+        How many populations were searched.
 
     Examples
     --------
-    >>> GuidedSixBars(Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7]), (), 0, 0)
+    >>> GuidedSixBars(Orientations.from_axis_angles(np.eye(3), [0.0, 0.5, 0.7]), (), 0)
     <GuidedSixBars: 0 six-bars without defects>
     """
 
     orientations: Orientations
     six_bars: tuple[GuidedSixBar, ...]
     tried: int
-    ways: int
 
     def __repr__(self) -> str:
         return f"<GuidedSixBars: {numbered(len(self.six_bars), 'six-bar')} without defects>"
@@ -178,33 +166,31 @@ class GuidedSixBars(Printed):
             "orientations": len(self.orientations),
             "sixbars": [six_bar.to_json() for six_bar in self.six_bars],
             "tried": self.tried,
-            "ways": self.ways,
         }
 
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
-        heads = ("six-bar", "form", "dyad G", "dyad W (body)", "driven joint", "turns by", "transmission", "residual")
+        heads = ("six-bar", "driven joint", "turns by", "its axis", "bar on the same link", "transmission", "residual")
         rows = [
             (
                 str(number),
-                each.form,
-                *(" ".join(f"{x:7.4f}" for x in axis) for axis in (each.dyad.fixed, each.dyad.moving)),
                 _JOINTS[each.driven],
                 f"{degrees(each.inputs[-1]):.1f}",
+                *(" ".join(f"{x:7.4f}" for x in each.axes[joint]) for joint in (0, 3)),
                 f"{degrees(each.transmission):.2f}",
                 f"{each.residual:.0e}",
             )
             for number, each in enumerate(self.six_bars, start=1)
         ]
         found = f"{len(self.orientations)} orientations: {numbered(len(self.six_bars), 'six-bar')} without defects"
-        tried = f"{self.tried} of {numbered(self.ways, 'way')} from orientation to orientation tried"
+        tried = f"{numbered(self.tried, 'population')} of chains searched"
         return [f"{found}; {tried}", *([TableBlock(heads, rows, ["turns by", "transmission"])] if rows else [])]
 
 
 def six_bars(
-    orientations: Orientations, *, most: int = 1, tries: int = 200, driven: Carrier | None = None
+    orientations: Orientations, *, most: int = 1, tries: int = 60, driven: Carrier | None = None
 ) -> GuidedSixBars:
-    """Find six-bars that guide a body through five orientations in order, on one circuit and one branch.
+    """Find Watt's six-bars that guide a body through five orientations in order, on one circuit and one branch.
 
     Parameters
     ----------
@@ -213,10 +199,9 @@ def six_bars(
     most : int, optional
         Number of six-bars after which the search ends.
     tries : int, optional
-        Largest number of ways from orientation to orientation that are tried, the smoothest first; a way takes some
-        seconds.
+        Largest number of populations of chains that are searched; each takes some seconds.
     driven : "ground" or "body", optional
-        The joint of the dyad that is driven; by default either.
+        The link that carries the driven joint; by default populations take turns, the ground first.
 
     Returns
     -------
@@ -227,418 +212,357 @@ def six_bars(
     Raises
     ------
     UnsolvableError
-        If there are not five, or no dyad, or infinitely many, take them.
+        If there are not five orientations.
     InvariantError
         If `driven` is neither link, or `most` or `tries` are not positive.
 
     Examples
     --------
     >>> from synth.guidance import read_orientations
-    >>> five = read_orientations("data/orientations/tipparthi.json")  # no four-bar takes these without a defect
-    >>> [found] = six_bars(five).six_bars
-    >>> found.form, found.residual < 1e-12
-    ('Stephenson III', True)
+    >>> found = six_bars(read_orientations("data/orientations/crank-rocker.json"))
+    >>> found.six_bars[0].driven, found.tried
+    ('ground', 1)
     """
     if driven is not None and driven not in _CARRIERS:
         raise InvariantError("driven", shown(driven), "'ground' or 'body'")
     for name, number in (("most", most), ("tries", tries)):
         if number < 1:
             raise InvariantError(name, shown(number), "1 or more")
-    dyads = dyads_of_five(orientations).dyads
-    if not dyads:
-        raise UnsolvableError("no dyad takes these orientations: all six solutions are complex")
-    graphs = _graphs(orientations, dyads, _CARRIERS if driven is None else (driven,))
+    if len(orientations) != 5:
+        raise UnsolvableError(f"{len(orientations)} orientations; six-bars are found for 5")
+    kinds = list(product(_ANCHORS, _CARRIERS if driven is None else (driven,)))
     found: list[GuidedSixBar] = []
     tried = 0
-    for number, graph in enumerate(graphs[:tries]):
-        found += _six_bars_along(orientations, graph, np.random.default_rng([number, len(graphs)]))
+    while tried < tries and len(found) < most:
+        number, place = divmod(tried, len(kinds))
+        anchor, carrier = kinds[place]
+        found += _found(orientations, _Wanted.of(orientations, carrier, anchor), number)
         tried += 1
-        if len(found) >= most:
-            break
     found.sort(key=lambda each: -round(each.transmission, 6))
-    return GuidedSixBars(orientations, tuple(found[:most]), tried, len(graphs))
+    return GuidedSixBars(orientations, tuple(found[:most]), tried)
 
 
-class _Held(NamedTuple):
-    """A body held by a dyad: R = (turn about `fixed` by one angle) `first` (turn about `moving` by another).
+class _Wanted(NamedTuple):
+    """The orientations that chains are to take, and the kind of linkage."""
 
-    For a four-bar on the body it is the ground that is held, in the frame of the body.
-    """
-
-    dyad: Dyad
-    carrier: Carrier
+    matrices: Floats
+    """Of the body relative to the ground, or the other way round if the driven joint is on the body."""
     driven: Carrier
+    anchor: int
+
+    @classmethod
+    def of(cls, orientations: Orientations, driven: Carrier, anchor: int) -> "_Wanted":
+        m = orientations.matrices
+        return cls(m if driven == "ground" else np.swapaxes(m, 1, 2), driven, anchor)
+
+
+class _Chains(NamedTuple):
+    """Chains of three joints: n of them."""
+
+    fixed: Floats
+    """Axes of the joints with the ground, unit vectors float[n, 3]."""
+    moving: Floats
+    """Axes of the joints with the body, in the body, float[n, 3]."""
+    arcs: Floats
+    """Of links 1 and 2, radians, float[n, 2]."""
+    elbows: Floats
+    """To which side of the plane of these axes the middle joint lies at each orientation, 1 or -1: float[n, 5]."""
+    senses: Floats
+    """Of the driven joint, 1 or -1: float[n]."""
+
+    def changed(self, random: np.random.Generator, sizes: Floats) -> "_Chains":
+        """Return chains with every axis and arc changed at random."""
+        fixed, moving, arcs = (values + sizes[:, None] * random.normal(size=values.shape) for values in self[:3])
+        return self._replace(fixed=unit(fixed), moving=unit(moving), arcs=arcs)
+
+    def replaced(self, other: "_Chains", where: Flags) -> "_Chains":
+        """Return these chains, and the other ones where a flag is set."""
+        fixed, moving, arcs = (np.where(where[:, None], b, a) for a, b in zip(self[:3], other[:3], strict=True))
+        return self._replace(fixed=fixed, moving=moving, arcs=arcs)
+
+
+class _Placed(NamedTuple):
+    """Chains at the five orientations: axes of their second and third joints, and angles of the driven one."""
+
     fixed: Floats
     moving: Floats
-    first: Floats
-    angles: tuple[Floats, Floats]
-
-    def _both(self, driven: Floats, other: Floats) -> tuple[Floats, Floats]:
-        """Return the angles about the fixed and the moving axis."""
-        return (driven, other) if self.driven == self.carrier else (other, driven)
-
-    def points(self, driven: Floats, other: Floats, body: Floats) -> Floats:
-        """Return where points of the body, unit vectors float[..., 3], are: float[..., K, 3]."""
-        about_fixed, about_moving = self._both(driven, other)
-        return rotated(rotated(body[..., None, :], self.moving, about_moving) @ self.first.T, self.fixed, about_fixed)
-
-    def matrices(self, driven: Floats, other: Floats) -> Floats:
-        """Return rotation matrices of the guided body, float[K, 3, 3]."""
-        about_fixed, about_moving = self._both(driven, other)
-        matrices = rotations(self.fixed, about_fixed) @ self.first @ rotations(self.moving, about_moving)
-        return matrices if self.carrier == "ground" else np.swapaxes(matrices, 1, 2)
+    second: Floats
+    third: Floats
+    inputs: Floats
 
 
-class _Graph(NamedTuple):
-    """A way through the five points of a torus: angles of the driven and of the other joint, not wrapped."""
+class _Bars(NamedTuple):
+    """A bar of each linkage: its axes in the link that carries it and in the one that it steers, float[n, 3].
 
-    held: _Held
-    driven: Floats
-    other: Floats
-
-    @property
-    def steepness(self) -> float:
-        """How fast the other joint turns against the driven one, and how suddenly that changes."""
-        step, rise = np.abs(np.diff(self.driven)), np.diff(self.other)
-        slopes = rise / np.diff(self.driven)
-        return float((np.hypot(step, rise) / np.minimum(step, 1.0)).max() + np.abs(np.diff(slopes)).max() / 2.0)
-
-
-def _graphs(orientations: Orientations, dyads: Sequence[Dyad], driven: Sequence[Carrier]) -> list[_Graph]:
-    """Return all ways, the smoothest first, those of at most one turn of the driven joint before the others."""
-    graphs = [
-        graph
-        for dyad, carrier, joint in product(dyads, _CARRIERS, driven)
-        for graph in _graphs_of(_held(orientations, dyad, carrier, joint))
-    ]
-    return sorted(graphs, key=lambda graph: (np.abs(graph.driven[-1]) > _TURN, round(graph.steepness, 6)))
-
-
-def _held(orientations: Orientations, dyad: Dyad, carrier: Carrier, driven: Carrier) -> _Held:
-    m = orientations.matrices
-    spins = m[0].T @ rotations(dyad.fixed, -dyad.crank_angles) @ m  # turns about the moving axis
-    beside = frame_about(dyad.moving)[0]
-    turned = spins @ beside
-    angles = (dyad.crank_angles, np.arctan2(turned @ np.cross(dyad.moving, beside), turned @ beside))
-    inputs, outputs = angles if driven == "ground" else angles[::-1]
-    if carrier == "ground":
-        return _Held(dyad, carrier, driven, dyad.fixed, dyad.moving, m[0], (inputs, outputs))
-    return _Held(dyad, carrier, driven, dyad.moving, dyad.fixed, m[0].T, (-inputs, -outputs))
-
-
-def _graphs_of(held: _Held) -> Iterator[_Graph]:
-    """Yield the ways of a held body: either sense of the driven joint, and either of the other between orientations."""
-    driven, other = (np.diff(angles) for angles in held.angles)
-    for sense in (1.0, -1.0):
-        inputs = sense * np.concatenate([[0.0], np.cumsum(np.mod(sense * driven, _TURN))])
-        if np.abs(inputs[-1]) >= _MOST_TURNS * _TURN or np.abs(np.diff(inputs)).min() < DOUBLE.same_configuration:
-            continue
-        for turns in product((0.0, _TURN), repeat=4):
-            yield _Graph(held, inputs, np.concatenate([[0.0], np.cumsum(np.mod(other, _TURN) - turns)]))
-
-
-def _axis(azimuth: Floats, elevation: Floats) -> Floats:
-    level = np.cos(elevation)
-    return np.stack([np.cos(azimuth) * level, np.sin(azimuth) * level, np.sin(elevation)], axis=-1)
-
-
-def _coupler(four_bar: Floats, points: Floats, side: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return the axes A and C of a coupler with its point at points, float[..., K, 3], and its room.
-
-    A four-bar is float[..., 9]: azimuth and elevation of the fixed axes G and H, the arcs from G to A, from A to the
-    point and from A to C, the angle at A between these two, and the arc from C to H. The side, float[..., 1], is the
-    sign of A . (G x point); the room is zero where G, A and the point are in one plane.
+    Its arcs, float[n, 2], are its own and that from its end to the joint that it is opposite to; its side is that of
+    its end from the plane through its beginning and that joint; the sine is that of the angle at its end, the least
+    at the five orientations, negative where the side is another.
     """
-    fixed = _axis(four_bar[..., 0], four_bar[..., 1])[..., None, :]
-    crank, reach, arm, corner = (four_bar[..., k, None] for k in range(4, 8))
-    dot = (fixed * points).sum(axis=-1)
-    square = np.maximum(1.0 - dot * dot, DOUBLE.zero)
-    one, other = np.cos(crank), np.cos(reach)
-    by_fixed, by_point = (one - other * dot) / square, (other - one * dot) / square
-    room = 1.0 - by_fixed**2 - by_point**2 - 2.0 * by_fixed * by_point * dot
-    beside = side * np.sqrt(np.maximum(room / square, DOUBLE.zero))
-    a = unit(by_fixed[..., None] * fixed + by_point[..., None] * points + beside[..., None] * np.cross(fixed, points))
-    ahead = unit(points - a * (a * points).sum(axis=-1, keepdims=True))
-    left = np.cross(a, ahead)
-    towards = np.cos(corner)[..., None] * ahead + np.sin(corner)[..., None] * left
-    return a, np.cos(arm)[..., None] * a + np.sin(arm)[..., None] * towards, room
+
+    carried: Floats
+    steered: Floats
+    arcs: Floats
+    side: Floats
+    sine: Floats
+
+    def cosines(self, carried: Floats, joint: Floats) -> Floats:
+        """Return the cosines of the angle at its end, beyond 1 where it does not reach: float[n, K]."""
+        one, other = self.arcs[:, 0, None], self.arcs[:, 1, None]
+        along = (carried * joint).sum(axis=-1)
+        return np.asarray((along - np.cos(one) * np.cos(other)) / (np.sin(one) * np.sin(other)))
+
+    def ends(self, carried: Floats, joint: Floats) -> Floats:
+        """Return where its end is, float[n, K, 3]."""
+        return _beside(carried, joint, self.arcs[:, None], self.side[:, None])[0]
 
 
-def _off_curve(four_bar: Floats, points: Floats, side: Floats) -> tuple[Floats, Floats]:
-    """Return by how much points miss the coupler curve, as an angle of the second crank, and the room of `_coupler`."""
-    _, c, room = _coupler(four_bar, points, side)
-    cosine = (c * _axis(four_bar[..., 2], four_bar[..., 3])[..., None, :]).sum(axis=-1)
-    return np.arccos(np.clip(cosine, DOUBLE.zero - 1.0, 1.0 - DOUBLE.zero)) - four_bar[..., 8, None], room
+_Many = TypeVar("_Many", _Chains, _Placed, _Bars)
 
 
-class _Fit:
-    """The residuals of linkages whose curve is to be a given graph, or near it: those of a search."""
-
-    def __init__(self, graph: _Graph, between: int = _BETWEEN) -> None:
-        self.graph = graph
-        self._driven = np.concatenate([graph.driven, _between(graph.driven, between + 1)[:, 1:].ravel()])
-        self._smooth, self._bumps = self._parts(self._driven)
-        self.weights, self.slope, self.crossing = np.ones(len(self._driven)), 1.0, _CROSSINGS[0]
-
-    def weigh(self, of_orientations: float, between: float, slope: float) -> None:
-        """Set the weights of the five orientations, of the points between, and of dF/dv."""
-        self.slope = slope
-        self.weights[:5], self.weights[5:] = of_orientations, between
-
-    def _parts(self, driven: Floats) -> tuple[Floats, Floats]:
-        """Return a smooth graph at some angles, float[K], and the bumps that are added to it, float[K, 12]."""
-        from scipy.interpolate import PchipInterpolator
-
-        graph = self.graph
-        ends = np.abs(graph.driven)
-        smooth = PchipInterpolator(ends, graph.other)(np.abs(driven))
-        interval = np.clip(np.searchsorted(ends, np.abs(driven), side="right") - 1, 0, 3)
-        part = (np.abs(driven) - ends[interval]) / np.diff(ends)[interval]
-        bumps = np.zeros((len(driven), 4, _BUMPS))
-        bumps[np.arange(len(driven)), interval] = np.sin(np.pi * np.arange(1, _BUMPS + 1) * part[:, None])
-        return smooth, bumps.reshape(len(driven), 4 * _BUMPS)
-
-    def at(self, driven: Floats, bumps: Floats) -> Floats:
-        """Return a fitted graph at some angles, float[K]."""
-        smooth, shapes = self._parts(driven)
-        return np.asarray(smooth + shapes @ bumps)
-
-    def second_crank(self, unknowns: Floats, sides: Floats) -> tuple[Floats, Floats]:
-        """Return the mean arc of the second crank, float[n], and the mean of dF/dv, of linkages without that arc."""
-        body = _axis(unknowns[..., 9], unknowns[..., 10])
-        arcs, _ = _off_curve(unknowns[..., :_FOUR_BAR], self.graph.held.points(self._driven, self._smooth, body), sides)
-        beside, _ = _off_curve(
-            unknowns[..., :_FOUR_BAR], self.graph.held.points(self._driven, self._smooth + _DIFFERENCE, body), sides
-        )
-        return arcs.mean(axis=-1), (beside - arcs).mean(axis=-1) / _DIFFERENCE
-
-    def off(self, unknowns: Floats, signs: Floats) -> Floats:
-        """Return the misses of all points, and how far each linkage is inside what is kept away from."""
-        four_bar, body = unknowns[..., :_FOUR_BAR], _axis(unknowns[..., 9], unknowns[..., 10])
-        bumps = unknowns[..., _FOUR_BAR + _POINT :]
-        other = self._smooth + (bumps @ self._bumps.T if bumps.shape[-1] else 0.0)
-        held, side = self.graph.held, signs[..., :1]
-        miss, room = _off_curve(four_bar, held.points(self._driven, other, body), side)
-        beside, _ = _off_curve(four_bar, held.points(self._driven, other + _BESIDE, body), side)
-        crossing = signs[..., 1:] * (beside - miss) / _BESIDE
-        one, two = _axis(four_bar[..., 0], four_bar[..., 1]), _axis(four_bar[..., 2], four_bar[..., 3])
-        apart = np.stack(
-            [1.0 - (one * two).sum(axis=-1) ** 2 - _APART, 1.0 - (body @ held.moving) ** 2 - _OFF_AXIS], -1
-        )
-        inside = [
-            3.0 * np.minimum(self.weights, 1.0) * np.minimum(room - _REACH, 0.0),
-            self.slope * np.minimum(crossing - self.crossing, 0.0),
-            np.minimum(np.abs(np.sin(four_bar[..., [4, 5, 6, 8]])) - _SHORTEST, 0.0),
-            2.0 * np.minimum(apart, 0.0),
-        ]
-        return np.concatenate([self.weights * miss, *inside, _SMOOTH * bumps], axis=-1)
+def _only(values: _Many, which: Any) -> _Many:
+    return type(values)(*(value[which] for value in values))
 
 
-def _between(driven: Floats, parts: int) -> Floats:
-    """Return the angles at equal parts from each orientation to the next: float[4, parts]."""
-    return np.asarray(driven[:-1, None] + np.diff(driven)[:, None] * np.arange(parts) / parts)
+def _beside(one: Floats, other: Floats, arcs: Floats, side: Floats) -> tuple[Floats, Floats]:
+    """Return the points at two arcs, float[..., 2], from two points, on a side of their plane, and its room.
+
+    The room is negative where there is none; the point is then in the plane.
+    """
+    along = (one * other).sum(axis=-1)
+    square = np.maximum(1.0 - along * along, DOUBLE.zero)
+    first, second = np.cos(arcs[..., 0]), np.cos(arcs[..., 1])
+    by_one, by_other = (first - second * along) / square, (second - first * along) / square
+    room = 1.0 - by_one**2 - by_other**2 - 2.0 * by_one * by_other * along
+    up = side * np.sqrt(np.maximum(room / square, DOUBLE.zero))
+    return unit(by_one[..., None] * one + by_other[..., None] * other + up[..., None] * np.cross(one, other)), room
 
 
-_System: TypeAlias = Callable[[Floats], Floats]
-"""Residuals, float[..., n, r], of n linkages by their unknowns, float[..., n, m]."""
+def _drawn(wanted: _Wanted, random: np.random.Generator) -> _Chains:
+    """Return the smoothest of many random chains that take the orientations in their order within one turn."""
+    found = []
+    for _ in range(_DRAWS):
+        chains = _Chains(
+            unit(random.normal(size=(_DRAWN, 3))), unit(random.normal(size=(_DRAWN, 3))),
+            random.uniform(2.0 * _SHORTEST, np.pi - 2.0 * _SHORTEST, (_DRAWN, 2)),
+            random.choice([-1.0, 1.0], (_DRAWN, 5)), random.choice([-1.0, 1.0], _DRAWN),
+        )  # fmt: skip
+        found.append(_only(chains, np.flatnonzero(_placed(wanted, chains)[1])))
+    chains = _Chains(*(np.concatenate(values) for values in zip(*found, strict=True)))
+    return _only(chains, np.argsort(_roughness(wanted, _placed(wanted, chains)[0]), kind="stable")[:_STARTS])
 
 
-def _drawn(fit: _Fit, random: np.random.Generator) -> tuple[Floats, Floats]:
-    """Return the best of many random linkages, float[n, 11], with the signs of the side and of dF/dv, float[n, 2]."""
-    count = _DRAWN
-    unknowns = np.column_stack(
-        [random.uniform(0.0, _TURN, count), np.arcsin(random.uniform(-1.0, 1.0, count)),
-         random.uniform(0.0, _TURN, count), np.arcsin(random.uniform(-1.0, 1.0, count)),
-         random.uniform(_SHORTEST, np.pi - _SHORTEST, (count, 3)), random.uniform(0.0, _TURN, count), np.zeros(count),
-         random.uniform(0.0, _TURN, count), np.arcsin(random.uniform(-1.0, 1.0, count))]
+def _roughness(wanted: _Wanted, placed: _Placed) -> Floats:
+    """Return how far the angles of each joint of chains are from a first harmonic in those of the joint before it.
+
+    A four-bar makes functions that are near one, the joint turning with the one before, against it or neither.
+    """
+    first, second = rotations(placed.fixed[:, None], placed.inputs), _steered(placed)
+    middle = _angles_about(placed.second[:, 0], np.swapaxes(first, -1, -2) @ second)
+    off = _off_harmonic(placed.inputs, middle)
+    if wanted.anchor != 1:  # the angles that the second four-bar makes a function of are not known yet
+        return off
+    body = wanted.matrices @ wanted.matrices[0].T
+    return np.hypot(off, _off_harmonic(middle, _angles_about(placed.third[:, 0], np.swapaxes(second, -1, -2) @ body)))
+
+
+def _steered(placed: _Placed) -> Floats:
+    """Return the rotations of link 2 from orientation 1: float[n, 5, 3, 3]."""
+    return _turned((placed.second[:, :1], placed.third[:, :1]), (placed.second, placed.third))
+
+
+def _angles_about(axes: Floats, turned: Floats) -> Floats:
+    """Return the angles of rotations, float[n, K, 3, 3], about axes, float[n, 3]."""
+    sines = (crossing(axes)[:, None] * turned).sum(axis=(-1, -2)) / 2.0
+    return np.asarray(np.arctan2(sines, (np.trace(turned, axis1=-2, axis2=-1) - 1.0) / 2.0))
+
+
+def _off_harmonic(angles: Floats, others: Floats) -> Floats:
+    """Return the least root mean square of a + b cos x + c sin x + k x - y, k one of 0, 1, -1; all are float[n, 5].
+
+    y goes from each x to the next by less than half a turn.
+    """
+    order = np.argsort(angles, axis=1, kind="stable")
+    x, y = np.take_along_axis(angles, order, axis=1), np.unwrap(np.take_along_axis(others, order, axis=1), axis=1)
+    basis = np.linalg.qr(np.stack([np.ones_like(x), np.cos(x), np.sin(x)], axis=-1))[0]
+    wished = np.stack([y, y - x, y + x], axis=-1)
+    off = wished - basis @ (np.swapaxes(basis, 1, 2) @ wished)
+    return np.asarray(np.sqrt((off * off).mean(axis=1)).min(axis=1))
+
+
+def _placed(wanted: _Wanted, chains: _Chains) -> tuple[_Placed, Flags]:
+    """Return chains at the five orientations, and which of them take these, in order and within one turn."""
+    third = np.einsum("iab,nb->nia", wanted.matrices, chains.moving)
+    second, room = _beside(chains.fixed[:, None], third, chains.arcs[:, None], chains.elbows)
+    out = unit(across(second, chains.fixed[:, None]))
+    turned = (np.cross(out[:, :-1], out[:, 1:]) * chains.fixed[:, None]).sum(axis=-1)
+    steps = np.mod(chains.senses[:, None] * np.arctan2(turned, (out[:, :-1] * out[:, 1:]).sum(axis=-1)), _TURN)
+    inputs = np.zeros((len(steps), 5))
+    inputs[:, 1:] = chains.senses[:, None] * np.cumsum(steps, axis=1)
+    takes = (room > _REACH).all(axis=1) & (np.sin(chains.arcs) > _SHORTEST).all(axis=1)
+    in_order = (steps > _LEAST_TURN).all(axis=1) & (np.abs(inputs[:, -1]) < _TURN)
+    return _Placed(chains.fixed, chains.moving, second, third, inputs), takes & in_order
+
+
+def _bars(wanted: _Wanted, placed: _Placed) -> tuple[_Bars, _Bars]:
+    """Return the bars of each chain that steer link 2 and the body, the best of their dyads."""
+    first, second = rotations(placed.fixed[:, None], placed.inputs), _steered(placed)
+    ground, body = np.broadcast_to(np.eye(3), second.shape), np.broadcast_to(wanted.matrices, second.shape)
+    over = _best_bars((ground, second), placed.second, placed.fixed)
+    ends = np.einsum("niab,nb->nia", second, over.steered)
+    carrier = np.where((over.sine > _UNUSABLE)[:, None, None, None], _carrier(wanted, over, first, ends), ground)
+    own = placed.second[:, 0] if wanted.anchor == 1 else over.steered
+    return over, _best_bars((carrier, body), placed.third, own)
+
+
+def _carrier(wanted: _Wanted, over: _Bars, first: Floats, ends: Floats) -> Floats:
+    """Return the rotations of the link that carries bar 5, by those of link 1 and where the end of bar 4 is."""
+    if wanted.anchor == 1:
+        return first
+    fixed = over.carried[:, None]
+    return _turned((fixed, over.steered[:, None]), (np.broadcast_to(fixed, ends.shape), ends))
+
+
+def _best_bars(links: tuple[Floats, Floats], joint: Floats, own: Floats) -> _Bars:
+    """Return the dyads from one link to another that are farthest from being in line with what they steer.
+
+    Links are the orientations, float[n, 5, 3, 3], of the one that carries a bar, and of the one that is steered; the
+    joint, float[n, 5, 3], is that of the chain on the latter; own, float[n, 3], the axis on the former of the link of
+    the chain that is such a dyad itself.
+    """
+    number = len(joint)
+    table = dyads_of_sets(np.swapaxes(links[0], -1, -2) @ links[1])
+    there = np.arange(table.fixed.shape[1]) < table.count[:, None]
+    dyads = np.where(there[:, :, None], [table.fixed, table.moving], 0.0)
+    starts, ends = (np.einsum("niab,nvb->nvia", link, axes) for link, axes in zip(links, dyads, strict=True))
+    arcs = np.stack([angles_between(one[:, :, 0], ends[:, :, 0]) for one in (starts, joint[:, None])], axis=-1)
+    sizes = np.sin(arcs).prod(axis=-1)
+    usable = (np.sin(arcs) > _SHORTEST).all(axis=-1) & (np.sin(angles_between(dyads[0], own[:, None])) > _SHORTEST)
+    sines = (np.cross(starts, joint[:, None]) * ends).sum(axis=-1) / np.where(usable, sizes, 1.0)[..., None]
+    sides = np.where(usable[..., None], np.stack([sines.min(axis=-1), -sines.max(axis=-1)], -1), _UNUSABLE)
+    best = sides.reshape(number, -1).argmax(axis=1)
+    every, dyad = np.arange(number), best // 2
+    return _Bars(dyads[0, every, dyad], dyads[1, every, dyad], arcs[every, dyad],
+                 np.where(best % 2 == 0, 1.0, -1.0), sides.reshape(number, -1)[every, best])  # fmt: skip
+
+
+def _moved(wanted: _Wanted, placed: _Placed, bars: tuple[_Bars, _Bars], inputs: Floats) -> tuple[Floats, Floats]:
+    """Return the least room of both four-bars, float[n, 2], and matrices of the body, float[n, K, 3, 3].
+
+    Inputs are angles of the driven joint, float[n, K].
+    """
+    over, under = bars
+    first = rotations(placed.fixed[:, None], inputs)
+    second = rotated(placed.second[:, :1], placed.fixed[:, None], inputs)
+    fixed = np.broadcast_to(over.carried[:, None], second.shape)
+    ends = over.ends(fixed, second)
+    steered = _turned((placed.second[:, :1], over.steered[:, None]), (second, ends))
+    third = np.einsum("nkab,nb->nka", steered, placed.third[:, 0])
+    carried = np.einsum("nkab,nb->nka", _carrier(wanted, over, first, ends), under.carried)
+    body = _turned((placed.moving[:, None], under.steered[:, None]), (third, under.ends(carried, third)))
+    cosines = np.stack([over.cosines(fixed, second), under.cosines(carried, third)], axis=1)
+    return 1.0 - np.abs(cosines).max(axis=2), body
+
+
+def _turned(before: tuple[Floats, Floats], after: tuple[Floats, Floats]) -> Floats:
+    """Return the rotations that take two directions to two others at the same angle."""
+    return np.asarray(frames(*after) @ np.swapaxes(frames(*before), -1, -2))
+
+
+def _scores(wanted: _Wanted, chains: _Chains, between: int) -> Floats:
+    """Return how near the linkages of chains are to taking the orientations without a defect: float[n].
+
+    First bars come to lie on one side at all orientations; then the first four-bar closes between these, then the
+    second; beyond `_SOLVED` the transmission angle counts. What does not take the orientations has minus infinity.
+    """
+    placed, takes = _placed(wanted, chains)
+    scores = np.full(len(takes), -np.inf)
+    if not takes.any():
+        return scores
+    placed = _only(placed, takes)
+    bars = _bars(wanted, placed)
+    score = np.minimum(bars[0].sine, _ENOUGH) + np.minimum(bars[1].sine, _ENOUGH)
+    safe = np.flatnonzero((bars[0].sine > _SAFE) & (bars[1].sine > _SAFE))
+    placed, bars = _only(placed, safe), (_only(bars[0], safe), _only(bars[1], safe))
+    rooms, _ = _moved(wanted, placed, bars, _between(placed.inputs, between))
+    parts = 1.0 + np.clip(rooms, -1.0, _ROOMY)
+    solved = (rooms > _OPEN).all(axis=1)
+    score[safe] += parts[:, 0] + np.where(rooms[:, 0] > _OPEN, parts[:, 1], 0.0)
+    score[safe] += np.where(solved, 1.0 + np.arccos(np.clip(1.0 - rooms.min(axis=1), 0.0, 1.0)), 0.0)
+    scores[takes] = score
+    return scores
+
+
+def _between(inputs: Floats, parts: int) -> Floats:
+    """Return the angles at equal parts from each orientation to the next, and the last: float[n, 4 parts + 1]."""
+    steps = np.diff(inputs, axis=1)[..., None] * np.arange(parts) / parts
+    inner = (inputs[:, :-1, None] + steps).reshape(len(inputs), 4 * parts)
+    return np.concatenate([inner, inputs[:, -1:]], axis=1)
+
+
+class _Population:
+    """Chains, each changed at random as long as its score grows."""
+
+    def __init__(self, wanted: _Wanted, random: np.random.Generator) -> None:
+        self._wanted, self._random, self._points = wanted, random, _BETWEEN
+        self.chains = _drawn(wanted, random)
+        self.scores = _scores(wanted, self.chains, self._points)
+        self._sizes = np.full(len(self.scores), _FIRST)
+
+    def keep(self, count: int) -> None:
+        """Keep the best."""
+        best = np.argsort(-self.scores, kind="stable")[:count]
+        self.chains, self.scores, self._sizes = _only(self.chains, best), self.scores[best], self._sizes[best]
+
+    def look_closer(self) -> None:
+        """Score chains anew, by more points between orientations."""
+        self._points = _CLOSER
+        self.scores = _scores(self._wanted, self.chains, self._points)
+
+    def step(self) -> None:
+        """Change every chain, and keep the changes that raise its score."""
+        changed = self.chains.changed(self._random, self._sizes)
+        scores = _scores(self._wanted, changed, self._points)
+        better = scores > self.scores
+        self.chains, self.scores = self.chains.replaced(changed, better), np.where(better, scores, self.scores)
+        self._sizes = np.clip(self._sizes * np.where(better, _GROWS, _SHRINKS), _SMALLEST, _LARGEST)
+
+
+def _found(orientations: Orientations, wanted: _Wanted, number: int) -> Iterator[GuidedSixBar]:
+    """Yield the linkages of a population that take the orientations without a defect, the best first."""
+    kind = _CARRIERS.index(wanted.driven), wanted.anchor
+    population = _Population(wanted, np.random.default_rng([number, *kind]))
+    for count in _KEPT:
+        population.keep(count)
+        for _ in range(_STEPS):
+            population.step()
+        solved = int((population.scores > _SOLVED).sum())
+        if solved:
+            population.keep(solved)
+            population.look_closer()
+            for _ in range(_LONGER):
+                population.step()
+            population.keep(solved)
+            for place in range(solved):
+                yield from _traced(orientations, wanted, _only(population.chains, [place]))
+            return
+
+
+def _traced(orientations: Orientations, wanted: _Wanted, chain: _Chains) -> Iterator[GuidedSixBar]:
+    """Yield the linkage of a chain, if it moves from the first orientation to the last."""
+    placed, _ = _placed(wanted, chain)
+    over, under = _bars(wanted, placed)
+    inputs = _between(placed.inputs, _FINE)
+    rooms, [body] = _moved(wanted, placed, (over, under), inputs)
+    if rooms.min() <= _OPEN:
+        return
+    steered = under.steered @ wanted.matrices[0].T
+    axes = np.vstack([chain.fixed, placed.second[:, 0], placed.third[:, 0], *over[:2], under.carried, steered])
+    if wanted.driven == "body":
+        axes, body = axes @ orientations.matrices[0].T, np.swapaxes(body, 1, 2)
+    keys = tuple(range(0, len(body), _FINE))
+    missed = Rotation.from_matrix(np.swapaxes(orientations.matrices, 1, 2) @ body[list(keys)]).magnitude()
+    quaternions = facing_on(Orientations.from_matrices(body).quaternions)
+    yield GuidedSixBar(
+        orientations, wanted.driven, wanted.anchor, axes, placed.inputs[0], float(np.arccos(1.0 - rooms.min())),
+        float(missed.max()), BodyMotion(inputs[0], quaternions, keys),
     )  # fmt: skip
-    sides = random.choice([-1.0, 1.0], (count, 1))
-    unknowns[:, 8], slopes = fit.second_crank(unknowns, sides)
-    signs = np.column_stack([sides, np.where(slopes < 0.0, -1.0, 1.0)])
-    fit.weigh(*_ROUNDS[0][1:])
-    best = np.argsort((fit.off(unknowns, signs) ** 2).sum(axis=-1), kind="stable")[:_STARTS]
-    return unknowns[best], signs[best]
-
-
-def _searched(graph: _Graph, random: np.random.Generator) -> tuple[Floats, Floats, _Fit]:
-    """Return the best linkages of a search, float[n, 23], their signs, float[n, 2], and the last fit."""
-    fit = _Fit(graph)
-    unknowns, signs = _drawn(fit, random)
-    for keep, (steps, *weights) in zip((_STARTS, _KEPT, _LAST, _CHOSEN), _ROUNDS, strict=True):
-        unknowns, signs = unknowns[:keep], signs[:keep]
-        if keep == _CHOSEN:
-            fit = _Fit(graph, _CLOSER)
-        if keep == _KEPT:
-            unknowns = np.column_stack([unknowns, np.zeros((keep, 4 * _BUMPS))])
-        fit.weigh(*weights)
-        unknowns, costs = _least(partial(fit.off, signs=signs), unknowns, steps)
-        order = np.argsort(costs, kind="stable")
-        unknowns, signs = unknowns[order], signs[order]
-    return unknowns, signs, fit
-
-
-def _least(system: _System, unknowns: Floats, steps: int) -> tuple[Floats, Floats]:
-    """Return unknowns, float[n, m], after steps of Levenberg and Marquardt's method, and their sums of squares."""
-    damping = np.full(len(unknowns), 1e-2)
-    off = system(unknowns)
-    costs = (off * off).sum(axis=1)
-    for _ in range(steps):
-        by = _derivatives(system, unknowns, off)
-        normal, pull = np.einsum("nij,nik->njk", by, by), np.einsum("nij,ni->nj", by, off)
-        size = np.maximum(np.trace(normal, axis1=1, axis2=2) / normal.shape[1], DOUBLE.zero)
-        normal += (damping * size)[:, None, None] * np.eye(normal.shape[1])
-        step = np.linalg.solve(normal, -pull[..., None])[..., 0]
-        step *= np.minimum(1.0, _LONGEST / np.maximum(np.abs(step).max(axis=1), _LONGEST))[:, None]
-        moved = unknowns + step
-        there = system(moved)
-        reached = (there * there).sum(axis=1)
-        better = reached < costs
-        unknowns, off = np.where(better[:, None], moved, unknowns), np.where(better[:, None], there, off)
-        costs = np.where(better, reached, costs)
-        damping = np.clip(damping * np.where(better, 0.4, 4.0), 1e-9, 1e6)
-    return unknowns, costs
-
-
-def _derivatives(system: _System, unknowns: Floats, off: Floats) -> Floats:
-    """Return the derivatives of residuals, float[n, r, m], by differences."""
-    moved = unknowns + _DIFFERENCE * np.eye(unknowns.shape[1])[:, None]
-    return np.moveaxis((system(moved) - off) / _DIFFERENCE, 0, -1)
-
-
-def _exact(graph: _Graph, unknowns: Floats, side: Floats) -> Floats:
-    """Return linkages, float[n, 11], that take the five orientations, by Newton's shortest steps."""
-
-    def misses(there: Floats) -> Floats:
-        points = graph.held.points(graph.driven, graph.other, _axis(there[..., 9], there[..., 10]))
-        return _off_curve(there[..., :_FOUR_BAR], points, side)[0]
-
-    for _ in range(_NEWTON_STEPS):
-        off = misses(unknowns)
-        by = _derivatives(misses, unknowns, off)
-        back = np.swapaxes(by, 1, 2)
-        step = -(back @ np.linalg.solve(by @ back + DOUBLE.zero * np.eye(5), off[..., None]))[..., 0]
-        step *= np.minimum(1.0, _LONGEST / np.maximum(np.abs(step).max(axis=1), _LONGEST))[:, None]
-        unknowns = unknowns + step
-    return unknowns
-
-
-class _Way(NamedTuple):
-    """A traced linkage: angles of both joints from orientation 1 to 5, float[K], and angles of crossing, float[K]."""
-
-    driven: Floats
-    other: Floats
-    crossings: Floats
-
-
-def _traced(fit: _Fit, unknowns: Floats, near: Floats, side: Floats) -> _Way | None:
-    """Return the graph of solutions through the five points near a fitted one; None if it does not lead through them.
-
-    All its points are found by Newton's method. They are one graph if neighbours differ by what dF/dv foretells, and
-    dF/dv keeps its sign, as does the side of the coupler.
-    """
-    graph = fit.graph
-    driven = np.append(_between(graph.driven, _FINE).ravel(), graph.driven[-1])
-    four_bar, body = unknowns[None, :_FOUR_BAR], _axis(unknowns[9], unknowns[10])[None]
-
-    def misses(other: Floats, beside: float = 0.0) -> tuple[Floats, Floats]:
-        off, room = _off_curve(four_bar, graph.held.points(driven + beside, other, body), side[None])
-        return off[0], room[0]
-
-    other = fit.at(driven, near)
-    for _ in range(_NEWTON_STEPS):
-        off, _ = misses(other)
-        slope = (misses(other + _DIFFERENCE)[0] - off) / _DIFFERENCE
-        other = other - np.clip(off / np.where(np.abs(slope) > DOUBLE.zero, slope, np.inf), -0.1, 0.1)
-    off, room = misses(other)
-    slope = (misses(other + _DIFFERENCE)[0] - misses(other - _DIFFERENCE)[0]) / (2.0 * _DIFFERENCE)
-    along = (misses(other, _DIFFERENCE)[0] - misses(other, -_DIFFERENCE)[0]) / (2.0 * _DIFFERENCE)
-    if np.abs(off).max() > DOUBLE.closed or room.min() <= DOUBLE.clear or np.abs(np.diff(np.sign(slope))).any():
-        return None
-    rates = -along / slope
-    foretold = (rates[1:] + rates[:-1]) / 2.0 * np.diff(driven)
-    keys = np.arange(5) * _FINE
-    strays = np.abs(np.diff(other) - foretold).max() > _STRAY
-    if strays or np.abs(other[keys] - graph.other).max() > DOUBLE.same_configuration:
-        return None
-    places = [graph.held.points(driven, other + step, body)[0] for step in (0.0, _DIFFERENCE, -_DIFFERENCE)]
-    circles = unit(across(places[1] - places[2], places[0]))
-    return _Way(
-        driven, other, _crossings(lambda at: _off_curve(four_bar, at[None], side[None])[0][0], places[0], circles)
-    )
-
-
-def _crossings(curve: Callable[[Floats], Floats], points: Floats, circles: Floats) -> Floats:
-    """Return the angles, 0 to 90 degrees, at which circles cross the curve where a function of points is zero.
-
-    Points are unit vectors, float[K, 3], circles the directions of theirs there.
-    """
-    beside = np.cross(points, circles)
-    slopes = [
-        (curve(unit(points + _DIFFERENCE * way)) - curve(unit(points - _DIFFERENCE * way))) for way in (circles, beside)
-    ]
-    return np.asarray(np.arctan2(np.abs(slopes[0]), np.abs(slopes[1])))
-
-
-def _six_bars_along(orientations: Orientations, graph: _Graph, random: np.random.Generator) -> list[GuidedSixBar]:
-    """Return the linkages found whose motion is near a way, the best that each search came to.
-
-    What leads through all orientations is improved: dF/dv is to stay farther from zero, by and by, as long as the
-    least angle of crossing grows.
-    """
-    unknowns, signs, fit = _searched(graph, random)
-    best: dict[int, GuidedSixBar] = {}
-    active = np.arange(len(unknowns))
-    for crossing in _CROSSINGS:
-        if crossing > fit.crossing:
-            fit.crossing = crossing
-            unknowns[active], _ = _least(partial(fit.off, signs=signs[active]), unknowns[active], _LONGER)
-
-        sides = signs[active, :1]
-        numbers = _exact(graph, unknowns[active, : _FOUR_BAR + _POINT], sides)
-        better = []
-        for place, each, side in zip(active.tolist(), numbers, sides, strict=True):
-            way = _traced(fit, each, unknowns[place, _FOUR_BAR + _POINT :], side)
-            if way is not None and (place not in best or way.crossings.min() > best[place].transmission):
-                best[place] = _six_bar(orientations, graph, each, side, way)
-                better.append(place)
-        active = np.array(better, dtype=int)
-        if not better:
-            break
-    return _different(sorted(best.values(), key=lambda each: -round(each.transmission, 6)))
-
-
-def _different(six_bars: Sequence[GuidedSixBar]) -> list[GuidedSixBar]:
-    """Return one of those with the same joint lines, whichever ends of them the arcs were taken to."""
-    different: list[GuidedSixBar] = []
-    for each in six_bars:
-        lines = facing(each.axes)
-        if all(np.abs(lines - facing(other.axes)).max() > _ALIKE for other in different):
-            different.append(each)
-    return different
-
-
-def _six_bar(orientations: Orientations, graph: _Graph, numbers: Floats, side: Floats, way: _Way) -> GuidedSixBar:
-    """Return a traced linkage with its axes at orientation 1."""
-    held = graph.held
-    body = _axis(numbers[9], numbers[10])
-    point = held.points(graph.driven[:1], graph.other[:1], body[None])[0]
-    a, c, _ = _coupler(numbers[None, :_FOUR_BAR], point[None], side[None])
-    fixed, other = _axis(numbers[[0, 2]], numbers[[1, 3]])
-    first = orientations.matrices[0]
-    into_ground = np.eye(3) if held.carrier == "ground" else first
-    steering = facing(np.array([fixed, a[0, 0], point[0], c[0, 0], other]) @ into_ground.T)
-    matrices = held.matrices(way.driven, way.other)
-    keys = tuple(range(0, len(matrices), _FINE))
-    missed = Rotation.from_matrix(np.swapaxes(orientations.matrices, 1, 2) @ matrices[list(keys)]).magnitude()
-    quaternions = facing_on(Orientations.from_matrices(matrices).quaternions)
-    return GuidedSixBar(
-        orientations, held.dyad, held.carrier, held.driven,
-        np.vstack([held.dyad.fixed, first @ held.dyad.moving, steering]), _seen_by_ground(held, graph.driven),
-        float(way.crossings.min()), float(missed.max()),
-        BodyMotion(_seen_by_ground(held, way.driven), quaternions, keys),
-    )  # fmt: skip
-
-
-def _seen_by_ground(held: _Held, driven: Floats) -> Floats:
-    """Return angles of the driven joint as they are counted from the ground to the body."""
-    return driven if held.carrier == "ground" else -driven

@@ -193,13 +193,9 @@ def fourbar(
 @_ORIENTATIONS
 @options.number("--best", "K", "Number of six-bars after which the search ends.", most=100, default=1)
 @options.number(
-    "--tries",
-    "N",
-    "Largest number of ways from orientation to orientation to try; seconds each.",
-    most=100_000,
-    default=200,
+    "--tries", "N", "Largest number of populations of linkages to search; seconds each.", most=100_000, default=60
 )
-@options.choice("--driven", ("ground", "body"), "Link whose joint with the dyad is driven; by default either.")
+@options.choice("--driven", ("ground", "body"), "Link that carries the driven joint; by default either.")
 @options.output("Write the best six-bar at orientation 1 as hinged solids.", "OUT.json", "-o --output")
 @options.output("Write the motion of its body, as orientations.", "OUT.json", "--motion")
 @options.FORCE
@@ -210,9 +206,8 @@ def sixbar(
 ) -> None:  # fmt: skip
     """Find six-bars that guide a body through five orientations in order, on one circuit and one branch.
 
-    The body is held by a dyad that takes all five orientations, one of whose joints is driven and turns one way, and
-    a point of the body is led by the coupler of a four-bar: Stephenson's six-bar, in two forms. Every six-bar listed
-    was traced from the first orientation to the last. Exit status 1: none was found, which proves nothing.
+    They are Watt's: two four-bars in a row, whose driven joint turns one way, less than a whole turn. Every six-bar
+    listed was traced from the first orientation to the last. Exit status 1: none was found, which proves nothing.
 
     \b
     Example:
