@@ -48,6 +48,8 @@ EXEMPT = {
     ("synth/atlas/signatures.py", "_DAMPING"): "regularisation of a step",
     ("synth/atlas/signatures.py", "_NUDGE"): "step of differences",
     ("synth/atlas/signatures.py", "_SLOW"): "end of an iteration",
+    ("synth/guidance/sixbars.py", "_OPEN"): "room at a transmission angle of 1.8 degrees",
+    ("synth/guidance/sixbars.py", "_SMALLEST"): "size of a random change",
     ("synth/members/circuits.py", "_FIRST"): "length of a step that finds rates",
     ("synth/members/circuits.py", "_SHORTEST"): "length of a step at which a circuit is given up",
     ("synth/assembly/family.py", "_NEAR_END"): "distance in which a singular configuration is looked for",
