@@ -73,7 +73,7 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--sets", type=int, default=50)
     parser.add_argument("--from", type=int, default=0, dest="first")
-    parser.add_argument("--tries", type=int, default=110)
+    parser.add_argument("--tries", type=int, default=60)
     options = parser.parse_args()
     rows: list[dict[str, Any]] = []
     number = options.first

@@ -332,10 +332,15 @@ def _body_at(orientations: Orientations, four_bar: GuidedFourBar, angles: Floats
     fixed, beta = follower.fixed, follower.link_angle
     out = rotated(-unit(across(driver.fixed, fixed)), fixed, psi)  # psi is counted from the ground link prolonged
     following = np.asarray(np.cos(beta) * fixed + np.sin(beta) * out)
-    return np.asarray(frames(driven, following) @ frames(driver.moving[None], follower.moving[None])[0].T)
+    return turned((driver.moving[None], follower.moving[None]), (driven, following))
 
 
-def frames(a: Floats, b: Floats) -> Floats:
+def turned(before: tuple[Floats, Floats], after: tuple[Floats, Floats]) -> Floats:
+    """Return the rotations that take two directions, float[..., 3], to two others at the same angle."""
+    return np.asarray(_frame(*after) @ np.swapaxes(_frame(*before), -1, -2))
+
+
+def _frame(a: Floats, b: Floats) -> Floats:
     """Return right-handed frames, as columns: the first axis along a, the second in the plane of a and b."""
     normal = unit(np.cross(a, b))
     return np.stack([a, np.cross(normal, a), normal], axis=-1)

@@ -31,7 +31,7 @@ from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
 from graphs.types import Flags, Floats
 from synth.guidance.dyads import facing_on
-from synth.guidance.fourbars import BodyMotion, frames
+from synth.guidance.fourbars import BodyMotion, turned
 from synth.guidance.many import dyads_of_sets
 from synth.guidance.orientations import Orientations
 
@@ -367,13 +367,13 @@ def _roughness(wanted: _Wanted, placed: _Placed) -> Floats:
 
 def _steered(placed: _Placed) -> Floats:
     """Return the rotations of link 2 from orientation 1: float[n, 5, 3, 3]."""
-    return _turned((placed.second[:, :1], placed.third[:, :1]), (placed.second, placed.third))
+    return turned((placed.second[:, :1], placed.third[:, :1]), (placed.second, placed.third))
 
 
-def _angles_about(axes: Floats, turned: Floats) -> Floats:
+def _angles_about(axes: Floats, turns: Floats) -> Floats:
     """Return the angles of rotations, float[n, K, 3, 3], about axes, float[n, 3]."""
-    sines = (crossing(axes)[:, None] * turned).sum(axis=(-1, -2)) / 2.0
-    return np.asarray(np.arctan2(sines, (np.trace(turned, axis1=-2, axis2=-1) - 1.0) / 2.0))
+    sines = (crossing(axes)[:, None] * turns).sum(axis=(-1, -2)) / 2.0
+    return np.asarray(np.arctan2(sines, (np.trace(turns, axis1=-2, axis2=-1) - 1.0) / 2.0))
 
 
 def _off_harmonic(angles: Floats, others: Floats) -> Floats:
@@ -394,8 +394,8 @@ def _placed(wanted: _Wanted, chains: _Chains) -> tuple[_Placed, Flags]:
     third = np.einsum("iab,nb->nia", wanted.matrices, chains.moving)
     second, room = _beside(chains.fixed[:, None], third, chains.arcs[:, None], chains.elbows)
     out = unit(across(second, chains.fixed[:, None]))
-    turned = (np.cross(out[:, :-1], out[:, 1:]) * chains.fixed[:, None]).sum(axis=-1)
-    steps = np.mod(chains.senses[:, None] * np.arctan2(turned, (out[:, :-1] * out[:, 1:]).sum(axis=-1)), _TURN)
+    sines = (np.cross(out[:, :-1], out[:, 1:]) * chains.fixed[:, None]).sum(axis=-1)
+    steps = np.mod(chains.senses[:, None] * np.arctan2(sines, (out[:, :-1] * out[:, 1:]).sum(axis=-1)), _TURN)
     inputs = np.zeros((len(steps), 5))
     inputs[:, 1:] = chains.senses[:, None] * np.cumsum(steps, axis=1)
     takes = (room > _REACH).all(axis=1) & (np.sin(chains.arcs) > _SHORTEST).all(axis=1)
@@ -419,7 +419,7 @@ def _carrier(wanted: _Wanted, over: _Bars, first: Floats, ends: Floats) -> Float
     if wanted.anchor == 1:
         return first
     fixed = over.carried[:, None]
-    return _turned((fixed, over.steered[:, None]), (np.broadcast_to(fixed, ends.shape), ends))
+    return turned((fixed, over.steered[:, None]), (np.broadcast_to(fixed, ends.shape), ends))
 
 
 def _best_bars(links: tuple[Floats, Floats], joint: Floats, own: Floats) -> _Bars:
@@ -455,17 +455,12 @@ def _moved(wanted: _Wanted, placed: _Placed, bars: tuple[_Bars, _Bars], inputs: 
     second = rotated(placed.second[:, :1], placed.fixed[:, None], inputs)
     fixed = np.broadcast_to(over.carried[:, None], second.shape)
     ends = over.ends(fixed, second)
-    steered = _turned((placed.second[:, :1], over.steered[:, None]), (second, ends))
+    steered = turned((placed.second[:, :1], over.steered[:, None]), (second, ends))
     third = np.einsum("nkab,nb->nka", steered, placed.third[:, 0])
     carried = np.einsum("nkab,nb->nka", _carrier(wanted, over, first, ends), under.carried)
-    body = _turned((placed.moving[:, None], under.steered[:, None]), (third, under.ends(carried, third)))
+    body = turned((placed.moving[:, None], under.steered[:, None]), (third, under.ends(carried, third)))
     cosines = np.stack([over.cosines(fixed, second), under.cosines(carried, third)], axis=1)
     return 1.0 - np.abs(cosines).max(axis=2), body
-
-
-def _turned(before: tuple[Floats, Floats], after: tuple[Floats, Floats]) -> Floats:
-    """Return the rotations that take two directions to two others at the same angle."""
-    return np.asarray(frames(*after) @ np.swapaxes(frames(*before), -1, -2))
 
 
 def _scores(wanted: _Wanted, chains: _Chains, between: int) -> Floats:
