@@ -157,6 +157,8 @@ def refined(near: NearMotion, poses: Poses, curve: MotionCurve) -> tuple[float, 
         return off, float("inf")
     turned = traced.rotations()
     rows = relative(turned[near.links[0]], turned[near.links[1]])[0]
+    if angles_between(rows, np.roll(rows, -1, axis=0)).max() < NOISE:
+        return off, float("inf")  # the two links do not move
     own = MotionCurve.of(rows, closed=True)
     rounds = round(curve.length / own.length)  # a four-bar within a six-bar may go round more than once
     return off, float(difference(curve, own if rounds < 2 else MotionCurve.of(np.tile(rows, (rounds, 1)), closed=True)))

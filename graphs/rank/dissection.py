@@ -21,7 +21,7 @@ import numpy as np
 import scipy
 
 from graphs.errors import UnsolvableError
-from graphs.rank.singular_values import ZERO_SPECTRUM, Spectrum, judged, rounding, verdict
+from graphs.rank.singular_values import NOISE, ZERO_SPECTRUM, Spectrum, judged, rounding, verdict
 from graphs.types import Flags, Floats, Ints
 
 _LEAF = 192
@@ -40,15 +40,30 @@ def sparse_spectrum(matrix: scipy.sparse.csr_matrix, places: Floats, error: Floa
     """
     if not matrix.nnz:
         return ZERO_SPECTRUM
-    state = _Elimination(matrix.tocsr(), places, error, nearly)
+    state = _Elimination(matrix.tocsr(), places, error)
     state.eliminate(np.arange(matrix.shape[0]), top=True)
-    values, floors, near = (np.concatenate(found) for found in zip(*state.found, strict=True))
-    found = judged(values, floors, near, state.pivots)
+    values, floors = (np.concatenate(found) for found in zip(*state.found, strict=True))
+    found = judged(values, floors, np.zeros(len(values)), state.pivots)
     part = _widest_gap(values)
     unused = np.flatnonzero(state.rows_of == 0)
     order = np.concatenate([*state.order, unused])
-    agree = number_below(matrix[:, order], part * state.largest, ordered=True) == (values < part).sum() + len(unused)
-    return found if agree else replace(found, rank=None)
+    matrix = matrix[:, order]
+    agree = number_below(matrix, part * state.largest, ordered=True) == (values < part).sum() + len(unused)
+    judged_zero = verdict(values, floors)
+    zeros = int((judged_zero.noise | judged_zero.undecided).sum()) + len(unused)
+    near = _number_nearly(matrix, nearly[order]) - zeros
+    return replace(found, rank=found.rank if agree else None, nearly=max(near, 0))
+
+
+def _number_nearly(matrix: scipy.sparse.csr_matrix, nearly: Floats) -> int:
+    """Return how many independent combinations of columns such errors would make zero, zero ones among them.
+
+    They are counted in columns that are divided by their errors, since a part of the elimination does not know them:
+    what is large in its rows may be small in all.
+    """
+    if not nearly.all():
+        return 0
+    return number_below(matrix @ scipy.sparse.diags(1.0 / nearly), NOISE, ordered=True)
 
 
 def number_below(matrix: scipy.sparse.csr_matrix, bound: float, *, ordered: bool = False) -> int:
@@ -78,7 +93,7 @@ class _Part:
     """What is left of some rows: a dense block, its columns, how many of the rows each of these is in.
 
     Values at the columns determine those at the columns that were taken out; the sums of their squares, with the
-    weights of the elimination, are forms of these values, float[3, columns, columns].
+    weights of the elimination, are forms of these values, float[2, columns, columns].
     """
 
     block: Floats
@@ -91,16 +106,15 @@ class _Part:
 class _Elimination:
     """The state of one elimination. Columns are those of the matrix, then those that were handed up.
 
-    `pivots` counts the large singular values, `found` holds the values, floors and nearly of the others, `order`
+    `pivots` counts the large singular values, `found` holds the values and floors of the others, `order`
     the columns of the matrix as they were taken out.
     """
 
     matrix: scipy.sparse.csr_matrix
     places: Floats
     error: Floats
-    nearly: Floats
     pivots: int = 0
-    found: list[tuple[Floats, Floats, Floats]] = field(default_factory=list)
+    found: list[tuple[Floats, Floats]] = field(default_factory=list)
     order: list[Ints] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -108,7 +122,7 @@ class _Elimination:
         self.columns = self.matrix.shape[1]
         self.rows_of = np.bincount(self.matrix.indices, minlength=self.columns)
         self.named = self.columns
-        self._weights = np.array([np.ones(self.columns), self.error**2, self.nearly**2])
+        self._weights = np.array([np.ones(self.columns), self.error**2])
 
     def eliminate(self, rows: Ints, *, top: bool = False) -> _Part:
         """Take out the columns that only these rows have; return what is left."""
@@ -158,13 +172,13 @@ class _Elimination:
             columns, places, seen = np.unique(leaf.indices, return_inverse=True, return_counts=True)
             block = np.zeros((len(rows), len(columns)))
             block[np.repeat(np.arange(len(rows)), np.diff(leaf.indptr)), places] = leaf.data
-            return _Part(block, columns, seen, np.zeros((3, len(columns), len(columns))))
+            return _Part(block, columns, seen, np.zeros((2, len(columns), len(columns))))
         spread = np.ptp(self.places[rows], axis=0)
         order = rows[np.argsort(self.places[rows, int(np.argmax(spread))], kind="stable")]
         halves = [self.eliminate(half) for half in np.array_split(order, 2)]
         columns = np.unique(np.concatenate([half.columns for half in halves]))
         block = np.zeros((sum(len(half.block) for half in halves), len(columns)))
-        seen, squares = np.zeros(len(columns), dtype=np.int64), np.zeros((3, len(columns), len(columns)))
+        seen, squares = np.zeros(len(columns), dtype=np.int64), np.zeros((2, len(columns), len(columns)))
         start = 0
         for half in halves:
             at = np.searchsorted(columns, half.columns)
@@ -177,13 +191,13 @@ class _Elimination:
     def _judge(self, values: Floats, squares: Floats, *, top: bool) -> Flags:
         """Record the combinations that are noise, at the top all; return which are handed up.
 
-        Each is continued to a vector of all columns, whose sums of squares are float[3, combinations].
+        Each is continued to a vector of all columns, whose sums of squares are float[2, combinations].
         """
-        sizes, errors, near = np.sqrt(np.maximum(squares, 0.0))
+        sizes, errors = np.sqrt(np.maximum(squares, 0.0))
         scale = sizes * self.largest
         parts, floors = values / scale, rounding(self.matrix.shape) + errors / scale
         done = np.ones(len(values), dtype=bool) if top else verdict(parts, floors).noise
-        self.found.append((parts[done], floors[done], near[done] / scale[done]))
+        self.found.append((parts[done], floors[done]))
         return np.asarray(~done)
 
 

@@ -20,7 +20,7 @@ NEARLY = 2e-3
 """The error of coordinates that would make a nearly mobile mechanism mobile: a thousandth of the size, in units of
 the extent, which is half of it."""
 
-_NOISE = 6.0
+NOISE = 6.0
 """Noise stays below this many floors: at most 4.5 in thousands of disturbed crease patterns."""
 _CLEAR = 20.0
 """From this many floors on a singular value is certainly none."""
@@ -86,9 +86,9 @@ def verdict(values: Floats, floors: Floats, nearly: Floats | float = 0.0) -> Noi
     Floors say what errors of the size of the data's precision do to each, in the mean; nearly likewise for an
     error of a thousandth of the size.
     """
-    noise = values <= np.minimum(_NOISE * floors, _LARGE)
+    noise = values <= np.minimum(NOISE * floors, _LARGE)
     undecided = ~noise & (values <= _CLEAR * floors)
-    return NoiseVerdict(noise, undecided, ~noise & ~undecided & (values <= _NOISE * nearly))
+    return NoiseVerdict(noise, undecided, ~noise & ~undecided & (values <= NOISE * nearly))
 
 
 def spectrum(matrix: Floats, error: float | Floats = 0.0, nearly: float | Floats = 0.0) -> Spectrum:
@@ -136,14 +136,14 @@ def spectra(matrices: Floats, error: float, nearly: float) -> Spectra:
 
 def rounding(shape: tuple[int, int]) -> float:
     """Return the floor that rounding in double precision makes, as part of the largest singular value."""
-    return float(np.finfo(float).eps * max(shape) / _NOISE)
+    return float(np.finfo(float).eps * max(shape) / NOISE)
 
 
 def judged_at(values: Floats, zero: float) -> Spectrum:
     """Return the rank of descending singular values in any unit; those up to `zero` times the largest are zero."""
     if not values.max(initial=0.0) > 0.0:
         return ZERO_SPECTRUM
-    return judged(values / values[0], np.full(len(values), zero / _NOISE), np.zeros(len(values)))
+    return judged(values / values[0], np.full(len(values), zero / NOISE), np.zeros(len(values)))
 
 
 def judged(values: Floats, floors: Floats, nearly: Floats, larger: int = 0) -> Spectrum:
@@ -156,14 +156,14 @@ def judged(values: Floats, floors: Floats, nearly: Floats, larger: int = 0) -> S
     zeros = values[found.noise]
     rank = None if found.undecided.any() else larger + len(counted)
     smallest = float(counted.min(initial=1.0)) if larger or len(counted) else 0.0
-    most = min(_NOISE * float(floors[found.noise].max(initial=0.0)), _LARGE)
+    most = min(NOISE * float(floors[found.noise].max(initial=0.0)), _LARGE)
     return Spectrum(
         rank,
         smallest / max(float(zeros.max()), most) if len(zeros) else float("inf"),
         smallest,
         float(zeros.max(initial=0.0)),
         int(found.nearly.sum()),
-        _NOISE * float(floors.max(initial=0.0)),
+        NOISE * float(floors.max(initial=0.0)),
         tuple(values[found.undecided].tolist()),
     )
 

@@ -1,4 +1,4 @@
-"""Cases and sizes of a law: some run with `make test`, the others with `make test-slow` only."""
+"""Cases and sizes of a law: some run with `make test`, the others with `make test-slow` or `make test-night` only."""
 
 import pytest
 
@@ -6,6 +6,11 @@ import pytest
 def slow(*values, **options):
     """Return a case that `make test` leaves out."""
     return pytest.param(*values, marks=pytest.mark.slow, **options)
+
+
+def night(*values, **options):
+    """Return a case that only `make test-night` runs."""
+    return pytest.param(*values, marks=(pytest.mark.slow, pytest.mark.night), **options)
 
 
 def slow_but(quick, cases):

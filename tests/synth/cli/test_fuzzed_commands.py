@@ -8,13 +8,13 @@ import sys
 
 import pytest
 from mutated_files import mutated, seeds
+from sizes import night, slow
 
 from graphs.convert.table import CONVERSIONS, FORMS
 from graphs.errors import SynthedraError
 from graphs.files.formats import READERS, WRITERS, read_all
 
 FORMATS = sorted(READERS)
-EACH = -(-1_000 // len(FORMATS))
 HANGS = 120
 """Seconds after which a command is taken to hang."""
 
@@ -71,10 +71,10 @@ def check_command(rng, seed, suffix, folder):
     return 0
 
 
-@pytest.mark.slow
+@pytest.mark.parametrize("files_of_all_formats", [slow(250), night(1_000)])
 @pytest.mark.parametrize("suffix", FORMATS)
-def test_a_thousand_mutated_files_through_the_command(suffix, tmp_path, data):
+def test_mutated_files_through_the_command(suffix, files_of_all_formats, tmp_path, data):
     rng = random.Random(f"{suffix} 4")
     files = seeds(data, tmp_path)[suffix]
-    codes = {check_command(rng, rng.choice(files), suffix, tmp_path / str(i)) for i in range(EACH)}
+    codes = {check_command(rng, rng.choice(files), suffix, tmp_path / str(i)) for i in range(-(-files_of_all_formats // len(FORMATS)))}
     assert codes == {0, 2}

@@ -7,10 +7,10 @@ import signal
 import pytest
 from commands import run as command_line
 from pressed import ENUMERATIONS, pressed
+from sizes import night, slow
 
 from enumerate.runner.stopping import Interrupted, interruptible
 
-MOMENTS = 30
 LONGEST = 5.0
 
 RESUMED = ("conical", "atlas")
@@ -33,15 +33,15 @@ def test_one_line_in_compiled_code(number):
     check("chains", pressed("chains", 1, 1.3, number=number), number)
 
 
-@pytest.mark.slow
+@pytest.mark.parametrize("moments", [slow(8), night(30)])
 @pytest.mark.parametrize("workers", [1, 2])
 @pytest.mark.parametrize("name", ENUMERATIONS)
-def test_one_line_at_thirty_moments(name, workers, tmp_path):
+def test_one_line_at_any_moment(name, workers, moments, tmp_path):
     sheet = tmp_path / "sheet.fold"
     if name == "addenda":
         command_line("generate", "miura", "--rows", 10, "--columns", 10, "-o", sheet)
     dice = random.Random(f"{name} {workers}")
-    for _ in range(MOMENTS):
+    for _ in range(moments):
         check(name, pressed(name, workers, dice.uniform(0, LONGEST), sheet))
 
 

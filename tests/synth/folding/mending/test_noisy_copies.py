@@ -20,7 +20,7 @@ from noisy_copies import (
     with_places,
     wrongly_proved,
 )
-from sizes import first_quick, slow, slow_but
+from sizes import first_quick, night, slow, slow_but
 
 from graphs.mechanism.precision import BY_DIGITS, extent_of
 from synth.folding.configuration import configuration_of_sheet
@@ -102,25 +102,25 @@ def test_what_is_near_a_mechanism_is_not_called_rigid_at_any_larger_precision(pr
     assert sentence(verdict) in ("moves", "unknown")
 
 
-@pytest.mark.slow
+@pytest.mark.parametrize("copies", [slow(10), night(50)])
 @pytest.mark.parametrize("name", PATTERNS)
-def test_fifty_copies_of_each(name):
+def test_many_copies_of_each(name, copies):
     verdicts = []
-    for seed in range(50):
+    for seed in range(copies):
         size = 10.0 ** np.random.default_rng((seed, 7)).uniform(-8, -3)
         verdicts.append(verdict_on_copy(name, size, seed))
     assert not any(wrongly_proved(name, verdict) for verdict in verdicts)
     if not exact(name).freedoms:
         assert all(sentence(verdict) != "moves" for verdict in verdicts)
     else:
-        assert sum(agrees(name, verdict) for verdict in verdicts) >= 49
+        assert sum(agrees(name, verdict) for verdict in verdicts) >= copies - 1
 
 
-@pytest.mark.slow
+@pytest.mark.parametrize("copies", [slow(10), night(50)])
 @pytest.mark.parametrize("name", PATTERNS)
-def test_fifty_copies_whose_precision_is_estimated(name):
+def test_copies_whose_precision_is_estimated(name, copies):
     verdicts, near = [], 0
-    for seed in range(50):
+    for seed in range(copies):
         sheet, size = copy_of(name, 10.0 ** np.random.default_rng((seed, 7)).uniform(-8, -3), seed)
         configuration = configuration_of_sheet(sheet)
         if name.startswith("bent"):  # nothing in it is as drawings are
@@ -130,8 +130,8 @@ def test_fifty_copies_whose_precision_is_estimated(name):
     agreeing = sum(agrees(name, verdict) for verdict in verdicts)
     print(f"{name}: {agreeing} agree, {near} estimates within a factor of 3")
     assert not any(wrongly_proved(name, verdict) for verdict in verdicts)
-    assert agreeing >= 45 or (not exact(name).freedoms and all(sentence(verdict) != "moves" for verdict in verdicts))
-    assert near >= 40 or name.startswith("bent")
+    assert agreeing >= 0.9 * copies or (not exact(name).freedoms and all(sentence(verdict) != "moves" for verdict in verdicts))
+    assert near >= 0.8 * copies or name.startswith("bent")
 
 
 @pytest.mark.parametrize(
