@@ -171,7 +171,10 @@ class Design(Printed):
         lines += [self.verdict] if self.moves else []
         lines.append(f"loop-closure residual {self.error:.1e}")
         if self.settled is False:
-            lines.append("the search ended with its last step; a run with --begin goes on from there")
+            lines.append(
+                "the search ended with its last step, before it settled: on another machine it may end elsewhere; "
+                "a run with --begin goes on from there"
+            )
         return [*lines, TableBlock(FIGURE_HEADS, self.rows())]
 
     def rows(self, most: int = 3) -> list[tuple[str, str, str]]:
