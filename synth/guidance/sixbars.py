@@ -111,8 +111,7 @@ class GuidedSixBar:
     @property
     def links(self) -> tuple[tuple[int, int], ...]:
         """The links of each joint: 0 the ground, 3 the body, 4 and 5 bars."""
-        near, far = (0, 3) if self.driven == "ground" else (3, 0)
-        return ((near, 1), (1, 2), (2, far), (near, 4), (4, 2), (self.anchor, 5), (5, far))
+        return links_of(self.driven, self.anchor)
 
     @property
     def linkage(self) -> HingedSolids:
@@ -187,8 +186,27 @@ class GuidedSixBars(Printed):
         return [f"{found}; {tried}", *([TableBlock(heads, rows, ["turns by", "transmission"])] if rows else [])]
 
 
+def links_of(driven: Carrier, anchor: int) -> tuple[tuple[int, int], ...]:
+    """Return the links of each joint: 0 the ground, 3 the body, 4 and 5 bars.
+
+    Parameters
+    ----------
+    driven : "ground" or "body"
+        The link that carries the driven joint, joint 0.
+    anchor : 1 or 4
+        The link that carries bar 5.
+
+    Examples
+    --------
+    >>> links_of("ground", 1)
+    ((0, 1), (1, 2), (2, 3), (0, 4), (4, 2), (1, 5), (5, 3))
+    """
+    near, far = (0, 3) if driven == "ground" else (3, 0)
+    return ((near, 1), (1, 2), (2, far), (near, 4), (4, 2), (anchor, 5), (5, far))
+
+
 def six_bars(
-    orientations: Orientations, *, most: int = 1, tries: int = 60, driven: Carrier | None = None
+    orientations: Orientations, *, most: int = 1, tries: int = 60, driven: Carrier | None = None, first: int = 0
 ) -> GuidedSixBars:
     """Find Watt's six-bars that guide a body through five orientations in order, on one circuit and one branch.
 
@@ -202,6 +220,8 @@ def six_bars(
         Largest number of populations of chains that are searched; each takes some seconds.
     driven : "ground" or "body", optional
         The link that carries the driven joint; by default populations take turns, the ground first.
+    first : int, optional
+        Number of the first population: a search goes on from where another one ended.
 
     Returns
     -------
@@ -214,7 +234,7 @@ def six_bars(
     UnsolvableError
         If there are not five orientations.
     InvariantError
-        If `driven` is neither link, or `most` or `tries` are not positive.
+        If `driven` is neither link, `most` or `tries` are not positive, or `first` is negative.
 
     Examples
     --------
@@ -225,16 +245,16 @@ def six_bars(
     """
     if driven is not None and driven not in _CARRIERS:
         raise InvariantError("driven", shown(driven), "'ground' or 'body'")
-    for name, number in (("most", most), ("tries", tries)):
-        if number < 1:
-            raise InvariantError(name, shown(number), "1 or more")
+    for name, number, least in (("most", most, 1), ("tries", tries, 1), ("first", first, 0)):
+        if number < least:
+            raise InvariantError(name, shown(number), f"{least} or more")
     if len(orientations) != 5:
         raise UnsolvableError(f"{len(orientations)} orientations; six-bars are found for 5")
     kinds = list(product(_ANCHORS, _CARRIERS if driven is None else (driven,)))
     found: list[GuidedSixBar] = []
     tried = 0
     while tried < tries and len(found) < most:
-        number, place = divmod(tried, len(kinds))
+        number, place = divmod(first + tried, len(kinds))
         anchor, carrier = kinds[place]
         found += _found(orientations, _Wanted.of(orientations, carrier, anchor), number)
         tried += 1

@@ -13,16 +13,19 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from hashlib import sha256
+from itertools import permutations
 from math import ceil, pi, tau
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from enumerate.runner.job import Column, Progress, Row, Unit, row_as_dict
 from enumerate.runner.running import rows_of, run
 from enumerate.runner.store import SqliteSink, read_rows
 from graphs.errors import SynthedraError
+from graphs.joints.linkage import plain_vector
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
@@ -33,6 +36,9 @@ from graphs.types import JointId, LinkId
 from synth.designing.designs import Design, DesignSearch
 from synth.designing.search import seeded
 from synth.designing.wish_files import wishes_of_document
+from synth.designing.wishes import LinkOrientation
+from synth.guidance.orientations import Orientations
+from synth.guidance.sixbars import GuidedSixBar, links_of, six_bars
 from synth.patterns.catalogue import GENERATORS
 from synth.realisation.realised import realise as sheet_realisation
 from synth.tasks.record import Task, renamed
@@ -46,6 +52,8 @@ _SPREAD = 0.3
 """How far starts of a generator are off its default parameters, as parts of them; of other types starts are random."""
 _CONES = (0.15, 1.2)
 """Least and largest angle of the cones on which starts lie, radians."""
+_POPULATIONS = 4
+"""Populations of six-bars that guide, tried at a start."""
 _MET = 9
 """Decimals of a miss by which candidates are compared, as designs are: below them a wish is met."""
 
@@ -170,7 +178,28 @@ class CandidateSearch:
         if self.task.form == "cone":
             places = rng.uniform(0.0, tau, len(chain.joints)).tolist()
             return SurfaceLinkage.placed(chain, places, Cone(float(rng.uniform(*_CONES))))
-        return random_member(chain, int(rng.integers(2**31)))
+        return self._guided(chain, start) or random_member(chain, int(rng.integers(2**31)))
+
+    def _guided(self, chain: SCGraph, start: int) -> HingedSolids | None:
+        """Return a six-bar of Watt that guides a link through five orientations in order, if these are the wishes.
+
+        None where the populations of that start have none, or the placement of the roles is another.
+        """
+        wishes, names = self.wishes.wishes, [one.name for one in self.wishes.configurations]
+        turns = [one for one in wishes if isinstance(one, LinkOrientation)]
+        inputs = any(one.inputs for one in self.wishes.configurations)
+        if inputs or len(turns) < len(wishes) or [one.at for one in turns] != names or len(turns) != 4:
+            return None
+        if len({one.link for one in turns}) > 1:
+            return None
+        body = next((link for link in chain if str(link) == turns[0].link), None)
+        if body is None or not is_watts(chain, body):
+            return None
+        five = [(1.0, 0.0, 0.0, 0.0), *(one.quaternion for one in turns)]
+        first = _POPULATIONS * start
+        five_turns = Orientations.from_rotation(Rotation.from_quat(five, scalar_first=True))
+        found = six_bars(five_turns, tries=_POPULATIONS, driven="ground", first=first).six_bars
+        return guiding_member(chain, body, found[0]) if found else None
 
     def design(self, start: int) -> Design | None:
         """Return the design of a start, judged; None where its numbers make no mechanism."""
@@ -190,6 +219,54 @@ def _type_of(place: Path, source: str, code: str, stated: tuple[tuple[str, float
     """Return a type, made once for all its starts: `hexagon-twist` takes seconds to make."""
     task = Task(generators={code: dict(stated)}, place=place) if source == "generators" else None
     return CandidateType.of(source, code, task)
+
+
+def is_watts(chain: SCGraph, body: LinkId) -> bool:
+    """Tell whether a chain with its ground is Watt's spherical six-bar as `six_bars` has it, with that body.
+
+    Parameters
+    ----------
+    chain : SCGraph
+    body : link id
+
+    Examples
+    --------
+    >>> chain = CandidateType.of("chains", "k1:E`hW").mechanism
+    >>> [body for body in chain if is_watts(SCGraph(chain.nodes, chain.joints, chain.loops, ground=0), body)]
+    []
+    """
+    finite = all(loop.centre is Centre.FINITE for loop in chain.loops) and len(chain.centre_classes()) == 1
+    return finite and _named(chain, body, links_of("ground", 1)) is not None
+
+
+def guiding_member(chain: SCGraph, body: LinkId, six_bar: GuidedSixBar) -> HingedSolids | None:
+    """Return a six-bar as a member of a chain with its ground; None where its bar 5 is on the other link.
+
+    Parameters
+    ----------
+    chain : SCGraph
+    body : link id
+    six_bar : GuidedSixBar
+    """
+    names = _named(chain, body, six_bar.links)
+    if names is None:
+        return None
+    place_of = {frozenset(names[link] for link in pair): place for place, pair in enumerate(six_bar.links)}
+    directions = {joint: six_bar.axes[place_of[frozenset(pair)]] for joint, pair in chain.joints.items()}
+    return HingedSolids(chain, {joint: ((0.0, 0.0, 0.0), plain_vector(axis)) for joint, axis in directions.items()})
+
+
+def _named(chain: SCGraph, body: LinkId, pairs: Sequence[tuple[int, int]]) -> dict[int, LinkId] | None:
+    """Return links of a chain for links 0 to 5, 0 the ground and 3 the body, by which its joints are those pairs."""
+    others = [link for link in chain if link not in (chain.ground, body)]
+    if len(chain) != 6 or chain.ground is None or body == chain.ground:
+        return None
+    wanted = sorted(sorted(map(str, pair)) for pair in chain.joints.values())
+    for order in permutations(others):
+        names = dict(zip((0, 1, 2, 4, 5, 3), (chain.ground, *order, body), strict=True))
+        if wanted == sorted(sorted(str(names[link]) for link in pair) for pair in pairs):
+            return names
+    return None
 
 
 def random_member(chain: SCGraph, seed: int) -> HingedSolids:

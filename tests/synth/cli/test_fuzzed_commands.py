@@ -76,5 +76,8 @@ def check_command(rng, seed, suffix, folder):
 def test_mutated_files_through_the_command(suffix, files_of_all_formats, tmp_path, data):
     rng = random.Random(f"{suffix} 4")
     files = seeds(data, tmp_path)[suffix]
-    codes = {check_command(rng, rng.choice(files), suffix, tmp_path / str(i)) for i in range(-(-files_of_all_formats // len(FORMATS)))}
+    codes = {
+        check_command(rng, rng.choice(files), suffix, tmp_path / str(i))
+        for i in range(-(-files_of_all_formats // len(FORMATS)))
+    }
     assert codes == {0, 2}

@@ -114,6 +114,7 @@ def test_other_than_five_orientations_are_refused():
         ({"driven": "crank"}, "'crank'; expected 'ground' or 'body'"),
         ({"most": 0}, "0; expected 1 or more"),
         ({"tries": -1}, "-1; expected 1 or more"),
+        ({"first": -1}, "-1; expected 0 or more"),
     ],
 )
 def test_options_that_are_none_are_refused(options, message, data):

@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 import synth
 from enumerate.runner import Interrupted, Limits
 from graphs.errors import InvariantError, StoreError
+from graphs.mechanism.sc import SCGraph
 from synth.cli.main import main
 from synth.guidance.fourbars import four_bar_of, four_bars
 from synth.guidance.orientations import Orientations
@@ -20,7 +21,7 @@ from synth.guidance.synthesis import dyads_of_five
 from synth.motion.linkage import link_motions
 from synth.moving.made import configuration_of
 from synth.tasks import candidates_of, ranked_types, read_task, report_page, structure_of
-from synth.tasks.dimensioning import halved
+from synth.tasks.dimensioning import CandidateSearch, halved, is_watts
 
 HEAD = {"format": "synthedra/task", "version": 1}
 
@@ -174,3 +175,29 @@ def test_the_better_half_goes_on_with_twice_as_many_starts(data):
 def test_what_cannot_be_asked_is_one_line(document, options, line, data):
     with pytest.raises(InvariantError, match=line):
         synth.task(document or lid(data), **options)
+
+
+def watts(task):
+    """The candidates of a task that begin at six-bars that guide, each with its chain and body."""
+    for candidate in candidates_of(structure_of(task)):
+        chain, links = candidate.type_of(task).mechanism, dict(zip(task.roles, candidate.links, strict=True))
+        if is_watts(SCGraph(chain.nodes, chain.joints, chain.loops, ground=links["base"]), links["output"]):
+            yield candidate
+
+
+def test_five_orientations_begin_at_six_bars_that_guide(data):
+    task = read_task(data / "tasks" / "five-orientations.json")
+    [candidate] = watts(task)
+    assert len(candidate.type_of(task).mechanism) == 6
+    assert candidate.links == (0, 5)
+
+
+@pytest.mark.slow
+def test_a_six_bar_of_a_task_takes_the_five_orientations_without_a_defect(data):
+    """One of the populations of that start has one; as `synth sixbar`, but by links and joints of the type."""
+    task = read_task(data / "tasks" / "five-orientations.json")
+    [candidate] = watts(task)
+    design = CandidateSearch(task, candidate, 0).design(1)
+    assert design.success
+    assert design.miss < 1e-12
+    assert len(design.mechanism.chain.joints) == 7

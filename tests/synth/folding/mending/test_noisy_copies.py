@@ -130,7 +130,9 @@ def test_copies_whose_precision_is_estimated(name, copies):
     agreeing = sum(agrees(name, verdict) for verdict in verdicts)
     print(f"{name}: {agreeing} agree, {near} estimates within a factor of 3")
     assert not any(wrongly_proved(name, verdict) for verdict in verdicts)
-    assert agreeing >= 0.9 * copies or (not exact(name).freedoms and all(sentence(verdict) != "moves" for verdict in verdicts))
+    assert agreeing >= 0.9 * copies or (
+        not exact(name).freedoms and all(sentence(verdict) != "moves" for verdict in verdicts)
+    )
     assert near >= 0.8 * copies or name.startswith("bent")
 
 
