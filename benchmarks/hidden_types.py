@@ -18,6 +18,7 @@ import argparse
 import json
 import os
 import platform
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import process_time
@@ -26,11 +27,11 @@ from typing import Any, NamedTuple
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
+from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
 from graphs.files.formats import mechanism_of_id
 from graphs.geometry import unit
-from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from graphs.types import Floats
 from synth.atlas import AtlasPlan, add_motions, build_atlas, like, open_atlas
@@ -38,18 +39,21 @@ from synth.atlas.motions import NearMotion
 from synth.atlas.opened import Atlas
 from synth.atlas.signatures import MotionCurve, angles_between, difference
 from synth.designing.designs import DesignSearch
-from synth.designing.search import found_from, seeded
+from synth.designing.problem import DesignStep
 from synth.designing.wishes import LinkOrientation, WishedConfiguration, Wishes
 from synth.members.circuits import Circuits, circuits_of, product, relative, spherical_of
+from synth.motion.closure import ClosureEquations, corrected
+from synth.motion.linkage import linkage_of_axes
 
 CHAINS = ("k1:Cr", "k1:E`hW", "k1:E@zO")
-NOISE, FRAMES, POSES = 1e-3, 64, 16
+NOISE, FRAMES, MANY, POSES = 1e-3, 64, 256, 16
+"""Radians; frames of a motion with noise and without; poses of a design."""
 WITHIN = 2.0 * np.sqrt(3.0) * NOISE
 """Root mean square of misses: errors of a pose and of the first one, about three axes, are sqrt(6) times the noise."""
-TRIES, EXACT, ALONG = 4, 1e-9, 1e-4
-"""Nearest members that are refined at poses, radians; what their circuits may differ by between the poses, where the
-motion is known by a spline."""
-_SHIFTS = 96
+TRIES, EXACT, ALONG = 8, 1e-9, 1e-4
+"""Nearest members of each chain that are refined at poses; radians by which these may be missed, and by which circuits
+may differ between them, where the motion is known by a spline."""
+_LAST = 4.0 * np.finfo(float).eps
 
 
 class Hidden(NamedTuple):
@@ -68,99 +72,131 @@ class Poses(NamedTuple):
 
     @classmethod
     def of(cls, motion: Floats) -> Poses:
-        """Return every fourth frame."""
+        """Return some frames, equally far apart."""
+        step = len(motion) // POSES
         along = np.cumsum(angles_between(motion, np.roll(motion, -1, axis=0)))
-        rows = Rotation.from_quat(motion[:: FRAMES // POSES], scalar_first=True)
-        parts = np.concatenate([[0.0], along[:-1]])[:: FRAMES // POSES] / along[-1]
+        rows = Rotation.from_quat(motion[::step], scalar_first=True)
+        parts = np.concatenate([[0.0], along[:-1]])[::step] / along[-1]
         return cls(rows[1:] * rows[0].inv(), parts)
 
 
-def hidden(number: int, noise: float) -> Hidden:
+def hidden(number: int, noise: float, frames: int) -> Hidden:
     """Return a member whose circuit closes, drawn by its number."""
     random = np.random.default_rng([2026, number])
     code = CHAINS[number % len(CHAINS)]
     chain = mechanism_of_id(code)
     while True:
-        traced = circuits_of(chain, random.normal(size=(1, len(chain.joints), 3)), frames=FRAMES)
+        traced = circuits_of(chain, random.normal(size=(1, len(chain.joints), 3)), frames=frames)
         if traced.closed[0]:
             break
-    turned = traced.rotations()
+    turned = _to_the_last_digit(traced).rotations()
     pairs = [(a, b) for a in chain for b in chain if a < b and not chain.has_edge(a, b)]
     first, second = pairs[number // len(CHAINS) % len(pairs)]
     motion = relative(turned[first], turned[second])[0]
     left, right = unit(random.normal(size=(2, 4)))
     moved = product(product(np.broadcast_to(left, motion.shape), motion), np.broadcast_to(right, motion.shape))
-    errors = Rotation.from_rotvec(noise * random.normal(size=(FRAMES, 3)))
+    errors = Rotation.from_rotvec(noise * random.normal(size=(frames, 3)))
     noisy = (errors * Rotation.from_quat(moved, scalar_first=True)).as_quat(scalar_first=True)
     return Hidden(code, (first, second), noisy)
 
 
-def placed(near: NearMotion, poses: Poses) -> HingedSolids:
-    """Return a member of the atlas where its two links take poses best, in the frame of the first link.
+def _to_the_last_digit(traced: Circuits) -> Circuits:
+    """Return the circuit of a member with loops closed at each frame; between its steps it comes by a spline."""
+    axes = dict(zip(traced.chain.joints, traced.axes[0].tolist(), strict=True))
+    linkage = linkage_of_axes(traced.chain, {joint: (axis, axis) for joint, axis in axes.items()})
+    closure = ClosureEquations(linkage)
+    closed = [corrected(closure, linkage.angles + row).angles - linkage.angles for row in traced.angles[0]]
+    return replace(traced, angles=np.array([closed]))
 
-    It begins anywhere on its circuit and goes either way: of all, the frame and the turn of all axes that fit best.
+
+class Placed(NamedTuple):
+    """A member of the atlas that takes poses as well as it can, by their misses, seen from the first of two links.
+
+    Angles, float[15, J], are those from the first pose.
     """
-    chain = spherical_of(mechanism_of_id(near.chain))
-    traced = circuits_of(chain, np.array([list(near.axes.values())]), frames=512)
-    if not traced.closed[0]:
-        return near.linkage
+
+    off: float
+    linkage: HingedSolids
+    links: tuple[Any, Any]
+    angles: Floats
+
+
+def placed(near: NearMotion, poses: Poses) -> Placed:
+    """Return a member where it takes poses best: it, its mirror image, or either with the two links exchanged.
+
+    Angles between poses tell none of these from the others. The motion begins anywhere and goes either way.
+    """
+    axes = np.array(list(near.axes.values()))
+    images = (axes, axes * [1.0, 1.0, -1.0])
+    every = [_placed(near.chain, one, pair, poses) for one in images for pair in (near.links, near.links[::-1])]
+    return min(every, key=lambda one: one.off)
+
+
+def _placed(code: str, axes: Floats, links: tuple[Any, Any], poses: Poses) -> Placed:
+    chain = spherical_of(mechanism_of_id(code))
+    traced = circuits_of(chain, axes[None], frames=512)
     turned = {link: rows[0] for link, rows in traced.rotations().items()}
-    motion = relative(turned[near.links[0]], turned[near.links[1]])
+    motion = relative(turned[links[0]], turned[links[1]])
     steps = angles_between(motion, np.roll(motion, -1, axis=0))
     along = np.concatenate([[0.0], np.cumsum(steps)])
-    best: tuple[float, int, Rotation] | None = None
-    goals = poses.turns.as_rotvec()
-    for begin in range(0, len(motion), len(motion) // _SHIFTS or 1):
+    fits: list[tuple[float, Floats, Rotation]] = []
+    for begin in range(len(motion)):
         for way in (1.0, -1.0):
             at = np.remainder(along[begin] + way * poses.parts * along[-1], along[-1])
             frames = np.minimum(np.searchsorted(along, at), len(motion) - 1)
             rows = Rotation.from_quat(motion[frames], scalar_first=True)
-            own = (rows[1:] * rows[0].inv()).as_rotvec()
-            turn, off = Rotation.align_vectors(goals, own)
-            if best is None or off < best[0]:
-                best = (float(off), begin, turn)
-    assert best is not None
-    return _at(chain, traced, turned, near.links[0], best[1], best[2])
-
-
-def _at(
-    chain: SCGraph, traced: Circuits, turned: dict[Any, Floats], ground: Any, frame: int, turn: Rotation
-) -> HingedSolids:
-    """Return a linkage at a frame of its circuit, seen from one link, turned."""
-    axes = {}
+            turn, off = Rotation.align_vectors(_sines(poses.turns), _sines(rows[1:] * rows[0].inv()))
+            fits.append((float(off), frames, turn))
+    off, frames, turn = min(fits, key=lambda fit: fit[0])
+    seen = {}
     for place, (joint, (one, _)) in enumerate(chain.joints.items()):
-        body = relative(turned[ground][[frame]], turned[one][[frame]])
+        body = relative(turned[links[0]][frames[:1]], turned[one][frames[:1]])
         direction = turn.apply(Rotation.from_quat(body[0], scalar_first=True).apply(traced.axes[0, place]))
-        axes[joint] = ((0.0, 0.0, 0.0), tuple(direction.tolist()))
-    return HingedSolids(chain, axes)
+        seen[joint] = ((0.0, 0.0, 0.0), tuple(direction.tolist()))
+    return Placed(off, HingedSolids(chain, seen), links, traced.angles[0, frames[1:]] - traced.angles[0, frames[0]])
+
+
+def _sines(turns: Rotation) -> Floats:
+    """Return axes times sines of the angles: vectors that turn with the frame, smooth at half turns too."""
+    rows = turns.as_quat(scalar_first=True)
+    return np.asarray(2.0 * rows[:, :1] * rows[:, 1:])
 
 
 def refined(near: NearMotion, poses: Poses, curve: MotionCurve) -> tuple[float, float]:
-    """Return what the design that begins with a member is off: misses of poses, and of its circuit, radians.
+    """Return by how much a design that begins with a member misses poses, or opens its loops, and its circuit.
 
-    Both are root mean squares, that of the circuit infinite where it does not close, or poses are missed.
+    The first is the most, the second a root mean square, infinite where the circuit does not close; in radians.
     """
+    begun = placed(near, poses)
+    first, second = begun.links
     names = [f"pose {number}" for number in range(2, POSES + 1)]
     wishes = Wishes(
         tuple(
-            LinkOrientation(at=name, link=str(near.links[1]), quaternion=tuple(row))
+            LinkOrientation(at=name, link=str(second), quaternion=tuple(row))
             for name, row in zip(names, poses.turns.as_quat(scalar_first=True).tolist(), strict=True)
         ),
         tuple(WishedConfiguration(name) for name in names),
     )
-    search = DesignSearch(placed(near, poses), wishes, ground=near.links[0])
-    found = found_from(search.problem, search.family.start, seeded("hidden", 0))
-    if found is None or found.error > 1e-9:
-        return float("inf"), float("inf")
-    off = float(np.sqrt((found.step.wishes.reshape(POSES - 1, 9) ** 2).sum(axis=1).mean()))
-    linkage = found.step.design.linkage
-    traced = circuits_of(mechanism_of_id(near.chain), linkage.directions[None], frames=256)
+    problem = DesignSearch(begun.linkage, wishes, ground=first).problem
+
+    def tried(unknowns: Floats) -> DesignStep:
+        step = problem.tried(unknowns)
+        assert step is not None  # a chain always is a mechanism
+        return step
+
+    found = least_squares(
+        lambda unknowns: tried(unknowns).residual(1.0),
+        problem.joined(problem.family.start, list(problem.zero + begun.angles)),
+        lambda unknowns: tried(unknowns).jacobian(1.0),
+        xtol=_LAST, ftol=_LAST, gtol=_LAST, max_nfev=300,
+    )  # fmt: skip
+    step = tried(found.x)
+    off = float(np.abs(np.concatenate([step.closure, step.wishes])).max())
+    traced = circuits_of(mechanism_of_id(near.chain), step.design.linkage.directions[None], frames=256)
     if off > WITHIN or not traced.closed[0]:
         return off, float("inf")
     turned = traced.rotations()
-    rows = relative(turned[near.links[0]], turned[near.links[1]])[0]
-    if angles_between(rows, np.roll(rows, -1, axis=0)).max() < NOISE:
-        return off, float("inf")  # the two links do not move
+    rows = relative(turned[first], turned[second])[0]
     own = MotionCurve.of(rows, closed=True)
     rounds = round(curve.length / own.length)  # a four-bar within a six-bar may go round more than once
     return off, float(difference(curve, own if rounds < 2 else MotionCurve.of(np.tile(rows, (rounds, 1)), closed=True)))
@@ -176,10 +212,11 @@ def answer(atlas: Atlas, one: Hidden, options: argparse.Namespace) -> dict[str, 
         fitted: dict[str, float] = {}
         for row in near:
             fitted.setdefault(row.chain, row.distance)  # nearest first
-        good = [row for row in near if row.distance <= WITHIN]
+        good = sorted((row for row in near if row.distance <= WITHIN), key=lambda row: len(mechanism_of_id(row.chain)))
         if options.exact:
             poses = Poses.of(one.motion)
-            refinements = ((row, refined(row, poses, curve)) for row in good[:TRIES])
+            some = [row for code in CHAINS for row in [row for row in good if row.chain == code][:TRIES]]
+            refinements = ((row, refined(row, poses, curve)) for row in some)
             exact = next(((row, both) for row, both in refinements if both[0] <= EXACT and both[1] <= ALONG), None)
             good, off = ([exact[0]], exact[1]) if exact else ([], None)
         if good:
@@ -217,7 +254,7 @@ def main() -> None:
         atlas = open_atlas(place)
         add_motions(atlas, members=options.members)
         for number in range(options.first, options.first + options.hidden):
-            one = hidden(number, 0.0 if options.exact else NOISE)
+            one = hidden(number, 0.0, MANY) if options.exact else hidden(number, NOISE, FRAMES)
             rows.append({"number": number, **answer(atlas, one, options)})
             print(json.dumps(rows[-1]), flush=True)
     found = sum(row["found"] for row in rows)
