@@ -128,13 +128,15 @@ def placed(near: NearMotion, poses: Poses) -> Placed:
     """
     axes = np.array(list(near.axes.values()))
     images = (axes, axes * [1.0, 1.0, -1.0])
-    every = [_placed(near.chain, one, pair, poses) for one in images for pair in (near.links, near.links[::-1])]
+    every = [_placed(near, one, pair, poses) for one in images for pair in (near.links, near.links[::-1])]
     return min(every, key=lambda one: one.off)
 
 
-def _placed(code: str, axes: Floats, links: tuple[Any, Any], poses: Poses) -> Placed:
-    chain = spherical_of(mechanism_of_id(code))
+def _placed(near: NearMotion, axes: Floats, links: tuple[Any, Any], poses: Poses) -> Placed:
+    chain = spherical_of(mechanism_of_id(near.chain))
     traced = circuits_of(chain, axes[None], frames=512)
+    if not traced.closed[0]:
+        return Placed(float("inf"), near.linkage, links, np.zeros((POSES - 1, len(axes))))
     turned = {link: rows[0] for link, rows in traced.rotations().items()}
     motion = relative(turned[links[0]], turned[links[1]])
     steps = angles_between(motion, np.roll(motion, -1, axis=0))

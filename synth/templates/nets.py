@@ -1,7 +1,7 @@
 """Nets as pieces of a template: what is cut, folded and glued, with a tab and a number where two edges meet."""
 
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any, NamedTuple
@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 
 from graphs.errors import InvariantError
-from graphs.geometry import unit
+from graphs.geometry import across, unit
 from graphs.mechanism.sheet import FLAT, Sheet, sides_of_face
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
@@ -126,6 +126,8 @@ _SAME = 1e-6
 """Two laid edges are one if their ends are this close, in millimetres."""
 _OFF_SLOT = 0.5
 """Millimetres round a slot in which no other tab lies."""
+_OUT = 0.75
+"""Where on its edge a name stands."""
 _IN = 3.0
 """Millimetres from a glued edge to its number on a panel."""
 
@@ -178,11 +180,13 @@ class CutNets(NamedTuple):
     without_tab: int
 
 
-def pieces_of_panels(sheet: Sheet, places: Floats, joins: Joins) -> CutNets:
+def pieces_of_panels(
+    sheet: Sheet, places: Floats, joins: Joins, names: Mapping[tuple[int, int], str] | None = None
+) -> CutNets:
     """Return the pieces of panels that stand in space, or lie over each other.
 
-    All edges of the sheet are listed; the places are float[vertices, 3], millimetres. Raise UnsolvableError if a
-    panel is not planar, or more than two meet in an edge.
+    All edges of the sheet are listed; the places are float[vertices, 3], millimetres; names stand beside edges, nearer
+    to their second end. Raise UnsolvableError if a panel is not planar, or more than two meet in an edge.
     """
     panels = Panels(sheet, places)
     works = [_Work(net) for net in nets_of(panels)]
@@ -197,6 +201,7 @@ def pieces_of_panels(sheet: Sheet, places: Floats, joins: Joins) -> CutNets:
             continue
         _glue(panels, edge, (first, second), glue)
     _cut_borders(panels, of_face)
+    _name(panels, of_face, names or {})
     met = tuple(tuple(work.met) for work in works)
     return CutNets(tuple(_piece(work) for work in works), met, glue.numbers, glue.missing)
 
@@ -287,6 +292,18 @@ def _cut_borders(panels: Panels, of_face: dict[int, _Work]) -> None:
                 corners = work.net.corners[face]
                 ends = point_of(corners[corner]), point_of(corners[(corner + 1) % len(corners)])
                 work.strokes.append(TemplateLine("CUT", *ends))
+
+
+def _name(panels: Panels, of_face: dict[int, _Work], names: Mapping[tuple[int, int], str]) -> None:
+    """Write names beside edges on all panels that they border."""
+    for (first, second), name in names.items():
+        for face, around in enumerate(panels.sheet.faces):
+            if first in around and second in around:
+                corners = of_face[face].net.corners[face]
+                start, end = corners[around.index(first)], corners[around.index(second)]
+                place = start + _OUT * (end - start)
+                inwards = across(corners.mean(axis=0) - place, unit(end - start))
+                of_face[face].texts.append(Text(point_of(place + _IN * unit(inwards)), name))
 
 
 def _piece(work: _Work) -> Piece:

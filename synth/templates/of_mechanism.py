@@ -6,8 +6,9 @@ from typing import Any
 
 from enumerate.strings.panel_strings import ChainString
 from graphs.convert.table import Mechanism
-from graphs.errors import InvariantError
+from graphs.errors import InvariantError, UnsolvableError
 from graphs.files.accepted import MechanismLike, mechanism_for, with_stated_precision
+from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import Cone, SurfaceLinkage
 from graphs.printing import plain
 from synth.drawing.mechanisms.chains import OrderOnCircle
@@ -22,6 +23,7 @@ from synth.templates.template import (
     panels_of_mechanism,
     pictured,
     template_of,
+    template_of_axes,
     unit_of,
 )
 
@@ -48,8 +50,8 @@ def template(
     Parameters
     ----------
     mechanism : Mechanism, str, Path, ChainString or OrderOnCircle
-        Panels with coordinates; a type, which is realised first, by default with a longer side of 150 mm; or a
-        linkage on a cone or cylinder.
+        Panels with coordinates; a type, which is realised first, by default with a longer side of 150 mm; a spherical
+        linkage of axes, whose links become triangles and pyramids at its centre; or a linkage on a cone or cylinder.
     kind : {"sheet", "space"}, optional
         For a type: the kind of realisation; a flat sheet by default.
     mode : str, optional
@@ -151,6 +153,12 @@ def template_of_panels(
     picture: bool = True,
 ) -> tuple[Template, list[str]]:
     """Return the template of panels, those of a type realised first, and notes for the command to print."""
+    if isinstance(mechanism, HingedSolids):
+        if kind is not None or mode is not None or hinges is not None:
+            raise UnsolvableError("a kind, a mode or hinges require panels or a type; the links have axes only")
+        size = FITTED if scale is None and size is None else size
+        axes, sheet = template_of_axes(mechanism, scale=scale, size=size, tabs=tabs, slots=slots, title=name)
+        return (pictured(axes, sheet)[0] if picture else axes), []
     sheet, realised = panels_of_mechanism(mechanism, kind=kind, mode=mode)
     notes = [f"{realised}, as by `synth realise`"] if realised else []
     fitted = scale is None and size is None and (bool(realised) or unit_of(sheet) is None)

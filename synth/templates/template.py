@@ -6,7 +6,7 @@ Theory: docs/theory/templates.md.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -22,6 +22,7 @@ from graphs.mechanism.precision import flattened, in_space, lies_flat
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph
 from graphs.mechanism.sheet import Sheet, with_all_edges
+from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import Surface, SurfaceLinkage
 from graphs.types import Floats
 from synth.conformed.linkages import OnSurface, linkage_on_surfaces, surface_of_number
@@ -36,6 +37,7 @@ from synth.moving.made import configuration_of, sheet_of
 from synth.templates.hinges import Hinges, with_hinges
 from synth.templates.nets import CutNets, Joins, pieces_of_panels
 from synth.templates.pieces import Kind, Piece, is_laid_out, piece_of_flat_sheet
+from synth.templates.unfolding import panels_about_centre
 
 if TYPE_CHECKING:
     from synth.realisation.realised import Kind as RealisedKind
@@ -102,9 +104,11 @@ _FOLDS: dict[Kind, tuple[str, str, str]] = {
 def steps_of_folds(pieces: Sequence[Piece]) -> list[str]:
     """Return the steps to cut and to fold."""
     counts = Counter(stroke.kind for piece in pieces for stroke in piece.strokes)
-    cut = f"Cut out {numbered(len(pieces), 'piece')} along the full black lines. Score the folds first."
+    cut = f"Cut out {numbered(len(pieces), 'piece')} along the full black lines."
     folds = [f"{numbered(counts[kind], *name)} ({how})" for kind, (*name, how) in _FOLDS.items() if counts[kind]]
-    return [cut] + ([f"Fold {', '.join(folds)}. You see the printed side."] if folds else [])
+    if not folds:
+        return [cut]
+    return [f"{cut} Score the folds first.", f"Fold {', '.join(folds)}. You see the printed side."]
 
 
 def steps_of_joins(edges: int, without: int, *, slotted: bool = False) -> list[str]:
@@ -242,6 +246,7 @@ def template_of(
     slots: bool = False,
     hinges: Hinges | None = None,
     title: str = "",
+    names: Mapping[tuple[int, int], str] | None = None,
 ) -> Template:
     """Return the template of a sheet; for panels that do not lie side by side, nets with tabs to glue.
 
@@ -261,6 +266,8 @@ def template_of(
         Hinges in place of folds, for thick material; a gap leaves no tabs.
     title : str, optional
         Instead of the sheet's own.
+    names : mapping of (vertex, vertex) to str, optional
+        Of edges; panels are then cut out as nets, with the names beside these edges.
 
     Returns
     -------
@@ -291,11 +298,11 @@ def template_of(
     places = in_space(whole.coordinates or ()) if flat is None else flat.places
     factor = millimetres(places, scale_of(sheet, scale, size), size)
     title = title or placed.title
-    if flat is not None and is_laid_out(whole, flat.places):
+    if flat is not None and not names and is_laid_out(whole, flat.places):
         piece, not_shown = piece_of_flat_sheet(whole, flat.places * factor)
         nets = CutNets((piece,), ((),), 0, 0)
     else:
-        nets = pieces_of_panels(whole, in_space(whole.coordinates or ()) * factor, joins)
+        nets = pieces_of_panels(whole, in_space(whole.coordinates or ()) * factor, joins, names)
         without = nets.without_tab if joins.depth else 0
         not_shown = (f"tabs at {numbered(without, 'edge')} with no room for one",) if without else ()
     pieces = nets.pieces
@@ -304,6 +311,48 @@ def template_of(
     meeting = steps_of_joins(nets.numbers, nets.without_tab, slotted=slots)
     steps = (*steps_of_folds(pieces), *steps_of_hinges(hinges), *meeting)
     return Template(pieces, factor, placed, title, not_shown, steps)
+
+
+def template_of_axes(
+    linkage: HingedSolids,
+    *,
+    scale: float | None = None,
+    size: float | None = None,
+    tabs: float = TABS,
+    slots: bool = False,
+    title: str = "",
+) -> tuple[Template, Sheet]:
+    """Return the template of a spherical linkage of axes, and its panels at the configuration.
+
+    Each link is a piece: a triangle at the centre, or a pyramid that is glued; pieces are taped where they turn.
+
+    Parameters
+    ----------
+    linkage : HingedSolids
+        Its axes meet in one point.
+    scale, size, tabs, slots, title
+        As of `template_of`.
+
+    Raises
+    ------
+    UnsolvableError
+        As `template_of`; if the axes do not meet, or a link has less than two joints.
+
+    Examples
+    --------
+    >>> from synth.patterns import generate
+    >>> pieces, _ = template_of_axes(generate("four-bar").mechanism, size=150)
+    >>> len(pieces.pieces), pieces.steps[-1]
+    (4, 'Tape edges of the same name, J0 to J3, edge to edge so that they turn: they are the joints.')
+    """
+    sheet, joints = panels_about_centre(linkage)
+    name_of = {joint: joint if isinstance(joint, str) else f"J{joint}" for joint in linkage.chain.joints}
+    names = {edge: name_of[joint] for edge, joint in joints.items()}
+    result = template_of(sheet, scale=scale, size=size, tabs=tabs, slots=slots, title=title, names=names)
+    every = list(name_of.values())
+    some = f"{every[0]} to {every[-1]}" if len(every) > 2 else " and ".join(every)
+    tape = f"Tape edges of the same name, {some}, edge to edge so that they turn: they are the joints."
+    return replace(result, mechanism=configuration_of(linkage), steps=(*result.steps, tape)), sheet
 
 
 def pictured(template: Template, sheet: Sheet) -> tuple[Template, str]:

@@ -1,22 +1,26 @@
 """Panels in space laid out in the plane: in nets, as large as they can be without a panel over another.
 
+Links of a spherical linkage become panels here too, from its centre out along the axes.
+
 Theory: docs/theory/templates.md.
 """
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from heapq import heappop, heappush
+from itertools import combinations, pairwise, product
 from math import atan2
 from typing import Any
 
 import numpy as np
 import shapely
 
-from graphs.errors import UnsolvableError
-from graphs.geometry import across, area_vector, unit
+from graphs.errors import UnsolvableError, shown
+from graphs.geometry import across, angles_between, area_vector, frame_about, lines_meet, unit
 from graphs.mechanism.sheet import COLLINEAR, FLAT, Sheet, sides_of_face
+from graphs.mechanism.solids import HingedSolids
 from graphs.tolerances import DOUBLE, leading, trailing
-from graphs.types import Floats
+from graphs.types import Floats, JointId
 from synth.templates.pieces import edges_once, lies_over
 
 
@@ -181,3 +185,58 @@ def laid_across(panels: Panels, edge: int, face: int, laid: Floats, *, turned: b
     matrix = np.array([[turn.real, turn.imag], [-turn.imag, turn.real]])
     moved: Floats = (flat - flat[c]) @ matrix + laid[a]
     return moved, flipped
+
+
+_CHOSEN = 12
+"""Most joints of which all choices of ends are tried."""
+
+
+def panels_about_centre(linkage: HingedSolids) -> tuple[Sheet, dict[tuple[int, int], JointId]]:
+    """Return the links of a spherical linkage as panels in space, and the joint of each edge along an axis.
+
+    A link of two joints is a triangle at the centre, one of more a pyramid without a base, which is rigid; no two
+    links share a vertex. Edges go from the centre outwards. Of each axis the end is taken that keeps the angles at
+    the centre small. Raise UnsolvableError if the axes do not meet in one point, or a link has less than two joints.
+    """
+    chain = linkage.chain
+    points, directions = np.array(list(linkage.axes.values())).swapaxes(0, 1)
+    meeting = lines_meet(points, directions)
+    extent = float(np.abs(points - meeting.point).max()) or 1.0
+    if not meeting.off.max() <= DOUBLE.meant * extent or meeting.spread <= DOUBLE.zero:
+        axes = "of links without panels only those whose axes meet in one point have a template"
+        raise UnsolvableError(f"a template requires panels, and {linkage!r} has none; {axes}")
+    joints_of = {link: [place for place, ends in enumerate(chain.joints.values()) if link in ends] for link in chain}
+    for link, joints in joints_of.items():
+        if len(joints) < 2:
+            raise UnsolvableError(f"link {shown(link)} has less than two joints, and no panel between axes")
+    tips = extent * _near_ends(unit(directions), list(joints_of.values()))
+    names, places, faces = list(chain.joints), list[Floats](), list[tuple[int, int, int]]()
+    along: dict[tuple[int, int], JointId] = {}
+    for joints in joints_of.values():
+        centre = len(places)
+        ordered = _around(tips, joints)
+        places += [meeting.point, *(meeting.point + tips[joint] for joint in ordered)]
+        along |= {(centre, centre + 1 + place): names[joint] for place, joint in enumerate(ordered)}
+        ends = range(centre + 1, len(places))
+        faces += [(centre, one, other) for one, other in pairwise((*ends, ends[0])[: 2 if len(ends) == 2 else None])]
+    corners = tuple(map(tuple, np.array(places).tolist()))
+    return Sheet(len(corners), tuple(along), "U" * len(along), tuple(faces), corners), along
+
+
+def _near_ends(directions: Floats, joints_of: Sequence[Sequence[int]]) -> Floats:
+    """Return axes, float[J, 3], by those of their ends that are nearest to each other in links."""
+    if len(directions) > _CHOSEN:
+        return directions
+    pairs = np.array([pair for joints in joints_of for pair in combinations(joints, 2)])
+    signs = np.array([(1.0, *rest) for rest in product((1.0, -1.0), repeat=len(directions) - 1)])
+    one, other = pairs.T
+    angles = angles_between(directions[one], directions[other])
+    turned = signs[:, one] * signs[:, other] < 0.0
+    sums = np.where(turned, np.pi - angles, angles).sum(axis=1)
+    return np.asarray(directions * signs[trailing(sums)][:, None])
+
+
+def _around(tips: Floats, joints: Sequence[int]) -> list[int]:
+    """Return joints of a link in their order round the mean of its axes."""
+    first, second, _ = frame_about(tips[list(joints)].sum(axis=0))
+    return sorted(joints, key=lambda joint: (round(atan2(tips[joint] @ second, tips[joint] @ first), 9), joint))

@@ -281,6 +281,8 @@ def template(
     joined by slots. In thick material, folds are strips of a stated width. For a laser cutter, --laser writes one
     drawing in layers (CUT red, SCORE blue, ENGRAVE black) and --kerf allows for the width of the cut.
 
+    Links of a spherical linkage of axes are triangles and pyramids from its centre, to be taped at the joints.
+
     For a linkage on a cone or cylinder, or a row of conical candidates, the template is the unrolled surface and
     one piece per link, with slots where joints pass from layer to layer.
 
