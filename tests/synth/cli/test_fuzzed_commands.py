@@ -80,4 +80,5 @@ def test_mutated_files_through_the_command(suffix, files_of_all_formats, tmp_pat
         check_command(rng, rng.choice(files), suffix, tmp_path / str(i))
         for i in range(-(-files_of_all_formats // len(FORMATS)))
     }
-    assert codes == {0, 2}
+    assert codes <= {0, 2}
+    assert len(codes) == 2 or files_of_all_formats < 1_000  # of few files all may be answered, or none
