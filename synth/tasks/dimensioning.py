@@ -240,7 +240,7 @@ def is_watts(chain: SCGraph, body: LinkId) -> bool:
 
 
 def guiding_member(chain: SCGraph, body: LinkId, six_bar: GuidedSixBar) -> HingedSolids | None:
-    """Return a six-bar as a member of a chain with its ground; None where its bar 5 is on the other link.
+    """Return a six-bar as a member of a chain with its ground and body; None where that is another chain.
 
     Parameters
     ----------

@@ -156,16 +156,16 @@ def template_of_panels(
     if isinstance(mechanism, HingedSolids):
         if kind is not None or mode is not None or hinges is not None:
             raise UnsolvableError("a kind, a mode or hinges require panels or a type; the links have axes only")
-        size = FITTED if scale is None and size is None else size
-        axes, sheet = template_of_axes(mechanism, scale=scale, size=size, tabs=tabs, slots=slots, title=name)
-        return (pictured(axes, sheet)[0] if picture else axes), []
-    sheet, realised = panels_of_mechanism(mechanism, kind=kind, mode=mode)
+        realised, fitted = "", scale is None and size is None
+        size = FITTED if fitted else size
+        result, sheet = template_of_axes(mechanism, scale=scale, size=size, tabs=tabs, slots=slots, title=name)
+    else:
+        sheet, realised = panels_of_mechanism(mechanism, kind=kind, mode=mode)
+        fitted = scale is None and size is None and (bool(realised) or unit_of(sheet) is None)
+        size = FITTED if fitted else size
+        title = sheet.title or name
+        result = template_of(sheet, scale=scale, size=size, tabs=tabs, slots=slots, hinges=hinges, title=title)
     notes = [f"{realised}, as by `synth realise`"] if realised else []
-    fitted = scale is None and size is None and (bool(realised) or unit_of(sheet) is None)
-    if fitted:
-        size = FITTED
-    title = sheet.title or name
-    result = template_of(sheet, scale=scale, size=size, tabs=tabs, slots=slots, hinges=hinges, title=title)
     if fitted and realised:
         notes.append(f"a type has no size: its longer side is {FITTED:g} mm; --size changes it")
     elif fitted and result.scale is not None:

@@ -352,7 +352,9 @@ def template_of_axes(
     every = list(name_of.values())
     some = f"{every[0]} to {every[-1]}" if len(every) > 2 else " and ".join(every)
     tape = f"Tape edges of the same name, {some}, edge to edge so that they turn: they are the joints."
-    return replace(result, mechanism=configuration_of(linkage), steps=(*result.steps, tape)), sheet
+    solids = (f"solids of {numbered(len(linkage.shapes), 'link')}",) if linkage.shapes else ()
+    not_shown, steps = (*result.not_shown, *solids), (*result.steps, tape)
+    return replace(result, mechanism=configuration_of(linkage), not_shown=not_shown, steps=steps), sheet
 
 
 def pictured(template: Template, sheet: Sheet) -> tuple[Template, str]:

@@ -201,7 +201,9 @@ def panels_about_centre(linkage: HingedSolids) -> tuple[Sheet, dict[tuple[int, i
     chain = linkage.chain
     points, directions = np.array(list(linkage.axes.values())).swapaxes(0, 1)
     meeting = lines_meet(points, directions)
-    extent = float(np.abs(points - meeting.point).max()) or 1.0
+    extent = float(np.abs(points - meeting.point).max())
+    if extent <= DOUBLE.same_point:  # all axes are given by the centre: a unit is as good as any
+        extent = 1.0
     if not meeting.off.max() <= DOUBLE.meant * extent or meeting.spread <= DOUBLE.zero:
         axes = "of links without panels only those whose axes meet in one point have a template"
         raise UnsolvableError(f"a template requires panels, and {linkage!r} has none; {axes}")

@@ -52,6 +52,17 @@ def test_panels_lie_between_the_axes_of_their_links(code, shift):
 
 
 @pytest.mark.parametrize("code", CHAINS)
+def test_points_that_are_the_centre_but_for_rounding_make_no_tiny_panels(code):
+    linkage = random_linkage(code, 3)
+    rng = np.random.default_rng(1)
+    axes = {joint: (tuple(1e-17 * rng.normal(size=3)), axis) for joint, (_, axis) in linkage.axes.items()}
+    exact, rounded = (
+        np.array(panels_about_centre(one)[0].coordinates) for one in (linkage, HingedSolids(linkage.chain, axes))
+    )
+    np.testing.assert_allclose(rounded, exact, atol=1e-12)
+
+
+@pytest.mark.parametrize("code", CHAINS)
 def test_ends_are_those_nearest_to_each_other(code):
     """No other choice of the ends of axes has a smaller sum of the angles in links."""
     linkage = random_linkage(code, 5)
