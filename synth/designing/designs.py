@@ -39,7 +39,7 @@ from synth.viewer.pages import html_page
 STARTS = 8
 SPREAD = 0.1
 """How far starts are off the mechanism: radians of axes, parts of edges and parameters."""
-FIGURE_HEADS = ("wish", "miss", "most sensitive to")
+FIGURE_HEADS = ("wish", "miss", "depends most on (change per unit)")
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
 _STYLE = (
     "body{font-family:sans-serif;margin:2em;max-width:60em}td,th{text-align:left;padding:.2em .8em}"
@@ -182,7 +182,7 @@ class Design(Printed):
         rows = []
         for figure in self.figures:
             ranked = sorted(figure.sensitivity.items(), key=lambda item: (-round(item[1], 6), item[0]))
-            rows.append((figure.wish, figure.text, ", ".join(f"{name} {value:.3g}" for name, value in ranked[:most])))
+            rows.append((figure.wish, figure.text, ", ".join(f"{name}: {value:.3g}" for name, value in ranked[:most])))
         return rows
 
     def record(self) -> dict[str, Any]:
