@@ -7,9 +7,10 @@ that share no joint at 64 frames in unknown frames of reference, and turns each 
 about each axis. `synth atlas like --fit` finds the nearest members of an atlas and fits their axes: of 96 members,
 and where none comes as near as the noise, of 1 000, then of 4 000. The first type, fewest links first, is one whose
 circuit differs from the motion by no more than the noise; it is found if it has no more links than the hidden one.
-With --third a third of each motion is given. With --exact there is no noise: the search of `synth design` refines
-the fitted members at 16 poses, and one is found that takes them to 1e-9 on one circuit. Prints a line for each
-motion and writes a file of benchmarks/results, with each miss.
+With --third a third of each motion is given. With --exact there is no noise: fitted members are fitted further to 16
+poses, and refined by the search of `synth design` (exact_motions.py), until one takes them to 1e-9 and the motion
+between them is on its circuit; a motion that goes to and fro is an arc. Prints a line for each motion and writes a
+file of benchmarks/results, with each miss.
 """
 
 from __future__ import annotations
@@ -27,33 +28,24 @@ from typing import Any, NamedTuple
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
-from scipy.optimize import least_squares
+from exact_motions import is_exact, one_way, refined
 from scipy.spatial.transform import Rotation
 
 from graphs.files.formats import mechanism_of_id
 from graphs.geometry import unit
-from graphs.mechanism.solids import HingedSolids
 from graphs.types import Floats
 from synth.atlas import AtlasPlan, add_motions, build_atlas, like, open_atlas
-from synth.atlas.motions import NearMotion
 from synth.atlas.opened import Atlas
-from synth.atlas.signatures import MotionCurve, angles_between, difference
-from synth.designing.designs import DesignSearch
-from synth.designing.problem import DesignStep
-from synth.designing.wishes import LinkOrientation, WishedConfiguration, Wishes
-from synth.members.circuits import Circuits, circuits_of, product, relative, spherical_of
+from synth.atlas.signatures import MotionCurve
+from synth.members.circuits import Circuits, circuits_of, product, relative
 from synth.motion.closure import ClosureEquations, corrected
 from synth.motion.linkage import linkage_of_axes
 
 CHAINS = ("k1:Cr", "k1:E`hW", "k1:E@zO")
-NOISE, FRAMES, MANY, POSES = 1e-3, 64, 256, 16
-"""Radians; frames of a motion with noise and without; poses of a design."""
+NOISE, FRAMES, MANY = 1e-3, 64, 256
+"""Radians; frames of a motion with noise and without."""
 WITHIN = 2.0 * np.sqrt(3.0) * NOISE
 """Root mean square of misses: errors of a pose and of the first one, about three axes, are sqrt(6) times the noise."""
-TRIES, EXACT, ALONG = 8, 1e-9, 1e-4
-"""Nearest members of each chain that are refined at poses; radians by which these may be missed, and by which circuits
-may differ between them, where the motion is known by a spline."""
-_LAST = 4.0 * np.finfo(float).eps
 
 
 class Hidden(NamedTuple):
@@ -62,22 +54,6 @@ class Hidden(NamedTuple):
     chain: str
     links: tuple[Any, Any]
     motion: Floats
-
-
-class Poses(NamedTuple):
-    """Some frames of a motion: turns from the first one, and how far on the circuit they are, as parts of it."""
-
-    turns: Rotation
-    parts: Floats
-
-    @classmethod
-    def of(cls, motion: Floats) -> Poses:
-        """Return some frames, equally far apart."""
-        step = len(motion) // POSES
-        along = np.cumsum(angles_between(motion, np.roll(motion, -1, axis=0)))
-        rows = Rotation.from_quat(motion[::step], scalar_first=True)
-        parts = np.concatenate([[0.0], along[:-1]])[::step] / along[-1]
-        return cls(rows[1:] * rows[0].inv(), parts)
 
 
 def hidden(number: int, noise: float, frames: int) -> Hidden:
@@ -109,129 +85,40 @@ def _to_the_last_digit(traced: Circuits) -> Circuits:
     return replace(traced, angles=np.array([closed]))
 
 
-class Placed(NamedTuple):
-    """A member of the atlas that takes poses as well as it can, by their misses, seen from the first of two links.
-
-    Angles, float[15, J], are those from the first pose.
-    """
-
-    off: float
-    linkage: HingedSolids
-    links: tuple[Any, Any]
-    angles: Floats
-
-
-def placed(near: NearMotion, poses: Poses) -> Placed:
-    """Return a member where it takes poses best: it, its mirror image, or either with the two links exchanged.
-
-    Angles between poses tell none of these from the others. The motion begins anywhere and goes either way.
-    """
-    axes = np.array(list(near.axes.values()))
-    images = (axes, axes * [1.0, 1.0, -1.0])
-    every = [_placed(near, one, pair, poses) for one in images for pair in (near.links, near.links[::-1])]
-    return min(every, key=lambda one: one.off)
-
-
-def _placed(near: NearMotion, axes: Floats, links: tuple[Any, Any], poses: Poses) -> Placed:
-    chain = spherical_of(mechanism_of_id(near.chain))
-    traced = circuits_of(chain, axes[None], frames=512)
-    if not traced.closed[0]:
-        return Placed(float("inf"), near.linkage, links, np.zeros((POSES - 1, len(axes))))
-    turned = {link: rows[0] for link, rows in traced.rotations().items()}
-    motion = relative(turned[links[0]], turned[links[1]])
-    steps = angles_between(motion, np.roll(motion, -1, axis=0))
-    along = np.concatenate([[0.0], np.cumsum(steps)])
-    fits: list[tuple[float, Floats, Rotation]] = []
-    for begin in range(len(motion)):
-        for way in (1.0, -1.0):
-            at = np.remainder(along[begin] + way * poses.parts * along[-1], along[-1])
-            frames = np.minimum(np.searchsorted(along, at), len(motion) - 1)
-            rows = Rotation.from_quat(motion[frames], scalar_first=True)
-            turn, off = Rotation.align_vectors(_sines(poses.turns), _sines(rows[1:] * rows[0].inv()))
-            fits.append((float(off), frames, turn))
-    off, frames, turn = min(fits, key=lambda fit: fit[0])
-    seen = {}
-    for place, (joint, (one, _)) in enumerate(chain.joints.items()):
-        body = relative(turned[links[0]][frames[:1]], turned[one][frames[:1]])
-        direction = turn.apply(Rotation.from_quat(body[0], scalar_first=True).apply(traced.axes[0, place]))
-        seen[joint] = ((0.0, 0.0, 0.0), tuple(direction.tolist()))
-    return Placed(off, HingedSolids(chain, seen), links, traced.angles[0, frames[1:]] - traced.angles[0, frames[0]])
-
-
-def _sines(turns: Rotation) -> Floats:
-    """Return axes times sines of the angles: vectors that turn with the frame, smooth at half turns too."""
-    rows = turns.as_quat(scalar_first=True)
-    return np.asarray(2.0 * rows[:, :1] * rows[:, 1:])
-
-
-def refined(near: NearMotion, poses: Poses, curve: MotionCurve) -> tuple[float, float]:
-    """Return by how much a design that begins with a member misses poses, or opens its loops, and its circuit.
-
-    The first is the most, the second a root mean square, infinite where the circuit does not close; in radians.
-    """
-    begun = placed(near, poses)
-    first, second = begun.links
-    names = [f"pose {number}" for number in range(2, POSES + 1)]
-    wishes = Wishes(
-        tuple(
-            LinkOrientation(at=name, link=str(second), quaternion=tuple(row))
-            for name, row in zip(names, poses.turns.as_quat(scalar_first=True).tolist(), strict=True)
-        ),
-        tuple(WishedConfiguration(name) for name in names),
-    )
-    problem = DesignSearch(begun.linkage, wishes, ground=first).problem
-
-    def tried(unknowns: Floats) -> DesignStep:
-        step = problem.tried(unknowns)
-        assert step is not None  # a chain always is a mechanism
-        return step
-
-    found = least_squares(
-        lambda unknowns: tried(unknowns).residual(1.0),
-        problem.joined(problem.family.start, list(problem.zero + begun.angles)),
-        lambda unknowns: tried(unknowns).jacobian(1.0),
-        xtol=_LAST, ftol=_LAST, gtol=_LAST, max_nfev=300,
-    )  # fmt: skip
-    step = tried(found.x)
-    off = float(np.abs(np.concatenate([step.closure, step.wishes])).max())
-    traced = circuits_of(mechanism_of_id(near.chain), step.design.linkage.directions[None], frames=256)
-    if off > WITHIN or not traced.closed[0]:
-        return off, float("inf")
-    turned = traced.rotations()
-    rows = relative(turned[first], turned[second])[0]
-    own = MotionCurve.of(rows, closed=True)
-    rounds = round(curve.length / own.length)  # a four-bar within a six-bar may go round more than once
-    return off, float(difference(curve, own if rounds < 2 else MotionCurve.of(np.tile(rows, (rounds, 1)), closed=True)))
-
-
 def answer(atlas: Atlas, one: Hidden, options: argparse.Namespace) -> dict[str, Any]:
     """Return the first type, fewest links first, that reproduces the motion, or a third of it."""
     begun = process_time()
-    curve = MotionCurve.of(one.motion[: FRAMES // 3 + 1] if options.third else one.motion, closed=not options.third)
-    first, off = None, None
+    motion, closed, off = one.motion, not options.third, None
+    if options.third:
+        motion = motion[: FRAMES // 3 + 1]
+    elif options.exact and (arc := one_way(motion)) is not None:
+        motion, closed = arc, False
+    curve = MotionCurve.of(motion, closed=closed)
     for fit in options.fit:
         near = like(atlas, curve, limit=fit, fit=fit).rows
-        fitted: dict[str, float] = {}
+        best: dict[str, float] = {}
         for row in near:
-            fitted.setdefault(row.chain, row.distance)  # nearest first
-        good = sorted((row for row in near if row.distance <= WITHIN), key=lambda row: len(mechanism_of_id(row.chain)))
+            best.setdefault(row.chain, row.distance)  # nearest first
+        good = [code for code, off in best.items() if off <= WITHIN]
+        good.sort(key=lambda code: len(mechanism_of_id(code)))
         if options.exact:
-            poses = Poses.of(one.motion)
-            some = [row for code in CHAINS for row in [row for row in good if row.chain == code][:TRIES]]
-            refinements = ((row, refined(row, poses, curve)) for row in some)
-            exact = next(((row, both) for row, both in refinements if both[0] <= EXACT and both[1] <= ALONG), None)
-            good, off = ([exact[0]], exact[1]) if exact else ([], None)
+            for code in good:
+                off = refined([row for row in near if row.chain == code and row.distance <= WITHIN], motion, curve)
+                if is_exact(off):
+                    break
+            good = [code] if good and is_exact(off) else []
         if good:
-            first = min((row.chain for row in good), key=lambda code: (len(mechanism_of_id(code)), code))
             break
+    first = min(good, key=lambda code: (len(mechanism_of_id(code)), code), default=None)
     return {
         "hidden": one.chain,
         "links": list(one.links),
         "length_deg": round(float(np.degrees(curve.length)), 1),
+        "circuit": closed,
         "first": first,
         "found": first is not None and len(mechanism_of_id(first)) <= len(mechanism_of_id(one.chain)),
         "fit": fit,
-        "fitted_deg": {code: round(float(np.degrees(angle)), 4) for code, angle in sorted(fitted.items())},
+        "fitted_deg": {code: round(float(np.degrees(angle)), 4) for code, angle in sorted(best.items())},
         "refined": off and [float(f"{one:.2e}") for one in off],
         "processor_seconds": round(process_time() - begun, 1),
     }
