@@ -201,9 +201,14 @@ def _sines(turns: Rotation) -> Floats:
     return np.asarray(2.0 * rows[:, :1] * rows[:, 1:])
 
 
+def _part(off: tuple[float, float]) -> float:
+    """Return the worse of both misses in parts of what they may be: poses alone are taken by any two freedoms."""
+    return max(off[0] / EXACT, off[1] / ALONG)
+
+
 def is_exact(off: tuple[float, float] | None) -> bool:
     """Whether poses are taken, and the motion between them is on the circuit."""
-    return off is not None and off[0] <= EXACT and off[1] <= ALONG
+    return off is not None and _part(off) <= 1.0
 
 
 def refined(rows: Sequence[NearMotion], motion: Floats, curve: MotionCurve) -> tuple[float, float]:
@@ -216,11 +221,11 @@ def refined(rows: Sequence[NearMotion], motion: Floats, curve: MotionCurve) -> t
     apart = {f"{row.distance:.2e}": row for row in reversed(rows)}  # equal ones are one linkage found again
     nearest = sorted(apart.values(), key=lambda row: row.distance)[: _STAGES[0][0]]
     best = (float("inf"), float("inf"))
-    ended: list[tuple[tuple[float, float], int, Course]] = []
+    ended: list[tuple[tuple[float, float], Course]] = []
     placed: list[Course] = []
     for row in nearest[:_AS_PLACED]:
         placed.append(Course.of(row, poses))
-        best = min(best, _designed(placed[-1], poses, curve, most=300))
+        best = min(best, _designed(placed[-1], poses, curve, most=300), key=_part)
         if is_exact(best):
             return best
     begun: Iterable[Course] = chain(placed, (Course.of(row, poses) for row in nearest[_AS_PLACED:]))
@@ -229,12 +234,13 @@ def refined(rows: Sequence[NearMotion], motion: Floats, curve: MotionCurve) -> t
         for one in islice(begun, kept):
             courses.append(one.fitted(poses, most=evaluations))
             if courses[-1].off <= _THERE:
-                ended.append((_designed(courses[-1], poses, curve, most=300), len(ended), courses[-1]))
-                best = min(best, ended[-1][0])
+                ended.append((_designed(courses[-1], poses, curve, most=300), courses[-1]))
+                best = min(best, ended[-1][0], key=_part)
                 if is_exact(best):
                     return best
         begun = sorted(courses, key=lambda one: one.off)
-    further = (_designed(one, poses, curve, most=5000) for (off, _), _, one in sorted(ended)[:3] if off > EXACT)
+    nearly = sorted((pair for pair in ended if pair[0][0] > EXACT), key=lambda pair: pair[0])[:3]
+    further = (_designed(one, poses, curve, most=5000) for _, one in nearly)
     return next(filter(is_exact, further), best)
 
 

@@ -119,7 +119,7 @@ def answer(atlas: Atlas, one: Hidden, options: argparse.Namespace) -> dict[str, 
         "found": first is not None and len(mechanism_of_id(first)) <= len(mechanism_of_id(one.chain)),
         "fit": fit,
         "fitted_deg": {code: round(float(np.degrees(angle)), 4) for code, angle in sorted(best.items())},
-        "refined": off and [float(f"{one:.2e}") for one in off],
+        "refined": off and [float(f"{one:.2e}") if np.isfinite(one) else None for one in off],
         "processor_seconds": round(process_time() - begun, 1),
     }
 
