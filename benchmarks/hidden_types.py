@@ -1,6 +1,7 @@
 """Which type reproduces the motion of two links of a random member, given with noise.
 
-    python benchmarks/hidden_types.py [--hidden N] [--members N] [--from N] [--fit N ...] [--third | --exact]
+    python benchmarks/hidden_types.py [--hidden N] [--from N] [--members N] [--fit N ...] [--third | --exact]
+                                      [--workers N]
 
 draws members of the chains of up to six links (their axes are random directions), takes the circuit of two links
 that share no joint at 64 frames in unknown frames of reference, and turns each frame by errors of 1e-3 radians
@@ -19,7 +20,9 @@ import argparse
 import json
 import os
 import platform
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from itertools import repeat
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import process_time
@@ -85,6 +88,12 @@ def _to_the_last_digit(traced: Circuits) -> Circuits:
     return replace(traced, angles=np.array([closed]))
 
 
+def answered(number: int, place: Path, options: argparse.Namespace) -> dict[str, Any]:
+    """Return the row of a motion by its number."""
+    one = hidden(number, 0.0, MANY) if options.exact else hidden(number, NOISE, FRAMES)
+    return {"number": number, **answer(open_atlas(place), one, options)}
+
+
 def answer(atlas: Atlas, one: Hidden, options: argparse.Namespace) -> dict[str, Any]:
     """Return the first type, fewest links first, that reproduces the motion, or a third of it."""
     begun = process_time()
@@ -133,6 +142,7 @@ def main() -> None:
     parser.add_argument("--fit", type=int, nargs="+", default=[96, 1000, 4000])
     parser.add_argument("--third", action="store_true", help="give a third of each motion")
     parser.add_argument("--exact", action="store_true", help="without noise; designs have to take poses to 1e-9")
+    parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--atlas", type=Path, help="keep the atlas here")
     options = parser.parse_args()
     rows = []
@@ -140,12 +150,12 @@ def main() -> None:
         place = options.atlas or Path(folder, "atlas.sqlite")
         if not place.exists():
             build_atlas(place, AtlasPlan(6, creases=0, orders_of=(), realised=False))
-        atlas = open_atlas(place)
-        add_motions(atlas, members=options.members)
-        for number in range(options.first, options.first + options.hidden):
-            one = hidden(number, 0.0, MANY) if options.exact else hidden(number, NOISE, FRAMES)
-            rows.append({"number": number, **answer(atlas, one, options)})
-            print(json.dumps(rows[-1]), flush=True)
+        add_motions(open_atlas(place), members=options.members)
+        with ProcessPoolExecutor(options.workers) as pool:
+            numbers = range(options.first, options.first + options.hidden)
+            for row in pool.map(answered, numbers, repeat(place), repeat(options)):
+                rows.append(row)
+                print(json.dumps(row), flush=True)
     found = sum(row["found"] for row in rows)
     print(f"{found} of {len(rows)}")
     result = {
