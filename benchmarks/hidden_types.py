@@ -59,15 +59,21 @@ class Hidden(NamedTuple):
     motion: Floats
 
 
-def hidden(number: int, noise: float, frames: int) -> Hidden:
-    """Return a member whose circuit closes, drawn by its number."""
+def drawn(number: int, frames: int) -> tuple[str, Circuits, np.random.Generator]:
+    """Return the chain and the circuit of a member that closes, drawn by its number, and the generator it leaves."""
     random = np.random.default_rng([2026, number])
     code = CHAINS[number % len(CHAINS)]
     chain = mechanism_of_id(code)
     while True:
         traced = circuits_of(chain, random.normal(size=(1, len(chain.joints), 3)), frames=frames)
         if traced.closed[0]:
-            break
+            return code, traced, random
+
+
+def hidden(number: int, noise: float, frames: int) -> Hidden:
+    """Return the motion of two links of a member, seen in frames of reference that are drawn too."""
+    code, traced, random = drawn(number, frames)
+    chain = mechanism_of_id(code)
     turned = _to_the_last_digit(traced).rotations()
     pairs = [(a, b) for a in chain for b in chain if a < b and not chain.has_edge(a, b)]
     first, second = pairs[number // len(CHAINS) % len(pairs)]
