@@ -8,7 +8,12 @@ from synth.tasks.dimensioning import (
 )
 from synth.tasks.ranking import RankedDesign as RankedDesign, RankedTypes as RankedTypes, ranked_types as ranked_types
 from synth.tasks.record import FORMS as FORMS, SYSTEMS as SYSTEMS, RolePair as RolePair, Task as Task
-from synth.tasks.report import report_page as report_page, write_designs as write_designs, write_report as write_report
+from synth.tasks.report import (
+    report_page as report_page,
+    write_designs as write_designs,
+    write_pages as write_pages,
+    write_report as write_report,
+)
 from synth.tasks.structure import (
     CandidateType as CandidateType,
     PlacedType as PlacedType,

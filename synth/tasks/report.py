@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from html import escape
 from pathlib import Path
 
-from graphs.errors import SynthedraError
+from graphs.convert.table import Mechanism
+from graphs.errors import SynthedraError, UnsolvableError
 from graphs.files.atomic import write_text
 from graphs.files.formats import write
 from graphs.mechanism.sheet import Sheet
@@ -15,7 +17,9 @@ from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.writing import svg_text
 from synth.tasks.ranking import RankedDesign, RankedTypes
 from synth.tasks.structure import reasons_text
-from synth.viewer.pages import html_page
+from synth.templates.of_mechanism import template
+from synth.templates.writing import write_template
+from synth.viewer.pages import html_page, view
 
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
 _STYLE = (
@@ -135,14 +139,70 @@ def write_designs(answer: RankedTypes, folder: str | Path, *, most: int = _MOST,
     ...     [path.name for path in write_designs(task("data/tasks/lid.json", starts=2, rounds=1), folder)]
     ['1-four-bar.json']
     """
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
+    Path(folder).mkdir(parents=True, exist_ok=True)
     written = []
-    for place, one in enumerate(answer.ranked[:most], 1):
-        mechanism = answer.design(one).mechanism
-        name = "".join(letter if letter.isalnum() else "-" for letter in answer.name(one))
-        suffix = "fold" if isinstance(mechanism, Sheet) else "json"
-        path = folder / f"{place}-{name}.{suffix}"
+    for mechanism, stem in _best(answer, Path(folder), most):
+        path = stem.with_suffix(".fold" if isinstance(mechanism, Sheet) else ".json")
         write(mechanism, path, force=force)
         written.append(path)
     return written
+
+
+def write_pages(
+    answer: RankedTypes, folder: str | Path, *, size: float | None = None, most: int = _MOST, force: bool = False
+) -> tuple[list[Path], list[str]]:
+    """Write a page that moves and a template of each ranked design: ``1-four-bar.html`` and ``1-four-bar.pdf``, ....
+
+    Parameters
+    ----------
+    answer : RankedTypes
+    folder : str or Path
+    size : float, optional
+        Longer side of the templates in millimetres.
+    most : int, optional
+        How many designs.
+    force : bool, optional
+        Whether to overwrite files.
+
+    Returns
+    -------
+    list of Path
+    list of str
+        What could not be shown, with the reason: links whose joint axes are skew have no template.
+
+    Raises
+    ------
+    FileError
+        If a file cannot be written.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from synth.tasks.answer import task
+    >>> with TemporaryDirectory() as folder:
+    ...     written, notes = write_pages(task("data/tasks/lid.json", starts=2, rounds=1), folder)
+    >>> [path.name for path in written], notes
+    (['1-four-bar.html', '1-four-bar.pdf'], [])
+    """
+    Path(folder).mkdir(parents=True, exist_ok=True)
+    written: list[Path] = []
+    notes: list[str] = []
+    for mechanism, stem in _best(answer, Path(folder), most):
+        page, paper = stem.with_suffix(".html"), stem.with_suffix(".pdf")
+        try:
+            view(mechanism, title=stem.name).save(page, force=force)
+            written.append(page)
+        except UnsolvableError as error:
+            notes.append(f"no page of {stem.name}: {error}")
+        try:
+            written += write_template(template(mechanism, size=size), paper, force=force)
+        except UnsolvableError as error:
+            notes.append(f"no template of {stem.name}: {error}")
+    return written, notes
+
+
+def _best(answer: RankedTypes, folder: Path, most: int) -> Iterator[tuple[Mechanism, Path]]:
+    """Yield the first designs, and the name of their files without an extension."""
+    for place, one in enumerate(answer.ranked[:most], 1):
+        name = "".join(letter if letter.isalnum() else "-" for letter in answer.name(one))
+        yield answer.design(one).mechanism, folder / f"{place}-{name}"

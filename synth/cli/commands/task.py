@@ -32,13 +32,14 @@ if TYPE_CHECKING:
 @options.WORKERS
 @options.value("--scheduler", "ADDRESS", "With --store: work on a Dask cluster, such as tcp://host:8786.")
 @options.output("Write the ranked designs to this folder: .json, or .fold for sheets.", "FOLDER")
+@options.flag("--pages", "With -o: also write a page that moves, and a template, of each design.")
 @options.output("Write a report that opens offline: tables, and a picture of each design.", "OUT.html", "--report")
 @options.FORCE
 @options.JSON
 def task(
     words: tuple[str, ...], structure_only: bool, starts: int, rounds: int, seed: int, weigh: tuple[str, ...],
     store: str | None, resume: bool, workers: int | None, scheduler: str | None, output: str | None,
-    report: str | None, force: bool, as_json: bool,
+    pages: bool, report: str | None, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Find all types that can do a task, with dimensions, ranked.
 
@@ -54,7 +55,7 @@ def task(
     Examples:
       synth task new lid.json
       synth task lid.json --structure-only
-      synth task lid.json --store lid --report lid.html -o designs
+      synth task lid.json --store lid --report lid.html -o designs --pages
       synth task lid.json --store lid --resume --weigh 2=0.1
 
     Exit status 1: no design.
@@ -73,14 +74,22 @@ def task(
         return
     if (resume or scheduler is not None) and store is None:
         raise click.UsageError("--resume and --scheduler require --store STORE")
+    if pages and output is None:
+        raise click.UsageError("--pages requires -o FOLDER")
     check_output(report, force=force)
     settings = {"starts": starts, "rounds": rounds, "seed": seed, "weights": dict(options.weights_of(weigh))}
     answer = _answer(task, settings, store, resume=resume, workers=workers, scheduler=scheduler)
     written = [] if output is None else synth.tasks.write_designs(answer, output, force=force)
+    notes: list[str] = []
+    if pages and output is not None:
+        shown, notes = synth.tasks.write_pages(answer, output, force=force)
+        written += shown
     if report is not None:
         written.append(synth.tasks.write_report(answer, report, force=force))
     keys = {"file": task, **({"written": list(map(str, written))} if as_json else {})}
     print_result(answer, keys, as_json=as_json, written=written)
+    for note in notes:
+        click.echo(note, err=True)
     if answer.best is None:
         sys.exit(1)
 

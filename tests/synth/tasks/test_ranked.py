@@ -20,7 +20,7 @@ from synth.guidance.orientations import Orientations
 from synth.guidance.synthesis import dyads_of_five
 from synth.motion.linkage import link_motions
 from synth.moving.made import configuration_of
-from synth.tasks import candidates_of, ranked_types, read_task, report_page, structure_of
+from synth.tasks import candidates_of, ranked_types, read_task, report_page, structure_of, write_pages
 from synth.tasks.dimensioning import CandidateSearch, halved, is_watts
 
 HEAD = {"format": "synthedra/task", "version": 1}
@@ -53,6 +53,29 @@ def test_the_report_needs_nothing_else(answer):
     assert page.count("<svg") == len(answer.ranked)
     assert not re.search(r"(src|href)=|@import|url\(", page)
     assert "1 of 2 types can do it" in page
+
+
+def test_each_design_gets_a_page_and_a_template(data, tmp_path):
+    task = ["task", str(data / "tasks" / "lid.json"), "--starts", "2", "--rounds", "1", "--workers", "1", "--pages"]
+    result = CliRunner().invoke(main, [*task, "-o", str(tmp_path)])
+    assert result.exit_code == 0
+    assert {each.name for each in tmp_path.iterdir()} == {f"1-four-bar.{end}" for end in ("json", "html", "pdf")}
+    design = synth.read(tmp_path / "1-four-bar.json")
+    assert (tmp_path / "1-four-bar.html").read_text() == synth.view(design, title="1-four-bar").html
+    assert (tmp_path / "1-four-bar.pdf").read_bytes().startswith(b"%PDF")
+    again = CliRunner().invoke(main, [*task, "-o", str(tmp_path)])
+    assert again.exit_code == 2
+    assert "1-four-bar.json" in again.stderr
+    refused = CliRunner().invoke(main, task)
+    assert refused.exit_code == 2
+    assert "--pages requires -o" in refused.stderr
+
+
+def test_a_design_without_a_template_is_named_with_the_reason(data, tmp_path):
+    answer = synth.task(data / "tasks" / "skew-axes.json", starts=1, rounds=1)
+    written, notes = write_pages(answer, tmp_path)
+    assert [each.name for each in written] == ["1-bennett.html"]
+    assert [note.startswith("no template of 1-bennett: ") for note in notes] == [True]
 
 
 def test_a_store_gives_the_same_answer_when_it_was_stopped(data, tmp_path):
