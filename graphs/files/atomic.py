@@ -173,6 +173,16 @@ def check_new_folder(path: Path) -> None:
     _check_parent(path)
 
 
+def make_folder(path: Path) -> None:
+    """Make a folder, and those above it, where it is missing; OpenError if that cannot be."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except FileExistsError:
+        raise OpenError(path, "", "a file", "a folder, or a name for a new one") from None
+    except (OSError, ValueError) as error:
+        raise OpenError(path, "", f"cannot be made: {reason_of(error)}", "a folder, or a name for a new one") from None
+
+
 def _check_parent(path: Path) -> None:
     if not path.parent.is_dir():
         raise OpenError(path, "", f"there is no folder {shown(str(path.parent))}", "a folder that exists")

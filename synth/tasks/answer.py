@@ -8,7 +8,7 @@ from typing import Literal, overload
 
 from enumerate.runner.job import Progress
 from graphs.errors import InvariantError, numbered
-from synth.tasks.dimensioning import ROUNDS, STARTS, halved
+from synth.tasks.dimensioning import ROUNDS, STARTS, halved, opened_store
 from synth.tasks.ranking import RankedTypes, ranked_types
 from synth.tasks.record import Task
 from synth.tasks.structure import TaskStructure, structure_of
@@ -33,6 +33,7 @@ def task(
     weights: Mapping[int, float] | None = ...,
     store: str | Path | None = ...,
     resume: bool = ...,
+    force: bool = ...,
     workers: int = ...,
     scheduler: str | None = ...,
     report: Callable[[int, Progress], None] | None = ...,
@@ -49,6 +50,7 @@ def task(
     weights: Mapping[int, float] | None = None,
     store: str | Path | None = None,
     resume: bool = False,
+    force: bool = False,
     workers: int = 1,
     scheduler: str | None = None,
     report: Callable[[int, Progress], None] | None = None,
@@ -73,6 +75,8 @@ def task(
         weights.
     resume : bool, optional
         Whether to go on with the store.
+    force : bool, optional
+        Whether to remove the designs of a store that is there and is not to be resumed.
     workers : int, optional
         Processes.
     scheduler : str, optional
@@ -91,7 +95,7 @@ def task(
     InvariantError
         If no type meets all requirements, the task has no wishes, or there is no wish of a number.
     StoreError
-        If the store is of another task, or is there and is not to be resumed.
+        If the store is of another task, or is there and neither to be resumed nor removed.
 
     Examples
     --------
@@ -116,7 +120,7 @@ def task(
         what = f"{numbered(starts, 'start')} in {numbered(rounds, 'round')}"
         raise InvariantError("starts", what, "1 or more of each")
     structure = structure_of(wanted)
-    folder = None if store is None else Path(store)
+    folder = None if store is None else opened_store(Path(store), resume=resume, force=force)
     rows = halved(
         structure, starts=starts, rounds=rounds, seed=seed, workers=workers, store=folder, resume=resume,
         scheduler=scheduler, report=report,

@@ -24,7 +24,8 @@ from scipy.spatial.transform import Rotation
 from enumerate.runner.job import Column, Progress, Row, Unit, row_as_dict
 from enumerate.runner.running import rows_of, run
 from enumerate.runner.store import SqliteSink, read_rows
-from graphs.errors import SynthedraError
+from graphs.errors import StoreError, SynthedraError
+from graphs.files.atomic import make_folder
 from graphs.joints.linkage import plain_vector
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
@@ -368,6 +369,23 @@ class HalvingRound:
 Rows = list[dict[str, Any]]
 
 
+def opened_store(folder: Path, *, resume: bool, force: bool) -> Path:
+    """Return a folder for a store of each round, made where it is missing; without `resume` empty of them.
+
+    Raise OpenError if it cannot be made, StoreError if it holds some that are neither to be resumed nor removed.
+    """
+    make_folder(folder)
+    rounds = [] if resume else sorted(folder.glob("round-*.sqlite*"))  # with journals that a killed run left
+    if rounds and not force:
+        raise StoreError(
+            f"{folder}: holds the designs of a search; try --resume to continue it, --force to replace them, or "
+            "another folder"
+        )
+    for each in rounds:
+        each.unlink(missing_ok=True)
+    return folder
+
+
 def halved(
     structure: TaskStructure,
     *,
@@ -392,7 +410,7 @@ def halved(
     workers : int, optional
         Local processes.
     store : Path, optional
-        A folder with one store of the runner for each round.
+        A folder with one store of the runner for each round (`opened_store`).
     resume : bool, optional
         Whether to go on with the stores of that folder.
     scheduler : str, optional
@@ -407,8 +425,6 @@ def halved(
     """
     left = candidates_of(structure)
     every: Rows = []
-    if store is not None:
-        store.mkdir(parents=True, exist_ok=True)
     begun = 0
     for number in range(rounds):
         job = HalvingRound(structure.task, left, begun, begun + starts, seed, number)

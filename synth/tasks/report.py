@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from html import escape
 from pathlib import Path
 
 from graphs.convert.table import Mechanism
-from graphs.errors import SynthedraError, UnsolvableError
-from graphs.files.atomic import write_text
+from graphs.errors import OpenError, SynthedraError, UnsolvableError
+from graphs.files.atomic import make_folder, reason_of, write_text
 from graphs.files.formats import write
 from graphs.mechanism.sheet import Sheet
 from graphs.printing import TableBlock, html_of
@@ -28,6 +29,10 @@ _STYLE = (
 )
 _MOST = 20
 """Designs with a picture and figures of their own."""
+
+
+_NUMBERED = re.compile(r"[0-9]+-.+[.](json|fold|html|pdf)$")
+"""Names of designs, their pages and templates."""
 
 
 def report_page(answer: RankedTypes) -> str:
@@ -139,7 +144,7 @@ def write_designs(answer: RankedTypes, folder: str | Path, *, most: int = _MOST,
     ...     [path.name for path in write_designs(task("data/tasks/lid.json", starts=2, rounds=1), folder)]
     ['1-four-bar.json']
     """
-    Path(folder).mkdir(parents=True, exist_ok=True)
+    make_folder(Path(folder))
     written = []
     for mechanism, stem in _best(answer, Path(folder), most):
         path = stem.with_suffix(".fold" if isinstance(mechanism, Sheet) else ".json")
@@ -149,7 +154,7 @@ def write_designs(answer: RankedTypes, folder: str | Path, *, most: int = _MOST,
 
 
 def write_pages(
-    answer: RankedTypes, folder: str | Path, *, size: float | None = None, most: int = _MOST, force: bool = False
+    answer: RankedTypes, folder: str | Path, *, most: int = _MOST, force: bool = False
 ) -> tuple[list[Path], list[str]]:
     """Write a page that moves and a template of each ranked design: ``1-four-bar.html`` and ``1-four-bar.pdf``, ....
 
@@ -157,8 +162,6 @@ def write_pages(
     ----------
     answer : RankedTypes
     folder : str or Path
-    size : float, optional
-        Longer side of the templates in millimetres.
     most : int, optional
         How many designs.
     force : bool, optional
@@ -184,7 +187,7 @@ def write_pages(
     >>> [path.name for path in written], notes
     (['1-four-bar.html', '1-four-bar.pdf'], [])
     """
-    Path(folder).mkdir(parents=True, exist_ok=True)
+    make_folder(Path(folder))
     written: list[Path] = []
     notes: list[str] = []
     for mechanism, stem in _best(answer, Path(folder), most):
@@ -195,10 +198,22 @@ def write_pages(
         except UnsolvableError as error:
             notes.append(f"no page of {stem.name}: {error}")
         try:
-            written += write_template(template(mechanism, size=size), paper, force=force)
+            written += write_template(template(mechanism), paper, force=force)
         except UnsolvableError as error:
             notes.append(f"no template of {stem.name}: {error}")
     return written, notes
+
+
+def check_folder_of_designs(folder: Path, *, force: bool) -> None:
+    """Refuse a folder, before a search whose designs it is to hold: one that cannot be, or holds designs already."""
+    try:
+        begun = min((each for each in folder.iterdir() if _NUMBERED.match(each.name)), default=None)
+    except FileNotFoundError:
+        return
+    except (OSError, ValueError) as error:
+        raise OpenError(folder, "", f"cannot be written: {reason_of(error)}", "a folder") from None
+    if begun is not None and not force:
+        raise OpenError(begun, "", "exists already", "another folder, or --force (in Python force=True)")
 
 
 def _best(answer: RankedTypes, folder: Path, most: int) -> Iterator[tuple[Mechanism, Path]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -77,8 +78,13 @@ def task(
     if pages and output is None:
         raise click.UsageError("--pages requires -o FOLDER")
     check_output(report, force=force)
+    if output is not None:
+        from synth.tasks.report import check_folder_of_designs
+
+        check_folder_of_designs(Path(output), force=force)
     settings = {"starts": starts, "rounds": rounds, "seed": seed, "weights": dict(options.weights_of(weigh))}
-    answer = _answer(task, settings, store, resume=resume, workers=workers, scheduler=scheduler)
+    settings |= {"store": store, "resume": resume, "force": force, "workers": workers, "scheduler": scheduler}
+    answer = _answer(task, settings)
     written = [] if output is None else synth.tasks.write_designs(answer, output, force=force)
     notes: list[str] = []
     if pages and output is not None:
@@ -94,21 +100,22 @@ def task(
         sys.exit(1)
 
 
-def _answer(
-    task: str, settings: dict[str, Any], store: str | None, *, resume: bool, workers: int | None, scheduler: str | None
-) -> RankedTypes:
+def _answer(task: str, settings: dict[str, Any]) -> RankedTypes:
     """Return the ranked types; a run that the user stops ends the command, and its store goes on later."""
     from enumerate.runner import Interrupted
     from synth.cli.runner import cores
 
+    settings["workers"] = settings["workers"] or cores()
     try:
         with about(task), progress_line() as show:
             return synth.tasks.task(
-                task, store=store, resume=resume, workers=workers or cores(), scheduler=scheduler,
-                report=lambda number, done: show(f"round {number + 1}: start {done.done} of {done.units}"), **settings,
+                task, report=lambda number, done: show(f"round {number + 1}: start {done.done} of {done.units}"),
+                **settings,
             )  # fmt: skip
     except Interrupted as stop:
-        click.echo("stopped; go on with --resume" if store is not None else "stopped; nothing was kept", err=True)
+        click.echo(
+            "stopped; go on with --resume" if settings["store"] is not None else "stopped; nothing was kept", err=True
+        )
         sys.exit(stop.status)
 
 

@@ -63,12 +63,25 @@ def test_each_design_gets_a_page_and_a_template(data, tmp_path):
     design = synth.read(tmp_path / "1-four-bar.json")
     assert (tmp_path / "1-four-bar.html").read_text() == synth.view(design, title="1-four-bar").html
     assert (tmp_path / "1-four-bar.pdf").read_bytes().startswith(b"%PDF")
-    again = CliRunner().invoke(main, [*task, "-o", str(tmp_path)])
-    assert again.exit_code == 2
-    assert "1-four-bar.json" in again.stderr
     refused = CliRunner().invoke(main, task)
     assert refused.exit_code == 2
     assert "--pages requires -o" in refused.stderr
+
+
+@pytest.mark.parametrize("options", [["-o"], ["--store"], ["--pages", "-o"], ["-o", "designs", "--report"]])
+@pytest.mark.parametrize("place", ["file", "file/x", "designs"])
+def test_a_place_that_cannot_be_written_is_refused_in_a_line(options, place, data, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "file").write_text("kept")
+    if place == "designs":
+        (tmp_path / "designs").mkdir()
+        (tmp_path / "designs" / "1-watt.json").write_text("kept")
+        (tmp_path / "designs" / "round-0.sqlite").write_text("kept")
+    task = [str(data / "tasks" / "lid.json"), "--starts", "1", "--rounds", "1", "--workers", "1"]
+    result = CliRunner().invoke(main, ["task", *task, *options, place])
+    assert result.exit_code == 2
+    assert re.match(f"[^\n]*{place}[^\n]*: [^\n]*\n$", result.stderr)
+    assert all(each.read_text() == "kept" for each in tmp_path.rglob("*") if each.is_file())
 
 
 def test_a_design_without_a_template_is_named_with_the_reason(data, tmp_path):
@@ -93,8 +106,10 @@ def test_a_store_gives_the_same_answer_when_it_was_stopped(data, tmp_path):
         synth.task(task, starts=2, rounds=1, store=tmp_path / "store", report=stop)
     again = synth.task(task, starts=2, rounds=1, store=tmp_path / "store", resume=True)
     assert again.to_json() == whole.to_json()
-    with pytest.raises(StoreError):
+    with pytest.raises(StoreError, match="holds the designs of a search"):
         synth.task(task, starts=2, rounds=1, store=tmp_path / "store")
+    other = synth.task(lid(data), starts=1, rounds=1, store=tmp_path / "store", force=True)
+    assert other.to_json() == synth.task(lid(data), starts=1, rounds=1).to_json()
 
 
 def test_other_weights_rank_the_same_rows_anew(data):
