@@ -14,8 +14,8 @@ from typing import Any, Literal
 from enumerate.runner.job import Column, Job, Row, Unit, packed, row_as_dict
 from enumerate.runner.store import SqliteSink, read_rows
 from enumerate.strings.panel_strings import ChainString
-from graphs.errors import FileError, SynthedraError, UnsolvableError
-from graphs.files.atomic import check_new_folder, write_text
+from graphs.errors import SynthedraError, UnsolvableError
+from graphs.files.atomic import check_new_folder, make_folder, write_text
 from graphs.files.native import dumps
 from graphs.files.patterns.fold import fold_text
 from graphs.identity.drawings import map_id
@@ -61,10 +61,7 @@ class RealisationFolder:
             check_new_folder(self._folder)
         self._columns = tuple(job.columns)
         units = self._store.start(job)
-        try:
-            self._folder.mkdir(exist_ok=True)
-        except OSError as error:
-            raise FileError(self._folder, "", f"cannot be made: {error.strerror}", "a new folder") from None
+        make_folder(self._folder)
         return units
 
     def take(self, number: int, rows: list[Row], seconds: float) -> None:
