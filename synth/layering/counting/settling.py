@@ -9,7 +9,7 @@ import ctypes
 from collections.abc import Sequence
 from ctypes import c_int, c_int64, c_void_p
 from pathlib import Path
-from threading import Thread
+from threading import Event, Thread
 from typing import Any
 
 import numpy as np
@@ -64,24 +64,26 @@ class ProblemInLibrary:
     def count(self, literals: Sequence[int]) -> int | None:
         """Return in how many ways the variables can be set; None if 128 bits do not hold the number.
 
-        The library works in a thread of its own, so that an interrupt stops it.
+        The library works in a thread of its own, so that an interrupt stops it. Nobody waits for it then, and it ends
+        soon: so the thread itself holds what the library writes to.
         """
         given = np.array(literals, dtype=np.int64)
         stop, halves, nodes = np.zeros(1, dtype=np.int32), np.zeros(2, dtype=np.uint64), np.zeros(1, dtype=np.int64)
-        places = (stop.ctypes.data, halves.ctypes.data, nodes.ctypes.data)
-        state = [_STOPPED]
+        state, done = [_STOPPED], Event()
 
         def run() -> None:
-            state[0] = self._library.counted(*self._arguments, len(given), given.ctypes.data, MOST_BYTES, *places)
+            places = [array.ctypes.data for array in (stop, halves, nodes)]  # addresses alone would not hold them
+            try:
+                state[0] = self._library.counted(*self._arguments, len(given), given.ctypes.data, MOST_BYTES, *places)
+            finally:
+                done.set()
 
-        thread = Thread(target=run)
-        thread.start()
         try:
-            while thread.is_alive():
-                thread.join(_LOOK)
+            Thread(target=run).start()
+            while not done.wait(_LOOK):  # Thread.join, once interrupted, takes a running thread for one that ended
+                pass
         finally:
             stop[0] = 1
-            thread.join()
         if state[0] == _NO_MEMORY:
             raise MemoryError("no memory for so many conditions on layers")
         return None if state[0] == _TOO_LARGE else int(halves[0]) + (int(halves[1]) << 64)

@@ -1,6 +1,10 @@
 """The counter in C, the counter in Python, and all values tried one after the other."""
 
+import _thread
+import signal
+import weakref
 from itertools import product
+from threading import Event
 
 import numpy as np
 import pytest
@@ -72,3 +76,41 @@ def test_more_than_128_bits_are_counted_in_python():
     problem = LayerProblem(162, pairs, free, np.empty((0, 4), dtype=np.int64))
     assert ProblemInLibrary(kernel(), problem).count(()) is None
     assert settling.counted(problem) > 2**128
+
+
+@pytest.fixture
+def ctrl_c():
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield _thread.interrupt_main
+    signal.signal(signal.SIGINT, before)
+
+
+def test_an_interrupted_count_is_stopped_and_keeps_its_memory_until_it_ends(ctrl_c, monkeypatch):
+    arrays, left, ended, seen = [], Event(), Event(), []
+
+    def zeros(*size, **kind):
+        array = np.empty(*size, **kind)
+        array[...] = 0
+        arrays.append(weakref.ref(array))
+        return array
+
+    class Library:
+        def counted(self, *_):
+            ctrl_c()
+            left.wait(60)  # the caller has gone
+            seen.extend(None if array() is None else array()[0] for array in arrays)
+            ended.set()
+            return 1
+
+    problem = ProblemInLibrary(Library(), random_problem(np.random.default_rng(0)))
+    monkeypatch.setattr(settling.np, "zeros", zeros)
+    interrupted = False
+    try:
+        problem.count(())
+    except KeyboardInterrupt:
+        interrupted = True
+    monkeypatch.undo()
+    left.set()
+    assert interrupted
+    assert ended.wait(60)
+    assert seen == [1, 0, 0]
