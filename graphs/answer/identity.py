@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-import networkx as nx
-
 from graphs.convert.table import Mechanism, graph_of, to_scd
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.files.accepted import MechanismLike, mechanism_for
@@ -55,7 +53,7 @@ class Identity(Printed):
         return [*lines, *(f"note: {note}" for note in self.notes)]
 
 
-def identify(mechanism: MechanismLike | nx.Graph) -> Identity:
+def identify(mechanism: MechanismLike) -> Identity:
     """Return the canonical ids of a mechanism.
 
     Parameters
@@ -67,7 +65,7 @@ def identify(mechanism: MechanismLike | nx.Graph) -> Identity:
     >>> identify(nx.cycle_graph(4)).chain
     'k1:Cr'
     """
-    mechanism = mechanism_for("identify", mechanism, Mechanism | nx.Graph)
+    mechanism = mechanism_for("identify", mechanism)
     chain, no_chain = _id_or_reason(lambda: chain_id(graph_of(mechanism)))
     drawing, no_drawing = _id_or_reason(lambda: map_id(_drawn(mechanism)))
     notes = [f"no id of the chain: {no_chain}"] * (chain is None)
@@ -122,7 +120,7 @@ class TypeClasses(Printed):
         return [first, *([TableBlock(("id", "number", "mechanisms"), rows, ("number",))] if rows else []), *notes]
 
 
-def types_of(mechanisms: Iterable[MechanismLike | nx.Graph], *, by: By | None = None) -> TypeClasses:
+def types_of(mechanisms: Iterable[MechanismLike], *, by: By | None = None) -> TypeClasses:
     """Group mechanisms by type: which are isomorphic, and which appear more than once.
 
     Parameters
@@ -162,7 +160,7 @@ def _id_or_reason(find: Callable[[], str]) -> tuple[str | None, str]:
         return None, str(error)
 
 
-def _drawn(mechanism: Mechanism | nx.Graph) -> SCGraph:
+def _drawn(mechanism: Mechanism) -> SCGraph:
     """Return the mechanism with its drawing."""
     if isinstance(mechanism, Sheet | PolyhedronModel):
         return to_scd(mechanism)

@@ -48,11 +48,7 @@ def sc_from_link_joint_graph(graph: nx.Graph, centre: Centre | str = Centre.FINI
     >>> len(cube.loops), len(cube.closing)
     (7, 1)
     """
-    if graph.is_multigraph() and len({key for *_, key in graph.edges(keys=True)}) == graph.number_of_edges():
-        joints = {key: (a, b) for a, b, key in graph.edges(keys=True)}
-    else:
-        joints = dict(enumerate(graph.edges()))
-    bare = SCGraph(graph.nodes, joints)
+    bare = SCGraph(graph, loops=())
     blocks = block_cycles(bare.nodes, bare.joints)
     loops = [Loop(cycle, Centre(centre)) for block in blocks for cycle in block.inner]
     closing = []
@@ -62,9 +58,7 @@ def sc_from_link_joint_graph(graph: nx.Graph, centre: Centre | str = Centre.FINI
                 raise InvariantError("closed surface", "a block of the graph is not planar", "a planar graph")
             if len(block.inner) > 1:  # a ring has the same loop on both its sides
                 closing.append(Loop(block.outer, Centre(centre)))
-    sc = bare.with_loops(loops, closing)
-    sc.centres_assumed = True
-    return sc
+    return SCGraph(bare, loops=loops, closing=closing, centres_assumed=True)
 
 
 def _subdivided(links: Iterable[LinkId], joints: Joints) -> tuple[nx.Graph, dict[frozenset[object], JointId]]:

@@ -13,6 +13,7 @@ from graphs.edit.analogues import generalised_form, planar_analogue, spherical_a
 from graphs.errors import UnsolvableError
 from graphs.joints.linkage import JointedLinkage
 from graphs.joints.revolutes import recognised, revolutes_of
+from graphs.mechanism.attributes import carries_loops
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import in_space
 from graphs.mechanism.sc import SCGraph
@@ -79,16 +80,38 @@ def to_sc(mechanism: Mechanism) -> SCGraph:
     return to_scd(mechanism).sc_graph()
 
 
+def mechanism_of_graph(graph: nx.Graph) -> SCGraph | PolyhedronModel:
+    """Return the mechanism that a graph of networkx is.
+
+    Parameters
+    ----------
+    graph : networkx.Graph
+        An SC or SCD graph or a polyhedron model, what networkx made of one, with the same attributes, or a bare
+        link-joint graph: each face of a drawing of that gets a finite centre. InvariantError if the attributes are
+        those of a mechanism no more, as of a subgraph that cuts a loop.
+
+    Examples
+    --------
+    >>> mechanism_of_graph(nx.cycle_graph(4)).centres_assumed
+    True
+    """
+    if isinstance(graph, SCGraph | PolyhedronModel):
+        return graph
+    if "polyhedron" in graph.graph:
+        return PolyhedronModel(graph)
+    if any("sides" in data for _, data in graph.nodes(data=True)):
+        return SCDGraph(graph)
+    return SCGraph(graph) if carries_loops(graph) else sc_from_link_joint_graph(graph)
+
+
 def graph_of(mechanism: Mechanism | nx.Graph) -> SCGraph:
     """Return an SC or SCD graph itself, or the SC graph of a mechanism; the errors are those of `to_sc`.
 
-    A plain networkx graph is a link-joint graph: each face of a drawing of it gets a finite centre.
+    A graph of networkx is read as by `mechanism_of_graph`.
     """
-    if isinstance(mechanism, SCGraph):
-        return mechanism
-    if isinstance(mechanism, nx.Graph) and not isinstance(mechanism, PolyhedronModel):
-        return sc_from_link_joint_graph(mechanism)
-    return to_sc(mechanism)
+    if isinstance(mechanism, nx.Graph):
+        mechanism = mechanism_of_graph(mechanism)
+    return mechanism if isinstance(mechanism, SCGraph) else to_sc(mechanism)
 
 
 def to_scd(mechanism: Mechanism) -> SCDGraph:

@@ -13,7 +13,7 @@ from typing import Any, TypeAlias, TypeVar, overload
 import networkx as nx
 
 from graphs.convert.link_joint import sc_from_link_joint_graph
-from graphs.convert.table import Mechanism, to_sc, to_sheet
+from graphs.convert.table import Mechanism, mechanism_of_graph, to_sc, to_sheet
 from graphs.errors import (
     ArgumentError,
     FileError,
@@ -190,7 +190,8 @@ def read(
     path : str, Path or networkx.Graph
         A file whose extension names its format, or an id, ``k1:...`` or ``m1:...`` (a file so named is written
         ``./k1:...``), or a line of a graph6 file, ``chains.g6:7``. A graph has links as nodes and joints as edges;
-        of a multigraph the keys name the joints. It gets finite centres, as from a file without any.
+        of a multigraph the keys name the joints. What networkx made of a mechanism is read by its attributes; any
+        other graph gets finite centres, as from a file without any.
     colours : mapping of str to str or sequence of str, optional
         For a drawing (SVG, DXF): assignment (M, V, B, C, F, U, J, or ``-`` for lines to leave out) to the look of
         its lines: a colour of CSS or the number of one in DXF, a kind of dash (``dashed``, ``dash-dot``,
@@ -228,10 +229,8 @@ def read(
 
 def _read_one(path: str | Path | nx.Graph, colours: Looks | None, layers: Looks | None) -> Mechanism:
     """Return the one mechanism of a file, an id or a graph, of whatever kind."""
-    if isinstance(path, SCGraph):
-        return path
     if isinstance(path, nx.Graph):
-        return sc_from_link_joint_graph(path.to_undirected() if path.is_directed() else path)
+        return mechanism_of_graph(path)
     entries = list(read_all(path, colours=colours, layers=layers))
     if len(entries) != 1:
         expected = f"one; try its line, {entries[0].label}" if entries else "one"
@@ -252,7 +251,7 @@ def read_linkage(path: str | Path) -> SurfaceLinkage:
 
 
 def write(
-    mechanism: Mechanism | str | Path, path: str | Path, *, lossy: bool = False, force: bool = False
+    mechanism: Mechanism | nx.Graph | str | Path, path: str | Path, *, lossy: bool = False, force: bool = False
 ) -> tuple[str, ...]:
     """Write a mechanism in the format that the extension names.
 
@@ -260,7 +259,7 @@ def write(
 
     Parameters
     ----------
-    mechanism : Mechanism, str or Path
+    mechanism : Mechanism, networkx.Graph, str or Path
         A sheet written as ``.json`` becomes the SC graph of its mechanism.
     path : str or Path
     lossy : bool, optional
@@ -291,7 +290,7 @@ def write(
     ...     write(four_bar, Path(folder, "four-bar.json")), write(four_bar, Path(folder, "bare.g6"), lossy=True)
     ((), ('1 loop and its centre',))
     """
-    mechanism = read(mechanism) if isinstance(mechanism, str | Path) else mechanism
+    mechanism = read(mechanism) if isinstance(mechanism, str | Path | nx.Graph) else mechanism
     check_argument("write", mechanism, Mechanism)
     return write_converted(mechanism, path, None, lossy=lossy, force=force)
 

@@ -70,11 +70,15 @@ class PointConstraint:
 class PolyhedronModel(nx.Graph):
     """Vertices and rods of a mechanism, with remote centres, point constraints, scissors and a ground link.
 
-    Nodes are vertices, edges are rods. The graph is frozen once built.
+    Nodes are vertices, edges are rods. The graph is frozen once built. Its terms stand in attributes, where they
+    survive what networkx makes of the graph: of nodes ``number`` and ``coordinates``, of the graph ``polyhedron``,
+    which refers to vertices by their numbers. So a renamed graph or a :meth:`copy`, which are a plain ``nx.Graph``,
+    is read back right by ``PolyhedronModel(graph)`` and by every function that takes a mechanism.
 
     Parameters
     ----------
-    vertices : int or iterable of vertex ids, optional
+    vertices : int, iterable of vertex ids, or networkx.Graph
+        A graph of networkx has the rods, and the terms in its attributes if it was made of a model.
     rods : iterable of (vertex, vertex), optional
     coordinates : mapping of vertex to (x, y, z), optional
         For all vertices or for none; any length unit.
@@ -107,9 +111,13 @@ class PolyhedronModel(nx.Graph):
     scissors: tuple[tuple[VertexId, ...], ...]
     ground: frozenset[VertexId] | None
 
+    def __new__(cls, *args: Any, **options: Any) -> Any:
+        """Return an instance, or a plain graph where networkx asks for an empty one to fill."""
+        return object.__new__(cls) if args or options else nx.Graph()
+
     def __init__(
         self,
-        vertices: int | Iterable[VertexId] | None = None,
+        vertices: int | Iterable[VertexId] | nx.Graph,
         rods: Iterable[Rod] = (),
         *,
         coordinates: Mapping[Any, Sequence[float]] | None = None,
@@ -120,12 +128,14 @@ class PolyhedronModel(nx.Graph):
         ground: Iterable[VertexId] | None = None,
         links: Mapping[Any, Sequence[VertexId]] | None = None,
     ) -> None:
+        if isinstance(vertices, nx.Graph):
+            if tuple(rods) or any((coordinates, centres, on_line, on_plane, scissors, ground, links)):
+                raise InvariantError("polyhedron", "terms beside a graph that has its own", "a graph alone")
+            self.__init__(**_read(vertices))  # type: ignore[misc]
+            return
         super().__init__()
-        self.centres, self.on_line, self.on_plane, self.scissors, self.ground = (), (), (), (), None
         self._coordinates: dict[VertexId, tuple[float, float, float]] = {}
         self._links: dict[Hashable, tuple[VertexId, ...]] = {}
-        if vertices is None:
-            return  # networkx makes an empty instance of the class before it fills a view
         self._add_vertices(range(vertices) if isinstance(vertices, int) else vertices)
         self._add_rods(rods)
         self._set_coordinates(coordinates or {})
@@ -136,6 +146,7 @@ class PolyhedronModel(nx.Graph):
         self.scissors = tuple(self._checked_scissors(four) for four in scissors)
         for link, around in (links or {}).items():
             self._links[link] = self._checked_link(link, around)
+        self._write_attributes()
         nx.freeze(self)
 
     def __repr__(self) -> str:
@@ -221,10 +232,38 @@ class PolyhedronModel(nx.Graph):
             raise InvariantError("links", f"link {shown(link)} names a vertex twice", "once")
         return vertices
 
+    def _write_attributes(self) -> None:
+        """Write the terms where networkx keeps them, with the numbers of vertices in the place of their names."""
+        number = {vertex: place for place, vertex in enumerate(self.nodes)}
+
+        def numbers(vertices: Iterable[VertexId]) -> tuple[int, ...]:
+            return tuple(number[vertex] for vertex in vertices)
+
+        def constraints(listed: Iterable[PointConstraint]) -> tuple[tuple[int, object], ...]:
+            return tuple((number[one.vertex], one.of if isinstance(one.of, str) else numbers(one.of)) for one in listed)
+
+        for vertex, place in number.items():
+            self.nodes[vertex]["number"] = place
+            if self._coordinates:
+                self.nodes[vertex]["coordinates"] = self._coordinates[vertex]
+        self.graph["polyhedron"] = {
+            "vertices": len(self),
+            "rods": self.number_of_edges(),
+            "centres": tuple((one.k, tuple(map(numbers, one.rods)), one.name) for one in self.centres),
+            "on_line": constraints(self.on_line),
+            "on_plane": constraints(self.on_plane),
+            "scissors": tuple(map(numbers, self.scissors)),
+            "ground": None if self.ground is None else tuple(sorted(numbers(self.ground))),
+            "links": tuple((link, numbers(around)) for link, around in self._links.items()),
+        }
+
     # ---- what networkx asks for ---------------------------------------------------------------------
 
     def copy(self, as_view: bool = False) -> nx.Graph:
-        """Return a plain, mutable ``nx.Graph`` with the same vertices and rods, or with ``as_view`` a view."""
+        """Return a plain, mutable ``nx.Graph`` with the same attributes, or with ``as_view`` a view.
+
+        ``PolyhedronModel(graph)`` is the model again.
+        """
         return super().copy(as_view=True) if as_view else nx.Graph(self)
 
     def to_undirected_class(self) -> Any:
@@ -234,6 +273,10 @@ class PolyhedronModel(nx.Graph):
     def to_directed_class(self) -> Any:
         """Return the class of directed copies."""
         return nx.DiGraph
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle and copy the instance as it is; without this, both would ask for an empty one."""
+        return object.__new__, (type(self),), self.__dict__
 
     # ---- what it is ---------------------------------------------------------------------------------
 
@@ -292,3 +335,44 @@ class PolyhedronModel(nx.Graph):
 
     def __str__(self) -> str:
         return f"PolyhedronModel with {len(self)} vertices and {self.number_of_edges()} rods"
+
+
+def _read(graph: nx.Graph) -> dict[str, Any]:
+    """Return the arguments of the model that a graph of networkx carries; without terms its vertices and rods."""
+    if graph.is_multigraph() and graph.number_of_edges() > nx.Graph(graph).number_of_edges():
+        raise InvariantError("distinct rods", "the graph has parallel edges", "a rod between two vertices")
+    terms = graph.graph.get("polyhedron", {})
+    nodes = list(graph.nodes(data=True))
+    sizes = len(nodes), nx.Graph(graph).number_of_edges()
+    vertex = {data.get("number"): node for node, data in nodes}
+    if terms and ((terms["vertices"], terms["rods"]) != sizes or set(vertex) != set(range(len(nodes)))):
+        raise InvariantError(
+            "polyhedron",
+            f"the graph has {sizes[0]} vertices and {sizes[1]} rods, and terms of a model with "
+            f"{terms['vertices']} and {terms['rods']}",
+            "all of the model; for a part of it try PolyhedronModel(graph.nodes, graph.edges)",
+        )
+
+    def named(numbers: Iterable[int]) -> tuple[VertexId, ...]:
+        return tuple(vertex[number] for number in numbers)
+
+    def constraints(listed: Iterable[tuple[int, Any]]) -> list[PointConstraint]:
+        return [PointConstraint(vertex[one], of if isinstance(of, str) else named(of)) for one, of in listed]
+
+    def centre(k: int, rods: Iterable[tuple[int, int]], name: str | None) -> RemoteCentre:
+        return RemoteCentre(k, tuple((vertex[a], vertex[b]) for a, b in rods), name)
+
+    order = named(range(len(nodes))) if terms else tuple(graph.nodes)
+    places = {node: data["coordinates"] for node, data in nodes if "coordinates" in data}
+    ground = terms.get("ground")
+    return {
+        "vertices": order,
+        "rods": [(a, b) for a, b in nx.Graph(graph).edges],
+        "coordinates": places,
+        "centres": [centre(*one) for one in terms.get("centres", ())],
+        "on_line": constraints(terms.get("on_line", ())),
+        "on_plane": constraints(terms.get("on_plane", ())),
+        "scissors": map(named, terms.get("scissors", ())),
+        "ground": None if ground is None else named(ground),
+        "links": {link: named(around) for link, around in terms.get("links", ())},
+    }

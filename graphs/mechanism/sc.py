@@ -18,10 +18,21 @@ from types import MappingProxyType
 from typing import Any, Literal, NoReturn
 
 import networkx as nx
+from networkx.classes.reportviews import OutEdgeView
 
 from graphs.errors import InvariantError, numbered, shown
 from graphs.loops.classes import CentreClass, centre_classes
 from graphs.loops.loop import Centre, Loop, cyclic_order, dependent_loop
+from graphs.mechanism.attributes import (
+    JOINT,
+    LINK,
+    MECHANISM,
+    LoopPlace,
+    MechanismParts,
+    edges_of,
+    parts_of,
+    undirected,
+)
 from graphs.types import JointId, LinkId
 
 
@@ -63,16 +74,19 @@ class SpecialGeometry:
 class SCGraph(nx.MultiGraph):
     """A type of mechanism: a link-joint graph with independent loops, each with its centre.
 
-    Nodes are links (panels), edges are revolute joints (creases), edge keys are joint ids. The graph is frozen
-    once built: an edit makes a new graph. networkx functions for multigraphs accept it; :meth:`copy` gives a
-    plain, mutable ``nx.MultiGraph``.
+    Nodes are links (panels), edges are revolute joints (creases), edge keys are joint ids. All that it is stands in
+    attributes of its nodes and edges (:mod:`graphs.mechanism.attributes`), so whatever networkx makes of it still
+    has it: a plain ``nx.MultiGraph``, which every function that takes a mechanism reads back, as ``SCGraph(graph)``
+    does. The graph is frozen once built: to change it, change a :meth:`copy`, and build a graph of that.
 
     Parameters
     ----------
-    links : int or iterable of link ids, optional
-        Names of the links, or how many there are (then they are 0, 1, 2, ...).
-    joints : mapping of joint id to (link, link), or iterable of (link, link), optional
-        The joints; ids of bare pairs are 0, 1, 2, ... Two links may share several joints.
+    links : int, iterable of link ids, or networkx.Graph
+        Names of the links, or how many there are (then they are 0, 1, 2, ...). A graph of networkx with the
+        attributes of a mechanism is that mechanism; one without them has the joints only, and needs loops.
+    joints : mapping of joint id to (link, link), or iterable of (link, link) or (link, link, key), optional
+        The joints; ids of bare pairs are 0, 1, 2, ..., and so are those of triples unless the keys are distinct.
+        Two links may share several joints.
     loops : iterable of Loop, optional
         Independent loops. A loop's joints may come in any order; they are stored in cyclic order. Independent
         cycles that are left out are spatial.
@@ -83,10 +97,7 @@ class SCGraph(nx.MultiGraph):
         The fixed link; without it the graph is a kinematic chain.
     special : SpecialGeometry, optional
         A mark that realisations of special dimensions move. The type is the same with and without it.
-
-    Attributes
-    ----------
-    centres_assumed : bool
+    centres_assumed : bool, optional
         Whether the input had no centres, and each face of an embedding was taken for a loop with one.
 
     Raises
@@ -94,7 +105,13 @@ class SCGraph(nx.MultiGraph):
     InvariantError
         Naming what breaks which invariant: link names distinct as text, joints between two different known links,
         each loop one cycle, loops independent over GF(2), closing loops dependent on them and independent of each
-        other, finite and infinite centres never forced to be one.
+        other, finite and infinite centres never forced to be one; of a graph of networkx also a loop that has lost
+        a joint, and cycles of a graph without loops.
+
+    Notes
+    -----
+    networkx makes an empty instance of the class of a graph and fills it, which cannot become a mechanism, since it
+    does not pass through the checks. So a call without arguments gives an empty ``nx.MultiGraph``.
 
     Examples
     --------
@@ -102,39 +119,53 @@ class SCGraph(nx.MultiGraph):
     >>> watt = SCGraph(6, pairs, loops=[Loop((0, 1, 2, 3)), Loop((3, 4, 5, 6))])
     >>> len(watt.centre_classes()), watt.independent_loops
     (2, 2)
+    >>> renamed = nx.relabel_nodes(watt, {0: "frame"})
+    >>> SCGraph(renamed).is_identical(watt.relabel({0: "frame"}))
+    True
     """
 
     loops: tuple[Loop, ...]
     closing: tuple[Loop, ...]
     ground: LinkId | None
     special: SpecialGeometry | None
-    centres_assumed: bool = False
+
+    def __new__(cls, *args: Any, **options: Any) -> Any:
+        """Return an instance, or a plain multigraph where networkx asks for an empty one to fill."""
+        return object.__new__(cls) if args or options else nx.MultiGraph()
 
     def __init__(
         self,
-        links: int | Iterable[LinkId] | None = None,
-        joints: Mapping[Any, tuple[LinkId, LinkId]] | Iterable[tuple[LinkId, LinkId]] = (),
-        loops: Iterable[Loop] = (),
+        links: int | Iterable[LinkId] | nx.Graph,
+        joints: Mapping[Any, tuple[LinkId, LinkId]] | Iterable[tuple[Any, ...]] = (),
+        loops: Iterable[Loop] | None = None,
         *,
-        closing: Iterable[Loop] = (),
+        closing: Iterable[Loop] | None = None,
         ground: LinkId | None = None,
         special: SpecialGeometry | None = None,
+        centres_assumed: bool = False,
     ) -> None:
         super().__init__()
-        self.loops, self.closing, self.ground, self.special = (), (), None, special
+        source = undirected(links) if isinstance(links, nx.Graph) else None
+        if source is not None:
+            parts = _read(source, joints, loops, closing)
+            links, joints, loops, closing = parts.links, parts.joints, parts.loops, parts.closing
+            ground = parts.ground if ground is None else ground
+            special = _mark(parts) if special is None else special
+            centres_assumed = parts.centres_assumed or centres_assumed
         self._joints: dict[JointId, tuple[LinkId, LinkId]] = {}
-        if links is None:
-            return  # networkx makes an empty instance of the class before it fills a view
         self._add_links(range(links) if isinstance(links, int) else links)
         self._add_joints(joints)
-        self.loops = self._ordered(loops, "loops")
-        self.closing = self._ordered(closing, "closing")
+        self.loops = self._ordered(loops or (), "loops")
+        self.closing = self._ordered(closing or (), "closing")
         self._check_loops()
         if ground is not None and ground not in self:
             raise InvariantError(
                 "ground is a link", f"ground {shown(ground)} is no link", "one of the links", ("ground", ground)
             )
-        self.ground = ground
+        self.ground, self.special = ground, special
+        self._write_attributes(centres_assumed=centres_assumed)
+        if source is not None:
+            self._keep_attributes(source)
         nx.freeze(self)
 
     # ---- construction -------------------------------------------------------------------------------
@@ -150,22 +181,31 @@ class SCGraph(nx.MultiGraph):
                     ("links", link),
                 )
             texts[str(link)] = link
-        self.add_nodes_from(texts.values())
+        nodes, adjacency = self._node, self._adj  # filled as networkx would
+        for number, link in enumerate(texts.values()):
+            nodes[link] = {"number": number}
+            adjacency[link] = {}
 
-    def _add_joints(self, joints: Mapping[Any, tuple[LinkId, LinkId]] | Iterable[tuple[LinkId, LinkId]]) -> None:
-        pairs = joints.items() if isinstance(joints, Mapping) else enumerate(joints)
+    def _add_joints(self, joints: Mapping[Any, tuple[LinkId, LinkId]] | Iterable[tuple[Any, ...]]) -> None:
+        # networkx's views of edges are mappings too, to the attributes
+        if isinstance(joints, Mapping) and not isinstance(joints, OutEdgeView):
+            pairs: Iterable[tuple[JointId, tuple[LinkId, LinkId]]] = joints.items()
+        else:
+            pairs = _with_ids(tuple(joints))
         texts: set[str] = set()
-        adjacency = self._adj  # filled as networkx would: one dict of keys for both directions
+        nodes, adjacency = self._node, self._adj  # one dict of keys for both directions
         for joint, (a, b) in pairs:
             if a not in adjacency or b not in adjacency or a == b or joint is None or str(joint) in texts:
                 self._refuse_joint(joint, a, b)
+            ends = nodes[a]["number"], nodes[b]["number"]
+            data = {"joint": joint, "number": len(texts), "ends": ends, "loops": ()}
             texts.add(str(joint))
             self._joints[joint] = (a, b)
             keys = adjacency[a].get(b)
             if keys is None:
-                adjacency[a][b] = adjacency[b][a] = {joint: {}}
+                adjacency[a][b] = adjacency[b][a] = {joint: data}
             else:
-                keys[joint] = {}
+                keys[joint] = data
 
     def _refuse_joint(self, joint: JointId, a: LinkId, b: LinkId) -> NoReturn:
         part = ("joints", joint)
@@ -203,7 +243,7 @@ class SCGraph(nx.MultiGraph):
             )
         for index, loop in enumerate(self.closing):
             self._check_closing(loop, ("closing", index))
-        if (culprit := dependent_loop([x.joints for x in self.closing])) is not None:
+        if self.closing and (culprit := dependent_loop([x.joints for x in self.closing])) is not None:
             raise InvariantError(
                 "closing loop",
                 f"{self.closing[culprit].label} is a sum of other closing loops",
@@ -221,21 +261,61 @@ class SCGraph(nx.MultiGraph):
         if dependent_loop([x.joints for x in (*self.loops, loop)]) is None:
             raise InvariantError(rule, f"{loop.label} does not depend on the loops", "a sum of them", part)
 
+    def _write_attributes(self, *, centres_assumed: bool) -> None:
+        """Write what the mechanism is where networkx keeps it; see :mod:`graphs.mechanism.attributes`."""
+        if self.ground is not None:
+            self._node[self.ground]["ground"] = True
+        adjacency, joints = self._adj, self._joints
+        for index, loop in enumerate((*self.loops, *self.closing)):
+            rest = (len(loop.joints), loop.centre.value, loop.name, loop.at, index >= len(self.loops))
+            for place, joint in enumerate(loop.joints):
+                a, b = joints[joint]
+                data = adjacency[a][b][joint]
+                data["loops"] = (*data["loops"], LoopPlace(index, place, *rest))
+        if centres_assumed:
+            self.graph["centres_assumed"] = True
+        if self.special is not None:
+            # The size is that of the type which is marked: of a part of it the mark says nothing.
+            mark = {"freedoms": self.special.freedoms, "conditions": self.special.conditions}
+            self.graph["special"] = {**mark, "links": len(self), "joints": len(self._joints)}
+
+    def _keep_attributes(self, source: nx.Graph) -> None:
+        """Keep the attributes of the graph that this one was built of, but for those of the mechanism."""
+        self.graph |= {key: value for key, value in source.graph.items() if key not in MECHANISM}
+        for link, data in source.nodes(data=True):
+            self._node[link] |= {key: value for key, value in data.items() if key not in LINK}
+        for edge in edges_of(source):
+            a, b = edge.ends
+            own = self._adj[a][b][edge.joint]
+            own |= {key: value for key, value in edge.data.items() if key not in JOINT}
+
     # ---- what networkx asks for ---------------------------------------------------------------------
 
     def copy(self, as_view: bool = False) -> nx.MultiGraph:
-        """Return a plain, mutable ``nx.MultiGraph`` with the same links and joints, or a view of it."""
+        """Return a plain, mutable ``nx.MultiGraph`` with the same attributes, or with ``as_view`` a view.
+
+        ``SCGraph(graph)`` is the mechanism again.
+        """
         return super().copy(as_view=True) if as_view else nx.MultiGraph(self)
 
     def to_undirected_class(self) -> Any:
-        """Return the class of undirected copies: a plain multigraph, since loops do not survive editing."""
+        """Return the class of undirected copies: a plain multigraph with the same attributes."""
         return nx.MultiGraph
 
     def to_directed_class(self) -> Any:
         """Return the class of directed copies."""
         return nx.MultiDiGraph
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle and copy the instance as it is; without this, both would ask for an empty one."""
+        return object.__new__, (type(self),), self.__dict__
+
     # ---- what it is ---------------------------------------------------------------------------------
+
+    @property
+    def centres_assumed(self) -> bool:
+        """Whether the input had no centres, and each face of an embedding was taken for a loop with one."""
+        return bool(self.graph.get("centres_assumed", False))
 
     @property
     def joints(self) -> Mapping[JointId, tuple[LinkId, LinkId]]:
@@ -306,11 +386,20 @@ class SCGraph(nx.MultiGraph):
             closing=_renamed(self.closing, of_joint),
             ground=None if self.ground is None else of_link.get(self.ground, self.ground),
             special=self.special,
+            centres_assumed=self.centres_assumed,
         )
 
     def marked(self, special: SpecialGeometry | None) -> SCGraph:
         """Return the same mechanism with a mark of special geometry, or without one."""
-        return SCGraph(self.nodes, self._joints, self.loops, closing=self.closing, ground=self.ground, special=special)
+        return SCGraph(
+            self.nodes,
+            self._joints,
+            self.loops,
+            closing=self.closing,
+            ground=self.ground,
+            special=special,
+            centres_assumed=self.centres_assumed,
+        )
 
     def is_identical(self, other: object) -> bool:
         """Return whether two objects are the same graph, ids and all (this is not isomorphism).
@@ -347,6 +436,43 @@ class SCGraph(nx.MultiGraph):
             f"{len(self.centred_loops)} centred and {self.spatial_loops} spatial loops"
             f"{'' if self.special is None else f', {self.special}'}"
         )
+
+
+def _with_ids(pairs: Sequence[tuple[Any, ...]]) -> Iterable[tuple[JointId, tuple[LinkId, LinkId]]]:
+    """Return ids and links of joints: the keys of triples where they are distinct, else 0, 1, 2, ..."""
+    sizes = {len(pair) if isinstance(pair, tuple | list) else 0 for pair in pairs}
+    if sizes <= {2}:
+        return enumerate(pairs)
+    if not sizes <= {2, 3}:
+        odd = next(pair for pair in pairs if not isinstance(pair, tuple | list) or len(pair) not in (2, 3))
+        raise InvariantError("joint ends are links", f"a joint is {shown(odd)}", "(link, link), or with a key")
+    keys = {str(pair[2]) for pair in pairs if len(pair) == 3 and pair[2] is not None}
+    ids = [pair[2] for pair in pairs] if len(keys) == len(pairs) else range(len(pairs))
+    return zip(ids, ((pair[0], pair[1]) for pair in pairs), strict=True)
+
+
+def _read(graph: nx.Graph, joints: Any, loops: Iterable[Loop] | None, closing: Iterable[Loop] | None) -> MechanismParts:
+    """Read the parts of a mechanism off a graph of networkx; loops that are stated take precedence."""
+    if tuple(joints):
+        raise InvariantError("joints", "joints beside a graph that has its own", "a graph alone, or links and joints")
+    parts = parts_of(graph, loops=loops is None)
+    if loops is not None:
+        parts.loops, parts.closing = list(loops), list(closing or ())
+    elif parts.loops is None:
+        forest = nx.Graph()
+        forest.add_nodes_from(parts.links)
+        forest.add_edges_from(parts.joints.values())
+        cycles = len(parts.joints) - len(parts.links) + nx.number_connected_components(forest)
+        if cycles:
+            what = f"the graph has {numbered(cycles, 'independent cycle')} and no loops"
+            raise InvariantError("loops", what, "loops=[...], [] if all are spatial; synth.read(graph) assumes centres")
+    return parts
+
+
+def _mark(parts: MechanismParts) -> SpecialGeometry | None:
+    """Return the mark of special geometry that a graph carries."""
+    mark = parts.special
+    return None if mark is None else SpecialGeometry(mark["freedoms"], mark["conditions"])
 
 
 def _renamed(loops: Sequence[Loop], of_joint: Mapping[JointId, JointId]) -> list[Loop]:

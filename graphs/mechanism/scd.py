@@ -36,9 +36,12 @@ from functools import cached_property
 from itertools import combinations
 from typing import Any, TypeVar
 
+import networkx as nx
+
 from graphs.errors import InvariantError, numbered, shown
 from graphs.loops.classes import CentreClass
 from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.attributes import parts_of
 from graphs.mechanism.drawing import Drawing, Face, FaceKind, Side
 from graphs.mechanism.sc import SCGraph, SpecialGeometry
 from graphs.types import JointId, LinkId
@@ -246,7 +249,8 @@ class SCDGraph(SCGraph):
     Parameters
     ----------
     links, joints, loops, closing, ground, special
-        As in :class:`graphs.mechanism.sc.SCGraph`. The graph is connected.
+        As in :class:`graphs.mechanism.sc.SCGraph`. The graph is connected. A graph of networkx in the place of the
+        links has the rotations and the outer face in attributes of its nodes, ``sides`` and ``outer``.
     rotation : mapping of link to sequence of sides
         The sides of each link counter-clockwise: joint ids, and None for an open edge.
     outer : (joint, "left" or "right"), optional
@@ -278,26 +282,31 @@ class SCDGraph(SCGraph):
 
     def __init__(
         self,
-        links: int | Iterable[LinkId] | None = None,
-        joints: Mapping[Any, tuple[LinkId, LinkId]] | Iterable[tuple[LinkId, LinkId]] = (),
-        loops: Iterable[Loop] = (),
+        links: int | Iterable[LinkId] | nx.Graph,
+        joints: Mapping[Any, tuple[LinkId, LinkId]] | Iterable[tuple[Any, ...]] = (),
+        loops: Iterable[Loop] | None = None,
         *,
         rotation: Mapping[Any, Sequence[Side]] | None = None,
         outer: tuple[JointId, str] | None = None,
-        closing: Iterable[Loop] = (),
+        closing: Iterable[Loop] | None = None,
         ground: LinkId | None = None,
         special: SpecialGeometry | None = None,
     ) -> None:
         super().__init__(links, joints, loops, closing=closing, ground=ground, special=special)
-        self.outer = None
-        if links is None:
-            return
+        if isinstance(links, nx.Graph) and rotation is None:
+            parts = parts_of(links)
+            rotation, outer = parts.rotation, parts.outer
         sides = _of_each_link(self.nodes, rotation or {})
         if self.components != 1:
             raise InvariantError("connected", f"the graph has {self.components} parts", "one")
         self.drawing = Drawing(self._joints, sides, outer, self.loops, self.closing)
         self.outer = self.drawing.outer
         check_rules(self.drawing, self.centre_classes())
+        for link, here in sides.items():
+            self._node[link]["sides"] = here
+        if self.outer is not None:
+            joint, side = self.outer
+            self._node[self._joints[joint][side != "left"]]["outer"] = joint
 
     # ---- what it is ---------------------------------------------------------------------------------
 

@@ -236,7 +236,7 @@ def configuration_of(
     >>> configuration_of(HingedSolids(ring, {joint: (corner, (0, 0, 1)) for joint, corner in enumerate(corners)}))
     <Configuration: <PosedLinkage: 4 links, 4 joints, 1 loops>>
     """
-    if isinstance(mechanism, str | Path):
+    if isinstance(mechanism, str | Path | nx.Graph):
         mechanism = read(mechanism)
     if isinstance(mechanism, Configuration):
         return mechanism

@@ -397,7 +397,7 @@ class JudgedMobility(MobilityAnswer):
 
 
 def mobility(
-    mechanism: Configuration | MechanismLike | nx.Graph,
+    mechanism: Configuration | MechanismLike,
     *,
     exact: bool | None = None,
     hinge_flat: bool = False,
@@ -436,7 +436,7 @@ def mobility(
     >>> answer.mobility, answer.pose.dof
     (1, 2)
     """
-    mechanism = mechanism_for("mobility", mechanism, Configuration | Mechanism | nx.Graph)
+    mechanism = mechanism_for("mobility", mechanism, Configuration | Mechanism)
     if precision is not None and isinstance(mechanism, Mechanism):
         mechanism = with_precision(mechanism, precision)
     source = _counted_from(mechanism)

@@ -29,7 +29,7 @@ from synth.folding.configuration import SheetConfiguration
 from synth.guidance.orientations import Orientations
 from synth.motion.configuration import Configuration
 
-Drawable: TypeAlias = Configuration | MechanismLike | Orientations | ChainString | OrderOnCircle | nx.Graph
+Drawable: TypeAlias = Configuration | MechanismLike | Orientations | ChainString | OrderOnCircle
 
 _SMALL = 200.0
 """Width or height, points, below which no linkage is drawn on its cone."""
