@@ -2,6 +2,7 @@
 
 from collections import Counter
 from dataclasses import dataclass
+from pathlib import Path
 from shlex import quote
 from typing import Any, TypeAlias
 
@@ -108,7 +109,7 @@ def look(mechanism: MechanismLike, *, precision: float | None = None) -> FirstLo
       synth draw k1:Cr -o picture.svg       a picture of the graph
       synth id k1:Cr                        ids, with which lists and atlases are searched
     """
-    file = "FILE" if isinstance(mechanism, Mechanism) else str(mechanism)
+    file = str(mechanism) if isinstance(mechanism, str | Path) else "FILE"
     read: Mechanism = mechanism_for("look", mechanism, Mechanism)
     answer = mobility(read, precision=precision)
     questions = tuple(_questions(read, answer))

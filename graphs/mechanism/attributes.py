@@ -31,7 +31,7 @@ from graphs.errors import InvariantError, numbered, shown
 from graphs.loops.loop import Loop
 from graphs.types import JointId, Joints, LinkId
 
-__all__ = ["JOINT", "LINK", "MECHANISM", "JointEdge", "LoopPlace", "MechanismParts"]
+__all__ = ["JOINT", "LINK", "MECHANISM", "BuiltWhole", "JointEdge", "LoopPlace", "MechanismParts"]
 __all__ += ["carries_loops", "edges_of", "parts_of", "undirected"]
 
 LINK = frozenset({"number", "ground", "sides", "outer"})
@@ -76,6 +76,41 @@ class LoopPlace(NamedTuple):
     name: str | None = None
     at: str | None = None
     closing: bool = False
+
+
+class BuiltWhole(nx.Graph):
+    """A graph of networkx that is checked and frozen when it is built, and never filled afterwards.
+
+    networkx makes an empty instance of the class of a graph and fills it, so that it passes no check. It gets a plain
+    graph instead, ``nx.Graph`` or ``nx.MultiGraph``: a call without arguments returns one, and so does `copy`.
+
+    Examples
+    --------
+    >>> from graphs.mechanism.polyhedron import PolyhedronModel
+    >>> model = PolyhedronModel(2, [(0, 1)])
+    >>> type(model.copy()) is type(PolyhedronModel()) is nx.Graph
+    True
+    """
+
+    def __new__(cls, *args: Any, **options: Any) -> Any:
+        """Return an instance, or a plain graph where networkx asks for an empty one to fill."""
+        return object.__new__(cls) if args or options else _plain(cls)()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickle and copy an instance as it is; without this, both would ask for an empty one."""
+        return object.__new__, (type(self),), self.__dict__
+
+    def copy(self, as_view: bool = False) -> nx.Graph:
+        """Return a plain, mutable graph with the same attributes, or with ``as_view`` a view.
+
+        The class, called with it, gives the same object again.
+        """
+        return super().copy(as_view=True) if as_view else _plain(type(self))(self)
+
+
+def _plain(cls: type[nx.Graph]) -> type[nx.Graph]:
+    """Return the class of networkx that a class of mechanisms is made of."""
+    return nx.MultiGraph if issubclass(cls, nx.MultiGraph) else nx.Graph
 
 
 @dataclass(slots=True)

@@ -16,6 +16,7 @@ import networkx as nx
 
 from graphs.errors import InvariantError, numbered, shown
 from graphs.limits import check_extent
+from graphs.mechanism.attributes import BuiltWhole
 
 VertexId = Hashable
 Rod = tuple[VertexId, VertexId]
@@ -67,12 +68,12 @@ class PointConstraint:
     of: tuple[VertexId, ...] | str
 
 
-class PolyhedronModel(nx.Graph):
+class PolyhedronModel(BuiltWhole, nx.Graph):
     """Vertices and rods of a mechanism, with remote centres, point constraints, scissors and a ground link.
 
     Nodes are vertices, edges are rods. The graph is frozen once built. Its terms stand in attributes, where they
     survive what networkx makes of the graph: of nodes ``number`` and ``coordinates``, of the graph ``polyhedron``,
-    which refers to vertices by their numbers. So a renamed graph or a :meth:`copy`, which are a plain ``nx.Graph``,
+    which refers to vertices by their numbers. So a renamed graph or a copy, which are a plain ``nx.Graph``,
     is read back right by ``PolyhedronModel(graph)`` and by every function that takes a mechanism.
 
     Parameters
@@ -110,10 +111,6 @@ class PolyhedronModel(nx.Graph):
     on_plane: tuple[PointConstraint, ...]
     scissors: tuple[tuple[VertexId, ...], ...]
     ground: frozenset[VertexId] | None
-
-    def __new__(cls, *args: Any, **options: Any) -> Any:
-        """Return an instance, or a plain graph where networkx asks for an empty one to fill."""
-        return object.__new__(cls) if args or options else nx.Graph()
 
     def __init__(
         self,
@@ -256,27 +253,6 @@ class PolyhedronModel(nx.Graph):
             "ground": None if self.ground is None else tuple(sorted(numbers(self.ground))),
             "links": tuple((link, numbers(around)) for link, around in self._links.items()),
         }
-
-    # ---- what networkx asks for ---------------------------------------------------------------------
-
-    def copy(self, as_view: bool = False) -> nx.Graph:
-        """Return a plain, mutable ``nx.Graph`` with the same attributes, or with ``as_view`` a view.
-
-        ``PolyhedronModel(graph)`` is the model again.
-        """
-        return super().copy(as_view=True) if as_view else nx.Graph(self)
-
-    def to_undirected_class(self) -> Any:
-        """Return the class of undirected copies: a plain graph."""
-        return nx.Graph
-
-    def to_directed_class(self) -> Any:
-        """Return the class of directed copies."""
-        return nx.DiGraph
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle and copy the instance as it is; without this, both would ask for an empty one."""
-        return object.__new__, (type(self),), self.__dict__
 
     # ---- what it is ---------------------------------------------------------------------------------
 

@@ -27,6 +27,7 @@ from graphs.mechanism.attributes import (
     JOINT,
     LINK,
     MECHANISM,
+    BuiltWhole,
     LoopPlace,
     MechanismParts,
     edges_of,
@@ -71,13 +72,13 @@ class SpecialGeometry:
         return f"{numbered(self.freedoms, 'freedom')} by special geometry: {', '.join(self.conditions)}"
 
 
-class SCGraph(nx.MultiGraph):
+class SCGraph(BuiltWhole, nx.MultiGraph):
     """A type of mechanism: a link-joint graph with independent loops, each with its centre.
 
     Nodes are links (panels), edges are revolute joints (creases), edge keys are joint ids. All that it is stands in
     attributes of its nodes and edges (:mod:`graphs.mechanism.attributes`), so whatever networkx makes of it still
     has it: a plain ``nx.MultiGraph``, which every function that takes a mechanism reads back, as ``SCGraph(graph)``
-    does. The graph is frozen once built: to change it, change a :meth:`copy`, and build a graph of that.
+    does. The graph is frozen once built: to change it, change a copy, and build a graph of that.
 
     Parameters
     ----------
@@ -108,11 +109,6 @@ class SCGraph(nx.MultiGraph):
         other, finite and infinite centres never forced to be one; of a graph of networkx also a loop that has lost
         a joint, and cycles of a graph without loops.
 
-    Notes
-    -----
-    networkx makes an empty instance of the class of a graph and fills it, which cannot become a mechanism, since it
-    does not pass through the checks. So a call without arguments gives an empty ``nx.MultiGraph``.
-
     Examples
     --------
     >>> pairs = [(0, 1), (1, 2), (2, 3), (3, 0), (3, 4), (4, 5), (5, 0)]
@@ -128,10 +124,6 @@ class SCGraph(nx.MultiGraph):
     closing: tuple[Loop, ...]
     ground: LinkId | None
     special: SpecialGeometry | None
-
-    def __new__(cls, *args: Any, **options: Any) -> Any:
-        """Return an instance, or a plain multigraph where networkx asks for an empty one to fill."""
-        return object.__new__(cls) if args or options else nx.MultiGraph()
 
     def __init__(
         self,
@@ -288,27 +280,6 @@ class SCGraph(nx.MultiGraph):
             a, b = edge.ends
             own = self._adj[a][b][edge.joint]
             own |= {key: value for key, value in edge.data.items() if key not in JOINT}
-
-    # ---- what networkx asks for ---------------------------------------------------------------------
-
-    def copy(self, as_view: bool = False) -> nx.MultiGraph:
-        """Return a plain, mutable ``nx.MultiGraph`` with the same attributes, or with ``as_view`` a view.
-
-        ``SCGraph(graph)`` is the mechanism again.
-        """
-        return super().copy(as_view=True) if as_view else nx.MultiGraph(self)
-
-    def to_undirected_class(self) -> Any:
-        """Return the class of undirected copies: a plain multigraph with the same attributes."""
-        return nx.MultiGraph
-
-    def to_directed_class(self) -> Any:
-        """Return the class of directed copies."""
-        return nx.MultiDiGraph
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        """Pickle and copy the instance as it is; without this, both would ask for an empty one."""
-        return object.__new__, (type(self),), self.__dict__
 
     # ---- what it is ---------------------------------------------------------------------------------
 

@@ -254,3 +254,52 @@ def test_polyhedron_models_survive_networkx():
         with pytest.raises(InvariantError, match=r"for a part of it try PolyhedronModel\(graph.nodes, graph.edges\)"):
             synth.mobility(model.subgraph(list(model)[:3]))
     assert PolyhedronModel(nx.cycle_graph(4)).number_of_edges() == 4
+
+
+VERBS = [
+    synth.mobility,
+    synth.look,
+    synth.identify,
+    synth.convert,
+    synth.reconstruct,
+    synth.draw,
+    synth.realise,
+    synth.realise_on_cone,
+    synth.template,
+    synth.view,
+    synth.explain,
+    synth.move,
+    synth.fold,
+    synth.layers,
+    synth.in_configuration,
+    synth.map_linkage,
+    synth.count_conical_candidates,
+    lambda mechanism: synth.edit(mechanism, lock=[0]),
+    lambda mechanism: list(synth.addenda(mechanism, -1)),
+    lambda mechanism: synth.advise(mechanism, 1),
+    lambda mechanism: synth.positions(mechanism, drive={0: 0.5}),
+    lambda mechanism: synth.types_of([mechanism]),
+    lambda mechanism: synth.reduce(mechanism, keep=[1]),
+]
+
+
+def outcome(verb, mechanism):
+    try:
+        answer = verb(mechanism)
+    except SynthedraError as error:
+        return str(error)
+    return answer.to_json() if hasattr(answer, "to_json") else repr(answer)
+
+
+@pytest.mark.parametrize("verb", VERBS, ids=lambda verb: verb.__name__)
+def test_every_verb_takes_a_plain_graph(verb):
+    """And answers as of the mechanism, or refuses it by the same words."""
+    for mechanism in (TYPES["watt"], synth.read("data/wampler/fig12-scd.json"), synth.read("data/wampler/fig1.json")):
+        assert outcome(verb, mechanism.copy()) == outcome(verb, mechanism)
+
+
+def test_a_plain_graph_is_written_as_the_mechanism(tmp_path):
+    for mechanism in (TYPES["names"], synth.read("data/wampler/fig12-scd.json"), SQUARES):
+        for graph, name in ((mechanism, "a.json"), (mechanism.copy(), "b.json")):
+            synth.write(graph, tmp_path / name, force=True)
+        assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
