@@ -1,15 +1,24 @@
 """Why a mechanism moves although counts say no. Theory: docs/theory/overconstraint.md."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import degrees, isfinite
 from typing import Any
 
+from graphs.answer.jointed import chain_with_planar_loops
 from graphs.answer.report import power_of_ten
+from graphs.count.equations import overconstraint
+from graphs.count.report import mobility_report
 from graphs.errors import check_argument, numbered, shown
+from graphs.joints.linkage import JointedLinkage
+from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.solids import HingedSolids
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.tolerances import Tolerances
 from graphs.types import JointId
 from synth.motion.configuration import Configuration
+from synth.motion.linkage import PosedLinkage, PosedLoop, linkage_of_axes
+from synth.moving.elements import serial_linkage
 from synth.moving.made import Movable, configuration_of
 from synth.overconstraint import redundancy
 from synth.overconstraint.reasons import reasons_of, turning_reasons
@@ -53,9 +62,9 @@ class Explanation(Printed):
     configuration : Configuration
         The input.
     freedoms, count : int
-        Degrees of freedom to first order, and M: joints less equations.
+        Degrees of freedom to first order, and M by the count that applies, as `synth.mobility` has it.
     idle, active : int
-        Redundant equations, h = freedoms - M, and those of them that constrain the motions at second order.
+        Redundant equations, and those of them that constrain the motions at second order.
     sets : tuple of IdleSet
     tolerances : tuple of Tolerance
         Errors of axes, least first; none where nothing is redundant, or second order decides.
@@ -73,13 +82,19 @@ class Explanation(Printed):
     smallest: float
     gap: float
 
+    @property
+    def overconstraint(self) -> int:
+        """H = freedoms - M, of first order (Wiener 2016, Eq. 8)."""
+        return overconstraint(self.freedoms, self.count)
+
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         return {
             "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
             "freedoms": self.freedoms,
             "count": self.count,
-            "h": self.idle,
+            "h": self.overconstraint,
+            "redundant": self.idle,
             "active_at_second_order": self.active,
             "sets": [loops.to_json() for loops in self.sets],
             "tolerances": [
@@ -97,7 +112,9 @@ class Explanation(Printed):
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
         freedoms = numbered(self.freedoms, "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
-        head = f"{freedoms}, M = {self.count} by count: h = {self.idle}"
+        # where second order constrains the motions the degrees of freedom are fewer, and so is h
+        over = "" if self.active else f": h = {self.overconstraint}"
+        head = f"{freedoms}, M = {self.count} by count{over}"
         evidence = f"singular-value gap {power_of_ten(self.gap)}" if isfinite(self.gap) else "no zero singular value"
         blocks: list[Block] = [f"{head}   ({evidence})"]
         if not self.idle:
@@ -138,6 +155,46 @@ class Explanation(Printed):
         return f"<Explanation: h = {self.idle}, {numbered(len(self.sets), 'set')} of loops>"
 
 
+def _count_of(graph: SCGraph) -> int:
+    mobility = mobility_report(graph).mobility
+    assert mobility is not None  # None only of a polyhedron model
+    return mobility
+
+
+@dataclass(frozen=True, slots=True)
+class _CountedLinkage:
+    """A linkage whose loops have the equations that the count has, and the joint of the file for each of its own."""
+
+    linkage: PosedLinkage
+    joint_of: Mapping[JointId, JointId]
+
+    def joints_of(self, loop: PosedLoop) -> tuple[JointId, ...]:
+        """Return the joints of the file that a loop passes, each once."""
+        names = list(self.linkage.graph.joints)
+        return tuple(dict.fromkeys(self.joint_of[names[place]] for place in loop.joints))
+
+    def tolerances(self, order: redundancy.FirstOrderClosure) -> tuple[redundancy.Tolerance, ...]:
+        """Return how far each joint of the file may err: as far as the first of its axes, least first."""
+        least: dict[JointId, redundancy.Tolerance] = {}
+        for axis in redundancy.axis_tolerances(self.linkage, order):
+            joint = self.joint_of[axis.joint]
+            known = least.get(joint, axis)
+            least[joint] = redundancy.Tolerance(joint, min(known.turn, axis.turn), min(known.shift, axis.shift))
+        return tuple(least.values())
+
+
+def _linkage_as_counted(at: Configuration) -> _CountedLinkage:
+    """Return the linkage of a configuration as `synth.mobility` counts it: loops planar here are planar loops."""
+    given = at.given
+    if isinstance(given, JointedLinkage):
+        serial = serial_linkage(given)
+        return _CountedLinkage(serial.linkage, serial.joint_of)
+    linkage = at.linkage
+    if isinstance(given, HingedSolids):
+        linkage = linkage_of_axes(chain_with_planar_loops(given), given.axes)
+    return _CountedLinkage(linkage, {joint: joint for joint in linkage.graph.joints})
+
+
 def _figure(error: float) -> str:
     return f"{error:.3g}" if isfinite(error) else "any"
 
@@ -168,16 +225,17 @@ def explain(mechanism: Movable, *, precision: float | None = None) -> Explanatio
     """
     check_argument("explain", mechanism, Movable)
     at = configuration_of(mechanism, precision=precision)
-    linkage = at.linkage
+    counted = _linkage_as_counted(at)
+    linkage = counted.linkage
     order = redundancy.first_order_closure(linkage, at.tolerances)
     meant = Tolerances.of(at.precision.size)  # mended coordinates move, but are not all that they were meant to be
-    names = list(linkage.graph.joints)
+    seen = at.given if isinstance(at.given, JointedLinkage) else None
     active = redundancy.active_at_second_order(linkage, order)
     sets = tuple(
         IdleSet(
-            tuple(tuple(names[joint] for joint in linkage.loops[loop].joints) for loop in loops),
+            tuple(counted.joints_of(linkage.loops[loop]) for loop in loops),
             number,
-            tuple(reasons_of(linkage, loops, meant) or turning_reasons(linkage, order, loops, meant)),
+            tuple(reasons_of(linkage, loops, meant) or turning_reasons(linkage, order, loops, meant, seen)),
         )
         for loops, number in redundancy.smallest_sets(linkage, order)
     )
@@ -185,11 +243,11 @@ def explain(mechanism: Movable, *, precision: float | None = None) -> Explanatio
     return Explanation(
         configuration=at,
         freedoms=freedoms,
-        count=len(names) - len(order.loop_of),
+        count=_count_of(linkage.graph),
         idle=idle,
         active=active,
         sets=sets,
-        tolerances=tuple(redundancy.axis_tolerances(linkage, order)) if idle and freedoms and not active else (),
+        tolerances=counted.tolerances(order) if idle and freedoms and not active else (),
         smallest=order.smallest,
         gap=order.gap,
     )

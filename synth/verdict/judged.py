@@ -11,7 +11,7 @@ import networkx as nx
 import numpy as np
 
 from graphs.answer.mechanisms import mobility as counted, sheet_in_frame
-from graphs.answer.report import MobilityAnswer
+from graphs.answer.report import RODS_ALONE, MobilityAnswer
 from graphs.convert.table import Mechanism
 from graphs.errors import SynthedraError, UnsolvableError
 from graphs.files.accepted import MechanismLike, mechanism_for
@@ -311,10 +311,10 @@ def verdict_of_type(answer: MobilityAnswer, left_out: str = "") -> Verdict:
         return Verdict(pose.dof, "pose", "proved", text)
     special = pose is not None and pose.self_stresses != 0  # what holds in general says nothing of this one
     end = f"; {left_out}" if left_out else ""
-    if exact is not None:
+    if exact is not None and not _is_of_rods_alone(answer):
         certainty: Certainty = "proved" if exact.mobility == answer.mobility else "numerical"
         how = "exact rank" if certainty == "proved" else "exact rank of random realisations, modulo two primes"
-        freedoms = None if special else exact.mobility
+        freedoms = None if special else max(exact.mobility, 0)
         return Verdict(freedoms, "generic", certainty, _generic(exact.mobility, how, end))
     if (member := answer.counts.get("general_member")) is not None:  # of joints of all kinds
         return Verdict(member, "generic", "numerical", _generic(member, "rank of a random realisation", end))
@@ -322,6 +322,11 @@ def verdict_of_type(answer: MobilityAnswer, left_out: str = "") -> Verdict:
         return Verdict(None, "count", "not known", f"Mobility unknown{end}.")
     freedoms = None if special else max(answer.mobility, 0)
     return Verdict(freedoms, "count", "not known", _generic(answer.mobility, "by count", end))
+
+
+def _is_of_rods_alone(answer: MobilityAnswer) -> bool:
+    """Check whether a rank is of rods to remote centres, which is not the mobility: then the count answers."""
+    return any(note.endswith(RODS_ALONE) for note in answer.warnings)
 
 
 def _generic(freedoms: int, how: str, end: str) -> str:
@@ -356,6 +361,14 @@ class JudgedMobility(MobilityAnswer):
     verdict: Verdict = field(kw_only=True)
     configuration: Configuration | None = None
     flat_folding: FlatFoldability | None = None
+
+    @property
+    def stated_overconstraint(self) -> int | None:
+        """H at this configuration; None where the verdict states that of its motion, which is another."""
+        freedoms, here = self.verdict.freedoms, self.overconstraint
+        if self.verdict.basis != "motion" or freedoms is None or self.mobility is None or freedoms <= self.mobility:
+            return here
+        return here if freedoms - self.mobility == here else None
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
