@@ -7,6 +7,7 @@ Source: Wampler, Larson, Erdman 2007, Figs. 2 to 5. Theory: docs/theory/polyhedr
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import combinations
 
 from graphs.mechanism.polyhedron import PolyhedronModel, VertexId
 
@@ -25,7 +26,9 @@ def undeclared_rods(model: PolyhedronModel) -> list[tuple[VertexId, VertexId]]:
 
 
 def rigid_sets(model: PolyhedronModel) -> list[tuple[VertexId, ...]]:
-    """Return the largest rigid sets of vertices that triangles of undeclared rods make, in the order of the vertices.
+    """Return the largest rigid sets of vertices that triangles of rods make, in the order of the vertices.
+
+    Each has a rod that lies in no declared link.
 
     Parameters
     ----------
@@ -40,13 +43,16 @@ def rigid_sets(model: PolyhedronModel) -> list[tuple[VertexId, ...]]:
     """
     place = {vertex: i for i, vertex in enumerate(model.nodes)}
     beside: dict[VertexId, set[VertexId]] = {vertex: set() for vertex in model.nodes}
-    for a, b in undeclared_rods(model):
+    undeclared = set(map(frozenset, undeclared_rods(model)))
+    for a, b in model.edges:
         beside[a].add(b)
         beside[b].add(a)
     grown: list[set[VertexId]] = []
     of_vertex: dict[VertexId, list[int]] = {vertex: [] for vertex in model.nodes}
     for triangle in _triangles(beside, place):
         if any(triangle <= grown[number] for number in of_vertex[next(iter(triangle))]):
+            continue
+        if not any(frozenset(rod) in undeclared for rod in combinations(triangle, 2)):
             continue
         _grow(triangle, beside)
         _absorb(triangle, grown, of_vertex, beside)

@@ -7,7 +7,7 @@ Erdman 2007, Eqs. 5 to 10; Wiener 2016, section 2.3.3. Theory: docs/theory/polyh
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 from types import MappingProxyType
 from typing import Any
@@ -35,6 +35,11 @@ class RemoteCentre:
     rods : tuple of (vertex, vertex), optional
         The rods whose lines pass through the centre.
     name : str, optional
+        Of the loop.
+    at : str, optional
+        Of the centre, where loops share it although nothing forces them to.
+    infinite : bool, optional
+        Whether the centre is at infinity: the lines are parallel.
 
     Examples
     --------
@@ -45,6 +50,8 @@ class RemoteCentre:
     k: int
     rods: tuple[Rod, ...] = ()
     name: str | None = None
+    at: str | None = None
+    infinite: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +96,9 @@ class PolyhedronModel(nx.Graph):
         bodies are free and six freedoms are taken off (Eq. 9).
     links : mapping of link to its vertices in cyclic order, optional
         Which vertices make up which link, where that is known.
+    outer : tuple of vertex ids, optional
+        The outer face of the SCD graph, where its open edges do not show it: the ends of one of them, or the vertex
+        that it is.
 
     Raises
     ------
@@ -106,6 +116,7 @@ class PolyhedronModel(nx.Graph):
     on_plane: tuple[PointConstraint, ...]
     scissors: tuple[tuple[VertexId, ...], ...]
     ground: frozenset[VertexId] | None
+    outer: tuple[VertexId, ...] | None
 
     def __init__(
         self,
@@ -119,9 +130,11 @@ class PolyhedronModel(nx.Graph):
         scissors: Iterable[Sequence[VertexId]] = (),
         ground: Iterable[VertexId] | None = None,
         links: Mapping[Any, Sequence[VertexId]] | None = None,
+        outer: Sequence[VertexId] | None = None,
     ) -> None:
         super().__init__()
         self.centres, self.on_line, self.on_plane, self.scissors, self.ground = (), (), (), (), None
+        self.outer = None
         self._coordinates: dict[VertexId, tuple[float, float, float]] = {}
         self._links: dict[Hashable, tuple[VertexId, ...]] = {}
         if vertices is None:
@@ -136,6 +149,7 @@ class PolyhedronModel(nx.Graph):
         self.scissors = tuple(self._checked_scissors(four) for four in scissors)
         for link, around in (links or {}).items():
             self._links[link] = self._checked_link(link, around)
+        self.outer = None if outer is None else self._checked_outer(outer)
         nx.freeze(self)
 
     def __repr__(self) -> str:
@@ -221,6 +235,14 @@ class PolyhedronModel(nx.Graph):
             raise InvariantError("links", f"link {shown(link)} names a vertex twice", "once")
         return vertices
 
+    def _checked_outer(self, outer: Sequence[VertexId]) -> tuple[VertexId, ...]:
+        vertices = self._known(outer, "the outer face")
+        if not 1 <= len(set(vertices)) == len(vertices) <= 2:
+            raise InvariantError(
+                "outer face", f"the outer face is {shown(list(vertices))}", "the ends of an open edge, or a vertex"
+            )
+        return vertices
+
     # ---- what networkx asks for ---------------------------------------------------------------------
 
     def copy(self, as_view: bool = False) -> nx.Graph:
@@ -272,12 +294,13 @@ class PolyhedronModel(nx.Graph):
             map(named, self.nodes),
             [(named(a), named(b)) for a, b in self.edges],
             coordinates={named(v): place for v, place in self._coordinates.items()},
-            centres=[RemoteCentre(c.k, tuple((named(a), named(b)) for a, b in c.rods), c.name) for c in self.centres],
+            centres=[replace(c, rods=tuple((named(a), named(b)) for a, b in c.rods)) for c in self.centres],
             on_line=map(moved, self.on_line),
             on_plane=map(moved, self.on_plane),
             scissors=[tuple(map(named, four)) for four in self.scissors],
             ground=None if self.ground is None else map(named, self.ground),
             links={link: tuple(map(named, around)) for link, around in self._links.items()},
+            outer=None if self.outer is None else tuple(map(named, self.outer)),
         )
 
     def is_identical(self, other: object) -> bool:
@@ -286,9 +309,13 @@ class PolyhedronModel(nx.Graph):
 
     def _identity(self) -> tuple[Any, ...]:
         rods = {frozenset(rod) for rod in self.edges}
-        centres = sorted((c.k, str(c.name), sorted(sorted(map(str, rod)) for rod in c.rods)) for c in self.centres)
+        centres = sorted(
+            (c.k, str(c.name), str(c.at), c.infinite, sorted(sorted(map(str, rod)) for rod in c.rods))
+            for c in self.centres
+        )
         constraints = (set(self.on_line), set(self.on_plane), set(self.scissors))
-        return set(self.nodes), rods, centres, constraints, self.ground, self._coordinates, self._links
+        outer = None if self.outer is None else frozenset(self.outer)
+        return set(self.nodes), rods, centres, constraints, self.ground, self._coordinates, self._links, outer
 
     def __str__(self) -> str:
         return f"PolyhedronModel with {len(self)} vertices and {self.number_of_edges()} rods"
