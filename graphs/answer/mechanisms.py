@@ -12,6 +12,7 @@ import networkx as nx
 import numpy as np
 
 from graphs.answer.jointed import chain_with_planar_loops, mobility_of_jointed
+from graphs.answer.remote import notes_on_centres
 from graphs.answer.report import CENTRES_ASSUMED, RODS_ALONE, MobilityAnswer, notes_of_pose
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.convert.table import Mechanism, graph_of
@@ -192,6 +193,7 @@ def mobility(
         answer = MobilityAnswer.of(mobility_report(mechanism))
         if exact is not False:
             answer = with_exact(answer, mechanism, demanded=demanded)
+        answer = answer.with_notes(warnings=notes_on_centres(mechanism))
         return answer if pose is False else model_with_pose(answer, mechanism)
     if isinstance(mechanism, JointedLinkage):
         answer = mobility_of_jointed(mechanism)
