@@ -1,26 +1,23 @@
 """Why a mechanism moves although counts say no. Theory: docs/theory/overconstraint.md."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from math import degrees, isfinite
 from typing import Any
 
-from graphs.answer.jointed import chain_with_planar_loops
 from graphs.answer.report import power_of_ten
 from graphs.count.equations import overconstraint
 from graphs.count.report import mobility_report
 from graphs.errors import check_argument, numbered, shown
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.sc import SCGraph
-from graphs.mechanism.solids import HingedSolids
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.tolerances import Tolerances
 from graphs.types import JointId
 from synth.motion.configuration import Configuration
-from synth.motion.linkage import PosedLinkage, PosedLoop, linkage_of_axes
-from synth.moving.elements import serial_linkage
 from synth.moving.made import Movable, configuration_of
 from synth.overconstraint import redundancy
+from synth.overconstraint.counted import linkage_as_counted
+from synth.overconstraint.herve import HerveClass, herve_class
 from synth.overconstraint.reasons import reasons_of, turning_reasons
 
 _LISTED = 12
@@ -70,6 +67,8 @@ class Explanation(Printed):
         Errors of axes, least first; none where nothing is redundant, or second order decides.
     smallest, gap : float
         The smallest singular value that counts, and its ratio to the largest that does not.
+    herve : HerveClass or None
+        Whether it is trivial, exceptional or paradoxical; None where nothing moves, and where that was not told.
     """
 
     configuration: Configuration
@@ -81,6 +80,7 @@ class Explanation(Printed):
     tolerances: tuple[redundancy.Tolerance, ...]
     smallest: float
     gap: float
+    herve: HerveClass | None = None
 
     @property
     def overconstraint(self) -> int:
@@ -95,6 +95,7 @@ class Explanation(Printed):
             "count": self.count,
             "h": self.overconstraint,
             "redundant": self.idle,
+            "herve": None if self.herve is None else self.herve.to_json(),
             "active_at_second_order": self.active,
             "sets": [loops.to_json() for loops in self.sets],
             "tolerances": [
@@ -116,7 +117,7 @@ class Explanation(Printed):
         over = "" if self.active else f": h = {self.overconstraint}"
         head = f"{freedoms}, M = {self.count} by count{over}"
         evidence = f"singular-value gap {power_of_ten(self.gap)}" if isfinite(self.gap) else "no zero singular value"
-        blocks: list[Block] = [f"{head}   ({evidence})"]
+        blocks: list[Block] = [f"{head}   ({evidence})", *([str(self.herve)] if self.herve else [])]
         if not self.idle:
             general = "no closure equation is redundant: a generic realisation has these degrees of freedom too"
             return [*blocks, general]
@@ -161,40 +162,6 @@ def _count_of(graph: SCGraph) -> int:
     return mobility
 
 
-@dataclass(frozen=True, slots=True)
-class _CountedLinkage:
-    """A linkage whose loops have the equations that the count has, and the joint of the file for each of its own."""
-
-    linkage: PosedLinkage
-    joint_of: Mapping[JointId, JointId]
-
-    def joints_of(self, loop: PosedLoop) -> tuple[JointId, ...]:
-        """Return the joints of the file that a loop passes, each once."""
-        names = list(self.linkage.graph.joints)
-        return tuple(dict.fromkeys(self.joint_of[names[place]] for place in loop.joints))
-
-    def tolerances(self, order: redundancy.FirstOrderClosure) -> tuple[redundancy.Tolerance, ...]:
-        """Return how far each joint of the file may err: as far as the first of its axes, least first."""
-        least: dict[JointId, redundancy.Tolerance] = {}
-        for axis in redundancy.axis_tolerances(self.linkage, order):
-            joint = self.joint_of[axis.joint]
-            known = least.get(joint, axis)
-            least[joint] = redundancy.Tolerance(joint, min(known.turn, axis.turn), min(known.shift, axis.shift))
-        return tuple(least.values())
-
-
-def _linkage_as_counted(at: Configuration) -> _CountedLinkage:
-    """Return the linkage of a configuration as `synth.mobility` counts it: loops planar here are planar loops."""
-    given = at.given
-    if isinstance(given, JointedLinkage):
-        serial = serial_linkage(given)
-        return _CountedLinkage(serial.linkage, serial.joint_of)
-    linkage = at.linkage
-    if isinstance(given, HingedSolids):
-        linkage = linkage_of_axes(chain_with_planar_loops(given), given.axes)
-    return _CountedLinkage(linkage, {joint: joint for joint in linkage.graph.joints})
-
-
 def _figure(error: float) -> str:
     return f"{error:.3g}" if isfinite(error) else "any"
 
@@ -225,7 +192,7 @@ def explain(mechanism: Movable, *, precision: float | None = None) -> Explanatio
     """
     check_argument("explain", mechanism, Movable)
     at = configuration_of(mechanism, precision=precision)
-    counted = _linkage_as_counted(at)
+    counted = linkage_as_counted(at)
     linkage = counted.linkage
     order = redundancy.first_order_closure(linkage, at.tolerances)
     meant = Tolerances.of(at.precision.size)  # mended coordinates move, but are not all that they were meant to be
@@ -250,4 +217,5 @@ def explain(mechanism: Movable, *, precision: float | None = None) -> Explanatio
         tolerances=counted.tolerances(order) if idle and freedoms and not active else (),
         smallest=order.smallest,
         gap=order.gap,
+        herve=herve_class(at),
     )

@@ -30,6 +30,7 @@ from synth.motion.marked import Marked
 from synth.motion.singular.sampling import closes_along_general_rates, walked
 from synth.motion.walk.events import number_of_free_rates
 from synth.moving.made import configuration_of, with_precision
+from synth.overconstraint.herve import HerveClass, herve_class
 from synth.verdict.verdict import (
     AsWritten,
     Basis,
@@ -370,8 +371,17 @@ class JudgedMobility(MobilityAnswer):
             return here
         return here if freedoms - self.mobility == here else None
 
+    @property
+    def herve(self) -> HerveClass | None:
+        """Hervé's class of the motion that the verdict states; None if there is none, or it was not told."""
+        if self.configuration is None or not self.verdict.freedoms:
+            return None
+        told = herve_class(self.configuration)
+        return told if told is not None and told.freedoms == self.verdict.freedoms else None
+
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
+        herve = self.herve
         at, mended = self.configuration, {"mended": list(self.mended)}
         first = {
             "verdict": self.verdict.to_json(),
@@ -379,7 +389,8 @@ class JudgedMobility(MobilityAnswer):
             "assignment": None if at is None else at.nearest_to_json(),
             "flat_folding": None if self.flat_folding is None else self.flat_folding.to_json(),
         }
-        return {**first, **super(JudgedMobility, self).to_json(), **mended}
+        last = {**mended, "herve": None if herve is None else herve.to_json()}
+        return {**first, **super(JudgedMobility, self).to_json(), **last}
 
     def _precision(self) -> list[Block]:
         """Return the line on the precision of coordinates that are not exact, or are so by their digits alone."""
@@ -403,7 +414,9 @@ class JudgedMobility(MobilityAnswer):
         if self.flat_folding is not None:
             lines.append(str(self.flat_folding))
         repaired: list[Block] = [f"repaired: {note}" for note in self.mended]
-        return [*self.unread(), *lines, *self.evidence(verbose=verbose), *self._precision(), *repaired]
+        herve = self.herve
+        told: list[Block] = [] if herve is None else [str(herve)]
+        return [*self.unread(), *lines, *self.evidence(verbose=verbose), *told, *self._precision(), *repaired]
 
     def __repr__(self) -> str:
         return f"<JudgedMobility: {self.verdict.summary}>"

@@ -259,6 +259,55 @@ ROWS = [
         remark="axes parallel in each leg; in the joints of the file",
     ),
     Row(
+        "Fig. 2, Eq. 5",
+        "degrees of freedom of a rod by itself, by count, and with one link fixed",
+        "synth.mobility('data/wampler/fig2.json')",
+        "[answer.mobility, answer.verdict.freedoms]",
+        right=[-1, 0],
+        words="5 freedoms, not 6",
+        golden="004/rigid_bodies",
+        remark="never a negative number of degrees of freedom",
+    ),
+    Row(
+        "Fig. 9",
+        "links that the rods alone show: four triangles",
+        "synth.read('data/wampler/fig9.json')",
+        "[len(graphs.convert.models.scd_of_model(answer)), "
+        "len(graphs.mechanism.bodies.rigid_sets(graphs.mechanism.polyhedron.PolyhedronModel(answer.nodes, answer.edges)))]",
+        right=[4, 4],
+    ),
+    Row(
+        "Fig. 12",
+        "degrees of freedom of its rods alone, its links not named: first line, count, rank",
+        "(lambda m: synth.mobility(graphs.mechanism.polyhedron.PolyhedronModel(m.nodes, m.edges, centres=m.centres)))"
+        "(synth.read('data/wampler/fig12.json'))",
+        "[answer.verdict.freedoms, answer.mobility, answer.exact.mobility]",
+        right=[1, 1, 1],
+        words="true change -2, so 1 is left",
+        golden="004/fig12_remote",
+        remark="tetrahedra of rods are bodies, whose four coplanar vertices have no freedom of their own (004-5)",
+    ),
+    Row(
+        "Fig. 14b",
+        "arms a, b and a', b' of two scissors that share two ends, from coordinates",
+        "graphs.mechanism.polyhedron.PolyhedronModel(6, coordinates={0: (0, 2, 0), 1: (0, 0, 0), 2: (3, 2.5, 0), "
+        "3: (3, -0.5, 0), 4: (6, 2, 0), 5: (6, 0, 0)}, scissors=[(0, 1, 2, 3), (2, 3, 4, 5)])",
+        "(lambda pair: [bool(np.allclose(*pair.arms)), bool(np.allclose(*pair.ratios))])"
+        "(graphs.answer.remote.scissors_pairs(answer)[0])",
+        right=[True, True],
+        words="identical, or asymmetric and mirrored: S+4",
+        remark="the declared k is confirmed or refused with these numbers",
+    ),
+    Row(
+        "Collapsible cube",
+        "h by the motion, degrees of freedom and M",
+        "synth mobility cube.json --json",
+        "[answer[0]['verdict']['freedoms'] - answer[0]['mobility'], answer[0]['verdict']['freedoms'], answer[0]['mobility']]",
+        right=[19, 1, -18],
+        first=("synth generate scissor-cube -o cube.json --force",),
+        remark="at every configuration 21 closure equations are redundant to first order",
+    ),
+    Row(
         "Fig. 16b",
         "Eq. 1 of it",
         "synth mobility tsai.json --json",
