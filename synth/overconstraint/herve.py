@@ -29,8 +29,6 @@ MOST_AXES = 100
 """Axes of the largest linkage whose class is told: relations are looked for among all pairs of a loop."""
 _MEMBERS = 3
 """Random linkages of which the one with the fewest degrees of freedom counts."""
-_NEAR = 1e-7
-"""Radians, and parts of the extent, by which axes that a motion was traced to miss a relation, at most."""
 _SPACE = 6
 _STEP = 0.1
 """Radians of the joint that moves most, aside on a branch."""
@@ -152,7 +150,7 @@ def _on_branch(at: Configuration) -> tuple[PosedLinkage, float] | None:
         return None
     if isinstance(at.given, JointedLinkage):  # slides take the place of linkages of Sarrus
         at = Configuration(linkage_as_counted(at).linkage, at.precision, at.exact)
-    near = max(_NEAR, Tolerances.of(at.precision.size).parallel)
+    near = max(DOUBLE.zero_rate, Tolerances.of(at.precision.size).parallel)
     branch = at.branch(at.chosen)
     if branch is None:
         return at.linkage, near
@@ -301,8 +299,8 @@ class _Relations:
                 through.setdefault(joint, []).append(which)
         if not _settle(through, [root.count(one) == 1 for one in root], centres, directions, random):
             return None
-        for joint, here in through.items():
-            points[joint] = centres[here[0]]
+        for joint, its in through.items():
+            points[joint] = centres[its[0]]
         for slide, axis in self._across:
             if root.count(root[slide]) == 1:
                 directions[slide] = unit(np.cross(directions[axis], directions[slide]))

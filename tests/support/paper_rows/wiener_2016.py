@@ -274,7 +274,7 @@ ROWS = [
     Row(
         "Table 6",
         "class, centres, M by Eq. 1 of Watt's six-bar on a cone, all of whose axes pass through the apex",
-        "synth.mobility(graphs.mechanism.surfaces.SurfaceLinkage.placed(synth.read('data/wiener/watt.json').sc_graph(), "
+        "synth.mobility(graphs.mechanism.surfaces.SurfaceLinkage.placed(synth.read('data/wiener/watt.json'), "
         "np.radians([0, 40, 110, 200, 250, 300, 340])))",
         "[answer.mechanism_class, answer.centres, answer.equations['traditional_cgk'].applies, "
         "answer.equations['traditional_cgk'].value]",
