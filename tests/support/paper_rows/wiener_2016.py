@@ -284,7 +284,7 @@ ROWS = [
     Row(
         "Section 3.4.4",
         "polyhedron models of Table 3, rows 3 and 4, with an implicit centre, as SCD graphs again",
-        "[synth.read(f'data/wiener/table3-row{row}.json') for row in (3, 4)]",
+        "[synth.read(name) for name in ('data/wiener/table3-row3.json', 'data/wiener/table3-row4.json')]",
         "[str(synth.identify(synth.convert(synth.convert(one, 'polyhedron'), 'scd'))) == str(synth.identify(one)) "
         "for one in answer]",
         right=[True, True],
