@@ -7,7 +7,7 @@ from enumerate.strings.panel_strings import (
     count_strings as count_strings,
     strings as strings,
 )
-from graphs.answer.conversion import convert as convert, reconstruct as reconstruct
+from graphs.answer.conversion import reconstruct as reconstruct
 from graphs.answer.identity import TypeClasses as TypeClasses, identify as identify, types_of as types_of
 from graphs.convert.table import Mechanism as Mechanism
 from graphs.errors import (
@@ -38,6 +38,7 @@ from synth.candidates.listing import (
 )
 from synth.compliance.compliance_states import DrivenJoint as DrivenJoint, states as states
 from synth.compliance.springs import Mass as Mass, Masses as Masses, SpringArrays as SpringArrays, Springs as Springs
+from synth.conversion import convert as convert
 from synth.designing.cone_design import design_on_cone as design_on_cone
 from synth.designing.designs import design as design
 from synth.drawing.mechanisms.pictures import draw as draw

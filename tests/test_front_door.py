@@ -258,9 +258,9 @@ def test_a_file_named_as_an_id_is_written_with_its_folder(tmp_path, monkeypatch)
 
 
 def test_id_of_what_has_none(data):
-    told = json.loads(run("id", "--json", data / "wampler" / "fig9.json").stdout)
+    told = json.loads(run("id", "--json", data / "wampler" / "scissors.json").stdout)
     assert told == {"chain": None, "drawing": None}
-    assert "does not say which vertices make up a link" in run("id", data / "wampler" / "fig9.json").stdout
+    assert "has more than panels" in run("id", data / "wampler" / "scissors.json").stdout
 
 
 def test_errors_are_of_the_families_that_python_has():

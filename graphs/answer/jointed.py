@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 
 from graphs.answer.report import MobilityAnswer, notes_of_pose
-from graphs.count.equations import loop_form, traditional_cgk
+from graphs.count.equations import loop_form, modified_cgk, traditional_cgk
 from graphs.count.report import EquationResult, MobilityReport, mobility_report
 from graphs.errors import numbered, shown
 from graphs.geometry import frame_about, unit
@@ -57,16 +57,21 @@ def _by_wiener(linkage: JointedLinkage, report: MobilityReport, freedoms: list[i
     chain = linkage.chain
     links = len(chain) - chain.components + 1
     bare = report.equations
-    space = 6 if report.mechanism_class == "spatial" else 3
+    space = _SPATIAL if report.mechanism_class == "spatial" else 3
     first = bare["traditional_cgk"]
     if first.applies:
         why = f"Eq. 1 with constraint space {space} for all loops, and the degrees of freedom of each joint"
         first = EquationResult(traditional_cgk(links, freedoms, space), True, why)
     elif first.value is not None:
         first = replace(first, value=traditional_cgk(links, freedoms, space))
+    second = bare["modified_cgk"]
+    if second.value is not None:
+        second = replace(second, value=modified_cgk(links, len(chain.joints), space, sum(freedoms)))
+    if second.applies:
+        why = f"Eq. 2 with constraint space {space} for each loop, and the degrees of freedom of each joint"
+        second = replace(second, why=f"{why}; in space it overrides Eq. 1" if space == _SPATIAL else why)
     many = EquationResult(None, False, "for joints with one degree of freedom; these have more")
-    single = all(freedom == 1 for freedom in freedoms)
-    second, third = (bare[name] if single else many for name in ("modified_cgk", "spherical_system"))
+    third = bare["spherical_system"] if all(freedom == 1 for freedom in freedoms) else many
     fourth = EquationResult(None, False, "Eq. 4 is for revolute joints")
     return {"traditional_cgk": first, "modified_cgk": second, "spherical_system": third, "polyhedron": fourth}
 
@@ -85,6 +90,7 @@ def _wampler(linkage: JointedLinkage) -> dict[str, EquationResult]:
 
 
 _FEW = 3
+_SPATIAL = 6
 _ROD = 2
 """Joints of a rod between balls."""
 

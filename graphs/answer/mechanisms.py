@@ -12,19 +12,22 @@ import networkx as nx
 import numpy as np
 
 from graphs.answer.jointed import chain_with_planar_loops, mobility_of_jointed
-from graphs.answer.report import CENTRES_ASSUMED, MobilityAnswer, notes_of_pose
+from graphs.answer.remote import notes_on_centres
+from graphs.answer.report import CENTRES_ASSUMED, RODS_ALONE, MobilityAnswer, notes_of_pose
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.convert.table import Mechanism, graph_of
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, numbered, shown
 from graphs.joints.linkage import JointedLinkage
+from graphs.loops.loop import Centre, Loop
+from graphs.mechanism.bodies import rigid_sets, undeclared_rods
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import Precision, extent_of, precision_of
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import Cone, Cylinder, SurfaceLinkage
-from graphs.rank.exact import ExactMobility, diagnose, exact_mobility
+from graphs.rank.exact import ExactMobility, diagnose, exact_mobility, independent_cycles
 from graphs.rank.pose import PoseMobility, pose_mobility, pose_mobility_of_axes, pose_mobility_of_model
 from graphs.rank.rods import exact_mobility_of_model
 from graphs.tolerances import DOUBLE
@@ -34,6 +37,8 @@ MOST_JOINTS = 2000
 
 _DIAGNOSED_UNASKED, _MOST_DIAGNOSED = 400, 20_000
 """Of larger mechanisms it is found on request only why the count differs, and never: seconds, a quarter of a minute."""
+_ENDS = 2
+"""Vertices of a rod."""
 _LISTED = 12
 """Joints that are named, at most."""
 
@@ -62,10 +67,24 @@ def with_exact(
     return answer.with_notes(warnings=[_why_it_differs(answer, mechanism, exact.mobility, demanded)])
 
 
+def is_ranked_by_bodies(model: PolyhedronModel) -> bool:
+    """Return whether the exact rank is that of bodies: without remote centres, or if every rod lies in a body.
+
+    Rods that pass through a remote centre lie in one plane with their neighbours, which they may leave to first
+    order; bodies may not.
+    """
+    if not model.centres:
+        return True
+    bodies = [frozenset(body) for body in rigid_sets(model)]
+    return all(any(a in body and b in body for body in bodies) for a, b in undeclared_rods(model))
+
+
 def _why_it_differs(answer: MobilityAnswer, mechanism: SCGraph | PolyhedronModel, exact: int, demanded: bool) -> str:
     text = f"the exact generic mobility is {exact}, by count {answer.mobility}"
     if isinstance(mechanism, PolyhedronModel):
-        return text
+        if len(mechanism) <= _ENDS and mechanism.ground is None:
+            return f"{text}: a rod by itself has 5 degrees of freedom, which the count takes for 6"
+        return f"{text}{'' if is_ranked_by_bodies(mechanism) else RODS_ALONE}"
     if len(mechanism.joints) > _MOST_DIAGNOSED:
         return f"{text}; where equations are redundant is not looked for among more than {_MOST_DIAGNOSED} joints"
     if len(mechanism.joints) > _DIAGNOSED_UNASKED and not demanded:
@@ -174,6 +193,7 @@ def mobility(
         answer = MobilityAnswer.of(mobility_report(mechanism))
         if exact is not False:
             answer = with_exact(answer, mechanism, demanded=demanded)
+        answer = answer.with_notes(warnings=notes_on_centres(mechanism))
         return answer if pose is False else model_with_pose(answer, mechanism)
     if isinstance(mechanism, JointedLinkage):
         answer = mobility_of_jointed(mechanism)
@@ -181,10 +201,10 @@ def mobility(
             why = "revolute joints that replace others share points and directions, generic ones do not"
             answer = answer.with_notes(warnings=[f"no exact rank: {why}"])
         return replace(answer, pose=None) if pose is False else answer
-    sc = chain_with_planar_loops(mechanism) if isinstance(mechanism, HingedSolids) else graph_of(mechanism)
+    sc = _counted_graph(mechanism)
     answer = MobilityAnswer.of(mobility_report(sc))
     planar = len(sc.centred_loops) - len(graph_of(mechanism).centred_loops)
-    if planar:
+    if planar and isinstance(mechanism, HingedSolids):
         counted = numbered(planar, "loop whose axes are parallel counts", "loops whose axes are parallel count")
         answer = answer.with_notes(warnings=[f"{counted} as planar"])
     if isinstance(mechanism, HingedSolids):
@@ -201,6 +221,24 @@ def mobility(
         here = pose_mobility_of_axes(mechanism.chain, mechanism.axes)
         return replace(answer, pose=here).with_notes(warnings=notes_of_pose(here))
     return answer
+
+
+def _counted_graph(mechanism: Mechanism | nx.Graph) -> SCGraph:
+    """Return the SC graph of a mechanism with the centres that its axes have for certain."""
+    if isinstance(mechanism, HingedSolids):
+        return chain_with_planar_loops(mechanism)
+    return _on_one_centre(mechanism) if isinstance(mechanism, SurfaceLinkage) else graph_of(mechanism)
+
+
+def _on_one_centre(linkage: SurfaceLinkage) -> SCGraph:
+    """Return the chain of a linkage on a surface: all its axes pass through the apex, of a cylinder at infinity."""
+    chain = linkage.chain
+    centre = Centre.INFINITE if linkage.kind == "cylinder" else Centre.FINITE
+    cycles = independent_cycles(chain)
+    if all(loop.centre is centre for loop in cycles) and len(chain.centre_classes()) == 1 and not chain.closing:
+        return chain
+    name = "apex" if centre is Centre.FINITE else "the direction of all axes"
+    return chain.with_loops([Loop(loop.joints, centre, loop.name, name) for loop in cycles])
 
 
 def _conformed(answer: MobilityAnswer, linkage: SurfaceLinkage) -> MobilityAnswer:

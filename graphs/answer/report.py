@@ -55,6 +55,8 @@ CENTRES_ASSUMED = (
     "a link-joint graph without centres: each face of a drawing is assumed to have a finite one, which decides M"
 )
 """The note on a link-joint graph that was read without centres."""
+RODS_ALONE = "; the rank of rods is not the mobility where remote centres are declared, since rods in a plane leave it"
+"""The end of the note on an exact rank that the count answers for."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -94,6 +96,11 @@ class MobilityAnswer(MobilityReport, Printed):
         if self.pose is None or self.pose.dof is None or self.mobility is None:
             return None
         return overconstraint(self.pose.dof, self.mobility)
+
+    @property
+    def stated_overconstraint(self) -> int | None:
+        """The h that is printed with the degrees of freedom at the configuration; None if another is stated."""
+        return self.overconstraint
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
@@ -162,7 +169,7 @@ def _pose_line(answer: MobilityAnswer) -> str:
     gap = pose.to_json()["gap"]
     evidence = "no zero singular value" if gap is None else f"singular-value gap {power_of_ten(gap)}"
     state = "flat state: fewer once folded; " if _is_only_flat(answer) else ""
-    over = "" if answer.overconstraint is None else f"h = {answer.overconstraint}, "
+    over = "" if answer.stated_overconstraint is None else f"h = {answer.stated_overconstraint}, "
     freedoms = numbered(pose.dof, "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
     return f"at this configuration: {freedoms}   ({state}{over}{evidence})"
 

@@ -16,7 +16,7 @@ from graphs.convert.cycles import loops_with_centres
 from graphs.errors import InvariantError, shown
 from graphs.geometry import area_vector
 from graphs.loops.loop import Centre, Loop
-from graphs.mechanism.drawing import FaceKind, face_cycles, trace_faces
+from graphs.mechanism.drawing import Face, FaceKind, face_cycles, trace_faces
 from graphs.mechanism.polyhedron import PolyhedronModel, RemoteCentre
 from graphs.mechanism.precision import in_space
 from graphs.mechanism.scd import SCDGraph
@@ -27,13 +27,16 @@ Panel = tuple[Any, ...]
 
 Remote = Callable[[Mapping[JointId, tuple[Any, ...]], Sequence[tuple[JointId, ...]]], Sequence[Loop]]
 """Returns the loops round holes that have a centre."""
+Implicit = Callable[[Mapping[frozenset[Any], JointId]], Sequence[Loop]]
+"""Returns loops that have a centre which the links leave open."""
 
 
 def scd_from_panels(
     panels: Mapping[Any, Sequence[Any]] | Sequence[Sequence[Any]],
     *,
-    outer: tuple[Hashable, Hashable] | None = None,
+    outer: Sequence[Hashable] | None = None,
     remote: Remote | None = None,
+    implicit: Implicit | None = None,
 ) -> SCDGraph:
     """Return the SCD graph of panels, each a row of vertices; joint ids are indices, in the order of the panels.
 
@@ -41,12 +44,14 @@ def scd_from_panels(
     ----------
     panels : mapping of link to vertices, or sequence of vertex sequences
         The vertices of each panel in cyclic order, either way round. Links are indices where not named.
-    outer : (vertex, vertex), optional
-        A side on the outer boundary. Without it the boundary with the most open edges is the outer one; on a
-        closed surface the last interior vertex is the closing loop.
+    outer : (vertex, vertex) or (vertex,), optional
+        A side on the outer boundary, or the interior vertex that is the closing loop. Without it the boundary with
+        the most open edges is the outer one; on a closed surface it is the last interior vertex.
     remote : callable, optional
         Called with the ends of the joints and the cycles of joints round holes with an open edge in every corner;
         returns those that have a centre, as loops. Without it loops round holes are spatial.
+    implicit : callable, optional
+        Called with the joint at each pair of vertices; returns loops known to have a centre, which are not outer.
 
     Raises
     ------
@@ -71,15 +76,10 @@ def scd_from_panels(
         link: tuple(joint_at.get(frozenset(side)) for side in sides_of_face(vertices))
         for link, vertices in around.items()
     }
-    open_sides = (
-        (link, i)
-        for link, vertices in (around if outer else {}).items()
-        for i, side in enumerate(sides_of_face(vertices))
-        if set(side) == set(outer or ()) and rotation[link][i] is None
-    )
     ends = {joint: tuple(side) for side, joint in joint_at.items()}
     centred = None if remote is None else partial(remote, ends)
-    return _with_faces(around, joints, rotation, next(open_sides, None), centred)
+    known = [] if implicit is None else list(implicit(joint_at))
+    return _with_faces(around, joints, rotation, outer, centred, known)
 
 
 def oriented_panels(panels: Mapping[Any, Panel]) -> dict[LinkId, Panel]:
@@ -143,20 +143,22 @@ def _with_faces(
     around: Mapping[LinkId, Panel],
     joints: dict[JointId, tuple[LinkId, LinkId]],
     rotation: dict[LinkId, tuple[JointId | None, ...]],
-    outer_side: tuple[LinkId, int] | None,
+    outer_at: Sequence[Hashable] | None,
     remote: Callable[[list[tuple[JointId, ...]]], Sequence[Loop]] | None,
+    implicit: Sequence[Loop],
 ) -> SCDGraph:
     """Choose the outer face, not that round a panel without joints, and give every interior vertex its loop."""
     if not joints:
         return SCDGraph(around, joints, (), rotation=rotation)
     faces, left_of = trace_faces(joints, rotation)
     joined = [face for face in faces if face.corners[0].leaving is not None]
-    outer = max(joined, key=lambda face: face.open_edges).index
-    if outer_side is not None and any(joint is not None for joint in rotation[outer_side[0]]):
-        outer = _face_of_side(rotation, left_of, *outer_side)
+    centred = {frozenset(loop.joints) for loop in implicit}
+    outer = max(joined, key=lambda face: (frozenset(face.joints) not in centred, face.open_edges)).index
+    if (stated := _stated_outer(around, rotation, faces, left_of, outer_at or ())) is not None:
+        outer = stated
     elif not faces[outer].open_edges:
         outer = joined[-1].index  # a closed surface
-    loops: list[Loop] = []
+    loops: list[Loop] = list(implicit)
     closing: list[Loop] = []
     holes: list[tuple[JointId, ...]] = []
     for face in faces:
@@ -171,6 +173,29 @@ def _with_faces(
     assert corner.leaving is not None
     side = "left" if joints[corner.leaving][0] == corner.link else "right"
     return SCDGraph(around, joints, loops, rotation=rotation, outer=(corner.leaving, side), closing=closing)
+
+
+def _stated_outer(
+    around: Mapping[LinkId, Panel],
+    rotation: Mapping[LinkId, Sequence[JointId | None]],
+    faces: Sequence[Face],
+    left_of: Mapping[tuple[JointId, LinkId], int],
+    outer_at: Sequence[Hashable],
+) -> int | None:
+    """Return the face at an open side, or the one that is a vertex; None if there is none at these vertices."""
+    stated = set(outer_at)
+    if len(stated) == 1:
+        for face in faces:
+            first = face.corners[0]
+            sides = sides_of_face(around[first.link])
+            if not face.open_edges and set(sides[first.first_side]) & set(sides[first.last_side]) == stated:
+                return face.index
+        return None
+    for link, vertices in (around if stated else {}).items():
+        for i, side in enumerate(sides_of_face(vertices)):
+            if set(side) == stated and rotation[link][i] is None and any(one is not None for one in rotation[link]):
+                return _face_of_side(rotation, left_of, link, i)
+    return None
 
 
 def _face_of_side(
@@ -317,10 +342,27 @@ def polyhedron_of(scd: SCDGraph) -> PolyhedronModel:
             if scd.drawing.kind_of_face(face.index) is FaceKind.IMPLICIT
         ],
         links=dict(scd.vertices),
+        outer=_outer_of(scd),
     )
+
+
+def _outer_of(scd: SCDGraph) -> tuple[int, ...] | None:
+    """Return what tells the outer face, if it is not the only one with the most open edges."""
+    outer = scd.faces[scd.drawing.outer_face]
+    others = [face.open_edges for face in scd.faces if face is not outer]
+    if not others or outer.open_edges > max(others):
+        return None
+    corner = next((corner for corner in outer.corners if corner.open_edges), outer.corners[0])
+    around = scd.vertices[corner.link]
+    if not corner.open_edges:
+        return (around[corner.last_side],)
+    # the face is passed clockwise, so its open edges come before the joint by which it enters
+    side = (corner.first_side - 1) % len(around)
+    return around[side - 1], around[side]
 
 
 def _remote_centre(scd: SCDGraph, face: int) -> RemoteCentre:
     loop = scd.drawing.loop_of_face(face)
     assert loop is not None
-    return RemoteCentre(3, tuple(scd.drawing.ends_of_joint(joint) for joint in loop.joints), loop.name)
+    rods = tuple(scd.drawing.ends_of_joint(joint) for joint in loop.joints)
+    return RemoteCentre(3, rods, loop.name, loop.at, loop.centre is Centre.INFINITE)

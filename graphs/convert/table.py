@@ -8,7 +8,8 @@ import networkx as nx
 
 from graphs.convert.duality import mechanism_of_sheet
 from graphs.convert.link_joint import sc_from_link_joint_graph
-from graphs.convert.panels import oriented_panels, polyhedron_of, scd_from_panels, scd_of_placed_panels
+from graphs.convert.models import scd_of_model
+from graphs.convert.panels import oriented_panels, polyhedron_of, scd_of_placed_panels
 from graphs.edit.analogues import generalised_form, planar_analogue, spherical_analogue
 from graphs.errors import UnsolvableError
 from graphs.joints.linkage import JointedLinkage
@@ -115,12 +116,13 @@ def graph_of(mechanism: Mechanism | nx.Graph) -> SCGraph:
 
 
 def to_scd(mechanism: Mechanism) -> SCDGraph:
-    """Return the SCD graph of an SCD graph, a sheet of plain panels, or a model that knows its links.
+    """Return the SCD graph of an SCD graph, a sheet of plain panels, or a model of panels and implicit centres.
 
     Parameters
     ----------
     mechanism : Mechanism
-        UnsolvableError if the order of the sides of its links is not known, or a model has more than panels.
+        UnsolvableError if the order of the sides of its links is not known, or a model has more than panels. Links
+        that a model does not declare are those that triangles of its rods show.
 
     Examples
     --------
@@ -132,13 +134,11 @@ def to_scd(mechanism: Mechanism) -> SCDGraph:
     if isinstance(mechanism, Sheet):
         return scd_of_placed_panels(_checked_panels(mechanism))
     if isinstance(mechanism, PolyhedronModel):
-        if not mechanism.links:
-            raise UnsolvableError("the polyhedron model does not say which vertices make up a link")
-        points = (mechanism.centres, mechanism.on_line, mechanism.on_plane, mechanism.scissors)
-        if any(points) or mechanism.ground is not None:
-            raise UnsolvableError("the polyhedron model has more than panels (remote centres, points, ground)")
-        return scd_from_panels(mechanism.links)
-    raise UnsolvableError("the order of the sides of the links is not known: write an SCD graph or a sheet")
+        return scd_of_model(mechanism)
+    raise UnsolvableError(
+        "the order of the sides of the links is not known; `synth enumerate scd --of FILE --max-degree D` lists the "
+        "SCD graphs with up to D sides per link, `synth convert --max-degree D` takes the one if there is only one"
+    )
 
 
 def to_polyhedron(mechanism: Mechanism) -> PolyhedronModel:
@@ -167,7 +167,9 @@ def to_polyhedron(mechanism: Mechanism) -> PolyhedronModel:
         for i, vertex in enumerate(vertices):  # vertex i lies after side i, which starts at panel vertex i
             place = mechanism.coordinates[panels[link][(i + 1) % len(vertices)]]
             places[vertex] = (*place, 0.0)[:3]
-    return PolyhedronModel(model.nodes, model.edges, coordinates=places, centres=model.centres, links=dict(model.links))
+    return PolyhedronModel(
+        model.nodes, model.edges, coordinates=places, centres=model.centres, links=dict(model.links), outer=model.outer
+    )
 
 
 def to_sheet(mechanism: Mechanism) -> Sheet:

@@ -32,24 +32,28 @@ def traditional_cgk(links: int, freedoms: Iterable[int], constraint_space: int) 
     return constraint_space * (links - 1) - sum(constraint_space - f for f in freedoms)
 
 
-def modified_cgk(links: int, joints: int, constraint_space: int) -> int:
-    """Modified C-G-K for revolute joints: M = lambda (N - J - 1) + J (Wiener 2016, Eq. 2).
+def modified_cgk(links: int, joints: int, constraint_space: int, freedoms: int | None = None) -> int:
+    """Modified C-G-K: M = lambda (N - J - 1) + sum f (Wiener 2016, Eq. 2).
 
     It holds for spherical systems, whether or not loops share their centre, where Eq. 1 presumes one centre.
 
     Parameters
     ----------
     links, joints : int
-        N, the fixed link included, and J, all revolute.
+        N, the fixed link included, and J.
     constraint_space : int
         lambda of every loop: 3 with a centre, 6 without.
+    freedoms : int, optional
+        Sum of the freedoms f of all joints; J, if all are revolute.
 
     Examples
     --------
     >>> modified_cgk(6, 7, 3)  # Watt's six-bar with one centre or with two
     1
+    >>> modified_cgk(4, 4, 6, 1 + 3 + 3 + 1)  # R-S-S-R
+    2
     """
-    return constraint_space * (links - joints - 1) + joints
+    return constraint_space * (links - joints - 1) + (joints if freedoms is None else freedoms)
 
 
 def spherical_system(links: int, joints: int) -> int:

@@ -240,7 +240,7 @@ def _why_no_system(sc: SCGraph, kind: str) -> str:
 def _polyhedron_result(sc: SCGraph) -> EquationResult:
     if not isinstance(sc, SCDGraph):
         return EquationResult(
-            None, True, "Eq. 4 needs the sides of the links (an SCD graph); it would equal the loop form"
+            None, False, "Eq. 4 needs the sides of the links (an SCD graph); it would equal the loop form"
         )
     counts = sc.counts
     value = polyhedron_equation(counts.vertices, counts.implicit_centres, counts.edges)

@@ -204,7 +204,7 @@ def read_polyhedron(value: Mapping[str, Any], check: Checker) -> PolyhedronModel
         value,
         "",
         ("format", "version", "vertices", "rods"),
-        ("centres", "on_line", "on_plane", "scissors", "ground", "links"),
+        ("centres", "on_line", "on_plane", "scissors", "ground", "links", "outer"),
     )
     vertices, coordinates = _vertices(value["vertices"], check)
     rods = _rods(value["rods"], "rods", check, "a list of rods")
@@ -229,6 +229,7 @@ def read_polyhedron(value: Mapping[str, Any], check: Checker) -> PolyhedronModel
             scissors=scissors,
             ground=ground,
             links=links,
+            outer=tuple_of(value["outer"], "outer", check) if "outer" in value else None,
         ),
         lambda part: f"{part[0]}[{part[1]}]",
     )
@@ -253,10 +254,13 @@ def _rods(value: Any, key: str, check: Checker, what: str = "a list") -> list[tu
 
 
 def _remote_centre(item: Any, place: str, check: Checker) -> RemoteCentre:
-    check.mapping(item, place, ("k",), ("rods", "name"))
+    check.mapping(item, place, ("k",), ("rods", "name", "at", "centre"))
     rods = _rods(item.get("rods", []), f"{place}.rods", check)
-    name = check.text(item["name"], f"{place}.name") if "name" in item else None
-    return RemoteCentre(check.integer(item["k"], f"{place}.k"), tuple(rods), name)
+    name, at = (check.text(item[key], f"{place}.{key}") if key in item else None for key in ("name", "at"))
+    kind = item.get("centre", "finite")
+    if kind not in ("finite", "infinite"):
+        check.fail(f"{place}.centre", kind, "finite or infinite")
+    return RemoteCentre(check.integer(item["k"], f"{place}.k"), tuple(rods), name, at, kind == "infinite")
 
 
 def _constraints(value: Mapping[str, Any], key: str, of: str, size: int, check: Checker) -> list[PointConstraint]:
@@ -282,7 +286,13 @@ def polyhedron_document(model: PolyhedronModel) -> dict[str, Any]:
     links = model.links.items()
     result |= _known(
         centres=[
-            {"k": centre.k} | _known(rods=[list(map(written, rod)) for rod in centre.rods], name=centre.name)
+            {"k": centre.k}
+            | _known(
+                rods=[list(map(written, rod)) for rod in centre.rods],
+                name=centre.name,
+                at=centre.at,
+                centre="infinite" if centre.infinite else None,
+            )
             for centre in model.centres
         ],
         on_line=_constraint_list(model.on_line, "line"),
@@ -291,7 +301,10 @@ def polyhedron_document(model: PolyhedronModel) -> dict[str, Any]:
     )
     if model.ground is not None:
         result["ground"] = sorted(map(written, model.ground), key=str)
-    return result | _known(links=[{"id": written(link), "vertices": list(map(written, vs))} for link, vs in links])
+    return result | _known(
+        links=[{"id": written(link), "vertices": list(map(written, vs))} for link, vs in links],
+        outer=None if model.outer is None else list(map(written, model.outer)),
+    )
 
 
 def _constraint_list(constraints: Iterable[PointConstraint], of: str) -> list[dict[str, Any]]:

@@ -254,3 +254,35 @@ def _coloured(sc: SCGraph, marked: Collection[LinkId]) -> tuple[ColouredGraph, l
         edges += [(number["class", k], number["joint", joint]) for joint in one.joints]
     palette = {colour: i for i, colour in enumerate(sorted(set(colours), key=repr))}
     return ColouredGraph(len(colours), edges, [palette[colour] for colour in colours]), colours
+
+
+def isomorphism(sc: SCGraph, other: SCGraph) -> tuple[dict[LinkId, LinkId], dict[JointId, JointId]]:
+    """Return links and joints of another mechanism to which those of one correspond, centre classes too.
+
+    Parameters
+    ----------
+    sc, other : SCGraph
+        Of one `class_code`; else InvariantError.
+
+    Examples
+    --------
+    >>> isomorphism(SCGraph(2, [(0, 1)]), SCGraph("ab", {"j": ("a", "b")}))[1]
+    {0: 'j'}
+    """
+    numbers = []
+    for one in (sc, other):
+        graph, colours = _coloured(one, ())
+        labels = labels_of(graph)
+        form = {frozenset((labels[a], labels[b])) for a, b in graph.edges}
+        names = [*one.nodes, *one.joints]
+        numbers.append(
+            (dict(zip(labels, map(repr, colours), strict=True)), form, dict(zip(labels, names, strict=False)))
+        )
+    (colours_of, form_of, names_of), (colours_there, form_there, there) = numbers
+    if colours_of != colours_there or form_of != form_there:
+        raise InvariantError(
+            "isomorphism", "two mechanisms that do not correspond", "the same links, joints and centres"
+        )
+    image = {label: there[label] for label in names_of}
+    links = {name: image[label] for label, name in names_of.items() if colours_of[label].startswith("('link'")}
+    return links, {name: image[label] for label, name in names_of.items() if colours_of[label].startswith("('joint'")}

@@ -7,7 +7,7 @@ Erdman 2007, Eqs. 5 to 10; Wiener 2016, section 2.3.3. Theory: docs/theory/polyh
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 from types import MappingProxyType
 from typing import Any
@@ -36,6 +36,11 @@ class RemoteCentre:
     rods : tuple of (vertex, vertex), optional
         The rods whose lines pass through the centre.
     name : str, optional
+        Of the loop.
+    at : str, optional
+        Of the centre, where loops share it although nothing forces them to.
+    infinite : bool, optional
+        Whether the centre is at infinity: the lines are parallel.
 
     Examples
     --------
@@ -46,6 +51,8 @@ class RemoteCentre:
     k: int
     rods: tuple[Rod, ...] = ()
     name: str | None = None
+    at: str | None = None
+    infinite: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,6 +101,9 @@ class PolyhedronModel(BuiltWhole, nx.Graph):
         bodies are free and six freedoms are taken off (Eq. 9).
     links : mapping of link to its vertices in cyclic order, optional
         Which vertices make up which link, where that is known.
+    outer : tuple of vertex ids, optional
+        The outer face of the SCD graph, where its open edges do not show it: the ends of one of them, or the vertex
+        that it is.
 
     Raises
     ------
@@ -111,6 +121,7 @@ class PolyhedronModel(BuiltWhole, nx.Graph):
     on_plane: tuple[PointConstraint, ...]
     scissors: tuple[tuple[VertexId, ...], ...]
     ground: frozenset[VertexId] | None
+    outer: tuple[VertexId, ...] | None
 
     def __init__(
         self,
@@ -124,9 +135,10 @@ class PolyhedronModel(BuiltWhole, nx.Graph):
         scissors: Iterable[Sequence[VertexId]] = (),
         ground: Iterable[VertexId] | None = None,
         links: Mapping[Any, Sequence[VertexId]] | None = None,
+        outer: Sequence[VertexId] | None = None,
     ) -> None:
         if isinstance(vertices, nx.Graph):
-            if tuple(rods) or any((coordinates, centres, on_line, on_plane, scissors, ground, links)):
+            if tuple(rods) or any((coordinates, centres, on_line, on_plane, scissors, ground, links, outer)):
                 raise InvariantError("polyhedron", "terms beside a graph that has its own", "a graph alone")
             self.__init__(**_read(vertices))  # type: ignore[misc]
             return
@@ -143,6 +155,7 @@ class PolyhedronModel(BuiltWhole, nx.Graph):
         self.scissors = tuple(self._checked_scissors(four) for four in scissors)
         for link, around in (links or {}).items():
             self._links[link] = self._checked_link(link, around)
+        self.outer = None if outer is None else self._checked_outer(outer)
         self._write_attributes()
         nx.freeze(self)
 
@@ -229,6 +242,14 @@ class PolyhedronModel(BuiltWhole, nx.Graph):
             raise InvariantError("links", f"link {shown(link)} names a vertex twice", "once")
         return vertices
 
+    def _checked_outer(self, outer: Sequence[VertexId]) -> tuple[VertexId, ...]:
+        vertices = self._known(outer, "the outer face")
+        if not 1 <= len(set(vertices)) == len(vertices) <= 2:
+            raise InvariantError(
+                "outer face", f"the outer face is {shown(list(vertices))}", "the ends of an open edge, or a vertex"
+            )
+        return vertices
+
     def _write_attributes(self) -> None:
         """Write the terms where networkx keeps them, with the numbers of vertices in the place of their names."""
         number = {vertex: place for place, vertex in enumerate(self.nodes)}
@@ -246,12 +267,15 @@ class PolyhedronModel(BuiltWhole, nx.Graph):
         self.graph["polyhedron"] = {
             "vertices": len(self),
             "rods": self.number_of_edges(),
-            "centres": tuple((one.k, tuple(map(numbers, one.rods)), one.name) for one in self.centres),
+            "centres": tuple(
+                (one.k, tuple(map(numbers, one.rods)), one.name, one.at, one.infinite) for one in self.centres
+            ),
             "on_line": constraints(self.on_line),
             "on_plane": constraints(self.on_plane),
             "scissors": tuple(map(numbers, self.scissors)),
             "ground": None if self.ground is None else tuple(sorted(numbers(self.ground))),
             "links": tuple((link, numbers(around)) for link, around in self._links.items()),
+            "outer": None if self.outer is None else numbers(self.outer),
         }
 
     # ---- what it is ---------------------------------------------------------------------------------
@@ -291,12 +315,13 @@ class PolyhedronModel(BuiltWhole, nx.Graph):
             map(named, self.nodes),
             [(named(a), named(b)) for a, b in self.edges],
             coordinates={named(v): place for v, place in self._coordinates.items()},
-            centres=[RemoteCentre(c.k, tuple((named(a), named(b)) for a, b in c.rods), c.name) for c in self.centres],
+            centres=[replace(c, rods=tuple((named(a), named(b)) for a, b in c.rods)) for c in self.centres],
             on_line=map(moved, self.on_line),
             on_plane=map(moved, self.on_plane),
             scissors=[tuple(map(named, four)) for four in self.scissors],
             ground=None if self.ground is None else map(named, self.ground),
             links={link: tuple(map(named, around)) for link, around in self._links.items()},
+            outer=None if self.outer is None else tuple(map(named, self.outer)),
         )
 
     def is_identical(self, other: object) -> bool:
@@ -305,9 +330,13 @@ class PolyhedronModel(BuiltWhole, nx.Graph):
 
     def _identity(self) -> tuple[Any, ...]:
         rods = {frozenset(rod) for rod in self.edges}
-        centres = sorted((c.k, str(c.name), sorted(sorted(map(str, rod)) for rod in c.rods)) for c in self.centres)
+        centres = sorted(
+            (c.k, str(c.name), str(c.at), c.infinite, sorted(sorted(map(str, rod)) for rod in c.rods))
+            for c in self.centres
+        )
         constraints = (set(self.on_line), set(self.on_plane), set(self.scissors))
-        return set(self.nodes), rods, centres, constraints, self.ground, self._coordinates, self._links
+        outer = None if self.outer is None else frozenset(self.outer)
+        return set(self.nodes), rods, centres, constraints, self.ground, self._coordinates, self._links, outer
 
     def __str__(self) -> str:
         return f"PolyhedronModel with {len(self)} vertices and {self.number_of_edges()} rods"
@@ -335,12 +364,12 @@ def _read(graph: nx.Graph) -> dict[str, Any]:
     def constraints(listed: Iterable[tuple[int, Any]]) -> list[PointConstraint]:
         return [PointConstraint(vertex[one], of if isinstance(of, str) else named(of)) for one, of in listed]
 
-    def centre(k: int, rods: Iterable[tuple[int, int]], name: str | None) -> RemoteCentre:
-        return RemoteCentre(k, tuple((vertex[a], vertex[b]) for a, b in rods), name)
+    def centre(k: int, rods: Iterable[tuple[int, int]], *rest: Any) -> RemoteCentre:
+        return RemoteCentre(k, tuple((vertex[a], vertex[b]) for a, b in rods), *rest)
 
     order = named(range(len(nodes))) if terms else tuple(graph.nodes)
     places = {node: data["coordinates"] for node, data in nodes if "coordinates" in data}
-    ground = terms.get("ground")
+    ground, outer = terms.get("ground"), terms.get("outer")
     return {
         "vertices": order,
         "rods": [(a, b) for a, b in nx.Graph(graph).edges],
@@ -351,4 +380,5 @@ def _read(graph: nx.Graph) -> dict[str, Any]:
         "scissors": map(named, terms.get("scissors", ())),
         "ground": None if ground is None else named(ground),
         "links": {link: named(around) for link, around in terms.get("links", ())},
+        "outer": None if outer is None else named(outer),
     }

@@ -201,8 +201,14 @@ def pose_mobility_of_model(model: PolyhedronModel) -> PoseMobility:
     # Entries are differences of coordinates, so all have their error.
     error = np.full(matrix.shape[1], np.sqrt(2))
     evidence = _spectrum(matrix, middle, error * precision.size, error * NEARLY)
-    whole = 6 if model.ground is None else 0
+    whole = _of_the_whole(places, precision) if model.ground is None else 0
     return _mobility(evidence, 3 * points - whole, len(rows), places, precision)
+
+
+def _of_the_whole(points: Floats, precision: Precision) -> int:
+    """Return the freedoms that points have as one body: 6, 5 if they are in line, 3 if there is one only."""
+    spread = spectrum(points, 2 * precision.size).rank
+    return {0: 3, 1: 5}.get(6 if spread is None else spread, 6)
 
 
 def _spectrum(matrix: scipy.sparse.csr_matrix, places: Floats, error: Floats, nearly: Floats) -> Spectrum:

@@ -15,6 +15,7 @@ from typing import Any
 from graphs.errors import UnsolvableError, shown
 from graphs.loops.classes import centre_classes
 from graphs.loops.loop import Loop
+from graphs.mechanism.bodies import bodies_of
 from graphs.mechanism.polyhedron import GROUND, PolyhedronModel, VertexId
 from graphs.rank.dissection import rank_modulo
 from graphs.rank.exact import ExactMobility, agreed_rank
@@ -32,7 +33,7 @@ def exact_mobility_of_model(model: PolyhedronModel, primes: Sequence[int] = PRIM
     Parameters
     ----------
     model : PolyhedronModel
-        Without a ground link six freedoms of the whole are taken off.
+        Without a ground link the freedoms of the whole are taken off: six, five if all vertices are in line.
     primes, seed
         As for `graphs.rank.exact.exact_mobility`, as is the `NumericalError`.
 
@@ -51,11 +52,21 @@ def exact_mobility_of_model(model: PolyhedronModel, primes: Sequence[int] = PRIM
     ranks, freedoms = [], 0
     for prime in primes:
         field = PrimeField(prime, seed)
-        rows, columns = velocity_constraints(model, place_model(model, field), field)
-        freedoms = 3 * columns - (6 if model.ground is None else 0)
+        places = place_model(model, field)
+        rows, columns = velocity_constraints(model, places, field)
+        freedoms = 3 * columns - (_of_the_whole(list(places.values()), field) if model.ground is None else 0)
         ranks.append(rank_modulo(*numbered_columns(rows), prime))
     rank = agreed_rank(ranks, primes)
     return ExactMobility(freedoms - rank, freedoms, rank, tuple(primes), forced=True)
+
+
+def _of_the_whole(places: Sequence[Place], field: Field) -> int:
+    """Return the freedoms that points have as one body: 6, 5 if they are in line, 3 if there is one only."""
+    ways = [way for way in (_difference(place, places[0]) for place in places) if any(map(field.reduce, way))]
+    if not ways:
+        return 3 if places else 0
+    across = (field.reduce(value) for way in ways for value in _cross(ways[0], way))
+    return 5 if all(map(field.is_zero, across)) else 6
 
 
 def numbered_columns(rows: Sequence[Row]) -> tuple[list[dict[int, Any]], int]:
@@ -226,9 +237,11 @@ def velocity_constraints(
     fixed = model.ground or frozenset()
     where: dict[Hashable, Place] = dict(places)
     rods = [(a, b) for a, b in model.edges if not {a, b} <= fixed]
-    for link, around in model.links.items():
+    # Rods to a remote centre make four vertices of a link coplanar, where its own rods misreport: so bodies that
+    # triangles show get an apex too.
+    for number, around in enumerate(bodies_of(model) if model.centres else model.links.values()):
         if len(around) >= 4:
-            apex = ("apex", link)
+            apex = ("apex", number)
             where[apex] = _random_point(field)
             rods += [(apex, vertex) for vertex in around]
     rows = [_length(a, b, where) for a, b in rods]

@@ -21,7 +21,9 @@ from graphs.identity.chains import labels_of
 from graphs.identity.leaves import ColouredGraph
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.scd import SCDGraph
 from graphs.printing import Block, Printed, plain
+from graphs.reduce.drawn import drawn_as
 from graphs.reduce.working import RULES, ReductionTerms, Removal, TakenAddendum, WorkingGraph, take_all
 from graphs.types import JointId, LinkId
 
@@ -188,7 +190,8 @@ class Reduction(Printed):
     Attributes
     ----------
     original, graph : SCGraph
-        Before and after.
+        Before and after. Of an SCD graph the reduced one is an SCD graph too, unless dyads leave a drawing that
+        breaks one of its rules.
     rule : str
     steps : tuple of ReductionStep
         In the order in which they were taken.
@@ -217,7 +220,7 @@ class Reduction(Printed):
         graph = self._work.graph()
         for removal in last:
             self._work.repeat(removal)
-        return graph
+        return _with_drawing(self.original, graph)
 
     def chains(self) -> list[nx.DiGraph]:
         """Return the adjunct addenda: a tree of steps each, from the one on the mechanism outwards."""
@@ -234,6 +237,8 @@ class Reduction(Printed):
             f"{when:6}  links {len(sc)}, joints {len(sc.joints)}, mobility {mobility_report(sc).mobility}"
             for when, sc in (("before", self.original), ("after", self.graph))
         ]
+        if isinstance(self.original, SCDGraph) and not isinstance(self.graph, SCDGraph):
+            counts.append("note: what is left of the drawing is no SCD graph, so the sides of the links are left out")
         if not self.steps:
             return [*counts, "nothing to take off"]
         chains = self.chains()
@@ -286,7 +291,7 @@ def reduce(
     Parameters
     ----------
     mechanism : Mechanism, str or Path
-        Its SC graph is reduced.
+        Its SC graph is reduced; an SCD graph becomes an SCD graph, where links that go leave open edges.
     rule : {"ride-along", "dyad"}, optional
         ``"ride-along"``: a and b are joined, and the cycle a-u-v-b is a sum of loops of one class.
         ``"dyad"``: a and b need not be joined; some loop through u and v has a centre.
@@ -313,6 +318,7 @@ def reduce(
     mechanism = mechanism_for("reduce", mechanism)
     if rule not in RULES:
         raise InvariantError("rule", f"the rule {shown(rule)}", "one of " + ", ".join(RULES))
+    original = mechanism if isinstance(mechanism, SCDGraph) else to_sc(mechanism)
     sc = to_sc(mechanism)
     protected = set(keep)
     for link in protected:
@@ -326,7 +332,21 @@ def reduce(
     if rule == "ride-along" and not fully and (stay := links_of_loops_that_stay(work, addenda, terms.protected)):
         work = WorkingGraph(sc)
         addenda = take_all(work, ReductionTerms(rule, fully, terms.protected | stay))
-    return Reduction(sc, work.graph(), rule, _steps(addenda), tuple(one.removal for one in addenda), work)
+    graph = _with_drawing(original, work.graph())
+    return Reduction(original, graph, rule, _steps(addenda), tuple(one.removal for one in addenda), work)
+
+
+def _with_drawing(original: SCGraph, graph: SCGraph) -> SCGraph:
+    """Return a graph with what is left of the drawing of the original, if that is an SCD graph.
+
+    Dyads that were no ride-alongs may leave a drawing that breaks a rule; then the SC graph is all that is left.
+    """
+    if not isinstance(original, SCDGraph):
+        return graph
+    try:
+        return drawn_as(original, graph)
+    except InvariantError:
+        return graph
 
 
 def _steps(addenda: Sequence[TakenAddendum]) -> tuple[ReductionStep, ...]:

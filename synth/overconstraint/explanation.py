@@ -5,13 +5,19 @@ from math import degrees, isfinite
 from typing import Any
 
 from graphs.answer.report import power_of_ten
+from graphs.count.equations import overconstraint
+from graphs.count.report import mobility_report
 from graphs.errors import check_argument, numbered, shown
+from graphs.joints.linkage import JointedLinkage
+from graphs.mechanism.sc import SCGraph
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.tolerances import Tolerances
 from graphs.types import JointId
 from synth.motion.configuration import Configuration
 from synth.moving.made import Movable, configuration_of
 from synth.overconstraint import redundancy
+from synth.overconstraint.counted import linkage_as_counted
+from synth.overconstraint.herve import HerveClass, herve_class
 from synth.overconstraint.reasons import reasons_of, turning_reasons
 
 _LISTED = 12
@@ -53,14 +59,16 @@ class Explanation(Printed):
     configuration : Configuration
         The input.
     freedoms, count : int
-        Degrees of freedom to first order, and M: joints less equations.
+        Degrees of freedom to first order, and M by the count that applies, as `synth.mobility` has it.
     idle, active : int
-        Redundant equations, h = freedoms - M, and those of them that constrain the motions at second order.
+        Redundant equations, and those of them that constrain the motions at second order.
     sets : tuple of IdleSet
     tolerances : tuple of Tolerance
         Errors of axes, least first; none where nothing is redundant, or second order decides.
     smallest, gap : float
         The smallest singular value that counts, and its ratio to the largest that does not.
+    herve : HerveClass or None
+        Whether it is trivial, exceptional or paradoxical; None where nothing moves, and where that was not told.
     """
 
     configuration: Configuration
@@ -72,6 +80,12 @@ class Explanation(Printed):
     tolerances: tuple[redundancy.Tolerance, ...]
     smallest: float
     gap: float
+    herve: HerveClass | None = None
+
+    @property
+    def overconstraint(self) -> int:
+        """H = freedoms - M, of first order (Wiener 2016, Eq. 8)."""
+        return overconstraint(self.freedoms, self.count)
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
@@ -79,7 +93,9 @@ class Explanation(Printed):
             "configuration": self.configuration.to_json(other_question=_OTHER_QUESTION),
             "freedoms": self.freedoms,
             "count": self.count,
-            "h": self.idle,
+            "h": self.overconstraint,
+            "redundant": self.idle,
+            "herve": None if self.herve is None else self.herve.to_json(),
             "active_at_second_order": self.active,
             "sets": [loops.to_json() for loops in self.sets],
             "tolerances": [
@@ -97,9 +113,11 @@ class Explanation(Printed):
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
         freedoms = numbered(self.freedoms, "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
-        head = f"{freedoms}, M = {self.count} by count: h = {self.idle}"
+        # where second order constrains the motions the degrees of freedom are fewer, and so is h
+        over = "" if self.active else f": h = {self.overconstraint}"
+        head = f"{freedoms}, M = {self.count} by count{over}"
         evidence = f"singular-value gap {power_of_ten(self.gap)}" if isfinite(self.gap) else "no zero singular value"
-        blocks: list[Block] = [f"{head}   ({evidence})"]
+        blocks: list[Block] = [f"{head}   ({evidence})", *([str(self.herve)] if self.herve else [])]
         if not self.idle:
             general = "no closure equation is redundant: a generic realisation has these degrees of freedom too"
             return [*blocks, general]
@@ -138,6 +156,12 @@ class Explanation(Printed):
         return f"<Explanation: h = {self.idle}, {numbered(len(self.sets), 'set')} of loops>"
 
 
+def _count_of(graph: SCGraph) -> int:
+    mobility = mobility_report(graph).mobility
+    assert mobility is not None  # None only of a polyhedron model
+    return mobility
+
+
 def _figure(error: float) -> str:
     return f"{error:.3g}" if isfinite(error) else "any"
 
@@ -168,16 +192,17 @@ def explain(mechanism: Movable, *, precision: float | None = None) -> Explanatio
     """
     check_argument("explain", mechanism, Movable)
     at = configuration_of(mechanism, precision=precision)
-    linkage = at.linkage
+    counted = linkage_as_counted(at)
+    linkage = counted.linkage
     order = redundancy.first_order_closure(linkage, at.tolerances)
     meant = Tolerances.of(at.precision.size)  # mended coordinates move, but are not all that they were meant to be
-    names = list(linkage.graph.joints)
+    seen = at.given if isinstance(at.given, JointedLinkage) else None
     active = redundancy.active_at_second_order(linkage, order)
     sets = tuple(
         IdleSet(
-            tuple(tuple(names[joint] for joint in linkage.loops[loop].joints) for loop in loops),
+            tuple(counted.joints_of(linkage.loops[loop]) for loop in loops),
             number,
-            tuple(reasons_of(linkage, loops, meant) or turning_reasons(linkage, order, loops, meant)),
+            tuple(reasons_of(linkage, loops, meant) or turning_reasons(linkage, order, loops, meant, seen)),
         )
         for loops, number in redundancy.smallest_sets(linkage, order)
     )
@@ -185,11 +210,12 @@ def explain(mechanism: Movable, *, precision: float | None = None) -> Explanatio
     return Explanation(
         configuration=at,
         freedoms=freedoms,
-        count=len(names) - len(order.loop_of),
+        count=_count_of(linkage.graph),
         idle=idle,
         active=active,
         sets=sets,
-        tolerances=tuple(redundancy.axis_tolerances(linkage, order)) if idle and freedoms and not active else (),
+        tolerances=counted.tolerances(order) if idle and freedoms and not active else (),
         smallest=order.smallest,
         gap=order.gap,
+        herve=herve_class(at),
     )

@@ -34,6 +34,8 @@ def reasons_of(linkage: PosedLinkage, loops: tuple[int, ...], tolerances: Tolera
 def _of_one_loop(linkage: PosedLinkage, loop: PosedLoop, near: float) -> Iterator[str]:
     """Yield reasons that one loop shows where lengths, in units of the extent, and angles are wrong by so much."""
     points, axes = linkage.points[list(loop.joints)], linkage.directions[list(loop.joints)]
+    if set(loop.joints) & set(linkage.slides):
+        return
     if loop.centre is not Centre.NONE:
         spread = axes if loop.centre is Centre.FINITE else np.vstack([axes[:1], points - points[0]])
         if singular_values(spread)[-1] <= near:
@@ -156,13 +158,20 @@ _SCREW = 6
 
 
 def turning_reasons(
-    linkage: PosedLinkage, order: FirstOrderClosure, loops: tuple[int, ...], tolerances: Tolerances = DOUBLE
+    linkage: PosedLinkage,
+    order: FirstOrderClosure,
+    loops: tuple[int, ...],
+    tolerances: Tolerances = DOUBLE,
+    seen: JointedLinkage | None = None,
 ) -> Iterator[str]:
-    """Yield why rotational equations of a set of spatial loops depend on each other, if only these do."""
+    """Yield why rotational equations of a set of spatial loops depend on each other, if only these do.
+
+    Legs are those of the linkage as it is `seen` with joints of all kinds; by default such joints are recognised.
+    """
     if any(linkage.loops[loop].centre is not Centre.NONE for loop in loops) or not _couples_only(order, loops):
         return
     near = float(tolerances.parallel / axis_lengths(linkage).min()) * len(linkage.directions)
-    if _legs_are_parallel(linkage, near):
+    if _legs_are_parallel(seen or _recognised(linkage), near):
         yield (
             "axes parallel in each leg: each leg rotates its end about one direction, "
             "together they prevent every rotation"
@@ -172,27 +181,32 @@ def turning_reasons(
 
 
 def _couples_only(order: FirstOrderClosure, loops: tuple[int, ...]) -> bool:
-    """Check whether self-stresses of some loops hold no forces, in loops that have none by themselves."""
+    """Check whether self-stresses of some loops hold no forces, in loops that have no such stress by themselves."""
     rows = np.flatnonzero(np.isin(order.loop_of, loops))
     stresses = null_space(order.matrix[rows].T, DOUBLE.singular)
-    shared = [
-        loop
-        for loop in loops
-        if len(loops) == 1 or not null_space(order.matrix[order.loop_of == loop].T, DOUBLE.singular).size
-    ]
+    own = {loop: null_space(order.matrix[order.loop_of == loop].T, DOUBLE.singular) for loop in loops}
+    shared = [loop for loop in loops if len(loops) == 1 or not _largest(own[loop][_SCREW // 2 :])]
     forces = [stresses[order.loop_of[rows] == loop][_SCREW // 2 :] for loop in shared]
-    if not shared or not stresses.size:
-        return False
-    return bool(np.abs(np.concatenate(forces)).max() <= DOUBLE.singular)
+    return bool(shared and stresses.size and not _largest(np.concatenate(forces)))
 
 
-def _legs_are_parallel(linkage: PosedLinkage, near: float) -> bool:
-    """Check whether each row of joints between binary links turns about one direction, however it slides."""
+def _largest(forces: Floats) -> float:
+    """Return the largest force, 0 if none is larger than what rounding leaves."""
+    largest = float(np.abs(forces).max(initial=0.0))
+    return largest if largest > DOUBLE.singular else 0.0
+
+
+def _recognised(linkage: PosedLinkage) -> JointedLinkage:
+    """Return a linkage of revolutes with the joints that rows of them stand for."""
     axes = {
         joint: (plain_vector(point), plain_vector(axis))
         for joint, point, axis in zip(linkage.graph.joints, linkage.points, linkage.directions, strict=True)
     }
-    seen = recognised(HingedSolids(linkage.graph, axes))
+    return recognised(HingedSolids(linkage.graph, axes))
+
+
+def _legs_are_parallel(seen: JointedLinkage, near: float) -> bool:
+    """Check whether each row of joints between binary links turns about one direction, however it slides."""
     rows = [leg for leg in legs(seen.chain) if len(leg.joints) > 1]
     return len(rows) > 1 and all(_turns_about_one(seen, row, near) for row in rows)
 

@@ -11,7 +11,7 @@ import networkx as nx
 import numpy as np
 
 from graphs.answer.mechanisms import mobility as counted, sheet_in_frame
-from graphs.answer.report import MobilityAnswer
+from graphs.answer.report import RODS_ALONE, MobilityAnswer
 from graphs.convert.table import Mechanism
 from graphs.errors import SynthedraError, UnsolvableError
 from graphs.files.accepted import MechanismLike, mechanism_for
@@ -30,6 +30,7 @@ from synth.motion.marked import Marked
 from synth.motion.singular.sampling import closes_along_general_rates, walked
 from synth.motion.walk.events import number_of_free_rates
 from synth.moving.made import configuration_of, with_precision
+from synth.overconstraint.herve import HerveClass, herve_class
 from synth.verdict.verdict import (
     AsWritten,
     Basis,
@@ -311,10 +312,10 @@ def verdict_of_type(answer: MobilityAnswer, left_out: str = "") -> Verdict:
         return Verdict(pose.dof, "pose", "proved", text)
     special = pose is not None and pose.self_stresses != 0  # what holds in general says nothing of this one
     end = f"; {left_out}" if left_out else ""
-    if exact is not None:
+    if exact is not None and not _is_of_rods_alone(answer):
         certainty: Certainty = "proved" if exact.mobility == answer.mobility else "numerical"
         how = "exact rank" if certainty == "proved" else "exact rank of random realisations, modulo two primes"
-        freedoms = None if special else exact.mobility
+        freedoms = None if special else max(exact.mobility, 0)
         return Verdict(freedoms, "generic", certainty, _generic(exact.mobility, how, end))
     if (member := answer.counts.get("general_member")) is not None:  # of joints of all kinds
         return Verdict(member, "generic", "numerical", _generic(member, "rank of a random realisation", end))
@@ -322,6 +323,11 @@ def verdict_of_type(answer: MobilityAnswer, left_out: str = "") -> Verdict:
         return Verdict(None, "count", "not known", f"Mobility unknown{end}.")
     freedoms = None if special else max(answer.mobility, 0)
     return Verdict(freedoms, "count", "not known", _generic(answer.mobility, "by count", end))
+
+
+def _is_of_rods_alone(answer: MobilityAnswer) -> bool:
+    """Check whether a rank is of rods to remote centres, which is not the mobility: then the count answers."""
+    return any(note.endswith(RODS_ALONE) for note in answer.warnings)
 
 
 def _generic(freedoms: int, how: str, end: str) -> str:
@@ -357,8 +363,25 @@ class JudgedMobility(MobilityAnswer):
     configuration: Configuration | None = None
     flat_folding: FlatFoldability | None = None
 
+    @property
+    def stated_overconstraint(self) -> int | None:
+        """H at this configuration; None where the verdict states that of its motion, which is another."""
+        freedoms, here = self.verdict.freedoms, self.overconstraint
+        if self.verdict.basis != "motion" or freedoms is None or self.mobility is None or freedoms <= self.mobility:
+            return here
+        return here if freedoms - self.mobility == here else None
+
+    @property
+    def herve(self) -> HerveClass | None:
+        """Hervé's class of the motion that the verdict states; None if there is none, or it was not told."""
+        if self.configuration is None or not self.verdict.freedoms:
+            return None
+        told = herve_class(self.configuration)
+        return told if told is not None and told.freedoms == self.verdict.freedoms else None
+
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
+        herve = self.herve
         at, mended = self.configuration, {"mended": list(self.mended)}
         first = {
             "verdict": self.verdict.to_json(),
@@ -366,7 +389,8 @@ class JudgedMobility(MobilityAnswer):
             "assignment": None if at is None else at.nearest_to_json(),
             "flat_folding": None if self.flat_folding is None else self.flat_folding.to_json(),
         }
-        return {**first, **super(JudgedMobility, self).to_json(), **mended}
+        last = {**mended, "herve": None if herve is None else herve.to_json()}
+        return {**first, **super(JudgedMobility, self).to_json(), **last}
 
     def _precision(self) -> list[Block]:
         """Return the line on the precision of coordinates that are not exact, or are so by their digits alone."""
@@ -390,7 +414,9 @@ class JudgedMobility(MobilityAnswer):
         if self.flat_folding is not None:
             lines.append(str(self.flat_folding))
         repaired: list[Block] = [f"repaired: {note}" for note in self.mended]
-        return [*self.unread(), *lines, *self.evidence(verbose=verbose), *self._precision(), *repaired]
+        herve = self.herve
+        told: list[Block] = [] if herve is None else [str(herve)]
+        return [*self.unread(), *lines, *self.evidence(verbose=verbose), *told, *self._precision(), *repaired]
 
     def __repr__(self) -> str:
         return f"<JudgedMobility: {self.verdict.summary}>"

@@ -237,7 +237,7 @@ def test_4_2_5_3_to_6_reductions_step_by_step(name, golden):
         assert len(between.joints) == printed["J"] + 3 * number
         assert mobility_report(between).mobility == printed["M"]
         assert numeric_mobility(between) == printed["M"]
-    assert reduction.undo().is_identical(scd.sc_graph())
+    assert reduction.undo().is_identical(scd)
 
 
 def test_table_8(golden):

@@ -35,6 +35,11 @@ _OF_MODELS = ("density", "drive", "branch", "stiffness", "rest", "moment")
     "--to kind", ("sc", "scd", "polyhedron", "vertex-edge", "sheet", "solids", "joints"),
     "Kind of mechanism to convert to first. By default the kind that IN holds.",
 )  # fmt: skip
+@options.number(
+    "--max-degree", "D",
+    "Where the sides of the links are not known: take the SCD graph whose links have up to D sides, if it is the only "
+    "one; with --to scd, polyhedron or sheet.", 3,
+)  # fmt: skip
 @options.choice(
     "--form", ("planar", "spherical", "general"),
     "Change the centres: planar analogue, spherical analogue, or most general form.",
@@ -80,7 +85,7 @@ _OF_MODELS = ("density", "drive", "branch", "stiffness", "rest", "moment")
 @options.flag("--json as_json", "Print the conversion and its notes as JSON.")
 def convert(
     source: str, target: str, kind: str | None, form: str | None, table: str | None, force: bool, lossy: bool,
-    as_json: bool, model: str | None, **values: Any,
+    as_json: bool, model: str | None, max_degree: int | None, **values: Any,
 ) -> None:  # fmt: skip
     """Convert a mechanism from one file format to another; the extensions name the formats.
 
@@ -126,6 +131,7 @@ def convert(
     Examples:
       synth convert crease-pattern.fold mechanism.json
       synth convert crease-pattern.fold model.json --to polyhedron
+      synth convert data/hyatt/spherical-four-bar.json four-panels.json --to scd --max-degree 3
       synth convert folded.fold motion.csv --table axes
       synth convert folded.fold folded.stl --size 120 --thickness 0.8
       synth convert watt.json planar-watt.json --form planar
@@ -135,6 +141,8 @@ def convert(
       synth convert ring.json ring.urdf --as urdf --drive 0=90
     """
     check_output(target, force=force)
+    if max_degree is not None and kind not in ("scd", "polyhedron", "sheet"):
+        raise click.UsageError("--max-degree: only with --to scd, polyhedron or sheet")
     for_model = {name: values.pop(name) for name in _OF_MODELS}
     if model is None and (Path(target).suffix.lower() == ".csv") != (table is not None):
         raise click.UsageError("--table and an output .csv require each other")
@@ -145,7 +153,8 @@ def convert(
     original = read(source)
     notes: tuple[str, ...] = getattr(original, "notes", ())
     with about(source):
-        mechanism = synth.convert(original, kind, form=form)
+        mechanism = synth.convert(original, kind, form=form, max_degree=max_degree)
+        notes = (*notes, *_on_sides(original, max_degree))
         of_solids = of_solids or (model is None and Path(target).suffix.lower() == ".obj" and _has_shapes(mechanism))
         if table is not None:
             from graphs.files.atomic import write_text
@@ -174,6 +183,15 @@ def convert(
     tell_lost(lost)
     for note in notes:
         click.echo(f"note: {plain(note, 1000)}")
+
+
+def _on_sides(original: Mechanism, max_degree: int | None) -> tuple[str, ...]:
+    """Return the note on where the sides of the links come from, if the file did not have them."""
+    if max_degree is None:
+        return ()
+    if isinstance(original, synth.SCDGraph | synth.Sheet | synth.PolyhedronModel):
+        return ("the file has the sides of the links: --max-degree was not needed",)
+    return (f"the only SCD graph of the file whose links have up to {max_degree} sides",)
 
 
 def _is_of_solids(target: str, solid: dict[str, Any]) -> bool:

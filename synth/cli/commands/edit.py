@@ -218,7 +218,8 @@ def reduce_command(
         raise click.UsageError("--ground and --input require --rule assur")
     out.check_output(output, force=force)
     with out.about(file):
-        sc = graphs.convert.to_sc(read(file))
+        mechanism = read(file)
+        sc = mechanism if isinstance(mechanism, synth.SCDGraph) else graphs.convert.to_sc(mechanism)
         if rule == "assur":
             reduction: graphs.reduce.Reduction | graphs.reduce.AssurReduction = _assur(sc, ground, inputs)
         else:

@@ -122,8 +122,9 @@ def test_conversions_tell_what_stands_in_the_way():
     cut = Sheet(4, ((0, 2),), "B", ((0, 1, 2), (0, 2, 3)))
     for convert, thing, message in [
         (to_scd, bare, "the order of the sides of the links is not known"),
-        (to_scd, PolyhedronModel(1), "does not say which vertices make up a link"),
-        (to_scd, model, "has more than panels"),
+        (to_scd, PolyhedronModel(1), "no rods that show its links"),
+        (to_scd, PolyhedronModel(2, [(0, 1)]), "vertices 0, 1 are ambiguous: the rod between them lies in no triangle"),
+        (to_scd, model, "remote centre 0 is no implicit centre"),
         (to_sheet, PolyhedronModel(1), "does not say which vertices"),
         (to_scd, flat, "the sheet has flat edges"),
         (to_scd, cut, "the sheet has cuts"),

@@ -239,4 +239,4 @@ def test_random_scd_graphs_keep_their_count(scd):
     for rule in RULES:
         reduction = reduce(scd, rule=rule)
         assert mobility(reduction.graph) == mobility(scd)
-        assert reduction.undo().is_identical(scd.sc_graph())
+        assert reduction.undo().is_identical(scd)

@@ -262,6 +262,60 @@ ROWS = [
         )
     ),
     Row(
+        "Table 6",
+        "whether Eq. 4, without the sides of the links, and Eq. 2 of R-S-S-R apply; Eq. 2 with the sum of f",
+        "[synth.mobility(synth.read('data/wiener/hybrid-ten-bar.json').sc_graph()), synth.mobility('data/joints/rssr.json')]",
+        "[answer[0].equations['polyhedron'].applies, answer[1].equations['modified_cgk'].applies, "
+        "answer[1].equations['modified_cgk'].value]",
+        right=[False, True, 2],
+        words="Eq. 2 overrides Eq. 1 in space",
+        golden="003/table6",
+    ),
+    Row(
+        "Table 6",
+        "class, centres, M by Eq. 1 of Watt's six-bar on a cone, all of whose axes pass through the apex",
+        "synth.mobility(graphs.mechanism.surfaces.SurfaceLinkage.placed(synth.read('data/wiener/watt.json'), "
+        "np.radians([0, 40, 110, 200, 250, 300, 340])))",
+        "[answer.mechanism_class, answer.centres, answer.equations['traditional_cgk'].applies, "
+        "answer.equations['traditional_cgk'].value]",
+        right=["spherical", 1, True, 1],
+        words="one centre: Eq. 1 applies",
+    ),
+    Row(
+        "Section 3.4.4",
+        "polyhedron models of Table 3, rows 3 and 4, with an implicit centre, as SCD graphs again",
+        "[synth.read(name) for name in ('data/wiener/table3-row3.json', 'data/wiener/table3-row4.json')]",
+        "[str(synth.identify(synth.convert(synth.convert(one, 'polyhedron'), 'scd'))) == str(synth.identify(one)) "
+        "for one in answer]",
+        right=[True, True],
+        words="the model has the vertices of the SCD graph",
+    ),
+    Row(
+        "Sections 3.4, 4.1.4.4",
+        "whether the fortune teller's SC graph has one SCD graph of links with up to 3 sides, and that is the thesis's",
+        "synth.read('data/wiener/fortune-teller.json')",
+        "str(synth.identify(synth.convert(answer.sc_graph(), 'scd', max_degree=3))) == str(synth.identify(answer))",
+        right=True,
+        remark="up to 4 sides there are 10 702",
+    ),
+    Row(
+        "Section 4.2.5.6",
+        "the fortune teller reduced as an SCD graph: links, open edges, centres",
+        "synth.reduce('data/wiener/fortune-teller.json').graph",
+        "[len(answer), answer.counts.open_edges, len(answer.centre_classes())]",
+        right=[8, 8, 1],
+        words="the eight-bar",
+        golden="003/ex_4_2_5_6",
+    ),
+    Row(
+        "Section 6.1",
+        "Hervé's classes of Sarrus' linkage and of a Miura sheet",
+        "[synth.mobility(one).herve for one in ('data/linkages/sarrus.json', 'data/wiener/miura-3x3.fold')]",
+        "[one.kind for one in answer]",
+        right=["exceptional", "paradoxical"],
+        words="special geometry: directions of axes, or lengths and angles",
+    ),
+    Row(
         "Section 5.2.4",
         "mobility of the UPS chain between bodies of 3 and 3 vertices, of 4 and 5, of 6 and 3",
         "[synth.mobility(synth.read(name)).mobility for name in ('data/wiener/ups-chain-3-3.json', "
