@@ -15,6 +15,7 @@ import numpy as np
 
 from graphs.edit.named import joint_named, link_named
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import Cone, Cylinder, Surface, SurfaceLinkage, as_planar, ring, surface_json
 from graphs.printing import Block, Printed, TableBlock, plain
@@ -361,6 +362,30 @@ def linkage_on_surfaces(
         OnSurface(linkage.chain, [one.places[joint] for joint in linkage.chain.joints], one.surface)
         for one in (mapped.rows() if families else mapped.surfaces)
     ]
+
+
+def surface_behaviours(
+    mechanism: MechanismLike, ground: LinkId | None = None, *, surface: Surface | None = None
+) -> tuple[LinkageBehaviour, ...]:
+    """Return which links leave each surface of a linkage inward, outward, or both ways, to first order.
+
+    Parameters
+    ----------
+    mechanism : SurfaceLinkage, or the path of its file
+        By its steps, or by link angles or lengths; `InvariantError` for another mechanism.
+    ground : link id, optional
+        The fixed link: by default the linkage's own, or the first.
+    surface : Cone or Cylinder, optional
+        Only this one, of those on which it lies.
+
+    Examples
+    --------
+    >>> linkage = SurfaceLinkage.loop(np.radians([120, 95, 45, 85]))
+    >>> [behaviour.way_of(2) for behaviour in surface_behaviours(linkage)]
+    ['both', 'both']
+    """
+    linkage = mechanism_for("surface_behaviours", mechanism, SurfaceLinkage)
+    return tuple(placed.behaviour(ground) for placed in linkage_on_surfaces(linkage, surface))
 
 
 def surface_of_number(surfaces: Sequence[OnSurface], number: int | None, kind: str = "cone") -> OnSurface:

@@ -45,12 +45,15 @@ class LinkageOptions:
     sizes: tuple[float, ...] | None
     steps: tuple[float, ...] | None
     surface_size: float | None
+    row: int | None = None
     arcs: Sequence[tuple[str, str]] | None = None
 
     def __post_init__(self) -> None:
         sizes = "angles" if self.kind == "cone" else "lengths"
         if sum(source is not None for source in (self.file, self.sizes, self.steps)) != 1:
             raise click.UsageError(f"one of --{sizes}, --steps and FILE is required")
+        if self.row is not None and self.file is None:
+            raise click.UsageError("--row requires a FILE of conical candidates")
 
     @property
     def surface(self) -> Surface | None:
@@ -69,10 +72,8 @@ class LinkageOptions:
 
     def linkage(self) -> synth.SurfaceLinkage:
         """Return the linkage of the options, which need not lie on a surface."""
-        from graphs.files.formats import read_linkage
-
         if self.file is not None:
-            linkage = read_linkage(self.file)
+            linkage = self._of_file(self.file)
             of_steps = linkage.steps is not None and self.surface is not None
             return replace(linkage, surface=self.surface) if of_steps else linkage
         if self.sizes is not None:
@@ -89,6 +90,20 @@ class LinkageOptions:
             return synth.map_to_cones(self.linkage_sizes, None if surface is None else radians(self.surface_size or 0))
         return synth.map_to_cylinders(self.linkage_sizes, self.surface_size)
 
+    def _of_file(self, file: str) -> synth.SurfaceLinkage:
+        """Return the linkage of a file, or of a row of conical candidates, which lies on any cone or cylinder."""
+        from graphs.files.formats import read_linkage
+        from synth.cli.reading import read_named
+        from synth.drawing.catalogue import is_catalogue
+        from synth.drawing.mechanisms.chains import OrderOnCircle
+
+        if self.row is None and not is_catalogue(file):
+            return read_linkage(file)
+        order = read_named(file, self.row).mechanism
+        if not isinstance(order, OrderOnCircle):
+            raise UnsolvableError(f"row {self.row} is no conical candidate; try `synth realise --as cone`")
+        return synth.SurfaceLinkage.placed(order.chain, order.azimuths, self.surface)
+
     def note_readings(self) -> None:
         """Print, beside the answer, which link angles are read the other way round."""
         if self.sizes is not None and self.kind == "cone":
@@ -103,10 +118,8 @@ class LinkageOptions:
 
     def on_surfaces(self, *, families: bool = False) -> list[synth.conformed.OnSurface]:
         """Return the linkage on each of its surfaces; after these one of each family, if they are listed too."""
-        from graphs.files.formats import read_linkage
-
         if self.file is not None:
-            linkage = read_linkage(self.file)
+            linkage = self._of_file(self.file)
             placed = synth.conformed.linkage_on_surfaces(linkage, self.surface, families=families)
         elif self.sizes is not None and self.kind == "cone":
             angle = None if self.surface_size is None else radians(self.surface_size)
@@ -136,6 +149,8 @@ def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _C
     if kind == "cone":
         text = "Half angle of the cone, in place of --lambda: 90 degrees less lambda."
         every.append(options.value("--half-angle", metavar, text, type=float))
+    text = f"Row of conical candidates, from 1, of FILE (`synth enumerate conical -o FILE`); on the {kind} of {size}."
+    every.append(options.number("--row", "K", text))
     if arcs:
         text = (
             "For a link that spans half a turn: the joint at which its arc begins, in the direction of "
@@ -151,7 +166,7 @@ def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _C
                 if values["surface_size"] is not None:
                     raise click.UsageError("--lambda and --half-angle exclude each other; try one of them")
                 values["surface_size"] = 90.0 - half_angle
-            names = ("file", "sizes", "steps", "surface_size", "arcs")
+            names = ("file", "sizes", "steps", "surface_size", "row", "arcs")
             chosen = LinkageOptions(kind, *(values.pop(name, None) for name in names))
             command(chosen=chosen, **values)
 
