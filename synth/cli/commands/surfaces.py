@@ -213,11 +213,13 @@ class MapOutput:
         every = mapping.placed()
         one = mapping.of_number(every, self.number)
         _write(one, self.path, force=self.force)
-        if len(every) < 2 or linkage.steps is not None:
-            return ""
-        size = "" if mapping.chooses else ", --lambda its size" if chosen.kind == "cone" else ", --radius its size"
-        number = every.index(one) + 1
-        return f"{chosen.kind} {number} of {len(every)}: {one.surface}; --{chosen.kind} chooses another{size}"
+        place = every.index(one) + 1
+        if mapping.chooses and len(every) > 1:
+            return f"{chosen.kind} {place} of {len(every)}: {one.surface}; --{chosen.kind} chooses another"
+        if linkage.steps is None and place > len(every) - len(mapping.answer().families):
+            option = "--lambda" if chosen.kind == "cone" else "--radius"
+            return f"{chosen.kind} {place}: {one.surface}, one of an interval; {option} chooses another"
+        return ""
 
 
 @dataclass(frozen=True)
