@@ -160,6 +160,9 @@ class _ScParts:
         return [self._loop(item, place) for place, item in self.check.items(value, key, "a list of loops")]
 
     def _loop(self, item: Any, place: str) -> Loop:
+        if isinstance(item, dict) and "centre" not in item:
+            expected = '"centre": "finite", "infinite" (planar) or "none" (spatial)'
+            raise FileError(self.check.path, place, "key 'centre' is missing", expected)
         self.check.mapping(item, place, ("joints", "centre"), ("name", "at"))
         around = self.check.items(item["joints"], f"{place}.joints", "a list of joint ids")
         ids = tuple(self.check.name(joint, at, "a joint id") for at, joint in around)

@@ -110,13 +110,13 @@ class CandidateChain:
         return [str(joint) for joint in self.chain.joints]
 
     @cached_property
-    def joins(self) -> tuple[tuple[str, str, str], ...]:
+    def joins(self) -> tuple[tuple[str, ...], ...]:
         """The name of each joint with those of the two links that it joins."""
         links = [str(link) for link in self.chain.links]
         return tuple(
             (name, *(link for link, own in zip(links, self.chain.joints_of, strict=True) if joint in own))
             for joint, name in enumerate(self.names)
-        )  # type: ignore[misc]
+        )
 
     @property
     def single(self) -> bool:

@@ -103,7 +103,7 @@ class PlanarPositions:
         """Return where a point of the body lies at each position: float[n, 2]."""
         c, s = np.cos(self.rows[:, 2]), np.sin(self.rows[:, 2])
         x, y = point
-        return self.rows[:, :2] + np.stack([c * x - s * y, s * x + c * y], axis=1)
+        return np.asarray(self.rows[:, :2] + np.stack([c * x - s * y, s * x + c * y], axis=1))
 
     def subset(self, numbers: Sequence[int]) -> PlanarPositions:
         """Return some of the positions, numbered from 1, in the order of the numbers."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial
-from math import ceil, cos, degrees, inf, isfinite, sin, tau
+from math import ceil, degrees, inf, isfinite, tau
 from typing import Any
 
 import numpy as np
@@ -34,6 +34,7 @@ from synth.motion.singular.second_order import rates_at
 from synth.motion.walk.events import TurningPoint
 from synth.motion.walk.step import Step
 from synth.motion.walk.walking import Event, Walk
+from synth.moving.arcs import heights_about, heights_over
 from synth.moving.made import configuration_of
 
 BACK, ROUND = "turns back", "turns all round"
@@ -121,9 +122,9 @@ class SurfaceLinks:
             p, q, off = self._surface.outward(*motions[link])
             pivot = self._pivots[number]
             if pivot is None:
-                low, high = _extremes(p, q, float(begin), float(length))
+                low, high = heights_over(p, q, float(begin), float(length))
             else:
-                low, high = _extremes_about(pivot, p, q, float(begin), float(length))
+                low, high = heights_about(pivot, p, q, float(begin), float(length))
                 off = np.zeros_like(off)
             spans[:, number] = np.stack([low + off + rounding, high + off - rounding], axis=1)
         return spans
@@ -292,34 +293,6 @@ def _way(beyond: Flags) -> Way:
     """Return the way of a link that is inside the surface, outside, both or neither: bool[2]."""
     inside, outside = beyond.tolist()
     return Way.BOTH if inside and outside else Way(int(outside) - int(inside))
-
-
-def _extremes(p: Floats, q: Floats, begin: float, length: float) -> tuple[Floats, Floats]:
-    """Return the least and greatest p cos t + q sin t over an arc."""
-    size, top = np.hypot(p, q), np.arctan2(q, p)
-    ends = p * cos(begin) + q * sin(begin), p * cos(begin + length) + q * sin(begin + length)
-    high = np.where(np.remainder(top - begin, tau) < length, size, np.maximum(*ends))
-    low = np.where(np.remainder(top + np.pi - begin, tau) < length, -size, np.minimum(*ends))
-    return low, high
-
-
-def _extremes_about(pivot: float, p: Floats, q: Floats, begin: float, length: float) -> tuple[Floats, Floats]:
-    """Return the least and greatest height of an arc that turns about its own point at `pivot`, where it has none.
-
-    There p cos t + q sin t + c is zero, so that it is 2 sin u (q cos(pivot + u) - p sin(pivot + u)) at t = pivot +
-    2 u: the height in proportion to the chord 2 sin u from the pivot is an arc of its own, half as long. It changes
-    its sign with the direction of the link; the height itself, where the link lies along the surface beyond its
-    pivot, only touches zero, and a change would be seen too late by the root of the rounding.
-    """
-    before = float(np.remainder(pivot - begin, tau))
-    before = 0.0 if tau - before < DOUBLE.same_configuration else min(before, length)
-    low, high = np.full(p.shape, inf), np.full(p.shape, -inf)
-    for side, part in ((1.0, length - before), (-1.0, before)):  # the chord is negative before the pivot
-        if part > DOUBLE.same_configuration:
-            start = pivot if side > 0 else pivot - part / 2
-            ends = _extremes(side * q, -side * p, start, part / 2)
-            low, high = np.minimum(low, ends[0]), np.maximum(high, ends[1])
-    return low, high
 
 
 def _same(one: Floats, other: Floats) -> bool:
