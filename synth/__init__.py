@@ -15,7 +15,7 @@ mechanisms of old ones: `reduce`, `convert`, `edit`. All mechanisms of a kind: `
 `strings`, `addenda`, `conical_candidates`, and their numbers: `count_chains`, .... Cones and cylinders:
 `map_to_cones`, `map_to_cylinders`, `map_linkage`; of many loops at once, by arrays: `cones_of_loops`; linkages for a
 cone: `design_on_cone`; how links leave them: `surface_behaviours`, `move_on_surface`. Guidance of a body:
-`Orientations`, `analyse_order`, `analyse_planar_order`, `guiding_dyads`, `four_bars`, `six_bars`. A type with
+`Orientations`, `analyse_order`, `guiding_dyads`, `four_bars`, `six_bars`. A type with
 coordinates: `realise`, `realise_on_cone`. Motion: `fold`, a crease pattern with rigid panels, frame by frame; `move`,
 any linkage; `in_configuration`, a frame of a file, or joints at stated angles; `positions`, all assembly modes at
 given inputs; `sweep`, many members of a type, arrays in and out. `explain`: why it moves; `layers`: whether it folds

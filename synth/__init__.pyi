@@ -51,7 +51,6 @@ from synth.guidance.fourbars import four_bars as four_bars
 from synth.guidance.guiding import guiding_dyads as guiding_dyads
 from synth.guidance.order import analyse_order as analyse_order
 from synth.guidance.orientations import Orientations as Orientations
-from synth.guidance.propeller import PlanarPositions as PlanarPositions, analyse_planar_order as analyse_planar_order
 from synth.guidance.sixbars import six_bars as six_bars
 from synth.layering.answer import layers as layers
 from synth.members.sweeping import sweep as sweep
