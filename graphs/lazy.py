@@ -1,6 +1,7 @@
 """Faces of rooms: names that a folder offers, imported from its files when they are first asked for (PEP 562).
 
-The names stand once, in the stub beside the face (``__init__.pyi``), where type checkers read them too. It is
+Modules of a folder are imported so too, so that ``synth.fourbar.position`` works after ``import synth`` alone. The
+names stand once, in the stub beside the face (``__init__.pyi``), where type checkers read them too. It is
 the idea of SPEC 1 of Scientific Python; a stub may name files of any room here.
 """
 
@@ -8,9 +9,11 @@ import ast
 import sys
 from collections.abc import Callable
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
+from types import ModuleType
 
-__all__ = ["names_in_stub", "offered"]
+__all__ = ["module_of", "names_in_stub", "offered"]
 
 
 def offered(package: str) -> tuple[Callable[[str], object], Callable[[], list[str]], list[str]]:
@@ -19,7 +22,7 @@ def offered(package: str) -> tuple[Callable[[str], object], Callable[[], list[st
 
     def look_up(name: str) -> object:
         if name not in modules:
-            raise AttributeError(f"module {package!r} has no attribute {name!r}")
+            return module_of(package, name)
         value: object = getattr(import_module(modules[name]), name)
         setattr(sys.modules[package], name, value)  # found at once from now on
         return value
@@ -28,6 +31,13 @@ def offered(package: str) -> tuple[Callable[[str], object], Callable[[], list[st
         return sorted({*vars(sys.modules[package]), *modules})
 
     return look_up, names_of_room, sorted(modules)
+
+
+def module_of(package: str, name: str) -> ModuleType:
+    """Return a module of a package, imported as it is asked for; AttributeError if there is none of this name."""
+    if name.startswith("_") or find_spec(f"{package}.{name}") is None:
+        raise AttributeError(f"module {package!r} has no attribute {name!r}")
+    return import_module(f"{package}.{name}")
 
 
 def names_in_stub(stub: Path) -> dict[str, str]:

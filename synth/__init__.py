@@ -14,13 +14,14 @@ Reading and writing: `read`, `write`. Questions: `look`, a first answer; `mobili
 mechanisms of old ones: `reduce`, `convert`, `edit`. All mechanisms of a kind: `chains`, `sc_graphs`, `scd_graphs`,
 `strings`, `addenda`, `conical_candidates`, and their numbers: `count_chains`, .... Cones and cylinders:
 `map_to_cones`, `map_to_cylinders`, `map_linkage`; of many loops at once, by arrays: `cones_of_loops`; linkages for a
-cone: `design_on_cone`. Guidance of a body: `Orientations`, `analyse_order`, `guiding_dyads`, `four_bars`. A type with
+cone: `design_on_cone`; how links leave them: `surface_behaviours`, `move_on_surface`. Guidance of a body:
+`Orientations`, `analyse_order`, `guiding_dyads`, `four_bars`, `six_bars`. A type with
 coordinates: `realise`, `realise_on_cone`. Motion: `fold`, a crease pattern with rigid panels, frame by frame; `move`,
 any linkage; `in_configuration`, a frame of a file, or joints at stated angles; `positions`, all assembly modes at
 given inputs; `sweep`, many members of a type, arrays in and out. `explain`: why it moves; `layers`: whether it folds
 flat, in how many layer orders; `advise`: what to lock, which panels to crease; `states`: which members bend, and what
-springs do. Known patterns and linkages: `generate`, by parameters. Dimensions with which a mechanism moves as wished:
-`design`; types that can do a task, with dimensions, ranked: `task`.
+springs do; `limits`: where ride-alongs stop joints. Known patterns and linkages: `generate`, by parameters.
+Dimensions with which a mechanism moves as wished: `design`; types that can do a task, with dimensions, ranked: `task`.
 All types up to a size in a file: `open_atlas`. Models for simulators, with closed loops: `write_model`.
 Pictures: `draw`, of any mechanism, and their `save`; templates to cut and fold: `template`, `write_template`; pages
 that fold: `view`. In a notebook mechanisms show themselves.

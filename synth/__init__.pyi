@@ -37,7 +37,9 @@ from synth.candidates.listing import (
     count_conical_candidates as count_conical_candidates,
 )
 from synth.compliance.compliance_states import DrivenJoint as DrivenJoint, states as states
+from synth.compliance.joint_limits import limits as limits
 from synth.compliance.springs import Mass as Mass, Masses as Masses, SpringArrays as SpringArrays, Springs as Springs
+from synth.conformed.linkages import surface_behaviours as surface_behaviours
 from synth.conversion import convert as convert
 from synth.designing.cone_design import design_on_cone as design_on_cone
 from synth.designing.designs import design as design
@@ -54,6 +56,7 @@ from synth.guidance.sixbars import six_bars as six_bars
 from synth.layering.answer import layers as layers
 from synth.members.sweeping import sweep as sweep
 from synth.moving.motion import in_configuration as in_configuration, move as move
+from synth.moving.on_surface import move_on_surface as move_on_surface
 from synth.notebook import load_ipython_extension as load_ipython_extension
 from synth.overconstraint.explanation import explain as explain
 from synth.patterns.generated import generate as generate

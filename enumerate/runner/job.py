@@ -309,6 +309,22 @@ class ListColumn:
 
 
 @dataclass(frozen=True, slots=True)
+class JoinColumn(ListColumn):
+    """A column of lists of joints, each with the links that it joins: the name first, then what it joins.
+
+    >>> JoinColumn(" ", "-", ":", str).text((("a", "1", "2"), ("b", "2", "3")))
+    'a:1-2 b:2-3'
+    """
+
+    def item_text(self, item: Any) -> str:
+        """Return how a table shows a joint and its links."""
+        if not isinstance(item, tuple):
+            return plain(item)
+        name, *links = map(str, item)
+        return plain(name) + self.before_last + self.within.join(map(plain, links))
+
+
+@dataclass(frozen=True, slots=True)
 class RangeColumn(ListColumn):
     """A column of lists of (least, greatest); a table shows those that are equal once.
 

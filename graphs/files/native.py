@@ -9,7 +9,7 @@ from math import degrees, inf, radians
 from pathlib import Path
 from typing import Any
 
-from graphs.errors import FileError, UnsolvableError, shown
+from graphs.errors import FileError, UnsolvableError, numbered, shown
 from graphs.files.text import Checker, json_text, load_json
 from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, kind_named
 from graphs.loops.loop import Centre, Loop
@@ -71,6 +71,7 @@ _SC_KEYS = ("ground", "closing", "special")
 
 def read_sc(value: Mapping[str, Any], check: Checker) -> SCGraph:
     """Read an SC graph from its document."""
+    _require_loops(value, check)
     check.mapping(value, "", _CHAIN_KEYS, _SC_KEYS)
     parts = _ScParts(value, check)
     return check.build(lambda: SCGraph(**parts.arguments()), parts.place_of)
@@ -78,6 +79,7 @@ def read_sc(value: Mapping[str, Any], check: Checker) -> SCGraph:
 
 def read_scd(value: Mapping[str, Any], check: Checker) -> SCDGraph:
     """Read an SCD graph from its document."""
+    _require_loops(value, check)
     check.mapping(value, "", (*_CHAIN_KEYS, "rotation"), (*_SC_KEYS, "outer"))
     parts = _ScParts(value, check)
     if not isinstance(value["rotation"], dict):
@@ -97,6 +99,11 @@ def read_scd(value: Mapping[str, Any], check: Checker) -> SCDGraph:
         face = check.mapping(value["outer"], "outer", ("joint", "side"))
         outer = (check.name(face["joint"], "outer.joint"), check.text(face["side"], "outer.side"))
     return check.build(lambda: SCDGraph(**parts.arguments(), rotation=rotation, outer=outer), parts.place_of)
+
+
+def _require_loops(value: Mapping[str, Any], check: Checker) -> None:
+    if "loops" not in value:
+        raise FileError(check.path, "", "key 'loops' is missing", 'a list of loops; a tree has none, "loops": []')
 
 
 class _ScParts:
@@ -137,12 +144,25 @@ class _ScParts:
                 raise FileError(self.check.path, place, f"the id {shown(joint)} occurs twice", "distinct ids")
             first, second = (self.check.name(end, f"{place}[{k}]", "a link") for k, end in enumerate(pair))
             joints[joint] = (first, second)
+            if self.links == list(range(len(self.links))):
+                self._count_from_0(place, (first, second))
         return joints
+
+    def _count_from_0(self, place: str, ends: tuple[LinkId, LinkId]) -> None:
+        """Refuse a link beyond those that are counted, as of a file whose links count from 1."""
+        for k, end in enumerate(ends):
+            if isinstance(end, int) and not 0 <= end < len(self.links):
+                offender = f"link {shown(end)} of {numbered(len(self.links), 'link')}"
+                expected = f"a link from 0 to {len(self.links) - 1}: links count from 0"
+                raise FileError(self.check.path, f"{place}[{k}]", offender, expected)
 
     def _loops(self, value: Any, key: str) -> list[Loop]:
         return [self._loop(item, place) for place, item in self.check.items(value, key, "a list of loops")]
 
     def _loop(self, item: Any, place: str) -> Loop:
+        if isinstance(item, dict) and "centre" not in item:
+            expected = '"centre": "finite", "infinite" (planar) or "none" (spatial)'
+            raise FileError(self.check.path, place, "key 'centre' is missing", expected)
         self.check.mapping(item, place, ("joints", "centre"), ("name", "at"))
         around = self.check.items(item["joints"], f"{place}.joints", "a list of joint ids")
         ids = tuple(self.check.name(joint, at, "a joint id") for at, joint in around)

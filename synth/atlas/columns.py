@@ -202,3 +202,14 @@ def name_of_type(kind: str, code: str) -> str | None:
     if kind == "string":
         return ChainString.parse(code).mechanism
     return _names().get((kind, code))
+
+
+def name_of_id(code: str) -> str | None:
+    """Return the name of a chain, an SC or an SCD graph by its id, or None.
+
+    Examples
+    --------
+    >>> name_of_id("k1:E`hW"), name_of_id("m1:ab.ac.bde.cfg.dg.ef"), name_of_id("k1:E?")
+    ('Watt chain', 'stephenson', None)
+    """
+    return next(filter(None, (name_of_type(kind, code) for kind in ("chain", "sc", "scd"))), None)

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from enumerate.runner.job import Column, ListColumn, RangeColumn, Row
+from enumerate.runner.job import Column, JoinColumn, ListColumn, RangeColumn, Row
 from graphs.mechanism.surfaces import Cone, Surface
 from graphs.types import Floats, Ints
 from synth.conformed.all_angles import (
@@ -77,6 +77,7 @@ _OF_LINK = {Allowed.BOTH: "both", Allowed.ONE: "one", Allowed.ANGLES: "angles", 
 _WORDS = ListColumn(" ", kind=str)
 _NUMBERS = ListColumn(" ")
 _JOINTS = ListColumn(" ", "-", kind=str)
+_JOINS = JoinColumn(" ", "-", ":", str)
 
 
 class LoopCircuits(NamedTuple):
@@ -108,6 +109,15 @@ class CandidateChain:
         """Names of the joints."""
         return [str(joint) for joint in self.chain.joints]
 
+    @cached_property
+    def joins(self) -> tuple[tuple[str, ...], ...]:
+        """The name of each joint with those of the two links that it joins."""
+        links = [str(link) for link in self.chain.links]
+        return tuple(
+            (name, *(link for link, own in zip(links, self.chain.joints_of, strict=True) if joint in own))
+            for joint, name in enumerate(self.names)
+        )
+
     @property
     def single(self) -> bool:
         """Whether the mobility of the chain by count is 1."""
@@ -125,7 +135,7 @@ class CandidateChain:
 
     def columns(self, placed: bool, opposites: bool, surface: Surface | None, slots: bool) -> dict[str, Column]:
         """Return names and types of columns."""
-        columns: dict[str, Column] = {"chain": str, "ground": str, "order": _WORDS}
+        columns: dict[str, Column] = {"chain": str, "ground": str, "joins": _JOINS, "order": _WORDS}
         if slots or not placed:
             columns["slots"] = _NUMBERS
         columns |= {
@@ -152,10 +162,10 @@ class CandidateChain:
         return columns
 
     def common(self, slots: Ints, opposites: bool) -> Iterator[tuple[Any, ...]]:
-        """Yield chain, ground and order, slots of rows."""
+        """Yield chain, ground, links of joints, order, slots of rows."""
         ground = str(self.chain.links[0]) if self.grounded else ""
         for row in slots.tolist():
-            yield self.code, ground, self._order(row, opposites), tuple(row)
+            yield self.code, ground, self.joins, self._order(row, opposites), tuple(row)
 
     def _order(self, row: list[int], opposites: bool) -> tuple[str, ...]:
         if not opposites:

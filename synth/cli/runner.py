@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from enumerate.runner.job import Column, Job, Progress, Row, Sink
 
 _MOST_IN_TABLE = 1000
+_NAME = "name"
+"""The column of names of known types (synth/atlas/named.json), in tables only: rows in files have ids."""
 _PATIENCE = 1.0
 """Seconds before progress is shown, and between two lines of it."""
 
@@ -253,19 +255,30 @@ class TablePrinter:
         self._shown = [(i, _text_of(columns[column])) for i, column in enumerate(columns) if column != "mechanism"]
         self._columns = [list(columns)[i] for i, _ in self._shown]
         self._numbers = [column for column in self._columns if columns[column] in (int, float)]
+        self._id = next((self._columns.index(column) for column in ("code", "chain") if column in self._columns), None)
+        if self._id is not None:
+            self._columns.insert(self._id + 1, _NAME)
         self._kept: list[list[str]] = []
         self._streaming = False
 
     def take(self, columns: tuple[str, ...], rows: list[Row]) -> None:
         """Keep rows for the table, or print them."""
         del columns
-        self._kept += [[text(row[i]) for i, text in self._shown] for row in rows]
+        self._kept += [self._named([text(row[i]) for i, text in self._shown]) for row in rows]
         if len(self._kept) > _MOST_IN_TABLE or self._streaming:
             if not self._streaming:
                 click.echo("\t".join(self._columns))
             self._streaming = True
             click.echo("\n".join("\t".join(row) for row in self._kept))
             self._kept = []
+
+    def _named(self, row: list[str]) -> list[str]:
+        """Return a row with the name of its type behind the id, or nothing."""
+        if self._id is None:
+            return row
+        from synth.atlas.columns import name_of_id
+
+        return [*row[: self._id + 1], name_of_id(row[self._id]) or "", *row[self._id + 1 :]]
 
     def finish(self) -> None:
         """Print the table, unless lines were printed; columns with one value in all rows go above it."""
@@ -278,8 +291,12 @@ class TablePrinter:
             i for i in range(1, len(self._columns)) if len(self._kept) > 1 and len({row[i] for row in self._kept}) == 1
         ]
         if common:
-            click.echo("  ".join(f"{self._title(i)} {self._kept[0][i] or '-'}" for i in common))
-        left = [i for i in range(len(self._columns)) if i not in common]
+            said = [i for i in common if self._kept[0][i] or self._columns[i] != _NAME]
+            click.echo("  ".join(f"{self._title(i)} {self._kept[0][i] or '-'}" for i in said))
+        nameless = [
+            i for i, column in enumerate(self._columns) if column == _NAME and not any(r[i] for r in self._kept)
+        ]
+        left = [i for i in range(len(self._columns)) if i not in (*common, *nameless)]
         numbers = [self._title(i) for i in left if self._columns[i] in self._numbers]
         shown = table(*map(self._title, left), numbers=numbers)
         for row in self._kept:

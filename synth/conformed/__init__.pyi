@@ -25,6 +25,7 @@ from synth.conformed.linkages import (
     loop_of_steps as loop_of_steps,
     loop_on_cones as loop_on_cones,
     loop_on_cylinders as loop_on_cylinders,
+    surface_behaviours as surface_behaviours,
 )
 from synth.conformed.outward import (
     OutwardRate as OutwardRate,

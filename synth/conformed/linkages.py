@@ -15,6 +15,7 @@ import numpy as np
 
 from graphs.edit.named import joint_named, link_named
 from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.surfaces import Cone, Cylinder, Surface, SurfaceLinkage, as_planar, ring, surface_json
 from graphs.printing import Block, Printed, TableBlock, plain
@@ -333,7 +334,7 @@ def _centre(motion: Floats) -> list[float] | None:
 
 
 def linkage_on_surfaces(
-    linkage: SurfaceLinkage, surface: Surface | None = None, *, tolerance: float = 1e-7
+    linkage: SurfaceLinkage, surface: Surface | None = None, *, tolerance: float = 1e-7, families: bool = False
 ) -> list[OnSurface]:
     """Return a linkage on each of its surfaces: from link angles or lengths, or from steps (then one).
 
@@ -341,10 +342,12 @@ def linkage_on_surfaces(
     ----------
     linkage : SurfaceLinkage
     surface : Cone or Cylinder, optional
-        For steps; by default that of the linkage, or any. `UnsolvableError` for link angles or lengths, which
-        determine it themselves.
+        For steps: by default that of the linkage, or any. For link angles or lengths: the one surface that is
+        chosen of those on which they lie.
     tolerance : float, optional
         How well loops of known sizes must close together, radians.
+    families : bool, optional
+        After these, one of each interval of surfaces, its typical one.
 
     Examples
     --------
@@ -354,14 +357,35 @@ def linkage_on_surfaces(
     """
     if linkage.steps is not None:
         return [OnSurface(linkage.chain, linkage.places(), surface or linkage.surface)]
-    if surface is not None:
-        sizes = "link angles" if linkage.kind == "cone" else "lengths"
-        option = "lambda" if isinstance(surface, Cone) else "radius"
-        raise UnsolvableError(f"{sizes} determine the {linkage.kind}: remove --{option}")
+    mapped = map_linkage(linkage, tolerance, surface)
     return [
         OnSurface(linkage.chain, [one.places[joint] for joint in linkage.chain.joints], one.surface)
-        for one in map_linkage(linkage, tolerance).surfaces
+        for one in (mapped.rows() if families else mapped.surfaces)
     ]
+
+
+def surface_behaviours(
+    mechanism: MechanismLike, ground: LinkId | None = None, *, surface: Surface | None = None
+) -> tuple[LinkageBehaviour, ...]:
+    """Return which links leave each surface of a linkage inward, outward, or both ways, to first order.
+
+    Parameters
+    ----------
+    mechanism : SurfaceLinkage, or the path of its file
+        By its steps, or by link angles or lengths; `InvariantError` for another mechanism.
+    ground : link id, optional
+        The fixed link: by default the linkage's own, or the first.
+    surface : Cone or Cylinder, optional
+        Only this one, of those on which it lies.
+
+    Examples
+    --------
+    >>> linkage = SurfaceLinkage.loop(np.radians([120, 95, 45, 85]))
+    >>> [behaviour.way_of(2) for behaviour in surface_behaviours(linkage)]
+    ['both', 'both']
+    """
+    linkage = mechanism_for("surface_behaviours", mechanism, SurfaceLinkage)
+    return tuple(placed.behaviour(ground) for placed in linkage_on_surfaces(linkage, surface))
 
 
 def surface_of_number(surfaces: Sequence[OnSurface], number: int | None, kind: str = "cone") -> OnSurface:
@@ -382,42 +406,55 @@ def surface_of_number(surfaces: Sequence[OnSurface], number: int | None, kind: s
     return surfaces[(number or 1) - 1]
 
 
-def loop_on_cones(angles: Sequence[float]) -> list[OnSurface]:
+def loop_on_cones(
+    angles: Sequence[float], cone_angle: float | None = None, *, families: bool = False
+) -> list[OnSurface]:
     """Return a loop of link angles on each of its cones.
 
     Parameters
     ----------
     angles : float[n]
         Radians, in loop order.
+    cone_angle : float, optional
+        lambda of the one cone that is chosen of them, radians.
+    families : bool, optional
+        After these, one cone amid each interval of cones.
 
     Examples
     --------
     >>> [loop.behaviour().way_of(2) for loop in loop_on_cones(np.radians([120, 95, 45, 85]))]
     ['both', 'both']
     """
+    mapped = map_to_cones(angles, cone_angle)
     return [
         OnSurface(ring(len(angles)), azimuths(cone.steps).tolist(), Cone(cone.size))
-        for cone in map_to_cones(angles).cones
+        for cone in (mapped.rows() if families else mapped.cones)
     ]
 
 
-def loop_on_cylinders(lengths: Sequence[float]) -> list[OnSurface]:
+def loop_on_cylinders(
+    lengths: Sequence[float], radius: float | None = None, *, families: bool = False
+) -> list[OnSurface]:
     """Return a loop of lengths on each of its cylinders.
 
     Parameters
     ----------
     lengths : float[n]
         In loop order, any one unit.
+    radius : float, optional
+        Of the one cylinder that is chosen of them.
+    families : bool, optional
+        After these, one cylinder of each interval of radii.
 
     Examples
     --------
     >>> [str(loop.surface) for loop in loop_on_cylinders([4, 3, 5, 1])]
     ['radius 2.536145625', 'radius 2.590911136']
     """
-    chain = as_planar(ring(len(lengths)))
+    chain, mapped = as_planar(ring(len(lengths))), map_to_cylinders(lengths, radius)
     return [
         OnSurface(chain, azimuths(one.steps).tolist(), Cylinder(one.size))
-        for one in map_to_cylinders(lengths).cylinders
+        for one in (mapped.rows() if families else mapped.cylinders)
     ]
 
 

@@ -18,8 +18,10 @@ from enumerate.runner.job import Limits, row_as_dict
 from enumerate.runner.store import read_meta, read_rows
 from enumerate.strings.panel_strings import ChainString
 from graphs.errors import FileError, InvariantError, SynthedraError, numbered, shown
+from graphs.files.bare import names_from_text
 from graphs.files.formats import is_id, mechanism_of_id, read_all
 from graphs.files.outputs import check_installed, check_writable, write_as
+from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from synth.conformed.rates import loops_of_chain
@@ -96,10 +98,11 @@ def _rows_of_parquet(place: Path) -> Iterator[Row]:
 def _order_of_row(row: Row, chain: SCGraph) -> OrderOnCircle:
     """Return the order of joints of a row of conical candidates, at its azimuths, or evenly spaced.
 
-    Names of joints are those of the file of the chain, which the id does not know: neighbours on a link are read
-    from the loops. The row has ``order``, ``loops``, and ``azimuths_deg`` or ``slots``: azimuths are in the order
-    of the joints of the chain (that of the row's id), and ``order`` names joints as they follow each other; a
-    point opposite to one has a prime. Raise KeyError, TypeError or ValueError for another row.
+    Names of joints and links are those of the file of the chain, which the id does not know: they are read from the
+    loops, and from ``joins``, which older rows do not have. The row has ``order``, ``loops``, and ``azimuths_deg`` or
+    ``slots``: azimuths are in the order of the joints of the chain (that of the row's id), and ``order`` names joints
+    as they follow each other; a point opposite to one has a prime. Raise KeyError, TypeError or ValueError for
+    another row.
     """
     # slots go round half a turn where orders name opposite points too; rows of other orders count the layers
     primed = "azimuths_deg" not in row and "most_layers" not in row
@@ -118,7 +121,18 @@ def _order_of_row(row: Row, chain: SCGraph) -> OrderOnCircle:
         for loop in row["loops"]
         for a, b in zip(loop, [*loop[1:], loop[0]], strict=True)
     }
-    return OrderOnCircle(chain, names, azimuths, sorted(pairs))
+    return OrderOnCircle(_chain_of_row(row, names) if "joins" in row else chain, names, azimuths, sorted(pairs))
+
+
+def _chain_of_row(row: Row, names: Sequence[str]) -> SCGraph:
+    """Return the chain of a row with the names that joints and links have there, and its independent loops."""
+    joins = {name: (a, b) for name, a, b in row["joins"]}
+    links = names_from_text(sorted({link for ends in joins.values() for link in ends}))
+    joints = {name: (links[joins[name][0]], links[joins[name][1]]) for name in names}
+    independent = len(joints) - len(links) + 1
+    ground = links[row["ground"]] if row["ground"] else None
+    loops = [Loop(tuple(loop)) for loop in row["loops"][:independent]]
+    return SCGraph(sorted(links.values(), key=str), joints, loops, ground=ground)
 
 
 def drawable_of_type(kind: str, code: str) -> Any:

@@ -93,7 +93,7 @@ def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Sc
     g = unit_vector(axis, "fixed axis")
     if len(orientations) > _MOST_DRAWN:
         raise UnsolvableError(f"{len(orientations)} orientations are too many for a picture; at most {_MOST_DRAWN}")
-    start = unit(across(orientations.relative_axis(1, 2), g))
+    start = unit(across(orientations.relative_axis(*hoop.start), g))
     beside = np.cross(g, start) * (1.0 if hoop.direction == "ccw" else -1.0)
     needed = set(hoop.required)
     shown = [c for c in hoop.crossings if c.pair in needed or len(orientations) <= _MOST_LABELLED]
@@ -108,7 +108,7 @@ def draw_hoop(orientations: Orientations, axis: npt.ArrayLike, hoop: Hoop) -> Sc
     ]
     verdict = "the order is kept" if hoop.in_order else "the order is not kept"
     said = [
-        f"hoop about G, turning {direction_words(hoop.direction)} from S12: {verdict}; "
+        f"hoop about G, turning {direction_words(hoop.direction)} from {pair_name(hoop.start)}: {verdict}; "
         "red, above the line: the axes that decide",
         "blue: the body's z axis at each orientation; red, green: towards its x, y; open or dashed: far side",
     ]

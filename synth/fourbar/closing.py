@@ -7,6 +7,7 @@ al. 2021, Table 1, Eqs. 1 to 3; the types are those of McCarthy, *Geometric Desi
 docs/theory/four-bars.md, docs/theory/rounding.md.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 from math import degrees, floor, fsum, log10
@@ -33,8 +34,10 @@ def rounding_of(terms: npt.ArrayLike) -> Floats:
     return np.asarray((sizes.shape[-1] + 4) * np.finfo(float).eps * sizes.sum(axis=-1))
 
 
-_SIGNS = np.array([[1, -1, 1, -1], [1, -1, -1, 1], [-1, -1, 1, 1]])
-"""Of g, a, h, b in T1, T2, T3."""
+_PLANAR = np.array([[1, 1, -1, -1], [1, -1, 1, -1], [-1, 1, 1, -1]])
+"""Signs of g, a, h, b in the planar T1, T2, T3 (Hyatt et al. 2021, Eqs. 1 to 3)."""
+_SPHERICAL = np.array([[1, -1, 1, -1], [1, -1, -1, 1], [-1, -1, 1, 1]])
+"""Signs of gamma, alpha, eta, beta in the spherical T1, T2, T3 (Hyatt et al. 2020, Eqs. 1 to 3; McCarthy)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,10 +93,10 @@ class FourBarKind:
 
 
 def planar_differences(lengths: npt.ArrayLike) -> Floats:
-    """Return T1, T2, T3 of planar four-bars: g - a + h - b, g - a - h + b, h + b - g - a, float[..., 3].
+    """Return T1, T2, T3 of planar four-bars: g + a - h - b, g - a + h - b, a + h - g - b, float[..., 3].
 
-    Hyatt et al. 2021, Eqs. 1 to 3. Their Table 1 names the sides of a quadrilateral a, b, c, d in any order; its
-    T1, T2, T3 are these but for order and, in pairs, sign.
+    Hyatt et al. 2021, Eqs. 1 to 3, their a, b, c, d being the sides in loop order. The first three spherical ones
+    (`spherical_differences`) are, of the same links, T2, -T3 and -T1: another order, the same product.
 
     Parameters
     ----------
@@ -103,16 +106,15 @@ def planar_differences(lengths: npt.ArrayLike) -> Floats:
     Examples
     --------
     >>> planar_differences([4, 3, 5, 1]).tolist()
-    [5.0, -3.0, -1.0]
+    [1.0, 5.0, 3.0]
     """
-    g, a, h, b = np.moveaxis(np.asarray(lengths, dtype=float), -1, 0)
-    return np.stack([g - a + h - b, g - a - h + b, h + b - g - a], axis=-1)
+    return _differences(lengths, _PLANAR)
 
 
 def spherical_differences(angles: npt.ArrayLike) -> Floats:
     """Return T1 to T4 of spherical four-bars, radians (Hyatt et al. 2020, Eqs. 1 to 4): float[..., 4].
 
-    The planar three, and 2 pi less the sum.
+    gamma - alpha + eta - beta, gamma - alpha - eta + beta, eta + beta - gamma - alpha, and 2 pi less the sum.
 
     Parameters
     ----------
@@ -126,7 +128,13 @@ def spherical_differences(angles: npt.ArrayLike) -> Floats:
     """
     angles = np.asarray(angles, dtype=float)
     last = 2.0 * np.pi - angles.sum(axis=-1, keepdims=True)
-    return np.concatenate([planar_differences(angles), last], axis=-1)
+    return np.concatenate([_differences(angles, _SPHERICAL), last], axis=-1)
+
+
+def _differences(links: npt.ArrayLike, signs: npt.NDArray[np.int_]) -> Floats:
+    """Return signed sums of links, float[..., 4], one for each row of signs, added from left to right."""
+    terms = np.asarray(links, dtype=float)[..., None, :] * signs
+    return np.asarray(terms[..., 0] + terms[..., 1] + terms[..., 2] + terms[..., 3])
 
 
 def grashof_class(differences: npt.ArrayLike, scale: float = 2.0 * np.pi) -> npt.NDArray[np.str_]:
@@ -166,7 +174,7 @@ def kind_of_planar(lengths: npt.ArrayLike) -> FourBarKind:
     'rocker-crank'
     """
     sides = checked_link_lengths(lengths, 4)
-    return _kind(sides, planar_differences(sides))
+    return _kind(sides, planar_differences(sides), _PLANAR)
 
 
 def kind_of_spherical(angles: npt.ArrayLike) -> FourBarKind:
@@ -184,19 +192,19 @@ def kind_of_spherical(angles: npt.ArrayLike) -> FourBarKind:
     ('Grashof', 'rocker-crank')
     """
     links = checked_link_angles(angles, 4)
-    return _kind(links, spherical_differences(links))
+    return _kind(links, spherical_differences(links), _SPHERICAL)
 
 
-def _kind(links: Floats, differences: Floats) -> FourBarKind:
+def _kind(links: Floats, differences: Floats, signs: npt.NDArray[np.int_]) -> FourBarKind:
     """Name a type: which ends of its range a link reaches follows from the signs (McCarthy, Table 2.1).
 
-    The input passes 0 unless T1 T2 < 0 and pi unless T3 T4 < 0, the output passes pi unless T1 T3 > 0 and 0 unless
-    T2 T4 > 0. In the plane T4 counts as +.
+    With the spherical T1 to T4, the input passes 0 unless T1 T2 < 0 and pi unless T3 T4 < 0, the output passes pi
+    unless T1 T3 > 0 and 0 unless T2 T4 > 0. For planar links the first three are the same sums, and T4 counts as +.
     """
     zero = float(rounding_of(links))
-    t1, t2, t3, *fourth = (1 if t >= -zero else -1 for t in differences)
-    side = fourth[0] if fourth else 1
-    zeros = np.abs(differences) <= zero
+    sums = _differences(links, _SPHERICAL)
+    t1, t2, t3, side = (1 if t >= -zero else -1 for t in (*sums, *(differences[3:] if len(differences) > 3 else [1.0])))
+    zeros = np.abs(sums) <= zero
     input_ = _swing(t1 * t2 > 0 or zeros[0] or zeros[1], t3 * side > 0 or zeros[2])
     output = _swing(t2 * side < 0 or zeros[1], t1 * t3 < 0 or zeros[0] or zeros[2])
     return FourBarKind(
@@ -206,14 +214,13 @@ def _kind(links: Floats, differences: Floats) -> FourBarKind:
         input_,
         output,
         zero,
-        _caution(links, zeros),
+        _caution([*(row * links for row in signs), [2.0 * np.pi, *-links]], np.abs(differences) <= zero),
     )
 
 
-def _caution(links: Floats, zeros: npt.NDArray[np.bool_]) -> str:
+def _caution(terms: Sequence[npt.ArrayLike], zeros: npt.NDArray[np.bool_]) -> str:
     """Name the differences that are taken for zero, and are not zero when no digit is lost on the way."""
-    terms = [*(signs * links for signs in _SIGNS), [2.0 * np.pi, *-links]]
-    names = [f"T{i + 1}" for i in np.flatnonzero(zeros) if fsum(terms[i]) != 0.0]
+    names = [f"T{i + 1}" for i in np.flatnonzero(zeros).tolist() if fsum(np.asarray(terms[i])) != 0.0]
     if not names:
         return ""
     are = "is" if len(names) == 1 else "are"
@@ -255,6 +262,16 @@ def checked_link_angles(angles: npt.ArrayLike, links: int | None = None) -> Floa
         listed = ", ".join(_degrees(angle) for angle in values[:20])
         raise InvariantError("closed loop", f"the link angles {listed} cannot close: {why}", "angles of a closed loop")
     return least
+
+
+def read_the_other_way(angles: npt.ArrayLike) -> tuple[str, ...]:
+    """Return a sentence for each link angle over pi that `checked_link_angles` replaces by the rest of the circle."""
+    values = np.asarray(angles, dtype=float)
+    return tuple(
+        f"link {place + 1}: {_degrees(values[place])} degrees is read as {_degrees(2.0 * np.pi - values[place])}, "
+        "the angle between the same two axes the shorter way"
+        for place in np.flatnonzero(values > np.pi).tolist()
+    )
 
 
 def checked_link_lengths(lengths: npt.ArrayLike, links: int | None = None) -> Floats:

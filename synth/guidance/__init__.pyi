@@ -30,6 +30,7 @@ from synth.guidance.orientations import (
     read_orientations as read_orientations,
     write_orientations as write_orientations,
 )
+from synth.guidance.propeller import PlanarPositions as PlanarPositions, analyse_planar_order as analyse_planar_order
 from synth.guidance.sixbars import GuidedSixBar as GuidedSixBar, GuidedSixBars as GuidedSixBars, six_bars as six_bars
 from synth.guidance.synthesis import (
     DyadsOfFive as DyadsOfFive,

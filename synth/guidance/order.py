@@ -7,7 +7,7 @@ Larochelle 2011, Theorem 1, Eqs. 1 and 2). The three checks share no step but th
 docs/theory/order.md.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import degrees, radians
 from typing import Any, Literal, TypeAlias
@@ -15,7 +15,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from graphs.errors import InvariantError, UnsolvableError
+from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.geometry import across, best_plane
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE, EPSILON, canonical_order
@@ -58,6 +58,8 @@ class Hoop:
         The axes that must be crossed in this order: S_13, ..., S_1n, S_2n.
     in_order : bool
         Whether they are.
+    start : (int, int)
+        The axis at which the hoop starts: of the first two orientations of the desired order.
 
     Examples
     --------
@@ -69,6 +71,7 @@ class Hoop:
     crossings: tuple[HoopCrossing, ...]
     required: tuple[Pair, ...]
     in_order: bool
+    start: Pair = (1, 2)
 
     @property
     def sequence(self) -> tuple[Pair, ...]:
@@ -84,14 +87,38 @@ class Hoop:
 
     @property
     def margin(self) -> float:
-        """Least angle between required crossings (S_12 included), radians: by how much the verdict holds."""
+        """Least angle between required crossings (the start included), radians: by how much the verdict holds."""
         angles = sorted(c.angle for c in self.crossings if c.pair in set(self.required))
         return float(np.diff([0.0, *angles, np.pi]).min())
 
 
-def required_sequence(n: int) -> tuple[Pair, ...]:
-    """Return the axes whose crossings decide: S_13, ..., S_1n, S_2n."""
-    return (*((1, j) for j in range(3, n + 1)), (2, n))
+def required_sequence(n: int, desired: Sequence[int] | None = None) -> tuple[Pair, ...]:
+    """Return the axes whose crossings decide: S_13, ..., S_1n, S_2n, or those of the same places of another order."""
+    order = range(1, n + 1) if desired is None else desired
+    first, second, *others = order
+    return (*(_pair(first, other) for other in others), _pair(second, others[-1]))
+
+
+def _pair(i: int, j: int) -> Pair:
+    """Return two orientations as a pair: S_ij and S_ji are one line."""
+    return min(i, j), max(i, j)
+
+
+def checked_order(n: int, desired: Sequence[int] | None, what: str = "orientation") -> tuple[int, ...]:
+    """Return the numbers in the desired order; by default all as they are numbered.
+
+    `InvariantError` unless they are three or more, each one of the n and none of them twice.
+    """
+    order = tuple(range(1, n + 1)) if desired is None else tuple(desired)
+    for place, number in enumerate(order):
+        if not 1 <= number <= n:
+            offender = f"{what} {number} is in the desired order, of {numbered(n, what)}"
+            raise InvariantError("desired order", offender, f"numbers from 1 to {n}")
+        if number in order[:place]:
+            raise InvariantError("desired order", f"{what} {number} occurs twice", "each number once")
+    if len(order) < 3:
+        raise InvariantError("desired order", f"{numbered(len(order), what)} in order", "three or more")
+    return order
 
 
 def pair_name(pair: Pair) -> str:
@@ -105,7 +132,9 @@ def direction_words(direction: Direction | None) -> str:
     return "neither way" if direction is None else {"ccw": "counter-clockwise", "cw": "clockwise"}[direction]
 
 
-def hoop(orientations: Orientations, axis: npt.ArrayLike, direction: Direction = "ccw") -> Hoop:
+def hoop(
+    orientations: Orientations, axis: npt.ArrayLike, direction: Direction = "ccw", desired: Sequence[int] | None = None
+) -> Hoop:
     """Turn the hoop about a fixed axis: the analytic form, by angles.
 
     Parameters
@@ -116,6 +145,9 @@ def hoop(orientations: Orientations, axis: npt.ArrayLike, direction: Direction =
         which the hoop then holds all the way.
     direction : "ccw" or "cw", optional
         Seen from the tip of the axis: -axis and the other direction give the same.
+    desired : sequence of int, optional
+        Numbers of three or more orientations, from 1, in the order in which the crank is to take them; by default
+        all in the order of their numbers.
 
     Examples
     --------
@@ -126,16 +158,34 @@ def hoop(orientations: Orientations, axis: npt.ArrayLike, direction: Direction =
     ([('S13', 55.0), ('S23', 100.0)], True)
     """
     g = unit_vector(axis, "fixed axis")
-    lines = _lines_off_axis(orientations, g)
-    start = across(lines[1, 2], g)
-    beside = np.cross(g, start) * (1.0 if direction == "ccw" else -1.0)
-    angles = {pair: float(np.arctan2(s @ beside, s @ start)) % np.pi for pair, s in lines.items() if pair != (1, 2)}
+    order = checked_order(len(orientations), desired)
+    lines = {pair: s for pair, s in _lines_off_axis(orientations, g).items() if set(pair) <= set(order)}
+    start = across(lines[_pair(*order[:2])], g)
+    beside = np.cross(g, start)
+    seen = {pair: np.array([s @ start, s @ beside]) for pair, s in lines.items()}
+    return crossed(seen, order, direction)
+
+
+def crossed(lines: Mapping[Pair, Floats], order: Sequence[int], direction: Direction) -> Hoop:
+    """Return what a line that turns by 180 degrees crosses: a hoop seen along its axis, or a propeller in the plane.
+
+    `lines` are the directions of the lines of all pairs as they are seen there, float[2], of any length and sign. It
+    starts at the line of the first two of the order.
+    """
+    start = _pair(*order[:2])
+    sign = 1.0 if direction == "ccw" else -1.0
+    zero = float(np.arctan2(lines[start][1], lines[start][0]))
+    angles = {
+        pair: float(sign * (np.arctan2(line[1], line[0]) - zero) % np.pi)
+        for pair, line in lines.items()
+        if pair != start
+    }
     pairs = list(angles)
-    order = canonical_order([np.array([angles[pair]]) for pair in pairs])
-    crossings = tuple(HoopCrossing(pairs[place], angles[pairs[place]]) for place in order)
-    required = required_sequence(len(orientations))
+    sequence = canonical_order([np.array([angles[pair]]) for pair in pairs])
+    crossings = tuple(HoopCrossing(pairs[place], angles[pairs[place]]) for place in sequence)
+    required = required_sequence(len(order), order)
     turned = [0.0, *(angles[pair] for pair in required)]
-    return Hoop(direction, crossings, required, bool(np.all(np.diff(turned) > 0.0)))
+    return Hoop(direction, crossings, required, bool(np.all(np.diff(turned) > 0.0)), start)
 
 
 def _lines_off_axis(orientations: Orientations, g: Floats) -> dict[Pair, Floats]:
@@ -162,18 +212,22 @@ class OrderAnalysis(Printed):
     Attributes
     ----------
     axis : tuple of float
-        The fixed axis as the user wrote it.
+        The fixed axis as the user wrote it; in the plane the fixed pivot.
     hoop : Hoop
         The hoop turned in the required direction; its verdict is ``in_order``.
     kept, by_inequalities, by_crank_angles : "ccw", "cw" or None
         The direction in which the order is kept, if there is one: by the hoop, and by the other two checks.
     moving_axis : float[3]
-        The moving axis W, in the body, of the dyad about this axis that fits best.
+        The moving axis W, in the body, of the dyad about this axis that fits best; in the plane the moving pivot.
     crank_angles : float[n]
-        The angles of its crank from orientation 1, radians in [0, 2 pi), counter-clockwise.
+        The angles of its crank from the first orientation, radians in [0, 2 pi), counter-clockwise, in the desired
+        order.
     misfit : float
-        Largest difference, in radians, between the crank's link angle at an orientation and its mean: zero if the
-        dyad passes through all orientations. With four orientations or more most fixed axes have no such dyad.
+        Largest difference, in radians, between the crank's link angle at an orientation and its mean (in the plane
+        between its lengths): zero if the dyad passes through all orientations. With four orientations or more most
+        fixed axes have no such dyad.
+    desired : tuple of int
+        The orientations in the order that is analysed.
 
     Examples
     --------
@@ -189,6 +243,12 @@ class OrderAnalysis(Printed):
     moving_axis: Floats
     crank_angles: Floats
     misfit: float
+    desired: tuple[int, ...]
+
+    @property
+    def planar(self) -> bool:
+        """Whether it is about positions in the plane, and a propeller about a pivot."""
+        return len(self.axis) == 2
 
     @property
     def in_order(self) -> bool:
@@ -204,32 +264,46 @@ class OrderAnalysis(Printed):
         """Return the lines and the table that are printed."""
         turned = self.hoop
         needed = set(turned.required)
-        rows = [("S12", f"{0:.4f}", "starts here")]
+        rows = [(self._line(turned.start), f"{0:.4f}", "starts here")]
         for crossing in turned.crossings:
             decides = "yes" if crossing.pair in needed else ""
-            rows.append((pair_name(crossing.pair), f"{degrees(crossing.angle):.4f}", decides))
+            rows.append((self._line(crossing.pair), f"{degrees(crossing.angle):.4f}", decides))
         about = f"({', '.join(f'{x:g}' for x in self.axis)}) turning {direction_words(turned.direction)}"
         angles = ", ".join(f"{degrees(angle):.3f}" for angle in self.crank_angles)
-        misses = f"the best misses by {degrees(self.misfit):.4f} degrees"
+        what, axis = ("positions", "pivot") if self.planar else ("orientations", "axis")
+        misses = f"{self.misfit:.6g} of its length" if self.planar else f"{degrees(self.misfit):.4f} degrees"
+        count, listed = len(self.crank_angles), ", ".join(map(str, self.desired))
+        as_numbered = self.desired == tuple(range(1, count + 1))
         return [
-            f"{len(self.crank_angles)} orientations, crank about {about}",
+            f"{count} {what}{'' if as_numbered else f' in the order {listed}'}, crank about {about}",
             TableBlock(("crossed", "angle", "decides"), rows, ["angle"]),
-            "needed: " + " => ".join(map(pair_name, turned.required)),
+            "needed: " + " => ".join(map(self._line, turned.required)),
             self._verdict(),
             self._checks(),
             f"crank angles: {angles}",
-            *([f"note: no dyad about this axis takes all orientations; {misses}"] if self.misfit > _FITS else []),
+            *(
+                [f"note: no dyad about this {axis} takes all {what}; the best misses by {misses}"]
+                * (self.misfit > _FITS)
+            ),
         ]
+
+    def _line(self, pair: Pair) -> str:
+        """Return the name of a relative axis, or in the plane of a pole."""
+        return pair_name(pair).replace("S", "P") if self.planar else pair_name(pair)
 
     def _verdict(self) -> str:
         if self.hoop.breaks_at is None:
-            return f"order kept, by a margin of {degrees(self.hoop.margin):.3f} degrees of the hoop"
-        due, crossed = map(pair_name, self.hoop.breaks_at)
+            return f"order kept, by a margin of {degrees(self.hoop.margin):.3f} degrees of the {self._turning}"
+        due, here = map(self._line, self.hoop.breaks_at)
         other = f"; it is kept {direction_words(self.kept)}" if self.kept is not None else ""
-        return f"order defect: {crossed} is crossed where {due} is due{other}"
+        return f"order defect: {here} is crossed where {due} is due{other}"
+
+    @property
+    def _turning(self) -> str:
+        return "propeller" if self.planar else "hoop"
 
     def _checks(self) -> str:
-        verdicts = (("hoop", self.kept), ("inequalities", self.by_inequalities), ("crank", self.by_crank_angles))
+        verdicts = ((self._turning, self.kept), ("inequalities", self.by_inequalities), ("crank", self.by_crank_angles))
         checks = ", ".join(f"{name} {direction_words(kept)}" for name, kept in verdicts)
         return f"kept by: {checks}{'' if self.agree else '   (they do not agree)'}"
 
@@ -240,8 +314,10 @@ class OrderAnalysis(Printed):
     def to_json(self) -> dict[str, Any]:
         """Return the analysis as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         turned, breaks = self.hoop, self.hoop.breaks_at
+        misfit = {"misfit": self.misfit} if self.planar else {"misfit_deg": degrees(self.misfit)}
         return {
             "direction": turned.direction,
+            "desired": list(self.desired),
             "crossings": [{"pair": list(c.pair), "angle_deg": degrees(c.angle)} for c in turned.crossings],
             "required": [list(pair) for pair in turned.required],
             "in_order": self.in_order,
@@ -253,17 +329,19 @@ class OrderAnalysis(Printed):
             "dyad": {
                 "W": self.moving_axis.tolist(),
                 "crank_angles_deg": [degrees(angle) for angle in self.crank_angles],
-                "misfit_deg": degrees(self.misfit),
+                **misfit,
             },
         }
 
 
-def analyse_order(orientations: Orientations, axis: npt.ArrayLike, direction: Direction = "ccw") -> OrderAnalysis:
+def analyse_order(
+    orientations: Orientations, axis: npt.ArrayLike, direction: Direction = "ccw", desired: Sequence[int] | None = None
+) -> OrderAnalysis:
     """Check the order of orientations about a fixed axis in three ways.
 
     Parameters
     ----------
-    orientations, axis, direction
+    orientations, axis, direction, desired
         As for `hoop`, as are the errors; the direction is that of the crank.
 
     Examples
@@ -273,21 +351,26 @@ def analyse_order(orientations: Orientations, axis: npt.ArrayLike, direction: Di
     >>> analysis = analyse_order(Orientations.from_rotation(body), (0, 0, 1))
     >>> analysis.in_order, analysis.agree, np.degrees(analysis.crank_angles).round(6).tolist()
     (True, True, [0.0, 90.0, 200.0])
+    >>> analyse_order(Orientations.from_rotation(body), (0, 0, 1), desired=[1, 3, 2])  # the other way round
+    <OrderAnalysis: counter-clockwise, order not kept>
     """
     g = unit_vector(axis, "fixed axis")
-    turned = {way: hoop(orientations, g, way) for way in DIRECTIONS}
-    moving = nearest_moving_axis(orientations, g)
-    angles = crank_angles(orientations, g, moving)
-    link_angles = np.arccos(np.clip(orientations.matrices @ moving @ g, -1.0, 1.0))
+    order = checked_order(len(orientations), desired)
+    turned = {way: hoop(orientations, g, way, order) for way in DIRECTIONS}
+    taken = orientations.subset(order)
+    moving = nearest_moving_axis(taken, g)
+    angles = crank_angles(taken, g, moving)
+    link_angles = np.arccos(np.clip(taken.matrices @ moving @ g, -1.0, 1.0))
     return OrderAnalysis(
         tuple(np.asarray(axis, dtype=float).tolist()),
         turned[direction],
         next((way for way in DIRECTIONS if turned[way].in_order), None),
-        order_by_inequalities(orientations, g),
+        order_by_inequalities(taken, g),
         order_by_crank_angles(angles),
         moving,
         angles,
         float(np.abs(link_angles - link_angles.mean()).max()),
+        order,
     )
 
 

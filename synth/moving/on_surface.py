@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial
-from math import ceil, cos, degrees, inf, isfinite, sin, tau
+from math import ceil, degrees, inf, isfinite, tau
 from typing import Any
 
 import numpy as np
@@ -34,6 +34,7 @@ from synth.motion.singular.second_order import rates_at
 from synth.motion.walk.events import TurningPoint
 from synth.motion.walk.step import Step
 from synth.motion.walk.walking import Event, Walk
+from synth.moving.arcs import heights_about, heights_over
 from synth.moving.made import configuration_of
 
 BACK, ROUND = "turns back", "turns all round"
@@ -93,6 +94,8 @@ class SurfaceLinks:
         self.names, self.linkage, self._surface = chain.links, linkage, on_surface.surface
         places = np.asarray(on_surface.places, dtype=float)
         self._arcs = link_arcs(chain, places, on_surface.begins(chain))
+        fixed = [sorted(set(joints).intersection(chain.joints_of[0])) for joints in chain.joints_of]
+        self._pivots = [None if len(joints) != 1 else float(places[joints[0]]) for joints in fixed]
 
     def ways(self, angles: Floats) -> dict[LinkId, Way]:
         """Return where each link lies at joint angles float[J]."""
@@ -108,14 +111,22 @@ class SurfaceLinks:
         moved = link_motions(self.linkage, angles, self.names[0])
         return {link: (turn, extent * shift + middle - turn @ middle) for link, (turn, shift) in moved.items()}
 
-    def spans(self, angles: Floats) -> Floats:
-        """Return how far links lie outside the surface, least and most, less rounding: float[F, N, 2]."""
+    def spans(self, angles: Floats, rounding: float = DOUBLE.same_point) -> Floats:
+        """Return how far links lie outside the surface, least and most, less rounding: float[F, N, 2].
+
+        For a link that turns about a joint of the fixed link: how far in proportion to the distance from there.
+        """
         motions = self.motions(angles)
         spans = np.empty((len(angles), len(self.names), 2))
         for number, (link, (begin, length)) in enumerate(zip(self.names, self._arcs, strict=True)):
             p, q, off = self._surface.outward(*motions[link])
-            low, high = _extremes(p, q, float(begin), float(length))
-            spans[:, number] = np.stack([low + off + DOUBLE.same_point, high + off - DOUBLE.same_point], axis=1)
+            pivot = self._pivots[number]
+            if pivot is None:
+                low, high = heights_over(p, q, float(begin), float(length))
+            else:
+                low, high = heights_about(pivot, p, q, float(begin), float(length))
+                off = np.zeros_like(off)
+            spans[:, number] = np.stack([low + off + rounding, high + off - rounding], axis=1)
         return spans
 
 
@@ -137,9 +148,16 @@ class Crossing:
         return [(float(self.piece.at(part).angles[self.driver]), side) for part, side in places]
 
     def _zero(self, side: int) -> float:
-        part = self.piece.zero(lambda place: float(self.links.spans(place.angles[None])[0, self.link, side]))
-        assert part is not None, "a side that changes has a zero"
-        return part
+        # a side counts from beyond the rounding on, but where it changes is where the height itself is zero; one
+        # that only touches zero has no such place, and that of the rounding is taken
+        for rounding in (0.0, DOUBLE.same_point):
+            part = self.piece.zero(partial(self._height, side, rounding))
+            if part is not None:
+                return part
+        raise AssertionError("a side that changes has a zero")
+
+    def _height(self, side: int, rounding: float, place: Corrected) -> float:
+        return float(self.links.spans(place.angles[None], rounding)[0, self.link, side])
 
 
 class SidesOfSurface(Event):
@@ -275,15 +293,6 @@ def _way(beyond: Flags) -> Way:
     """Return the way of a link that is inside the surface, outside, both or neither: bool[2]."""
     inside, outside = beyond.tolist()
     return Way.BOTH if inside and outside else Way(int(outside) - int(inside))
-
-
-def _extremes(p: Floats, q: Floats, begin: float, length: float) -> tuple[Floats, Floats]:
-    """Return the least and greatest p cos t + q sin t over an arc."""
-    size, top = np.hypot(p, q), np.arctan2(q, p)
-    ends = p * cos(begin) + q * sin(begin), p * cos(begin + length) + q * sin(begin + length)
-    high = np.where(np.remainder(top - begin, tau) < length, size, np.maximum(*ends))
-    low = np.where(np.remainder(top + np.pi - begin, tau) < length, -size, np.minimum(*ends))
-    return low, high
 
 
 def _same(one: Floats, other: Floats) -> bool:

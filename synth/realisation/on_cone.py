@@ -3,7 +3,7 @@
 Theory: docs/theory/realisation.md, docs/theory/multiloop.md.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import degrees, isfinite, pi, radians
 from typing import Any
@@ -170,15 +170,58 @@ def realise_on_cone(
     (('open',), 1, 4)
     """
     mechanism = mechanism_for("realise_on_cone", mechanism)
+    _check_cone(cone_angle, seed, tries)
+    chain = _about_one_centre(to_sc(mechanism))
+    best = _best(chain, _placements(chain, seed, tries), cone_angle, tries)
+    return replace(best, cones=_cones(best.linkage, cone_angle))
+
+
+def realise_candidate(
+    chain: SCGraph, azimuths: Sequence[float], *, cone_angle: float = CONE_ANGLE, seed: int = 0, tries: int = 12
+) -> ConeRealisation:
+    """Lay a conical candidate round a right cone: at its azimuths if it moves there, else near them, in their order.
+
+    Parameters
+    ----------
+    chain : SCGraph
+    azimuths : float[J]
+        Of the joints, radians, in the order of the chain's joints: of a row of `conical_candidates`.
+    cone_angle, seed, tries
+        As for `realise_on_cone`, as are the errors.
+
+    Examples
+    --------
+    >>> from graphs.loops.loop import Loop
+    >>> chain = SCGraph(4, [(0, 1), (1, 2), (2, 3), (3, 0)], [Loop((0, 1, 2, 3))])
+    >>> on_cone = realise_candidate(chain, np.radians([0, 90, 180, 270]))  # equal arcs: near them
+    >>> on_cone.number > 0, on_cone.freedoms, on_cone.circuits
+    (True, 1, ('open',))
+    """
+    _check_cone(cone_angle, seed, tries)
+    at = np.asarray(azimuths, dtype=float)
+    best = _best(chain, iter([at]), cone_angle, tries)
+    if best.freedoms != best.mobility or best.clear <= _CLEAR_ENOUGH:
+        best = _best(chain, _placements_near(at, seed, tries), cone_angle, tries)
+    return replace(best, cones=_cones(best.linkage, cone_angle))
+
+
+_CLEAR_ENOUGH = radians(1.0)
+"""A candidate keeps its own azimuths if its steps are as far from zero and half a turn."""
+
+
+def _check_cone(cone_angle: float, seed: int, tries: int) -> None:
     if not (isfinite(cone_angle) and 0.0 < cone_angle < pi / 2):
         raise InvariantError(
             "cone angle", f"lambda is {degrees(cone_angle):.6g} degrees", "more than 0 and less than 90"
         )
     check_search(seed, tries)
-    chain = _about_one_centre(to_sc(mechanism))
+
+
+def _best(chain: SCGraph, placements: Iterator[Floats], cone_angle: float, tries: int) -> ConeRealisation:
+    """Return the first linkage that moves as its type does, with clear steps and open loops, or else the best."""
     conformed, mobility = ConformedChain.of(chain), exact_mobility(chain).mobility
     best: ConeRealisation | None = None
-    for number, places in enumerate(_placements(chain, seed, tries)):
+    for number, places in enumerate(placements):
         motion = first_order(conformed, places)
         candidate = ConeRealisation(
             linkage=SurfaceLinkage.placed(chain, places.tolist(), Cone(cone_angle)),
@@ -195,7 +238,7 @@ def realise_on_cone(
         if best.good:
             break
     assert best is not None
-    return replace(best, cones=_cones(best.linkage, cone_angle))
+    return best
 
 
 def _about_one_centre(sc: SCGraph) -> SCGraph:
@@ -231,6 +274,18 @@ def _placements(chain: SCGraph, seed: int, tries: int) -> Iterator[Floats]:
         places = np.zeros(len(order))
         places[random.permutation(order) if attempt else order] = np.cumsum([0.0, *gaps[:-1]])
         yield 2.0 * np.pi * places / gaps.sum()
+
+
+def _placements_near(azimuths: Floats, seed: int, tries: int) -> Iterator[Floats]:
+    """Yield azimuths in the same cyclic order, with other gaps: each time another part of those of the candidate."""
+    order = np.argsort(azimuths % (2.0 * np.pi), kind="stable")
+    gaps = np.diff(np.append(azimuths[order], azimuths[order[0]] + 2.0 * np.pi) % (2.0 * np.pi)) % (2.0 * np.pi)
+    for attempt in range(tries + 1):
+        random = np.random.default_rng((seed, attempt))
+        varied = gaps * (1.0 if attempt == 0 else np.exp(_VARIED * random.standard_normal(len(order))))
+        places = np.empty(len(order))
+        places[order] = np.cumsum([0.0, *varied[:-1]]) * (2.0 * np.pi / varied.sum())
+        yield places
 
 
 def _clear(chain: SCGraph, places: Floats) -> float:

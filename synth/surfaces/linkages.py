@@ -29,7 +29,19 @@ from synth.fourbar.closing import ILL_CONDITIONED, checked_link_angles, spherica
 from synth.surfaces import loop_maps
 from synth.surfaces.circuit import HALF_TURN, circuits, link_angles, link_pairs, loop_steps, wrapped
 from synth.surfaces.loop_sums import LoopRoots, loop_roots, put_together, sign_patterns, sum_rounding
-from synth.surfaces.mapping import SizedLinks, in_a_family, in_degrees, interval_json, joints_text, signs_text, size_of
+from synth.surfaces.mapping import (
+    SizedLinks,
+    in_a_family,
+    in_degrees,
+    interval_json,
+    is_in,
+    is_size,
+    joints_text,
+    reach_at,
+    signs_text,
+    size_of,
+    typical_size,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,10 +60,18 @@ class LinkageMap(Printed):
     surfaces: tuple[CommonSurface, ...]
     families: tuple[CommonFamily, ...]
 
+    def rows(self) -> tuple[CommonSurface, ...]:
+        """Return the numbered surfaces that are printed; of each family a typical one, amid its interval."""
+        of_kind = Cone if self.linkage.kind == "cone" else Cylinder
+        return (
+            *self.surfaces,
+            *(_member(self.linkage, one, of_kind(typical_size(one.interval))) for one in self.families),
+        )
+
     def blocks(self) -> list[Block]:
         """Return the lines and tables that are printed."""
-        blocks = [block for one in self.surfaces for block in self._of_surface(one)]
-        for family in self.families:
+        blocks = [block for number, one in enumerate(self.surfaces, 1) for block in self._of_surface(number, one)]
+        for number, family in enumerate(self.families, len(self.surfaces) + 1):
             loops = "; ".join(
                 f"{joints_text(loop.joints)}: {signs_text(signs)}, k {turns}"
                 for loop, signs, turns in zip(self.linkage.chain.loops, family.signs, family.turns, strict=True)
@@ -60,11 +80,11 @@ class LinkageMap(Printed):
             every = f"lambda between {degrees(low):.10g} and {degrees(high):.10g} degrees"
             if self.linkage.kind == "cylinder":
                 every = f"radius from {low:.10g} on"
-            blocks.append(f"every {every}   ({loops})")
+            blocks.append(f"{self.linkage.kind} {number}: every {every}   ({loops})")
             blocks += [family.caution] if family.caution else []
         return blocks or [f"no {self.linkage.kind} is common to all loops"]
 
-    def _of_surface(self, common: CommonSurface) -> list[Block]:
+    def _of_surface(self, number: int, common: CommonSurface) -> list[Block]:
         chain, surface = self.linkage.chain, common.surface
         link_of = link_pairs(chain)
         loops = [
@@ -79,7 +99,8 @@ class LinkageMap(Printed):
         ]
         heads = ["length"] if isinstance(surface, Cylinder) else ["angle (deg)", "chord"]
         blocks: list[Block] = [
-            str(surface) if isinstance(surface, Cylinder) else f"{surface}, R {cos(surface.angle):.8g}",
+            f"{surface.kind} {number}: {surface}"
+            + ("" if isinstance(surface, Cylinder) else f", R {cos(surface.angle):.8g}"),
             *([common.caution] if common.caution else []),
             TableBlock(("loop", "circuit", "signs", "k"), loops, ["k"]),
             TableBlock(("link", "joints", *heads), rows, heads),
@@ -199,7 +220,7 @@ def by_sizes(linkage: SurfaceLinkage) -> SurfaceLinkage:
     return SurfaceLinkage(linkage.chain, angles=sizes)
 
 
-def map_linkage(mechanism: MechanismLike, tolerance: float = 1e-7) -> LinkageMap:
+def map_linkage(mechanism: MechanismLike, tolerance: float = 1e-7, surface: Surface | None = None) -> LinkageMap:
     """Return the surfaces of a linkage: from the sizes of links, or, for steps, its own surface or every one.
 
     Parameters
@@ -207,6 +228,8 @@ def map_linkage(mechanism: MechanismLike, tolerance: float = 1e-7) -> LinkageMap
     mechanism : SurfaceLinkage, or the path of its file
     tolerance : float, optional
         How well its loops must close together, radians; a loop of less than a turn in proportion.
+    surface : Cone or Cylinder, optional
+        For sizes of links: only this surface, of those on which they lie.
 
     Examples
     --------
@@ -216,7 +239,10 @@ def map_linkage(mechanism: MechanismLike, tolerance: float = 1e-7) -> LinkageMap
     linkage = mechanism_for("map_linkage", mechanism, SurfaceLinkage)
     if linkage.sizes is not None:
         by_lengths = linkage.lengths is not None
-        return LinkageMap(linkage, *common_surfaces(linkage.chain, linkage.sizes, tolerance, lengths=by_lengths))
+        surfaces, families = common_surfaces(linkage.chain, linkage.sizes, tolerance, lengths=by_lengths)
+        if surface is None:
+            return LinkageMap(linkage, surfaces, families)
+        return LinkageMap(linkage, _on_chosen(linkage, surface, surfaces, families), ())
     places = np.array(linkage.places())
     loops = loop_steps(linkage.chain, places)
     mirror = -1 if loops[0].steps[0] < 0 else 1
@@ -272,12 +298,15 @@ class CommonFamily:
     signs, turns : tuple of tuples of int, tuple of int
     caution : str
         Where a loop closes on them within the rounding of its links only; else empty.
+    of_sizes : tuple of int
+        Signs of the steps of all sizes of links, in their order; none for a linkage of steps.
     """
 
     interval: tuple[float, float]
     signs: tuple[tuple[int, ...], ...]
     turns: tuple[int, ...]
     caution: str = ""
+    of_sizes: tuple[int, ...] = ()
 
 
 class _Cycle:
@@ -331,12 +360,7 @@ def common_surfaces(
     """
     pairs, values = _checked_pairs(chain, sizes, lengths=lengths)
     cycles = _cycles(chain, pairs, "length" if lengths else "angle")
-    unit = loop_maps.unit_of(values) if lengths and len(values) else 1.0
-    links = (
-        SizedLinks(loop_maps.cylinder_reach(values / unit), 0)
-        if lengths
-        else SizedLinks(loop_maps.cone_reach(values), 1)
-    )
+    unit, links = _unit_and_links(values, lengths=lengths)
     roots = [loop_roots(links.reach[cycle.pairs], links.base) for cycle in cycles]
     end = float(links.reach[np.concatenate([cycle.pairs for cycle in cycles])].min())
     loops = len(chain.loops)
@@ -360,8 +384,44 @@ def common_surfaces(
         within = f"{ILL_CONDITIONED}: the loops close here within the rounding of their links only"
         last = unit * size_of(end, links.base)
         interval = (last, np.inf) if lengths else (0.0, last)
-        families.append(CommonFamily(interval, of_loops, (0,) * loops, "" if exact else within))
+        caution = "" if exact else within
+        families.append(CommonFamily(interval, of_loops, (0,) * loops, caution, tuple(signs.tolist())))
     return tuple(surfaces), tuple(families)
+
+
+def _unit_and_links(values: Floats, *, lengths: bool) -> tuple[float, SizedLinks]:
+    """Return a unit of length, and the links in it for loop sums."""
+    if not lengths:
+        return 1.0, SizedLinks(loop_maps.cone_reach(values), 1)
+    unit = loop_maps.unit_of(values) if len(values) else 1.0
+    return unit, SizedLinks(loop_maps.cylinder_reach(values / unit), 0)
+
+
+def _on_chosen(
+    linkage: SurfaceLinkage, surface: Surface, surfaces: Iterable[CommonSurface], families: Iterable[CommonFamily]
+) -> tuple[CommonSurface, ...]:
+    """Return what lies on one surface, of all and of families; `UnsolvableError` if it is of the other kind."""
+    if surface.kind != linkage.kind:
+        sizes = "link angles" if linkage.kind == "cone" else "lengths"
+        raise UnsolvableError(f"a linkage of {sizes} lies on {linkage.kind}s; expected one, got a {surface.kind}")
+    size = size_of_surface(surface)
+    on_it = [one for one in surfaces if is_size(size_of_surface(one.surface), size)]
+    return (*on_it, *(_member(linkage, family, surface) for family in families if is_in(family.interval, size)))
+
+
+def _member(linkage: SurfaceLinkage, family: CommonFamily, surface: Surface) -> CommonSurface:
+    """Return a linkage of sizes on a surface of a family."""
+    lengths = isinstance(surface, Cylinder)
+    pairs, values = _checked_pairs(linkage.chain, linkage.sizes or {}, lengths=lengths)
+    cycles = _cycles(linkage.chain, pairs, "length" if lengths else "angle")
+    unit, links = _unit_and_links(values, lengths=lengths)
+    steps = np.array(family.of_sizes) * links.spans(reach_at(size_of_surface(surface) / unit, links))
+    return _common_surface(linkage.chain, pairs, cycles, steps, surface, family.caution)
+
+
+def size_of_surface(surface: Surface) -> float:
+    """Return lambda of a cone, radians, or the radius of a cylinder."""
+    return surface.radius if isinstance(surface, Cylinder) else surface.angle
 
 
 def _checked_pairs(chain: SCGraph, sizes: Mapping[Pair, float], *, lengths: bool) -> tuple[dict[Pair, int], Floats]:

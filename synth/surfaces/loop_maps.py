@@ -10,14 +10,14 @@ together; loops of which rounding or half turns decide something are mapped one 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import degrees, fsum, inf
-from typing import Any, NamedTuple
+from math import degrees, fsum
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import InvariantError, UnsolvableError, numbered
-from graphs.mechanism.surfaces import Cylinder
+from graphs.mechanism.surfaces import Cylinder, checked_cone_angle
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
 from graphs.types import Flags, Floats, Ints
@@ -26,6 +26,8 @@ from synth.fourbar.closing import can_close, rounding_of
 from synth.surfaces import mapping
 from synth.surfaces.circuit import azimuths, circuits
 from synth.surfaces.loop_sums import MOST_LINKS, half_steps, loop_roots, sign_patterns
+
+_Circle = TypeVar("_Circle", mapping.MappedLoop, mapping.FamilyOfCircles)
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +47,8 @@ class ConeMap(Printed):
         Why there is no cone; empty where there is one.
     supplementary : ConeMap or None
         Of four-bars without a cone: the linkage on the same joint lines whose sum of angles is least.
+    notes : tuple of str
+        Which link angles over pi are read as the rest of the circle.
 
     Examples
     --------
@@ -60,6 +64,12 @@ class ConeMap(Printed):
     solutions: str | None
     why: str
     supplementary: ConeMap | None
+    notes: tuple[str, ...] = ()
+
+    def rows(self) -> tuple[mapping.MappedLoop, ...]:
+        """Return the loop on the cone of each numbered row that is printed; of a family on a cone amid it."""
+        links = mapping.SizedLinks(cone_reach(self.angles), 1, np.array(self.angles))
+        return (*self.cones, *(mapping.member(family, family.typical, links) for family in self.families))
 
     def cautions(self) -> tuple[str, ...]:
         """Return where rounding decides: the type and class, circles, or families."""
@@ -67,7 +77,7 @@ class ConeMap(Printed):
 
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""
-        blocks: list[Block] = []
+        blocks: list[Block] = [f"note: {note}" for note in self.notes]
         if self.kind is not None:
             blocks.append(mapping.kind_line(self.kind, angular=True))
             if self.solutions in ("a", "b", "c", "d"):
@@ -96,6 +106,7 @@ class ConeMap(Printed):
             "flat": [{**loop.to_json(angular=True), "lambda_deg": 0.0} for loop in self.flat],
             "why": self.why or None,
             "cautions": list(self.cautions()),
+            "notes": list(self.notes),
         }
         if self.kind is not None:
             document["class"] = self.solutions
@@ -124,7 +135,7 @@ def cone_reach(angles: npt.ArrayLike) -> Floats:
     return np.asarray((np.cos(half) / np.sin(half)) ** 2)
 
 
-def map_to_cones(angles: npt.ArrayLike) -> ConeMap:
+def map_to_cones(angles: npt.ArrayLike, cone_angle: float | None = None) -> ConeMap:
     """Return every right cone on which a spherical loop of any number of links lies, by its loop sums.
 
     Parameters
@@ -132,6 +143,9 @@ def map_to_cones(angles: npt.ArrayLike) -> ConeMap:
     angles : float[n]
         Link angles in loop order, radians, between 0 and 2 pi (over pi: the joint axes are those of 2 pi less the
         angle). Of a four-bar: ground, input, coupler, output.
+    cone_angle : float, optional
+        lambda of one cone, radians: only what lies on it, such as a parallelogram or a kite, which lie on every
+        cone of an interval (Hyatt et al. 2021, Figs. 5, 6).
 
     Raises
     ------
@@ -149,12 +163,18 @@ def map_to_cones(angles: npt.ArrayLike) -> ConeMap:
     flat = tuple(loop for loop in loops if is_flat(loop.size, links.max()))
     cones = loops[len(flat) :]  # in the order of their sizes
     why = "" if cones or families else _why_not(links, bool(flat))
+    if cone_angle is not None:
+        size = float(checked_cone_angle(cone_angle))
+        on_it = mapping.loops_on(size, cones, families, mapping.SizedLinks(cone_reach(links), 1, links))
+        why = why or ("" if on_it else mapping.not_on(size, cones, families, angular=True))
+        cones, families, flat = on_it, (), ()
     kind = solutions = supplement = None
     if len(links) == 4:
         kind, solutions = closing.kind_of_spherical(links), solution_class(links)
-        if why and closing.spherical_differences(links)[3] < 0 and not _is_straight(links.max()):
+        if why and cone_angle is None and closing.spherical_differences(links)[3] < 0 and not _is_straight(links.max()):
             supplement = map_to_cones(closing.minimal_supplementary(links))
-    return ConeMap(tuple(links.tolist()), cones, flat, families, kind, solutions, why, supplement)
+    notes = closing.read_the_other_way(angles)
+    return ConeMap(tuple(links.tolist()), cones, flat, families, kind, solutions, why, supplement, notes)
 
 
 def solution_class(angles: npt.ArrayLike) -> str:
@@ -225,6 +245,12 @@ class CylinderMap(Printed):
     why: str
     stretched: tuple[tuple[int, ...], ...]
 
+    def rows(self) -> tuple[mapping.MappedLoop, ...]:
+        """Return the loop on the cylinder of each numbered row that is printed; of a family on a typical one."""
+        unit, links = _unit_and_links(np.array(self.lengths))
+        members = (mapping.member(_scaled(one, 1 / unit), one.typical / unit, links) for one in self.families)
+        return (*self.cylinders, *(_scaled(one, unit) for one in members))
+
     def cautions(self) -> tuple[str, ...]:
         """Return where rounding decides: the type, circles, families, or one more cylinder beyond them."""
         large = f"{closing.ILL_CONDITIONED}: stretched out within rounding: one more cylinder may be very large"
@@ -282,13 +308,16 @@ def cylinder_reach(lengths: npt.ArrayLike) -> Floats:
     return np.asarray(np.asarray(lengths, dtype=float) ** -2.0)
 
 
-def map_to_cylinders(lengths: npt.ArrayLike) -> CylinderMap:
+def map_to_cylinders(lengths: npt.ArrayLike, radius: float | None = None) -> CylinderMap:
     """Return every cylinder on which a planar loop of any number of links lies, by its loop sums.
 
     Parameters
     ----------
     lengths : float[n]
         In loop order, any one unit. Of a four-bar: ground, input, coupler, output.
+    radius : float, optional
+        Of one cylinder: only what lies on it, such as a parallelogram or a kite, which lie on every cylinder from
+        one on (Hyatt et al. 2021, Figs. 5, 6).
 
     Raises
     ------
@@ -301,16 +330,39 @@ def map_to_cylinders(lengths: npt.ArrayLike) -> CylinderMap:
     [(2.54, 'open'), (2.59, 'crossed')]
     """
     sides = closing.checked_link_lengths(lengths)
-    unit = unit_of(sides)
-    loops, families = mapping.mapped_loop(cylinder_reach(sides / unit), 0)
-    cylinders = tuple(
-        replace(loop, size=loop.size * unit, bounds=(loop.bounds[0] * unit, loop.bounds[1] * unit)) for loop in loops
-    )
-    families = tuple(replace(family, interval=(family.interval[0] * unit, inf)) for family in families)
-    kind = closing.kind_of_planar(sides) if len(sides) == 4 else None
-    why = "" if cylinders or families else "the loop closes stretched out only, at an infinite radius"
+    unit, links = _unit_and_links(sides)
+    loops, families = mapping.mapped_loop(links.reach, 0)
+    why = "" if loops or families else "the loop closes stretched out only, at an infinite radius"
     stretched = _nearly_stretched(sides, {family.signs for family in families})
-    return CylinderMap(tuple(sides.tolist()), cylinders, families, kind, why, stretched)
+    if radius is not None:
+        size = Cylinder(radius).radius / unit
+        on_it = mapping.loops_on(size, loops, families, links)
+        every = [_scaled(one, unit) for one in loops], [_scaled(one, unit) for one in families]
+        why = why or ("" if on_it else mapping.not_on(radius, *every, angular=False))
+        loops, families, stretched = on_it, (), ()
+    return CylinderMap(
+        tuple(sides.tolist()),
+        tuple(_scaled(loop, unit) for loop in loops),
+        tuple(_scaled(family, unit) for family in families),
+        closing.kind_of_planar(sides) if len(sides) == 4 else None,
+        why,
+        stretched,
+    )
+
+
+def _unit_and_links(lengths: Floats) -> tuple[float, mapping.SizedLinks]:
+    """Return a unit, and links in it for loop sums."""
+    unit = unit_of(lengths)
+    return unit, mapping.SizedLinks(cylinder_reach(lengths / unit), 0)
+
+
+def _scaled(circle: _Circle, unit: float) -> _Circle:
+    """Return a loop on a cylinder, or a family, whose unit of length is another."""
+    if isinstance(circle, mapping.FamilyOfCircles):
+        low, high = circle.interval
+        return replace(circle, interval=(low * unit, high * unit))
+    low, high = circle.bounds
+    return replace(circle, size=circle.size * unit, bounds=(low * unit, high * unit))
 
 
 def unit_of(lengths: Floats) -> float:

@@ -4,16 +4,19 @@ Cones and cylinders share this (`synth.surfaces.loop_maps`). Where rounding deci
 leaves few digits of it, the circle says so. Theory: docs/theory/rounding.md.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from itertools import combinations
-from math import cos, degrees, fsum, inf, pi
+from dataclasses import dataclass, replace
+from itertools import combinations, count
+from math import cos, degrees, fsum, inf, isclose, pi, tan
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from graphs.printing import Block, TableBlock, plain
+from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId
 from synth.fourbar.closing import ILL_CONDITIONED, FourBarKind
 from synth.surfaces.circuit import circuits
@@ -121,6 +124,11 @@ class FamilyOfCircles:
     turns: int
     caution: str
 
+    @property
+    def typical(self) -> float:
+        """The size that is taken if none is chosen: the middle, or of radii without end twice the least."""
+        return typical_size(self.interval)
+
     def to_json(self, *, angular: bool) -> dict[str, Any]:
         """Return the family as plain data: of cones (angular) or cylinders."""
         return {
@@ -183,7 +191,8 @@ def circles_table(
     `flat` are the loops that lie in a plane: no cone. `angular`: sizes are angles of cones, else lengths of
     cylinders.
     """
-    size = "lambda (deg)" if angular else "radius"
+    number, size = ("cone", "lambda (deg)") if angular else ("cylinder", "radius")
+    numbers = count(1)  # what --cone and --cylinder choose; a flat loop is no cone
     rows = []
     for one in loops:
         notes = ["flat, no cone"] * (one in flat)
@@ -194,6 +203,7 @@ def circles_table(
         radius = [f"{cos(one.size):.6g}"] if angular else []  # R of a cone (Hyatt et al. 2021, Eq. 14)
         half = [f"{90.0 - degrees(one.size):.10g}"] if angular else []
         rows.append((
+            "" if one in flat else str(next(numbers)),
             f"{degrees(one.size) if angular else one.size:.10g}", *half, one.circuit, signs_text(one.signs),
             str(one.turns), *radius, " ".join(f"{degrees(step):.2f}" for step in one.steps),
             "; ".join(notes),
@@ -202,13 +212,13 @@ def circles_table(
         low, high = (degrees(x) if angular else x for x in family.interval)
         half = [f"{90.0 - high:.10g} to {90.0 - low:.10g}"] if angular else []
         rows.append((
-            f"{low:.10g} to {high:.10g}", *half, family.circuit, signs_text(family.signs), str(family.turns),
-            *([""] if angular else []), "",
+            str(next(numbers)), f"{low:.10g} to {high:.10g}", *half, family.circuit, signs_text(family.signs),
+            str(family.turns), *([""] if angular else []), "",
             "every one of these" + (", ill-conditioned" if family.caution else ""),
         ))  # fmt: skip
     half, radius = (["half angle (deg)"], ["R"]) if angular else ([], [])
-    heads = (size, *half, "circuit", "signs", "k", *radius, "steps (deg)", "note")
-    return [TableBlock(heads, rows, [size, *half, "k", *radius])] if rows else []
+    heads = (number, size, *half, "circuit", "signs", "k", *radius, "steps (deg)", "note")
+    return [TableBlock(heads, rows, [number, size, *half, "k", *radius])] if rows else []
 
 
 def mapped_loop(
@@ -232,6 +242,57 @@ def mapped_loop(
         if key not in loops and not ends_a_family:
             loops[key] = _on_its_circle(root, links)
     return tuple(sorted(loops.values(), key=lambda one: one.size)), families
+
+
+def loops_on(
+    size: float, loops: Iterable[MappedLoop], families: Iterable[FamilyOfCircles], links: SizedLinks
+) -> tuple[MappedLoop, ...]:
+    """Return the loops on one chosen circle: those of its size, to the digits that are printed, and of families."""
+    on_it = [loop for loop in loops if is_size(loop.size, size)]
+    on_it += [member(family, size, links) for family in families if is_in(family.interval, size)]
+    return tuple({(loop.signs, loop.turns): loop for loop in on_it}.values())  # families may end in one loop
+
+
+def not_on(size: float, loops: Iterable[MappedLoop], families: Iterable[FamilyOfCircles], *, angular: bool) -> str:
+    """Return why nothing lies on a chosen circle: the sizes on which something does."""
+
+    def shown(value: float) -> str:
+        return f"{degrees(value) if angular else value:.10g}"
+
+    others = [shown(loop.size) for loop in loops]
+    others += sorted({f"{shown(family.interval[0])} to {shown(family.interval[1])}" for family in families})
+    what = "lambda" if angular else "radius"
+    return f"{what} {shown(size)} was chosen, and the loop lies on {what} {', '.join(others)}"
+
+
+def member(family: FamilyOfCircles, size: float, links: SizedLinks) -> MappedLoop:
+    """Return the loop of a family on the circle of a size in its interval."""
+    z = reach_at(size, links)
+    ends = z == links.reach.min()
+    root = _as_listed(_Root(z, np.array(family.signs, dtype=np.int8), 0, bool(ends), _NONE), links)
+    return replace(_on_its_circle(root, links), size=size, bounds=family.interval, caution=family.caution)
+
+
+def typical_size(interval: tuple[float, float]) -> float:
+    """Return the size amid an interval, or of radii without end twice the least."""
+    low, high = interval
+    return 2.0 * low if high == inf else (low + high) / 2.0
+
+
+def is_size(found: float, size: float) -> bool:
+    """Check whether a circle has a size, to the ten digits that are printed."""
+    return isclose(found, size, rel_tol=DOUBLE.same_point)
+
+
+def is_in(interval: tuple[float, float], size: float) -> bool:
+    """Check whether an interval, whose ends are printed with ten digits, has a size."""
+    low, high = interval
+    return 0.0 < size < inf and (low <= size <= high or is_size(low, size) or is_size(high, size))
+
+
+def reach_at(size: float, links: SizedLinks) -> float:
+    """Return z of a circle of a size, as `size_of` has it, at most where the longest link ends."""
+    return min(tan(size) ** 2 if links.base else (0.5 / size) ** 2, float(links.reach.min()))
 
 
 def _families(roots: LoopRoots, reach: Floats, base: Base) -> tuple[FamilyOfCircles, ...]:

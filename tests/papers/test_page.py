@@ -2,6 +2,8 @@
 
 import json
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -105,3 +107,19 @@ def test_rows_that_print_counts_have_those_of_the_golden_file():
                 assert all(one == other for one, other in known), row.golden
                 compared += len(known)
     assert compared > 60
+
+
+def test_expressions_run_as_they_stand():
+    """In a Python of its own, after the imports that the page names: every dotted name in them is found."""
+    dotted = {
+        name
+        for _, _, row in ROWS
+        for text in (row.ask if not row.ask.startswith("synth ") else "", row.figure, row.second)
+        for name in re.findall(r"\b(?:graphs|synth)(?:\.[A-Za-z_]\w*)+", text)
+    }
+    assert len(dotted) > 20
+    program = "import json, graphs, synth\nimport numpy as np\nfor name in json.loads(input()): eval(name)"
+    run = subprocess.run(
+        [sys.executable, "-c", program], check=False, input=json.dumps(sorted(dotted)), capture_output=True, text=True
+    )
+    assert run.returncode == 0, run.stderr

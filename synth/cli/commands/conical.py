@@ -12,7 +12,7 @@ import synth.candidates
 import synth.conformed
 from graphs.errors import FileError
 from synth.cli import options
-from synth.cli.output import about, plain
+from synth.cli.output import about, plain, print_note
 from synth.cli.runner import RunOptions, check_method, run_count, run_rows, runner_options
 
 if TYPE_CHECKING:
@@ -103,6 +103,7 @@ def conical(
     job = synth.candidates.CandidateJob(chain, grounds, slots, opposites, samples, seed, surface, tuple(filters))
     if not only_count:
         run_rows(job, running, lambda sink: _around(sink, job, sort, pictures))
+        _say_next(running)
     elif filters or samples is not None:
         if method is not None:
             raise click.UsageError("--method counts all candidates, without filters and --sample")
@@ -111,6 +112,20 @@ def conical(
         from enumerate.conical.query import ConicalCountJob
 
         run_count(ConicalCountJob(job.query, method or "burnside"), running)
+
+
+def _say_next(running: RunOptions) -> None:
+    """Say which command makes a linkage that moves of a row."""
+    from synth.drawing.catalogue import is_catalogue
+
+    if running.as_json or running.quiet or (running.output is not None and not is_catalogue(running.output)):
+        return
+    file = "FILE.jsonl" if running.output is None else plain(running.output, 4096)
+    first = "-o FILE.jsonl, then " if running.output is None else ""
+    print_note(
+        f"to move row K: {first}synth cone move {file} --row K --lambda 30; "
+        f"a file of it: synth realise {file} --row K --as cone -o OUT.json"
+    )
 
 
 def _chain(name: str) -> synth.SCGraph:

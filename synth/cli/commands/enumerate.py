@@ -51,10 +51,11 @@ _LIMIT = options.WordType("limit", _limit)
 @options.flag("--count only_count", "Print only the number, by generating functions.")
 @options.output("Write one JSON object per line.", "FILE.jsonl")
 @options.FORCE
+@options.flag("--quiet", "Do not show the name of the written file.")
 @options.flag("--json as_json", "Print a JSON list.")
 def strings(
     dof: int | None, max_dof: int | None, modes: bool, max_panels: int | None, max_cluster: int | None,
-    only_count: bool, output: str | None, force: bool, as_json: bool,
+    only_count: bool, output: str | None, force: bool, quiet: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """List or count the R/- strings: open chains of panels, with their joint chains (Wiener, Table 8).
 
@@ -92,7 +93,7 @@ def strings(
         if not output.endswith(".jsonl"):
             raise unknown_extension(output, [".jsonl"])
         write_chunks(Path(output), (json.dumps(row) + "\n" for row in rows), force=force)
-        tell_written(output)
+        tell_written(None if quiet else output)
     elif as_json:
         print_json(list(rows))
     else:
@@ -127,7 +128,7 @@ def _assortment(word: str) -> tuple[int, ...]:
 
 
 _LINKS = options.number("--links", "N", "Number of links.", 4, required=True)
-_DOF = options.number("--dof", "M", "Degrees of freedom.", required=True)
+_DOF = options.number("--dof", "M", "Degrees of freedom.", default=1)
 _ASSORTMENT = options.value(
     "--assortment", "4,2", "Numbers of binary, ternary, ... links.",
     type=options.WordType("assortment", _assortment),
@@ -243,9 +244,9 @@ def sc(
 
 @click.command(short_help="List or count SCD graphs: mechanisms with all sides of their links.")
 @options.number("--links", "N", "Number of links.", 2)
-@options.number("--dof", "M", "Degrees of freedom; N - 1 gives open chains.")
+@options.number("--dof", "M", "Degrees of freedom, with --links; N - 1 gives open chains.  [default: 1]")
 @options.value("--of file", "FILE", "File of an SC or SCD graph: list only its SCD graphs.", type=options.FILE_NAME)
-@options.number("--max-degree", "D", "Largest number of sides of a link.", 3, required=True)
+@options.number("--max-degree", "D", "Largest number of sides of a link.", 3, default=4)
 @_SPATIAL
 @_INFINITE
 @options.flag("--all-explicit sheets", "List only single sheets without holes.")
@@ -264,7 +265,7 @@ def scd(
 
     \b
     Examples:
-      synth enumerate scd --links 4 --dof 1 --max-degree 4
+      synth enumerate scd --links 4
       synth enumerate scd --links 8 --dof 1 --max-degree 5 --count
       synth enumerate scd --links 4 --dof 3 --max-degree 3
       synth enumerate scd --of data/wiener/watt.json --max-degree 4 --all-explicit
@@ -281,9 +282,10 @@ def scd(
         graph = _graph(file)
         with about(file):
             mechanisms = mechanism_of(graph, max_degree, **filters)
-    elif links is None or dof is None:
-        raise click.UsageError("--links and --dof, or --of FILE, are required")
+    elif links is None:
+        raise click.UsageError("one of --links and --of FILE is required")
     else:
+        dof = 1 if dof is None else dof
         mechanisms = all_mechanisms(links, dof, max_degree, spatial=spatial, infinite=infinite, **filters)
         if not mechanisms.tree:
             _say_if_odd(links, dof, spatial)

@@ -5,10 +5,11 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from functools import partial
-from math import degrees
+from math import degrees, radians
 from typing import TYPE_CHECKING, Any
 
 import click
+import numpy as np
 
 import synth.drawing
 import synth.guidance
@@ -27,10 +28,23 @@ _ORIENTATIONS = options.value(
 
 
 @click.command()
-@_ORIENTATIONS
 @options.value(
-    "--axis", "X,Y,Z", "Direction of the fixed axis G of the dyad, of any length.", required=True,
-    type=options.AXIS,
+    "--orientations file", "FILE", "File of three or more orientations (docs/native-json.md); requires --axis.",
+    type=options.FILE_NAME,
+)  # fmt: skip
+@options.value("--axis", "X,Y,Z", "Direction of the fixed axis G of the dyad, of any length.", type=options.AXIS)
+@options.repeated(
+    "--position positions", "X,Y,DEGREES",
+    "In the plane, in place of --orientations: where the origin of the body is, and how far the body is turned; three "
+    "times or more. Requires --pivot.",
+    type=options.NUMBERS,
+)  # fmt: skip
+@options.value("--pivot", "X,Y", "With --position: the fixed pivot of the crank.", type=options.NUMBERS)
+@options.value(
+    "--desired", "2,1,3,...",
+    "Numbers of three or more of them, in the order in which the crank is to take them. By default all, in the order "
+    "in which they are listed.",
+    type=options.NUMBERS,
 )  # fmt: skip
 @options.choice(
     "--direction", ("ccw", "cw"), "Direction in which the crank turns, seen from the tip of the axis.",
@@ -40,28 +54,73 @@ _ORIENTATIONS = options.value(
 @options.FORCE
 @options.JSON
 def order(
-    file: str, axis: tuple[float, float, float], direction: Direction, picture: str | None, force: bool,
-    as_json: bool,
+    file: str | None, positions: Sequence[tuple[float, ...]], desired: tuple[float, ...] | None, picture: str | None,
+    force: bool, as_json: bool, **about_what: Any,
 ) -> None:  # fmt: skip
     """Check whether a crank guides a body through orientations in order (Tipparthi and Larochelle 2011).
 
     The hoop, half a great circle through the ends of the axis, turns by 180 degrees from S12; the order in which
-    it crosses the axes Sij, of the rotation from orientation i to orientation j, decides. Inequalities and the
-    crank angles of the best-fitting dyad check the result. Exit status 1: the order is not kept.
+    it crosses the axes Sij, of the rotation from orientation i to orientation j, decides. In the plane it is a
+    propeller, a line about the fixed pivot, that passes the poles Pij. Inequalities and the crank angles of the
+    best-fitting dyad check the result. Exit status 1: the order is not kept.
 
     \b
-    Example:
+    Examples:
       synth order --orientations data/orientations/tipparthi.json --axis -0.349,-0.144,0.926 --direction cw
+      synth order --orientations data/orientations/tipparthi.json --axis -0.349,-0.144,0.926 --desired 5,4,3,2,1
+      synth order --position 2,0,0 --position 0,2,20 --position -1,-1.7,70 --pivot 0,0
     """
     check_picture(picture, force=force)
-    orientations = synth.guidance.read_orientations(file)
-    with about(file):
-        analysis = synth.guidance.analyse_order(orientations, axis, direction)
-    if picture is not None:
-        synth.drawing.draw_hoop(orientations, axis, analysis.hoop).save(picture, force=force)
-    print_result(analysis, {"file": file, "axis": list(axis)}, as_json=as_json, written=[picture])
+    if (file is None) == (not positions):
+        raise click.UsageError("one of --orientations and --position is required")
+    if file is None:
+        analysis, where = _planar_order(positions, picture, _numbers_of(desired), **about_what)
+    else:
+        analysis, where = _spherical_order(file, _numbers_of(desired), **about_what)
+        if picture is not None:
+            orientations = synth.guidance.read_orientations(file)
+            synth.drawing.draw_hoop(orientations, analysis.axis, analysis.hoop).save(picture, force=force)
+    print_result(analysis, where, as_json=as_json, written=[picture])
     if not analysis.in_order:
         sys.exit(1)
+
+
+def _numbers_of(desired: tuple[float, ...] | None) -> list[int] | None:
+    """Return the whole numbers of --desired."""
+    for number in desired or ():
+        if number != int(number):
+            raise click.UsageError(f"--desired: {number:g} is not the number of an orientation, such as 2")
+    return None if desired is None else [int(number) for number in desired]
+
+
+def _spherical_order(
+    file: str, desired: list[int] | None, *, axis: tuple[float, float, float] | None,
+    pivot: tuple[float, ...] | None, direction: Direction,
+) -> tuple[synth.guidance.OrderAnalysis, dict[str, Any]]:  # fmt: skip
+    if axis is None or pivot is not None:
+        raise click.UsageError("--orientations requires --axis" if axis is None else "--pivot requires --position")
+    orientations = synth.guidance.read_orientations(file)
+    with about(file):
+        analysis = synth.guidance.analyse_order(orientations, axis, direction, desired)
+    return analysis, {"file": file, "axis": list(axis)}
+
+
+def _planar_order(
+    positions: Sequence[tuple[float, ...]], picture: str | None, desired: list[int] | None, *,
+    axis: tuple[float, float, float] | None, pivot: tuple[float, ...] | None, direction: Direction,
+) -> tuple[synth.guidance.OrderAnalysis, dict[str, Any]]:  # fmt: skip
+    if pivot is None or axis is not None:
+        raise click.UsageError("--position requires --pivot" if pivot is None else "--axis requires --orientations")
+    if picture is not None:
+        raise click.UsageError("-o draws the hoop on the sphere, and requires --orientations")
+    for position in positions:
+        if len(position) != 3:
+            raise click.UsageError(f"--position: {len(position)} numbers; expected X,Y,DEGREES, such as 0,2,20")
+    if len(pivot) != 2:
+        raise click.UsageError(f"--pivot: {len(pivot)} numbers; expected X,Y, such as 0,0")
+    rows = synth.guidance.PlanarPositions(np.array([(x, y, radians(turn)) for x, y, turn in positions]))
+    analysis = synth.guidance.analyse_planar_order(rows, pivot, direction, desired)
+    return analysis, {"positions": [list(position) for position in positions], "pivot": list(pivot)}
 
 
 _AXES = options.repeated(

@@ -158,6 +158,7 @@ _FIGURES = 12
 @click.command()
 @options.FILE
 @options.choice("--as kind", ("sheet", "space", "cone"), "Kind of realisation.", default="sheet")
+@options.number("--row", "K", "With --as cone: number of the row, from 1, of a list of conical candidates or types.")
 @options.value(
     "--size", None, "Longer side of the bounding box of the panels, in any unit.  [default: 1]",
     type=options.LENGTH,
@@ -186,10 +187,10 @@ _FIGURES = 12
 @options.FORCE
 @options.JSON
 def realise(
-    file: str, kind: str, size: float | None, cone_angle: float | None, seed: int, tries: int, flat_foldable: bool,
-    symmetric: bool, mode: str | None, freedoms: int | None, geometry: str | None, every: bool, some_joints: bool,
-    mark: str | None, output: str | None, workers: int | None, resume: bool, quiet: bool, force: bool,
-    as_json: bool,
+    file: str, kind: str, row: int | None, size: float | None, cone_angle: float | None, seed: int, tries: int,
+    flat_foldable: bool, symmetric: bool, mode: str | None, freedoms: int | None, geometry: str | None, every: bool,
+    some_joints: bool, mark: str | None, output: str | None, workers: int | None, resume: bool, quiet: bool,
+    force: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Give a type coordinates. FILE is a file, an id m1:... or k1:..., or an R/- string.
 
@@ -209,7 +210,7 @@ def realise(
     tried; the first realisation that moves is written, a sheet as .fold, axes as .json. Exit status 1: none moves.
 
     A type with one centre can lie on a cone, with all its axes on ruling lines; the output is a file for `synth
-    cone`.
+    cone`. A row of conical candidates (`synth enumerate conical -o FILE.jsonl`) is laid in its own order of joints.
 
     \b
     Examples:
@@ -217,6 +218,7 @@ def realise(
       synth realise RR-R-RRR --mode D -o ups.fold
       synth realise data/wiener/six-bar.json --as space -o six-bar.obj
       synth realise data/wiener/stephenson.json --as cone --lambda 25 -o stephenson.json
+      synth realise watt.jsonl --row 3 --as cone -o watt.json
       synth realise types.sqlite --as space -o realised
       synth realise data/wiener/six-bar-loop-spatial.json --freedoms 1 --as space
       synth realise data/linkages/bennett.json --freedoms 1 -o bennett.json --mark type.json
@@ -239,14 +241,16 @@ def realise(
         (kind != "sheet" and (flat_foldable or symmetric), "--flat-foldable and --symmetric require --as sheet"),
         (mode and (on_cone or many),
          "--mode requires one R/- string as panels; rows of a list have modes of their own"),
-        (many and on_cone, "--as cone requires one type, not a store, a list or a folder"),
+        (many and on_cone and row is None,
+         "--as cone requires one type: --row K, the number of a row, of a store, a list or a folder"),
+        (row is not None and not (many and on_cone), "--row requires --as cone and a store, a list or a folder"),
         (not many and (workers or resume),
          "--workers and --resume require many types: a store, a list or a folder"),
     )  # fmt: skip
     settings: dict[str, Any] = {"kind": kind, "size": 1.0 if size is None else size, "seed": seed, "tries": tries}
     settings |= {"flat_foldable": True} if flat_foldable else {}
     settings |= {"symmetric": True} if symmetric else {}
-    if many:
+    if many and not on_cone:
         running = RunOptions(output, workers, resume=resume, quiet=quiet, force=force)
         _realise_many(file, running, settings, as_json=as_json)
         return
@@ -254,7 +258,7 @@ def realise(
     if on_cone and output is not None and not output.lower().endswith(".json"):
         raise FileError(output, "", "a linkage on a cone cannot be written to it", "a name that ends in .json")
     with out.about(file):
-        source: Any = read_named(file).mechanism
+        source: Any = read_named(file, row).mechanism
         if on_cone:
             realisation: Any = _on_cone(file, source, cone_angle, seed, tries)
             mechanism = realisation.linkage
@@ -266,6 +270,8 @@ def realise(
     if output is not None:
         synth.write(mechanism, output, force=force)
     out.print_result(realisation, {"file": file, "output": output}, as_json=as_json, written=[output])
+    if on_cone and output is not None and not as_json:
+        click.echo(f"next: synth cone move {out.plain(output, 4096)}; synth view {out.plain(output, 4096)}")
 
 
 def _refuse(*rules: tuple[object, str]) -> None:
@@ -277,10 +283,14 @@ def _refuse(*rules: tuple[object, str]) -> None:
 
 def _on_cone(file: str, source: Any, cone_angle: float | None, seed: int, tries: int) -> ConeRealisation:
     from enumerate.strings import ChainString
+    from synth.drawing.mechanisms.chains import OrderOnCircle
+    from synth.realisation.on_cone import realise_candidate
 
+    angle = {} if cone_angle is None else {"cone_angle": radians(cone_angle)}
+    if isinstance(source, OrderOnCircle):
+        return realise_candidate(source.chain, source.azimuths, **angle, seed=seed, tries=tries)
     if isinstance(source, ChainString):
         raise FileError(file, "", "an R/- string has no loop", "a linkage whose axes meet in one centre")
-    angle = {} if cone_angle is None else {"cone_angle": radians(cone_angle)}
     return synth.realise_on_cone(source, **angle, seed=seed, tries=tries)
 
 

@@ -16,7 +16,7 @@ import synth.conformed
 import synth.drawing
 import synth.moving
 import synth.surfaces
-from graphs.errors import numbered
+from graphs.errors import UnsolvableError, numbered
 from graphs.printing import plain
 from synth.cli import options, output as out
 
@@ -45,14 +45,15 @@ class LinkageOptions:
     sizes: tuple[float, ...] | None
     steps: tuple[float, ...] | None
     surface_size: float | None
+    row: int | None = None
     arcs: Sequence[tuple[str, str]] | None = None
 
     def __post_init__(self) -> None:
-        size, sizes = ("lambda", "angles") if self.kind == "cone" else ("radius", "lengths")
+        sizes = "angles" if self.kind == "cone" else "lengths"
         if sum(source is not None for source in (self.file, self.sizes, self.steps)) != 1:
             raise click.UsageError(f"one of --{sizes}, --steps and FILE is required")
-        if self.surface_size is not None and self.sizes is not None:
-            raise click.UsageError(f"--{sizes} determine the {self.kind}; leave out --{size}")
+        if self.row is not None and self.file is None:
+            raise click.UsageError("--row requires a FILE of conical candidates")
 
     @property
     def surface(self) -> Surface | None:
@@ -71,13 +72,43 @@ class LinkageOptions:
 
     def linkage(self) -> synth.SurfaceLinkage:
         """Return the linkage of the options, which need not lie on a surface."""
-        from graphs.files.formats import read_linkage
-
         if self.file is not None:
-            return read_linkage(self.file)
+            linkage = self._of_file(self.file)
+            of_steps = linkage.steps is not None and self.surface is not None
+            return replace(linkage, surface=self.surface) if of_steps else linkage
         if self.sizes is not None:
-            return synth.SurfaceLinkage.loop(self.linkage_sizes, self.kind)
+            mapped = self.loop_map
+            sizes = mapped.angles if isinstance(mapped, synth.surfaces.ConeMap) else mapped.lengths
+            return synth.SurfaceLinkage.loop(sizes, self.kind)
         return self._of_steps().linkage()
+
+    @cached_property
+    def loop_map(self) -> synth.surfaces.ConeMap | synth.surfaces.CylinderMap:
+        """Every surface of a loop by its link sizes; with --lambda or --radius, that one."""
+        surface = self.surface
+        if self.kind == "cone":
+            return synth.map_to_cones(self.linkage_sizes, None if surface is None else radians(self.surface_size or 0))
+        return synth.map_to_cylinders(self.linkage_sizes, self.surface_size)
+
+    def _of_file(self, file: str) -> synth.SurfaceLinkage:
+        """Return the linkage of a file, or of a row of conical candidates, which lies on any cone or cylinder."""
+        from graphs.files.formats import read_linkage
+        from synth.cli.reading import read_named
+        from synth.drawing.catalogue import is_catalogue
+        from synth.drawing.mechanisms.chains import OrderOnCircle
+
+        if self.row is None and not is_catalogue(file):
+            return read_linkage(file)
+        order = read_named(file, self.row).mechanism
+        if not isinstance(order, OrderOnCircle):
+            raise UnsolvableError(f"row {self.row} is no conical candidate; try `synth realise --as cone`")
+        return synth.SurfaceLinkage.placed(order.chain, order.azimuths, self.surface)
+
+    def note_readings(self) -> None:
+        """Print, beside the answer, which link angles are read the other way round."""
+        if self.sizes is not None and self.kind == "cone":
+            for note in synth.map_to_cones(self.linkage_sizes).notes:
+                click.echo(f"note: {note}", err=True)
 
     def _of_steps(self) -> synth.conformed.OnSurface:
         from graphs.mechanism.surfaces import as_planar
@@ -85,16 +116,16 @@ class LinkageOptions:
         loop = synth.conformed.loop_of_steps(options.in_radians(self.steps or ()), self.surface)
         return loop if self.kind == "cone" else replace(loop, chain=as_planar(loop.chain))
 
-    def on_surfaces(self) -> list[synth.conformed.OnSurface]:
-        """Return the linkage on each of its surfaces."""
-        from graphs.files.formats import read_linkage
-
+    def on_surfaces(self, *, families: bool = False) -> list[synth.conformed.OnSurface]:
+        """Return the linkage on each of its surfaces; after these one of each family, if they are listed too."""
         if self.file is not None:
-            placed = synth.conformed.linkage_on_surfaces(read_linkage(self.file), self.surface)
+            linkage = self._of_file(self.file)
+            placed = synth.conformed.linkage_on_surfaces(linkage, self.surface, families=families)
         elif self.sizes is not None and self.kind == "cone":
-            placed = synth.conformed.loop_on_cones(self.linkage_sizes)
+            angle = None if self.surface_size is None else radians(self.surface_size)
+            placed = synth.conformed.loop_on_cones(self.linkage_sizes, angle, families=families)
         elif self.sizes is not None:
-            placed = synth.conformed.loop_on_cylinders(self.linkage_sizes)
+            placed = synth.conformed.loop_on_cylinders(self.linkage_sizes, self.surface_size, families=families)
         else:
             placed = [self._of_steps()]
         return [linkage.curved(dict(self.arcs)) for linkage in placed] if self.arcs else placed
@@ -108,15 +139,18 @@ def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _C
     )
     steps = "Signed steps round the surface in loop order, in degrees; the last may be left out."
     metavar, measure = ("DEGREES", "angle") if kind == "cone" else ("R", "radius")
+    of_it = f"that of the steps; or, with {sizes}, the one that is chosen where several, or all of an interval, fit."
     every = [
         click.argument("file", required=False, metavar="[FILE]", type=options.FILE_NAME),
         options.value(f"{sizes} sizes", "A,B,...", what, type=options.NUMBERS),
         options.value("--steps", "A,B,...", steps, type=options.NUMBERS),
-        options.value(f"{size} surface_size", metavar, f"{kind.title()} {measure}, with --steps.", type=float),
+        options.value(f"{size} surface_size", metavar, f"{kind.title()} {measure}: {of_it}", type=float),
     ]
     if kind == "cone":
-        text = "Half angle of the cone, with --steps: 90 degrees less lambda."
+        text = "Half angle of the cone, in place of --lambda: 90 degrees less lambda."
         every.append(options.value("--half-angle", metavar, text, type=float))
+    text = f"Row of conical candidates, from 1, of FILE (`synth enumerate conical -o FILE`); on the {kind} of {size}."
+    every.append(options.number("--row", "K", text))
     if arcs:
         text = (
             "For a link that spans half a turn: the joint at which its arc begins, in the direction of "
@@ -132,7 +166,7 @@ def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _C
                 if values["surface_size"] is not None:
                     raise click.UsageError("--lambda and --half-angle exclude each other; try one of them")
                 values["surface_size"] = 90.0 - half_angle
-            names = ("file", "sizes", "steps", "surface_size", "arcs")
+            names = ("file", "sizes", "steps", "surface_size", "row", "arcs")
             chosen = LinkageOptions(kind, *(values.pop(name, None) for name in names))
             command(chosen=chosen, **values)
 
@@ -146,37 +180,95 @@ def linkage_options(kind: Kind, *, arcs: bool = True) -> Callable[[_Command], _C
 _GROUND = options.value("--ground", "LINK", "Fixed link. By default the first (1), or the one that FILE names.")
 
 
-def map_answer(
-    chosen: LinkageOptions, output: str | None, *, tolerance: float, by_sizes: bool, number: int | None,
-    force: bool,
-) -> synth.surfaces.ConeMap | synth.surfaces.CylinderMap | synth.surfaces.LinkageMap:  # fmt: skip
-    """Return every surface on which a linkage lies; write or draw the output.
+@dataclass(frozen=True)
+class MapOutput:
+    """Where `synth cone map` and `synth cylinder map` write or draw a linkage, and on which surface."""
 
-    A picture of a loop by its link sizes shows loop sums, unless the number of a surface is chosen.
-    """
-    from synth.conformed.linkages import surface_of_number
+    path: str | None
+    number: int | None
+    force: bool
 
-    if output is None and number is not None:
-        raise click.UsageError(f"--{chosen.kind} requires -o")
-    (out.check_output if _is_linkage(output) else out.check_picture)(output, force=force)
-    with chosen.about():
-        if chosen.sizes is not None:
-            map_sizes = synth.map_to_cones if chosen.kind == "cone" else synth.map_to_cylinders
-            mapped = map_sizes(chosen.linkage_sizes)
-            if output is not None and number is None and not _is_linkage(output):
-                synth.drawing.draw_loop_sums(mapped).save(output, force=force)
-                return mapped
-            if output is None:
-                return mapped
-        linkage = chosen.linkage()
-        linkage = synth.surfaces.by_sizes(linkage) if by_sizes else linkage
-        answer = mapped if chosen.sizes is not None else synth.map_linkage(linkage, radians(tolerance))
-        if output is not None and number is None and _is_linkage(output):
-            _write(linkage, output, force=force)
-        elif output is not None:
-            placed = synth.conformed.linkage_on_surfaces(linkage, tolerance=radians(tolerance))
-            _write(surface_of_number(placed, number, linkage.kind), output, force=force)
-    return answer
+    def check(self, kind: Kind) -> None:
+        """Refuse what cannot be written, before anything is computed for it."""
+        if self.path is None and self.number is not None:
+            raise click.UsageError(f"--{kind} requires -o")
+        (out.check_output if _is_linkage(self.path) else out.check_picture)(self.path, force=self.force)
+
+    def write(self, mapping: Mapping) -> str:
+        """Write or draw, and return a sentence on the surface that was taken, if it was one of several.
+
+        Without the number or the size of a surface the linkage is written without one, and a loop by its link
+        sizes is drawn as its loop sums.
+        """
+        if self.path is None:
+            return ""
+        chosen, linkage = mapping.chosen, mapping.linkage
+        if self.number is None and not mapping.chooses:
+            if _is_linkage(self.path):
+                _write(linkage, self.path, force=self.force)
+                return ""
+            if chosen.sizes is not None:
+                synth.drawing.draw_loop_sums(chosen.loop_map).save(self.path, force=self.force)
+                return ""
+        every = mapping.placed()
+        one = mapping.of_number(every, self.number)
+        _write(one, self.path, force=self.force)
+        place = every.index(one) + 1
+        if mapping.chooses and len(every) > 1:
+            return f"{chosen.kind} {place} of {len(every)}: {one.surface}; --{chosen.kind} chooses another"
+        if linkage.steps is None and place > len(every) - len(mapping.answer().families):
+            option = "--lambda" if chosen.kind == "cone" else "--radius"
+            return f"{chosen.kind} {place}: {one.surface}, one of an interval; {option} chooses another"
+        return ""
+
+
+@dataclass(frozen=True)
+class Mapping:
+    """A linkage of the options, and the surfaces on which it lies."""
+
+    chosen: LinkageOptions
+    tolerance: float
+    by_sizes: bool
+
+    @cached_property
+    def linkage(self) -> synth.SurfaceLinkage:
+        """The linkage that is mapped: for --by-angles and --by-lengths without its steps."""
+        linkage = self.chosen.linkage()
+        return synth.surfaces.by_sizes(linkage) if self.by_sizes else linkage
+
+    @property
+    def chooses(self) -> bool:
+        """Whether --lambda or --radius chooses one of the surfaces on which the sizes of links lie."""
+        of_sizes = self.chosen.steps is None and not self.by_sizes and self.linkage.steps is None
+        return of_sizes and self.chosen.surface is not None
+
+    def answer(self) -> synth.surfaces.ConeMap | synth.surfaces.CylinderMap | synth.surfaces.LinkageMap:
+        """Return every surface, or the chosen one."""
+        if self.chosen.sizes is not None:
+            return self.chosen.loop_map
+        surface = self.chosen.surface if self.chooses else None
+        return synth.map_linkage(self.linkage, radians(self.tolerance), surface)
+
+    def placed(self) -> list[synth.conformed.OnSurface]:
+        """Return the linkage on the surface of each numbered row."""
+        if self.chosen.sizes is not None:
+            return self.chosen.on_surfaces(families=True)
+        surface = self.chosen.surface if self.chooses else None
+        return synth.conformed.linkage_on_surfaces(
+            self.linkage, surface, tolerance=radians(self.tolerance), families=True
+        )
+
+    def of_number(self, every: Sequence[synth.conformed.OnSurface], number: int | None) -> synth.conformed.OnSurface:
+        """Return the linkage on the surface of a number, of a chosen one by default the first."""
+        from synth.conformed.linkages import surface_of_number
+
+        kind = self.chosen.kind
+        if self.chooses and not every:
+            size = "--lambda" if kind == "cone" else "--radius"
+            raise UnsolvableError(
+                f"the linkage does not lie on the {kind} of {self.chosen.surface}; try without {size}"
+            )
+        return surface_of_number(every, number or (1 if self.chooses else None), self.linkage.kind)
 
 
 def _is_linkage(output: str | None) -> bool:
@@ -204,14 +296,15 @@ _MAP = {
 
     Give the link --angles of one loop (for a four-bar: ground, input, coupler, output), its --steps round a cone
     of angle --lambda, or a FILE of a linkage of several loops, with its link angles or with the steps between its
-    joint axes. `synth cone move`, `view`, `draw` and `template` read the .json that -o writes.
+    joint axes. Parallelograms and kites lie on every cone of an interval: --lambda chooses one. `synth cone move`,
+    `view`, `draw` and `template` read the .json that -o writes.
 
     \b
     Examples:
       synth cone map --angles 70,80,120,40
       synth cone map --angles 120,95,45,85 --cone 1 -o four-bar.json
       synth cone map --steps 40,50,50 --lambda 20 -o steps.json
-      synth cone map --angles 120,50,120,50 --json
+      synth cone map --angles 120,50,120,50 --lambda 20 -o parallelogram.json
       synth cone map --angles 85,120,95,45 --supplementary
       synth cone map data/surfaces/fig11-stephenson.json
       synth cone map data/surfaces/fig11-stephenson.json --by-angles
@@ -219,13 +312,15 @@ _MAP = {
     "cylinder": """Find the cylinders on which a planar linkage lies, with all its joint axes on ruling lines.
 
     Give the link --lengths of one loop (for a four-bar: ground, input, coupler, output), its --steps round a
-    cylinder of --radius, or a FILE of a linkage of several loops. The radius is in the unit of the lengths. `synth
-    cylinder move`, `view`, `draw` and `template` read the .json that -o writes.
+    cylinder of --radius, or a FILE of a linkage of several loops. The radius is in the unit of the lengths.
+    Parallelograms and kites lie on every cylinder from one radius on: --radius chooses one. `synth cylinder move`,
+    `view`, `draw` and `template` read the .json that -o writes.
 
     \b
     Examples:
       synth cylinder map --lengths 4,3,5,1
       synth cylinder map --lengths 4,3,5,1 --cylinder 1 -o four-bar.json
+      synth cylinder map --lengths 6,2,6,2 --radius 4 -o parallelogram.json
       synth cylinder map --steps 40,50,50 --radius 25 -o steps.json
       synth cylinder map --lengths 4,3,5,1,2 --json
     """,
@@ -257,24 +352,31 @@ def map_command(kind: Kind) -> click.Command:
     )  # fmt: skip
     @options.number(
         f"--{kind} number", "K",
-        f"Number of the {kind} to draw, or to write the linkage on. By default the link {sizes} are written, "
-        f"without a {kind}.",
+        f"Number of the {kind} in the table, to draw the linkage on it or to write it. By default the link {sizes} "
+        f"are written, without a {kind}.",
     )  # fmt: skip
     @options.FORCE
     @options.JSON
     def command(
-        chosen: LinkageOptions, by_sizes: bool, output: str | None, as_json: bool, supplementary: bool = False,
-        **settings: Any,
+        chosen: LinkageOptions, by_sizes: bool, tolerance: float, as_json: bool, supplementary: bool = False,
+        **where: Any,
     ) -> None:  # fmt: skip
+        target = MapOutput(where["output"], where["number"], where["force"])
         if by_sizes and chosen.sizes is not None:
             raise click.UsageError(f"--by-{sizes} requires a FILE or --steps")
+        taken = ""
         if supplementary:
-            if chosen.sizes is None or output is not None:
+            if chosen.sizes is None or target.path is not None:
                 raise click.UsageError("--supplementary lists linkages for --angles, and writes none")
             answer: Any = synth.surfaces.supplementary_linkages(chosen.linkage_sizes)
         else:
-            answer = map_answer(chosen, output, by_sizes=by_sizes, **settings)
-        out.print_result(answer, {}, as_json=as_json, written=[output])
+            target.check(kind)
+            with chosen.about():
+                mapping = Mapping(chosen, tolerance, by_sizes)
+                answer, taken = mapping.answer(), target.write(mapping)
+        out.print_result(answer, {}, as_json=as_json, written=[target.path])
+        if taken and not as_json:
+            click.echo(taken)
 
     return command
 
@@ -314,6 +416,7 @@ def behaviour_command(kind: Kind) -> click.Command:
     def command(chosen: LinkageOptions, ground: str | None, output: str | None, force: bool, as_json: bool) -> None:
         out.check_picture(output, force=force)
         with chosen.about():
+            chosen.note_readings()
             linkages = chosen.on_surfaces()
             behaviours = [linkage.behaviour(options.link_of(linkage.chain, ground)) for linkage in linkages]
         if output is not None:
@@ -366,6 +469,7 @@ def move_command(kind: Kind) -> click.Command:
         if (points or axes) and at is None:
             raise click.UsageError("--point and --axes require --at")
         with chosen.about():
+            chosen.note_readings()
             motions = [
                 synth.moving.move_on_surface(
                     linkage,

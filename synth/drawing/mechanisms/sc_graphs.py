@@ -1,8 +1,9 @@
 """SC and SCD graphs in the notation of the thesis: links as discs, joints as lines, in each loop its sign.
 
 A finite centre is a circled dot, one at infinity a lying eight; loops without a centre are empty. Loops that
-share their centre have signs of one colour and number. Open edges of an SCD graph are stubs. Ride-alongs, which
-`synth reduce` lists, lie on yellow bands. Source: Wiener 2016, 3.3, 3.4 and 4.2.4.
+share their centre have signs of one colour. Signs have the numbers of their loops, from 0, as files and options have
+them, and name the loops that share their centre. Open edges of an SCD graph are stubs. Ride-alongs, which `synth
+reduce` lists, lie on yellow bands. Source: Wiener 2016, 3.3, 3.4 and 4.2.4.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -155,14 +156,15 @@ def _labels(
     numbers: Mapping[int, int],
     small: float,
 ) -> list[Label]:
-    """Return the numbers of classes beside their signs, if there are several, and of joints, reduced by a factor."""
+    """Return the numbers of loops beside their signs, if there are several, and of joints, reduced by a factor."""
     lines = [piece for row in ways.values() for piece in pairwise(row)]
     discs = [(x, y, radius + 0.5) for x, y in links.values()]
     discs += [(at[0], at[1], small * SIGN + 0.5) for at, _, _ in signs.values()]
     wishes = []
-    if len(set(numbers.values())) > 1:
-        for at, number, _ in signs.values():
-            label = Label((0, 0), str(number + 1), 0.9 * small * SMALL, colour_of_class(number))
+    if len(numbers) > 1:
+        for loop, (at, number, _) in signs.items():
+            same = [loop, *(other for other in numbers if numbers[other] == number and other != loop)]
+            label = Label((0, 0), " = ".join(map(str, same)), 0.9 * small * SMALL, colour_of_class(number))
             wishes.append((label, beside(at, small * (SIGN + 4.5), 8, 0.0)))
     for joint, row in ways.items():
         middle = row[1] if len(row) == 3 else ((row[0][0] + row[1][0]) / 2, (row[0][1] + row[1][1]) / 2)
@@ -223,7 +225,7 @@ def _said(sc: SCGraph, layout: Layout, loose: Sequence[Loop], numbers: Mapping[i
     for loop in loose[:_LOOSE_LOOPS]:
         where = "at infinity" if loop.centre is Centre.INFINITE else "finite"
         joints = " ".join(str(joint)[:12] for joint in loop.joints)
-        lines.append(f"not a face inside: centre {numbers[every.index(loop)] + 1} ({where}) of joints {joints}")
+        lines.append(f"not a face inside: centre of loop {every.index(loop)} ({where}), joints {joints}")
     if len(loose) > _LOOSE_LOOPS:
         lines.append(f"and {len(loose) - _LOOSE_LOOPS} more loops that are no faces")
     return lines

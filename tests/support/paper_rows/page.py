@@ -28,7 +28,8 @@ them; `make examples` writes it anew from `tests/support/paper_rows/`. Angles ar
 The papers themselves are not at hand, only text that was taken out of them, and [golden values](misprints.md) computed from it: a figure stands
 under *printed* where it is in that text. The last column is *equal*; or *holds*, of a claim without a figure; or *none at hand*, where the figure is not in that text and
 ours is held to a second method or to `data/golden.json`; or the item in the list of [misprints](misprints.md), *ours* then being the right figure; or why it cannot be done. `answer` is
-what the command prints with `--json`, or the value of the call, before the last expression is taken of it. Commands run in a clone of the repository, in this order in a row.
+what the command prints with `--json`, or the value of the call, before the last expression is taken of it. Commands run in a clone of the repository, in this order in a row;
+expressions are Python as it stands, after `import json, graphs, synth`, `import numpy as np` and, for a command, `answer = json.loads(output)`.
 """
 
 

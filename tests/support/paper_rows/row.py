@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 import json
-import re
 import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from click.testing import CliRunner
 
+import graphs
 import synth
 from synth.cli.main import main
 
 __all__ = ["Row", "agrees", "value_of"]
 
-_MODULE = re.compile(r"\b(?:graphs|enumerate|synth)(?:\.[a-z_0-9]+)+")
 CLOSE = 1e-6
 """How far a figure may be from one that no print has rounded."""
 
@@ -137,20 +135,8 @@ def _printed(command: str) -> Any:
 
 
 def _evaluated(expression: str, answer: Any) -> Any:
-    for name in _MODULE.findall(expression):
-        _import(name)
-    names = {"answer": answer, "np": np, "synth": synth, "graphs": import_module("graphs"), "json": json}
-    return eval(expression, names)
-
-
-def _import(name: str) -> None:
-    """Import the longest part of a dotted name that is a module."""
-    parts = name.split(".")
-    for end in range(2, len(parts) + 1):
-        try:
-            import_module(".".join(parts[:end]))
-        except ModuleNotFoundError:
-            return
+    """Return the value of an expression as it stands on the page, after the imports that the page names."""
+    return eval(expression, {"answer": answer, "json": json, "np": np, "graphs": graphs, "synth": synth})
 
 
 def _plain(value: Any) -> Any:

@@ -20,7 +20,7 @@ def test_enumerate_conical(tmp_path, data):
     assert run(*base, "--ground", "all", "--count").stdout == "552\n"
     rows = json.loads(run(*base, "--json").stdout)
     assert len(rows) == 102
-    assert list(rows[0]) == ["chain", "ground", "order", "slots", "symmetry", "loops", "circuits", "open_loops",
+    assert list(rows[0]) == ["chain", "ground", "joins", "order", "slots", "symmetry", "loops", "circuits", "open_loops",
                              "density", "turns", "layers", "most_layers", "full_rank"]  # fmt: skip
     some = json.loads(run(*base, "--open", "2..", "--json").stdout)
     assert some == [row for row in rows if row["open_loops"] >= 2]

@@ -154,7 +154,7 @@ def test_pictures_of_the_hoop(printed, tmp_path):
         (["--axis", "0,0"], "'0,0' is not three numbers such as 0,0,1"),
         (["--axis", "a,b,c"], "'a,b,c' is not three numbers"),
         (["--axis", "0,0,1", "--direction", "up"], "'up' is not one of 'ccw', 'cw'"),
-        ([], "Missing option '--axis'"),
+        ([], "--orientations requires --axis"),
     ],
 )
 def test_axes_and_directions_that_are_none(words, message, printed):

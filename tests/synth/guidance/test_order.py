@@ -179,3 +179,35 @@ def test_the_signs_are_the_rows_of_the_inequalities():
         assert rows == {name: name == kept for name in DIRECTIONS}
         seen.add(kept)
     assert len(seen) == 3
+
+
+@pytest.mark.parametrize("n", [3, 5, 7])
+def test_a_desired_order_is_that_of_orientations_in_that_order(n):
+    """As if the file were permuted, with the numbers that the orientations have in it."""
+    rng = np.random.default_rng(n)
+    for _ in range(40):
+        made = problem(n, rng)
+        desired = (1 + rng.permutation(n)[: int(rng.integers(3, n + 1))]).tolist()
+        found = analyse_order(made.orientations, made.fixed, "cw", desired)
+        permuted = analyse_order(made.orientations.subset(desired), made.fixed, "cw")
+        assert (found.in_order, found.kept, found.by_inequalities) == (
+            permuted.in_order, permuted.kept, permuted.by_inequalities,
+        )  # fmt: skip
+        assert found.agree
+        turned = made.turned[np.array(desired) - 1]
+        assert found.kept == order_of(np.mod(turned - turned[0], 2 * np.pi))
+        np.testing.assert_allclose(found.crank_angles, permuted.crank_angles, atol=1e-9)
+        named = [tuple(sorted(desired[place - 1] for place in one.pair)) for one in permuted.hoop.crossings]
+        assert [one.pair for one in found.hoop.crossings] == named
+        assert found.hoop.start == tuple(sorted(desired[:2]))
+
+
+def test_a_desired_order_is_checked():
+    made = problem(4, np.random.default_rng(1))
+    for desired, message in (
+        ([1, 2, 2], "occurs twice"),
+        ([1, 2, 5], "orientation 5 is in"),
+        ([1, 2], "2 orientations in"),
+    ):
+        with pytest.raises(InvariantError, match=message):
+            analyse_order(made.orientations, made.fixed, desired=desired)

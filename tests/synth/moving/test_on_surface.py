@@ -1,6 +1,7 @@
 """Conical linkages moved from the conformed position: closed form, paths, points of links, first order."""
 
 import json
+from math import degrees
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import link_motions
 from synth.motion.path import driven_path
 from synth.moving.on_surface import LinkPoint, move_on_surface
+from synth.surfaces.circuit import wrapped
 
 CRANK, ROCKER = (40, 90, 80, 100), (120, 95, 45, 85)
 
@@ -377,3 +379,15 @@ def test_points_and_axes_at_the_command_line(whole):
     for bad in (("--point", "1"), ("--point", "1,x"), ("--axes", "1")):
         assert "Usage:" in run("cone", "move", "--steps", "50,110,80", "--lambda", 20, "--at", 1, *bad, code=2).output
     assert "require --at" in run("cone", "move", "--steps", "50,110,80", "--lambda", 20, "--axes", "1,2", code=2).output
+
+
+def test_an_arc_that_turns_about_its_own_end_changes_at_half_a_turn():
+    """Where it lies along the circle beyond the pivot it only touches the circle: heights alone come too late."""
+    motion = move_on_surface(loop_on_cylinders([4, 3, 5, 1])[1])
+    ends = {round(degrees(one.end), 9) for sense in (motion.forward, motion.backward) for one in sense.ways[4]}
+    assert {180.0, -180.0} <= ends
+    # as far as a link spans, it comes to lie on the circle again with its other end
+    spans = np.degrees(wrapped(np.diff(motion.on_surface.places)))
+    assert min(abs(degrees(one.end) - abs(spans[2])) for one in motion.forward.ways[2]) < 1e-8
+    parallelogram = move_on_surface(loop_on_cylinders([6, 2, 6, 2], 4.0)[0])
+    assert 180.0 in {round(degrees(one.end), 9) for one in parallelogram.forward.ways[4]}

@@ -165,7 +165,7 @@ def test_a_linkage_that_folds_up_to_its_rounding_says_so():
     by_more = exact * [1, 1, 1, 1 + 100 * EPS]
     assert map_to_cones(by_more).solutions in ("a", "b")
     assert kind_of_planar(by_more).caution == ""
-    assert "T3 is within" in kind_of_planar([4, 3, 5, np.nextafter(2, 3)]).caution  # 5 + it is 7 to the last digit
+    assert "T1 is within" in kind_of_planar([4, 3, 5, np.nextafter(2, 3)]).caution  # 5 + it is 7 to the last digit
 
 
 def test_the_residual_is_that_of_the_steps():
