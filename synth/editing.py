@@ -60,14 +60,20 @@ class EditedMechanism(Printed):
 
     def to_json(self) -> dict[str, object]:
         """Return the edits as plain data."""
-        return {"edits": [each.to_json() for each in self.edits]}
+        return {"edits": [each.to_json() for each in self.edits], "notes": list(self.notes)}
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was assumed of the mechanism before the edits."""
+        first = self.edits[0].before
+        return first.notes if isinstance(first, SCGraph) else ()
 
     def blocks(self) -> list[Block]:
         """Return the table that is printed."""
         columns = ("edit", "by", "dM predicted", "counted", "M")
         keys = ("what", "equation", "predicted", "counted", "mobility")
         rows = [[plain(edit[key]) for key in keys] for edit in (each.to_json() for each in self.edits)]
-        return [TableBlock(columns, rows, columns[2:])]
+        return [TableBlock(columns, rows, columns[2:]), *(f"note: {note}" for note in self.notes)]
 
     def __repr__(self) -> str:
         return f"<EditedMechanism: {numbered(len(self.edits), 'edit')}, {self.mechanism!r}>"

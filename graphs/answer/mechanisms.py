@@ -13,7 +13,7 @@ import numpy as np
 
 from graphs.answer.jointed import chain_with_planar_loops, mobility_of_jointed
 from graphs.answer.remote import notes_on_centres
-from graphs.answer.report import CENTRES_ASSUMED, RODS_ALONE, MobilityAnswer, notes_of_pose
+from graphs.answer.report import RODS_ALONE, MobilityAnswer, notes_of_pose
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.convert.table import Mechanism, graph_of
 from graphs.count.report import mobility_report
@@ -23,7 +23,7 @@ from graphs.loops.loop import Centre, Loop
 from graphs.mechanism.bodies import rigid_sets, undeclared_rods
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import Precision, extent_of, precision_of
-from graphs.mechanism.sc import SCGraph
+from graphs.mechanism.sc import CENTRES_ASSUMED, SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import Cone, Cylinder, SurfaceLinkage

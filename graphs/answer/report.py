@@ -8,7 +8,7 @@ from typing import Any
 from graphs.count.equations import overconstraint
 from graphs.count.report import MobilityReport
 from graphs.errors import numbered
-from graphs.mechanism.sc import ARRANGEMENTS
+from graphs.mechanism.sc import ARRANGEMENTS, CENTRES_ASSUMED
 from graphs.mechanism.sheet import Reading
 from graphs.printing import Block, Printed, TableBlock, html_of, plain
 from graphs.rank.exact import ExactMobility
@@ -51,10 +51,6 @@ _COUNTS = {
 }
 
 
-CENTRES_ASSUMED = (
-    "a link-joint graph without centres: each face of a drawing is assumed to have a finite one, which decides M"
-)
-"""The note on a link-joint graph that was read without centres."""
 RODS_ALONE = "; the rank of rods is not the mobility where remote centres are declared, since rods in a plane leave it"
 """The end of the note on an exact rank that the count answers for."""
 

@@ -72,6 +72,12 @@ class SpecialGeometry:
         return f"{numbered(self.freedoms, 'freedom')} by special geometry: {', '.join(self.conditions)}"
 
 
+CENTRES_ASSUMED = (
+    "a link-joint graph without centres: each face of a drawing is assumed to have a finite one, which decides M"
+)
+"""The note on a link-joint graph that was read without centres."""
+
+
 class SCGraph(BuiltWhole, nx.MultiGraph):
     """A type of mechanism: a link-joint graph with independent loops, each with its centre.
 
@@ -203,8 +209,10 @@ class SCGraph(BuiltWhole, nx.MultiGraph):
         part = ("joints", joint)
         for link in (a, b):
             if link not in self:
+                counted = len(self) > 0 and list(self) == list(range(len(self))) and link == len(self)
+                expected = f"a link; links count from 0 to {len(self) - 1}" if counted else "a link"
                 raise InvariantError(
-                    "joint ends are links", f"joint {shown(joint)} ends at {shown(link)}", "a link", part
+                    "joint ends are links", f"joint {shown(joint)} ends at {shown(link)}", expected, part
                 )
         if a == b:
             raise InvariantError(
@@ -287,6 +295,11 @@ class SCGraph(BuiltWhole, nx.MultiGraph):
     def centres_assumed(self) -> bool:
         """Whether the input had no centres, and each face of an embedding was taken for a loop with one."""
         return bool(self.graph.get("centres_assumed", False))
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What an answer about it has to say: whether its centres are assumed."""
+        return (CENTRES_ASSUMED,) * self.centres_assumed
 
     @property
     def joints(self) -> Mapping[JointId, tuple[LinkId, LinkId]]:

@@ -222,6 +222,13 @@ class Reduction(Printed):
             self._work.repeat(removal)
         return _with_drawing(self.original, graph)
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was assumed of the mechanism, and what of it is not in what is left."""
+        lost = isinstance(self.original, SCDGraph) and not isinstance(self.graph, SCDGraph)
+        left = "what is left of the drawing is no SCD graph, so the sides of the links are left out"
+        return (*self.original.notes, *([left] if lost else []))
+
     def chains(self) -> list[nx.DiGraph]:
         """Return the adjunct addenda: a tree of steps each, from the one on the mechanism outwards."""
         forest = nx.DiGraph()
@@ -237,8 +244,7 @@ class Reduction(Printed):
             f"{when:6}  links {len(sc)}, joints {len(sc.joints)}, mobility {mobility_report(sc).mobility}"
             for when, sc in (("before", self.original), ("after", self.graph))
         ]
-        if isinstance(self.original, SCDGraph) and not isinstance(self.graph, SCDGraph):
-            counts.append("note: what is left of the drawing is no SCD graph, so the sides of the links are left out")
+        counts += [f"note: {note}" for note in self.notes]
         if not self.steps:
             return [*counts, "nothing to take off"]
         chains = self.chains()
@@ -277,6 +283,7 @@ class Reduction(Printed):
                 | {"joint": step.joint, "sits_on": step.sits_on}
                 for step in self.steps
             ],
+            "notes": list(self.notes),
         }
 
 
