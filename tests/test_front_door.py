@@ -130,7 +130,7 @@ def test_edits_in_one_call_are_those_of_the_command(file, edits, words, monkeypa
     monkeypatch.chdir(ROOT)
     edited = synth.edit(file, **edits)
     told = json.loads(run("edit", file, *words.split(), "--json").stdout)
-    assert shortened(edited.to_json()) == {"edits": told["edits"]}
+    assert shortened(edited.to_json()) == {key: told[key] for key in ("edits", "notes")}
     printed = [line.rstrip() for line in run("edit", file, *words.split()).stdout.rstrip().splitlines()]
     assert str(edited).splitlines() == printed
 

@@ -23,7 +23,9 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from itertools import count
+from math import inf
+from typing import Any, NamedTuple, Self, TypeVar
 
 import networkx as nx
 
@@ -92,9 +94,9 @@ class BuiltWhole(nx.Graph):
     True
     """
 
-    def __new__(cls, *args: Any, **options: Any) -> Any:
+    def __new__(cls, *args: object, **options: object) -> Self:
         """Return an instance, or a plain graph where networkx asks for an empty one to fill."""
-        return object.__new__(cls) if args or options else _plain(cls)()
+        return object.__new__(cls) if args or options else _plain(cls)()  # type: ignore[no-any-return]
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickle and copy an instance as it is; without this, both would ask for an empty one."""
@@ -121,6 +123,8 @@ class MechanismParts:
     joints: dict[JointId, tuple[LinkId, LinkId]]
     loops: list[Loop] | None = None
     """None where no edge says to which loops it belongs."""
+    has_ids: bool = True
+    """Whether the ids of joints are those of the graph; else edges are numbered as networkx lists them."""
     closing: list[Loop] = field(default_factory=list)
     ground: LinkId | None = None
     special: Mapping[str, Any] | None = None
@@ -164,7 +168,9 @@ def parts_of(graph: nx.Graph, *, loops: bool = True) -> MechanismParts:
     """
     graph = undirected(graph)
     edges = edges_of(graph)
-    parts = MechanismParts(_in_order(graph.nodes(data=True)), {edge.joint: edge.ends for edge in edges})
+    links = [link for link, _ in _in_order(graph.nodes(data=True))]
+    parts = MechanismParts(links, {edge.joint: edge.ends for edge in edges})
+    parts.has_ids = has_ids(graph)
     if loops and any("loops" in edge.data for edge in edges):
         for edge in edges:
             if "loops" not in edge.data:
@@ -199,31 +205,61 @@ def edges_of(graph: nx.Graph) -> list[JointEdge]:
         rows = [((a, b), data.get("joint", key), data) for a, b, key, data in graph.edges(keys=True, data=True)]
     else:
         rows = [((a, b), data.get("joint"), data) for a, b, data in graph.edges(data=True)]
-    if _distinct(data.get("number") for *_, data in rows):
-        rows.sort(key=lambda row: row[2]["number"])
-    ids: list[JointId] = [called for _, called, _ in rows]
-    if None in ids or len({str(joint) for joint in ids}) < len(ids):
-        ids = list(range(len(ids)))
+    rows = _in_order(rows)
     number = dict(graph.nodes(data="number"))
     edges = []
-    for joint, ((a, b), called, data) in zip(ids, rows, strict=True):
+    for joint, ((a, b), called, data) in zip(_ids(rows), rows, strict=True):
         turned = tuple(data.get("ends", ())) == (number[b], number[a]) != (number[a], number[b])
         edges.append(JointEdge(joint, (b, a) if turned else (a, b), called, data))
     return edges
 
 
-def _distinct(numbers: Iterable[object]) -> bool:
-    """Return whether all are integers, and no two the same."""
-    listed = list(numbers)
-    return all(isinstance(number, int) for number in listed) and len(set(listed)) == len(listed)
+def _ids(rows: Sequence[tuple[tuple[LinkId, LinkId], JointId, Mapping[str, Any]]]) -> list[JointId]:
+    """Return an id for each edge: its attribute ``joint``, else its key where the keys of such edges are distinct.
+
+    An id that an earlier edge has, as in the second of two mechanisms in one graph, and that of an edge without one
+    becomes the least number that is not used.
+    """
+    keys = [str(called) for _, called, data in rows if "joint" not in data and called is not None]
+    keyed = len(keys) == len(set(keys)) == sum("joint" not in data for *_, data in rows)
+    taken = {str(data["joint"]) for *_, data in rows if "joint" in data}
+    ids: list[JointId] = []
+    left: list[int] = []
+    seen: set[str] = set()
+    for _, called, data in rows:
+        known = "joint" in data or (keyed and str(called) not in taken)
+        if not known or str(called) in seen:
+            left.append(len(ids))
+            ids.append(None)
+            continue
+        seen.add(str(called))
+        ids.append(called)
+    free = (number for number in count() if str(number) not in seen)
+    for place, number in zip(left, free, strict=False):
+        ids[place] = number
+    return ids
 
 
-def _in_order(nodes: Iterable[tuple[LinkId, Mapping[str, Any]]]) -> list[LinkId]:
-    """Return the links in the order of their numbers, where these tell them apart."""
-    rows = list(nodes)
-    if _distinct(data.get("number") for _, data in rows):
-        rows.sort(key=lambda row: row[1]["number"])
-    return [link for link, _ in rows]
+def has_ids(graph: nx.Graph) -> bool:
+    """Return whether some edge has the id of a joint, or the keys of all edges tell them apart."""
+    if any("joint" in data for *_, data in graph.edges(data=True)):
+        return True
+    return graph.is_multigraph() and len({str(key) for *_, key in graph.edges(keys=True)}) == graph.number_of_edges()
+
+
+_Row = TypeVar("_Row", bound=tuple[Any, ...])
+
+
+def _in_order(rows: Iterable[_Row]) -> list[_Row]:
+    """Put nodes or edges in the order of their numbers, where these tell them apart; those without one come last.
+
+    The attributes are the last item of a row.
+    """
+    listed = list(rows)
+    numbers = [row[-1]["number"] for row in listed if isinstance(row[-1].get("number"), int)]
+    if len(set(numbers)) == len(numbers):
+        listed.sort(key=lambda row: row[-1]["number"] if isinstance(row[-1].get("number"), int) else inf)
+    return listed
 
 
 def _loops_of(edges: Sequence[JointEdge], joints: Joints) -> tuple[list[Loop], list[Loop]]:
@@ -262,6 +298,7 @@ def _entries(value: object, joint: JointId) -> list[LoopPlace]:
 def _copies(whole: LoopPlace, placed: Sequence[tuple[int, JointId]], joints: Joints) -> list[tuple[JointId, ...]]:
     """Return the joints of a loop in order; several times where a graph holds several copies of it."""
     size = whole.of or len(placed)
+    named = f"loop {shown(whole.name or whole.loop)}"
     parts = [placed]
     if len(placed) > size:
         together = nx.Graph(joints[joint] for _, joint in placed)
@@ -270,13 +307,11 @@ def _copies(whole: LoopPlace, placed: Sequence[tuple[int, JointId]], joints: Joi
         ]
     for part in parts:
         if sorted(place for place, _ in part) != list(range(size)):
-            raise InvariantError(
-                "loop is whole",
-                f"loop {shown(whole.name or whole.loop)} has {len(part)} of its {numbered(size, 'joint')}"
-                if len(part) < size
-                else f"loop {shown(whole.name or whole.loop)} has several joints in one place",
-                "each of its joints once; for a part of a mechanism try SCGraph(graph, loops=[...])",
-            )
+            if len(part) < size:
+                what, then = f"{named} has {len(part)} of its {numbered(size, 'joint')}", "for a part of a mechanism"
+            else:
+                what, then = f"{named} has {len(part)} joints in {size} places", "for two mechanisms joined into one"
+            raise InvariantError("loop is whole", what, f"each joint once; {then} try SCGraph(graph, loops=[...])")
     return [tuple(joint for _, joint in sorted(part, key=lambda row: row[0])) for part in parts]
 
 

@@ -94,9 +94,9 @@ class SCGraph(BuiltWhole, nx.MultiGraph):
     joints : mapping of joint id to (link, link), or iterable of (link, link) or (link, link, key), optional
         The joints; ids of bare pairs are 0, 1, 2, ..., and so are those of triples unless the keys are distinct.
         Two links may share several joints.
-    loops : iterable of Loop, optional
-        Independent loops. A loop's joints may come in any order; they are stored in cyclic order. Independent
-        cycles that are left out are spatial.
+    loops : iterable of Loop or sequence of link ids, optional
+        Independent loops. A loop's joints may come in any order; they are stored in cyclic order. A sequence of
+        links is the loop through them, with a finite centre. Independent cycles that are left out are spatial.
     closing : iterable of Loop, optional
         Loops that *depend* on the others and yet carry a centre: the last face of a closed surface, or the outer
         one of concentric loops (Wiener 3.3.6).
@@ -134,8 +134,8 @@ class SCGraph(BuiltWhole, nx.MultiGraph):
     def __init__(
         self,
         links: int | Iterable[LinkId] | nx.Graph,
-        joints: Mapping[Any, tuple[LinkId, LinkId]] | Iterable[tuple[Any, ...]] = (),
-        loops: Iterable[Loop] | None = None,
+        joints: Mapping[Any, tuple[LinkId, LinkId]] | Iterable[tuple[LinkId, ...]] = (),
+        loops: Iterable[Loop | Sequence[LinkId]] | None = None,
         *,
         closing: Iterable[Loop] | None = None,
         ground: LinkId | None = None,
@@ -222,9 +222,21 @@ class SCGraph(BuiltWhole, nx.MultiGraph):
             "distinct joints", f"joint {shown(joint)} occurs twice, or has no id", "distinct ids", part
         )
 
-    def _ordered(self, loops: Iterable[Loop], part: str) -> tuple[Loop, ...]:
+    def _loop_through(self, links: Sequence[LinkId]) -> Loop:
+        """Return the loop through links in their order, each joined to the next by one joint."""
+        around = []
+        for a, b in zip(links, [*links[1:], *links[:1]], strict=True):
+            between = list(self._adj[a].get(b, ())) if a in self else []
+            if len(between) != 1:
+                joints = f"links {shown(a)} and {shown(b)} share {numbered(len(between), 'joint')}"
+                raise InvariantError("loop is a cycle", f"loop through links {shown(list(links))}: {joints}", "one")
+            around += between
+        return Loop(tuple(around))
+
+    def _ordered(self, loops: Iterable[Loop | Sequence[LinkId]], part: str) -> tuple[Loop, ...]:
         ordered = []
-        for index, loop in enumerate(loops):
+        for index, stated in enumerate(loops):
+            loop = stated if isinstance(stated, Loop) else self._loop_through(tuple(stated))
             try:
                 order = cyclic_order(loop, self._joints)
             except InvariantError as error:
@@ -435,13 +447,21 @@ def _with_ids(pairs: Sequence[tuple[Any, ...]]) -> Iterable[tuple[JointId, tuple
     return zip(ids, ((pair[0], pair[1]) for pair in pairs), strict=True)
 
 
-def _read(graph: nx.Graph, joints: Any, loops: Iterable[Loop] | None, closing: Iterable[Loop] | None) -> MechanismParts:
+def _read(
+    graph: nx.Graph, joints: Any, loops: Iterable[Loop | Sequence[LinkId]] | None, closing: Iterable[Loop] | None
+) -> MechanismParts:
     """Read the parts of a mechanism off a graph of networkx; loops that are stated take precedence."""
     if tuple(joints):
         raise InvariantError("joints", "joints beside a graph that has its own", "a graph alone, or links and joints")
     parts = parts_of(graph, loops=loops is None)
     if loops is not None:
-        parts.loops, parts.closing = list(loops), list(closing or ())
+        parts.loops, parts.closing = list(loops), list(closing or ())  # type: ignore[arg-type]
+        if not parts.has_ids and any(isinstance(loop, Loop) for loop in parts.loops):
+            raise InvariantError(
+                "loops",
+                "the edges of the graph have no ids by which a Loop could name them",
+                "loops by their links, such as (0, 1, 2, 3), or a MultiGraph with distinct keys",
+            )
     elif parts.loops is None:
         forest = nx.Graph()
         forest.add_nodes_from(parts.links)

@@ -283,8 +283,8 @@ class SCDGraph(SCGraph):
     def __init__(
         self,
         links: int | Iterable[LinkId] | nx.Graph,
-        joints: Mapping[Any, tuple[LinkId, LinkId]] | Iterable[tuple[Any, ...]] = (),
-        loops: Iterable[Loop] | None = None,
+        joints: Mapping[Any, tuple[LinkId, LinkId]] | Iterable[tuple[LinkId, ...]] = (),
+        loops: Iterable[Loop | Sequence[LinkId]] | None = None,
         *,
         rotation: Mapping[Any, Sequence[Side]] | None = None,
         outer: tuple[JointId, str] | None = None,

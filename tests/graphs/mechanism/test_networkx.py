@@ -206,11 +206,33 @@ def test_graphs_without_loops_need_them():
     simple = nx.cycle_graph(4)
     assert SCGraph(simple.nodes, simple.edges, [Loop(range(4))]).number_of_edges() == 4
     assert set(SCGraph(nx.MultiGraph(WATT), loops=[]).joints) == set(range(7))
+    by_links = SCGraph(nx.Graph(WATT), loops=[(0, 1, 2, 3), (3, 4, 5, 0)])
+    there = {frozenset(ends): joint for joint, ends in by_links.joints.items()}
+    renamed = {joint: there[frozenset(ends)] for joint, ends in enumerate(WATT)}
+    assert by_links.is_identical(SCGraph(6, WATT, LOOPS).relabel({}, renamed))
+    for nameless in (nx.Graph(WATT), nx.MultiGraph(WATT)):
+        with pytest.raises(InvariantError, match=r"no ids by which a Loop could name them; expected loops by their"):
+            SCGraph(nameless, loops=LOOPS)
+    with pytest.raises(InvariantError, match=r"links 0 and 2 share 0 joints; expected one"):
+        SCGraph(nx.Graph(WATT), loops=[(0, 2, 3)])
     assert synth.read(bare).centres_assumed
     with pytest.raises(InvariantError, match="joints beside a graph"):
         SCGraph(bare, WATT)
     with pytest.raises(InvariantError, match=r"a joint is 'ab'"):
         SCGraph(2, ["ab", (0, 1, 2)])
+
+
+def test_joints_keep_their_ids():
+    graph = TYPES["watt"].copy()
+    for a, b in ((2, 6), (6, 7), (7, 3)):
+        graph.add_edge(a, b, loops=())
+    more = SCGraph(graph, loops=[*LOOPS, (2, 6, 7, 3)])
+    assert {joint: ends for joint, ends in more.joints.items() if joint < 7} == dict(enumerate(WATT))
+    assert set(more.joints) == set(range(10))
+    two = SCGraph(nx.disjoint_union(TYPES["watt"], TYPES["watt"]))
+    assert {joint: two.joints[joint] for joint in range(7)} == dict(enumerate(WATT))
+    with pytest.raises(InvariantError, match=r"in 4 places; expected each joint once; for two mechanisms joined"):
+        SCGraph(nx.compose(TYPES["watt"], nx.relabel_nodes(TYPES["watt"], {1: 6, 2: 7, 3: 8, 4: 9, 5: 10})))
 
 
 def test_edges_with_and_without_loops_are_refused():

@@ -25,7 +25,7 @@ OUTER = Loop((0, 1, 2, 4, 5, 6))
         ((["A", "A"],), {}, "link 'A' occurs twice, or has no name; expected distinct names [distinct links]"),
         (([1, "1"],), {}, "link '1' occurs twice"),
         (([None],), {}, "link None occurs twice, or has no name"),
-        ((2, [(0, 2)]), {}, "joint 0 ends at 2; expected a link [joint ends are links]"),
+        ((2, [(0, 2)]), {}, "joint 0 ends at 2; expected a link; links count from 0 to 1 [joint ends are links]"),
         ((2, {"a": (1, 1)}), {}, "joint 'a' joins link 1 to itself; expected two links [no self-joint]"),
         ((2, {1: (0, 1), "1": (0, 1)}), {}, "joint '1' occurs twice, or has no id"),
         ((6, WATT, [Loop((0, 1, 9))]), {}, "names 9, which is no joint [loop is a cycle]"),

@@ -44,7 +44,9 @@ def test_convert_tells_what_is_lost(data, tmp_path):
     assert told["kind"] == "SCGraph"
     result = run("convert", watt, tmp_path / "watt.fold", code=2)
     assert result.stderr.splitlines() == [
-        f"{watt}: the order of the sides of the links is not known: write an SCD graph or a sheet"
+        f"{watt}: the order of the sides of the links is not known; `synth enumerate scd --of FILE --max-degree D` "
+        "lists the SCD graphs with up to D sides per link, `synth convert --max-degree D` takes the one if there is "
+        "only one"
     ]
     assert not (tmp_path / "watt.fold").exists()
 
