@@ -11,7 +11,7 @@ docs/theory/folding.md.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -48,6 +48,13 @@ class _LoopGroup:
     centre: Centre
     frames: Floats
     turning: Floats
+
+    def with_axes(self, points: Floats, directions: Floats) -> _LoopGroup:
+        """Return the same loops with axes through points float[J, 3] along unit vectors float[J, 3]."""
+        axes, frames = directions[self.joints], np.zeros((len(self.joints), 3, 3))
+        if self.centre is Centre.INFINITE:
+            frames = frames_of(axes * self.turning[..., None])
+        return replace(self, axes=axes, points=points[self.joints], frames=frames)
 
     @property
     def equations(self) -> int:
@@ -164,6 +171,19 @@ class ClosureEquations:
         self.rows = sum(group.equations * len(group.joints) for group in self._groups)
         self._kernel = _in_kernel(self.joints, self._groups)
         self._free: Floats | None = None
+
+    def with_axes(self, linkage: PosedLinkage) -> ClosureEquations:
+        """Return the equations of a linkage of the same joints and loops with other axes, and another pose.
+
+        Which loops are alike, and where entries stand in the matrix, is found once for all of them.
+        """
+        _ = self._pattern  # kept, and shared from here on
+        equations = object.__new__(type(self))
+        equations.__dict__.update(self.__dict__)
+        equations._zero, equations._free = linkage.angles, None
+        equations._groups = [group.with_axes(linkage.points, linkage.directions) for group in self._groups]
+        equations._kernel = _in_kernel(self.joints, equations._groups)
+        return equations
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state for another process, which has a library of its own."""
@@ -315,11 +335,9 @@ def _grouped(linkage: PosedLinkage) -> list[_LoopGroup]:
     for (centre, _), loops in kinds.items():
         joints = np.array([loop.joints for loop in loops], dtype=np.int64)
         signs = np.array([loop.signs for loop in loops], dtype=float)
-        axes, turning = linkage.directions[joints], turns[joints]
-        frames = np.zeros((len(loops), 3, 3))
-        if centre is Centre.INFINITE:
-            frames = frames_of(axes * turning[..., None])
-        groups.append(_LoopGroup(joints, axes, linkage.points[joints], signs, centre, frames, turning))
+        nowhere = np.zeros((0, 3))
+        group = _LoopGroup(joints, nowhere, nowhere, signs, centre, nowhere, turns[joints])
+        groups.append(group.with_axes(linkage.points, linkage.directions))
     return groups
 
 
