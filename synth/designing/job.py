@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from enumerate.runner.job import Column, Row, Unit
+from synth.designing.defects import kinds_of
 from synth.designing.designs import SPREAD, STARTS, Design, DesignSearch
 from synth.designing.problem import reweighed
 from synth.designing.wish_files import read_wishes
@@ -22,9 +23,9 @@ _WEIGHT = 40_000
 """Weight of a start: about a second of a list of chains."""
 
 COLUMNS: dict[str, Column] = {
-    "start": int, "success": bool, "miss": float, "residual": float, "freedoms": int, "faults": str, "record": str,
+    "start": int, "success": bool, "miss": float, "residual": float, "freedoms": int, "defects": str, "record": str,
 }  # fmt: skip
-"""Values of a row; `record` is the rest of the design as JSON."""
+"""Values of a row; `defects` are the values of their kinds, and `record` is the rest of the design as JSON."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +86,7 @@ class DesignJob:
         if one is None:
             return []
         record = json.dumps(one.record(), separators=(",", ":"))
-        return [(one.start, one.success, one.miss, one.error, one.freedoms, "; ".join(one.faults), record)]
+        return [(one.start, one.success, one.miss, one.error, one.freedoms, kinds_of(one.defects), record)]
 
     @staticmethod
     def numbers(rows: Iterable[Mapping[str, Any]]) -> tuple[tuple[float, ...], ...]:
