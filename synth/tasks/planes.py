@@ -49,11 +49,19 @@ def turned_to_wishes(member: HingedSolids, wishes: Iterable[Wish]) -> HingedSoli
     for joints, links in planar_parts(member.chain):
         conditions = [row for wish in every for row in _across(wish, links)]
         if conditions:
-            before = common_direction(np.array([member.axes[joint][1] for joint in joints], dtype=float))
-            plane = null_space(np.array(conditions), DOUBLE.same_configuration)
-            after = plane @ (plane.T @ before)  # the nearest normal: the rest of it stays as it was drawn at random
-            return _turned(member, before, unit(after)) if np.linalg.norm(after) > DOUBLE.zero else member
+            normal = common_direction(np.array([member.axes[joint][1] for joint in joints], dtype=float))
+            normals = null_space(np.array(conditions), DOUBLE.same_configuration)
+            return _turned(member, normal, _nearest(normal, normals)) if normals.size else member
     return member
+
+
+def _nearest(direction: Floats, basis: Floats) -> Floats:
+    """Return the unit vector of a space, float[3, k] its basis, nearest to a direction, so that random ones differ.
+
+    All are equally near to one across the space; then it is the first of the basis.
+    """
+    along = basis.T @ direction
+    return unit(basis @ along) if np.linalg.norm(along) > DOUBLE.same_configuration else basis[:, 0]
 
 
 def planar_parts(chain: SCGraph) -> list[tuple[Sequence[JointId], frozenset[str]]]:

@@ -194,6 +194,15 @@ def test_planes_are_free_where_wishes_leave_them(planar):
     assert abs(abs(turned @ expected) / np.linalg.norm(expected) - 1.0) < 1e-12
 
 
+def test_a_plane_across_that_of_the_wishes_is_turned_too():
+    """No normal is nearer than others."""
+    square = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)]
+    chain = planar_member(0)[0].chain
+    member = HingedSolids(chain, {joint: (point, (0.0, 0.0, 1.0)) for joint, point in enumerate(square)})
+    wish = LinkOrientation(at="p2", link="2", quaternion=(0.9, 0.1, 0.0, 0.0))
+    np.testing.assert_allclose(np.abs(normal_of(turned_to_wishes(member, [wish]))), [1.0, 0.0, 0.0], atol=1e-15)
+
+
 def test_members_stay_where_wishes_say_nothing_of_their_plane():
     member, _ = planar_member(6)
     about_x, about_y = (
