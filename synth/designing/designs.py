@@ -43,16 +43,20 @@ from synth.verdict.judged import verdict_of_motion
 from synth.viewer.pages import html_page
 
 STARTS = 8
+"""Of a search, if nobody says: some seconds for a linkage of a few links."""
 SPREAD = 0.1
-"""How far starts are off the mechanism: radians of axes, parts of edges and parameters."""
+"""How far starts are off the mechanism, radians of axes, parts of edges and parameters: other ends of the search, and
+mostly the same assembly mode."""
 FIGURE_HEADS = ("wish", "miss", "depends most on (change per unit)")
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
 _STYLE = (
     "body{font-family:sans-serif;margin:2em;max-width:60em}td,th{text-align:left;padding:.2em .8em}"
     "figure{display:inline-block;margin:1em}svg{max-width:26em;height:auto}"
 )
+MET_DIGITS = 9
+"""Decimals of a miss by which designs are compared: so many agree among processors (docs/theory/design.md)."""
 _MET = 1e-9
-"""A wish that misses by less, in radians or parts of the extent, is met."""
+"""A wish that misses by less, in radians or parts of the extent, is met: one of these digits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -617,7 +621,8 @@ def _best_driven(
 
 
 _NEAR_FLAT = 0.1
-"""Part of the largest fold angle to which a sheet is unfolded when collisions are looked for."""
+"""Part of the largest fold angle to which a sheet is unfolded when collisions are looked for: the flat state itself is
+singular, and the driven path may leave its branch near it."""
 _SIGN = {"M": -1.0, "V": 1.0}
 
 
@@ -668,7 +673,7 @@ def _inverse(matrix: Floats) -> Floats:
 
 def compared(found: Sequence[Design], starts: int) -> Designs:
     """Return designs in order: the Pareto list of successes, others, failures."""
-    ranked = sorted(found, key=lambda one: (round(one.miss, 9), one.start))
+    ranked = sorted(found, key=lambda one: (round(one.miss, MET_DIGITS), one.start))
     successes = [one for one in ranked if one.success]
     parts = [np.array([max(figure.part, _MET) for figure in one.figures]) for one in successes]
     pareto: list[Design] = []

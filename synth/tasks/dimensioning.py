@@ -35,8 +35,9 @@ from graphs.mechanism.surfaces import Cone, SurfaceLinkage
 from graphs.rank.realisation import Reals, realise
 from graphs.types import JointId, LinkId
 from synth.designing.defects import Defect, DefectKind, kinds_of
-from synth.designing.designs import Design, DesignSearch
+from synth.designing.designs import MET_DIGITS, Design, DesignSearch
 from synth.designing.dimensions import Designable
+from synth.designing.job import START_WEIGHT
 from synth.designing.search import seeded
 from synth.designing.wish_files import wishes_of_document
 from synth.designing.wishes import LinkOrientation, Wishes
@@ -49,20 +50,37 @@ from synth.tasks.record import Task, renamed
 from synth.tasks.structure import CandidateType, Placement, TaskStructure
 from synth.tasks.task_files import wishes_document
 
-STARTS, ROUNDS = 2, 4
-_WEIGHT = 40_000
-"""Weight of a start: about a second of a list of chains."""
-_SPREAD = 0.3
-"""How far starts of a generator are off its default parameters, as parts of them; of other types starts are random."""
-_CONES = (0.15, 1.2)
-"""Least and largest angle of the cones on which starts lie, radians."""
-_KEPT = 4
-"""Candidates whose searches are kept at a time: their starts come one after the other, among a few workers."""
-_POPULATIONS = 4
-"""Populations of six-bars that guide, tried at a start."""
-_MET = 9
-"""Decimals of a miss by which candidates are compared, as designs are: below them a wish is met."""
 
+@dataclass(frozen=True, slots=True)
+class HalvingManner:
+    """How the starts of a task are made, and how many there are.
+
+    Examples
+    --------
+    >>> HALVING.starts, HALVING.rounds
+    (2, 4)
+    """
+
+    starts: int = 2
+    """Of each candidate in the first round: one alone may end on another circuit, as 14 of 36 starts of four-bars
+    through three orientations did, or turn back."""
+    rounds: int = 4
+    """With twice as many starts in each, 30 for the best: what succeeds at a tenth of its starts is missed by 4 %."""
+    spread: float = 0.3
+    """How far starts of a generator are off its default parameters, as parts of them: other proportions, and still
+    within the ranges of most parameters. Of other types starts are random."""
+    cones: tuple[float, float] = (0.15, 1.2)
+    """Least and largest angle of the cones on which starts lie, radians: axes on a narrower one are nearly one line, on
+    a wider one nearly in a plane, and there arcs of links hardly depend on the cone angle."""
+    populations: int = 4
+    """Populations of six-bars that guide, tried at a start: each takes some seconds, and a start is a unit, between
+    which alone a run stops."""
+    kept: int = 4
+    """Candidates whose searches are kept at a time: starts of one come one after the other, and a process has no more
+    of them at work."""
+
+
+HALVING = HalvingManner()
 COLUMNS: dict[str, Column] = {
     "candidate": int, "start": int, "success": bool, "miss": float, "residual": float, "freedoms": int, "defects": str,
     "record": str,
@@ -188,7 +206,7 @@ class CandidateSearch:
         return self._searched(self.candidate.code, wishes, self.base)
 
     def _searched(self, mechanism: Designable, wishes: Wishes, base: LinkId | None) -> DesignSearch:
-        return DesignSearch(mechanism, wishes, _SPREAD, self.seed, ground=base, freedoms=self.task.freedoms)
+        return DesignSearch(mechanism, wishes, HALVING.spread, self.seed, ground=base, freedoms=self.task.freedoms)
 
     def member(self, start: int) -> HingedSolids | SurfaceLinkage | Sheet:
         """Return a random member of the type, from which a start begins."""
@@ -206,7 +224,7 @@ class CandidateSearch:
     def _random(self, chain: SCGraph, rng: np.random.Generator) -> HingedSolids | SurfaceLinkage:
         if self.task.form == "cone":
             places = rng.uniform(0.0, tau, len(chain.joints)).tolist()
-            return SurfaceLinkage.placed(chain, places, Cone(float(rng.uniform(*_CONES))))
+            return SurfaceLinkage.placed(chain, places, Cone(float(rng.uniform(*HALVING.cones))))
         return turned_to_wishes(random_member(chain, int(rng.integers(2**31))), self.wishes.wishes)
 
     def _guided(self, chain: SCGraph, start: int) -> HingedSolids | None:
@@ -225,9 +243,9 @@ class CandidateSearch:
         if body is None or not is_watts(chain, body):
             return None
         five = [(1.0, 0.0, 0.0, 0.0), *(one.quaternion for one in turns)]
-        first = _POPULATIONS * start
+        first = HALVING.populations * start
         five_turns = Orientations.from_rotation(Rotation.from_quat(five, scalar_first=True))
-        found = six_bars(five_turns, tries=_POPULATIONS, driven="ground", first=first).six_bars
+        found = six_bars(five_turns, tries=HALVING.populations, driven="ground", first=first).six_bars
         return guiding_member(chain, body, found[0]) if found else None
 
     def design(self, start: int) -> Design | None:
@@ -380,12 +398,12 @@ class HalvingRound:
     def _search_of(self) -> Callable[[int], CandidateSearch]:
         """The searches of candidates by their places, the last ones kept: starts of one come one after the other."""
         made = lambda place: CandidateSearch(self.task, self.candidates[place], self.seed)  # noqa: E731
-        return lru_cache(maxsize=_KEPT)(made)
+        return lru_cache(maxsize=HALVING.kept)(made)
 
     def units(self) -> list[Unit]:
         """One unit for each start of each candidate."""
         numbers = range(len(self.candidates))
-        return [Unit((place, start), _WEIGHT) for place in numbers for start in range(self.first, self.last)]
+        return [Unit((place, start), START_WEIGHT) for place in numbers for start in range(self.first, self.last)]
 
     def work(self, payload: tuple[int, int]) -> list[Row]:
         """Return the row of a start."""
@@ -432,8 +450,8 @@ def opened_store(folder: Path, *, resume: bool, force: bool) -> Path:
 def halved(
     structure: TaskStructure,
     *,
-    starts: int = STARTS,
-    rounds: int = ROUNDS,
+    starts: int = HALVING.starts,
+    rounds: int = HALVING.rounds,
     seed: int = 0,
     workers: int = 1,
     store: Path | None = None,
@@ -496,9 +514,9 @@ def _better_half(candidates: Sequence[Candidate], rows: Iterable[Mapping[str, An
     """
     best: dict[int, tuple[bool, float]] = {}
     for row in rows:
-        key = (not row["success"], round(row["miss"], _MET))
+        key = (not row["success"], round(row["miss"], MET_DIGITS))
         best[row["candidate"]] = min(best.get(row["candidate"], (True, pi)), key)
     open_ones = [one for one in candidates if best.get(one.number, (True, pi)) > (False, 0.0)]
-    ranked = sorted(open_ones, key=lambda one: (round(best.get(one.number, (True, pi))[1], _MET), one.number))
+    ranked = sorted(open_ones, key=lambda one: (round(best.get(one.number, (True, pi))[1], MET_DIGITS), one.number))
     chosen = {one.number for one in ranked[: ceil(len(ranked) / 2)]}
     yield from (one for one in candidates if one.number in chosen)

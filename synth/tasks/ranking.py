@@ -18,21 +18,20 @@ from typing import Any
 from graphs.errors import numbered
 from graphs.printing import Block, Printed, TableBlock
 from synth.designing.defects import Defect, DefectKind, first_kind, sentence_of
-from synth.designing.designs import Design
+from synth.designing.designs import MET_DIGITS, Design
 from synth.tasks.dimensioning import Candidate, CandidateSearch, Rows, candidates_of
 from synth.tasks.record import Task
 from synth.tasks.structure import PlacedType, TaskStructure, reasons_text
 
 WITHIN = 1e-6
-"""Radians, or parts of the extent: a design whose weighted misses are larger has not met the wishes."""
+"""Radians, or parts of the extent: a design whose weighted misses are larger has not met the wishes. Wishes in files
+are rounded, as quaternions of nine digits, and a design that meets them as they were meant may miss them by that."""
 _FIGURES = 6
 """Figures of a sensitivity by which designs are compared; later ones differ among processors."""
-_MET = 9
-"""Decimals of a miss by which designs are compared."""
 _HEADS = ("rank", "type", "links", "roles", "largest miss", "sensitivity", "travel", "Pareto")
 _MISSED_HEADS = ("not ranked", "links", "roles", "largest miss", "defect", "starts by defect")
 _MOST_MISSED = 10
-"""Types that are not ranked, and are printed."""
+"""Types that are not ranked, and are printed: all are in the JSON and in the report."""
 
 
 class Outcome(Enum):
@@ -120,7 +119,7 @@ class RankedDesign:
     @property
     def figures(self) -> tuple[float, int, float]:
         """What is compared: miss, numbers of links are added by the ranking, sensitivity."""
-        return round(self.miss, _MET), 0, float(f"{self.sensitivity:.{_FIGURES}g}")
+        return round(self.miss, MET_DIGITS), 0, float(f"{self.sensitivity:.{_FIGURES}g}")
 
 
 @dataclass(frozen=True, repr=False)
@@ -201,7 +200,7 @@ class RankedTypes(Printed):
         if not self.ranked and self.missed:
             one = self.missed[0]
             fault = f"; {one.faults}" if one.faults else ""
-            miss = "all wishes met" if round(one.miss, _MET) == 0.0 else f"largest miss {one.miss:.2e}"
+            miss = "all wishes met" if round(one.miss, MET_DIGITS) == 0.0 else f"largest miss {one.miss:.2e}"
             lines.append(f"nearest: {self.name(one)} ({self._roles(one)}), {miss}{fault}")
         return lines
 
@@ -210,7 +209,7 @@ class RankedTypes(Printed):
         return [
             (
                 str(place), self.name(one), str(self.links(one)), self._roles(one),
-                "met" if round(one.miss, _MET) == 0.0 else f"{one.miss:.1e}",
+                "met" if round(one.miss, MET_DIGITS) == 0.0 else f"{one.miss:.1e}",
                 f"{one.sensitivity:.3g}", "" if one.travel is None else f"{degrees(one.travel):.1f}°",
                 "yes" if one.pareto else "",
             )
@@ -339,7 +338,7 @@ def _beats(one: Sequence[float], other: Sequence[float]) -> bool:
 def _order(one: RankedDesign) -> tuple[float, ...]:
     """Return the order of designs of one type: successes, then the nearest, the least defects, the least sensitive."""
     success = one.outcome is Outcome.SUCCESS
-    return not success, round(one.miss, _MET), *_severity(one), one.figures[2], one.candidate.number, one.start
+    return not success, round(one.miss, MET_DIGITS), *_severity(one), one.figures[2], one.candidate.number, one.start
 
 
 def _severity(one: RankedDesign) -> tuple[int, int]:

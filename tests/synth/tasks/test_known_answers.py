@@ -32,7 +32,7 @@ ADMITTED = {
     "carton": {"crash-lock", "m1:ab.ac.bde.cef.dgh.fhi.gj.ij", "m1:ab.ac.bde.cef.dgh.fhi.gj.ij;ifi"},
 }
 ANSWERS = [
-    ("lid", "four-bar", lambda: chain_from_id(chain_named("four-bar")), 1),
+    ("lid", "four-bar", lambda: chain_from_id(chain_named("four-bar")), 2),
     ("skew-axes", "bennett", lambda: to_sc(synth.read(ROOT / "data" / "linkages" / "bennett.json")), 2),
     ("straight-lift", "sarrus", lambda: to_sc(synth.read(ROOT / "data" / "linkages" / "sarrus.json")), 1),
     ("packing", "miura", lambda: to_sc(generate("miura", rows=2, columns=2).mechanism), 2),
