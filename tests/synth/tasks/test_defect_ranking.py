@@ -9,7 +9,7 @@ import pytest
 import synth
 from enumerate.runner import Limits
 from synth.designing.defects import SENTENCES, Defect, DefectKind
-from synth.tasks import candidates_of, ranked_types, read_task, report_page, structure_of
+from synth.tasks import candidates_of, ranked_types, ranking, read_task, report_page, structure_of
 from synth.tasks.ranking import Outcome
 
 BRANCH = Defect(DefectKind.BRANCH, ("pose 2", "pose 3"))
@@ -192,3 +192,45 @@ def test_reworded_sentences_change_nothing_but_themselves(structure, number, mon
     assert [one.faults for one in after.missed] == [WORDS] * 3 != told
     assert without_sentences(after.to_json()) == without_sentences(before.to_json())
     assert [(one.candidate, one.start) for one in after.missed] == [(one.candidate, one.start) for one in before.missed]
+
+
+def test_what_is_printed_of_ranked_designs(structure, number):
+    rows = [
+        row_of(number["watt"], 0, sensitivity=1.25, inputs=(0.0, np.pi / 6)),
+        row_of(number["stephenson"], 0, misses=(3e-7,), sensitivity=2.5),
+        row_of(number["four-bar"], 0, misses=(0.25,)),
+    ]
+    found = ranked_types(structure, rows)
+    first, left_out, table, missed = found.blocks()
+    assert first == "2 of 8 types can do it (3 starts)"
+    assert left_out.endswith("1 by misses above 1e-06")
+    links = {one.type_of().name: one.links for one in candidates_of(structure) if one.number in number.values()}
+    roles = {name: "base {}, output {}".format(*pair) for name, pair in links.items()}
+    assert table.rows == [
+        ("1", "watt", "6", roles["watt"], "met", "1.25", "30.0°", "yes"),
+        ("2", "stephenson", "6", roles["stephenson"], "3.0e-07", "2.5", "", ""),
+    ]
+    assert missed.rows == [("four-bar", "4", roles["four-bar"], "2.5e-01", "", "misses above 1e-06: 1")]
+    answer = found.to_json()
+    assert [one["travel_deg"] for one in answer["ranked"]] == [pytest.approx(30.0), None]
+    assert len(ranked_types(structure, rows[:2]).blocks()) == 3
+
+
+def test_what_is_printed_of_types_that_are_not_ranked(structure, number, monkeypatch):
+    nearest = row_of(number["watt"], 0, misses=(0.125,))
+    met = row_of(number["watt"], 0, BRANCH)
+    said = [ranked_types(structure, rows).first_lines()[2:] for rows in ([nearest], [met], [])]
+    name = ranked_types(structure, [met]).missed[0].candidate
+    who = "nearest: watt (base {}, output {}), ".format(*name.links)
+    sentence = "the driven joint turns back between pose 2 and pose 3"
+    assert said == [[f"{who}largest miss 1.25e-01"], [f"{who}all wishes met; {sentence}"], []]
+    [*_, table] = ranked_types(structure, [met]).blocks()
+    assert table.rows[0][3:5] == ("met", sentence)
+    assert len(ranked_types(replace(structure, left_out={}), []).blocks()) == 1
+    assert Outcome.SUCCESS.title == "success"
+    rows = [row_of(number[one], 0, BRANCH) for one in ("four-bar", "watt", "stephenson")]
+    for most, last in ((2, "and 1 type farther off"), (3, None)):
+        monkeypatch.setattr(ranking, "_MOST_MISSED", most)
+        block = ranked_types(structure, rows).blocks()[-1]
+        assert (block if isinstance(block, str) else None) == last
+    assert len(block.rows) == 3
