@@ -212,6 +212,8 @@ def test_what_is_printed_of_ranked_designs(structure, number):
     ]
     assert missed.rows == [("four-bar", "4", roles["four-bar"], "2.5e-01", "", "misses above 1e-06: 1")]
     answer = found.to_json()
+    assert found.best is found.ranked[0]
+    assert ranked_types(structure, []).best is None
     assert [one["travel_deg"] for one in answer["ranked"]] == [pytest.approx(30.0), None]
     assert len(ranked_types(structure, rows[:2]).blocks()) == 3
 
