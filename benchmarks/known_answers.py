@@ -23,12 +23,12 @@ import synth
 
 ROOT = Path(__file__).resolve().parents[1]
 ANSWERS: dict[str, tuple[tuple[str, ...], int]] = {
-    "lid": (("four-bar",), 1),
+    "lid": (("four-bar",), 2),
     "skew-axes": (("bennett",), 2),
     "straight-lift": (("sarrus",), 1),
     "packing": (("miura",), 2),
     "four-fingers": (("fortune-teller",), 1),
-    "on-a-cone": (("watt", "stephenson"), 2),
+    "on-a-cone": (("watt", "stephenson"), 4),
     "pop-up": (("box-pop-up",), 1),
     "carton": (("crash-lock",), 1),
 }

@@ -4,8 +4,11 @@ A design is a success if its configurations are closed, its rules hold, the verd
 passes its configurations on one branch in their order, panels beside each other. Theory: docs/theory/design.md.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from copy import copy
+from dataclasses import asdict, dataclass, replace
 from html import escape
 from math import degrees
 from pathlib import Path
@@ -17,15 +20,18 @@ from graphs.answer.mechanisms import mobility
 from graphs.convert.table import Mechanism
 from graphs.errors import InvariantError, SynthedraError, UnsolvableError, numbered
 from graphs.mechanism.sheet import Sheet
+from graphs.mechanism.solids import HingedSolids
+from graphs.mechanism.surfaces import SurfaceLinkage
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, LinkId
-from synth.designing.dimensions import Designable, Dimensions, dimensions_of
+from synth.designing.defects import Defect, DefectKind, sentence_of
+from synth.designing.dimensions import Designable, Dimensions, dimensions_of, family_begun_at
 from synth.designing.poses import PosedDesign
 from synth.designing.problem import DesignProblem
 from synth.designing.search import FoundDesign, found_from, seeded, start_of
 from synth.designing.targets import beside_target
-from synth.designing.tracing import DesignDefects, collision_on_the_way, traced, traced_together
+from synth.designing.tracing import TracedMotion, collision_on_the_way, traced, traced_together
 from synth.designing.wish_files import read_wishes
 from synth.designing.wishes import POSE, PointsOn, Unit, Wishes
 from synth.drawing.mechanisms.pictures import draw
@@ -37,16 +43,20 @@ from synth.verdict.judged import verdict_of_motion
 from synth.viewer.pages import html_page
 
 STARTS = 8
+"""Of a search, if nobody says: some seconds for a linkage of a few links."""
 SPREAD = 0.1
-"""How far starts are off the mechanism: radians of axes, parts of edges and parameters."""
+"""How far starts are off the mechanism, radians of axes, parts of edges and parameters: other ends of the search, and
+mostly the same assembly mode."""
 FIGURE_HEADS = ("wish", "miss", "depends most on (change per unit)")
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
 _STYLE = (
     "body{font-family:sans-serif;margin:2em;max-width:60em}td,th{text-align:left;padding:.2em .8em}"
     "figure{display:inline-block;margin:1em}svg{max-width:26em;height:auto}"
 )
+MET_DIGITS = 9
+"""Decimals of a miss by which designs are compared: so many agree among processors (docs/theory/design.md)."""
 _MET = 1e-9
-"""A wish that misses by less, in radians or parts of the extent, is met."""
+"""A wish that misses by less, in radians or parts of the extent, is met: one of these digits."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +96,10 @@ class WishFigure:
             "sensitivity": dict(self.sensitivity),
         }
 
+    def record(self) -> dict[str, Any]:
+        """Return what a store holds, radians: the fields by name."""
+        return {**asdict(self), "sensitivity": dict(self.sensitivity)}
+
 
 @dataclass(frozen=True, repr=False)
 class Design(Printed):
@@ -105,12 +119,17 @@ class Design(Printed):
         By the verdict; None if it has none.
     verdict : str
         Its sentence, or why there is none.
-    defects : DesignDefects
+    defects : tuple of Defect
+        Why it is no success; none of a success.
     angles : mapping of str to mapping of str to float
         Joint angles at each configuration, radians.
-    settled : bool or None
+    traced : bool
+        Whether its configurations were traced.
+    inputs : tuple of float
+        Angles of the driven joint at the configurations as they are passed, radians, not wrapped.
+    settled : bool
         Whether the search ended where no step makes the design better, or brings it nearer to its start; False if it
-        ended with the last of its steps, None for a design from a store that does not say.
+        ended with the last of its steps.
 
     Examples
     --------
@@ -130,9 +149,11 @@ class Design(Printed):
     error: float
     freedoms: int | None
     verdict: str
-    defects: DesignDefects
+    defects: tuple[Defect, ...]
     angles: Mapping[str, Mapping[str, float]]
-    settled: bool | None = None
+    traced: bool = False
+    inputs: tuple[float, ...] = ()
+    settled: bool = False
 
     @property
     def closed(self) -> bool:
@@ -146,8 +167,8 @@ class Design(Printed):
 
     @property
     def success(self) -> bool:
-        """Whether it is closed, moves, and has no defects."""
-        return self.closed and self.moves and not self.defects.defects
+        """Whether it is closed, moves, and its motion has no defects."""
+        return not self.defects
 
     @property
     def miss(self) -> float:
@@ -156,10 +177,8 @@ class Design(Printed):
 
     @property
     def faults(self) -> tuple[str, ...]:
-        """Why it is no success."""
-        opened = () if self.closed else (f"loop-closure residual {self.error:.1e}",)
-        still = () if self.moves else (self.verdict,)
-        return (*opened, *still, *self.defects.defects)
+        """Why it is no success, in sentences: to be printed, and read by nobody."""
+        return tuple(map(sentence_of, self.defects))
 
     def __repr__(self) -> str:
         misses = "all wishes met" if self.miss <= _MET else f"largest miss {self.miss:.1e}"
@@ -170,7 +189,7 @@ class Design(Printed):
         lines: list[Block] = [f"design from start {self.start}: {'; '.join(self.faults) or 'success'}"]
         lines += [self.verdict] if self.moves else []
         lines.append(f"loop-closure residual {self.error:.1e}")
-        if self.settled is False:
+        if not self.settled:
             lines.append(
                 "the search ended with its last step, before it settled: on another machine it may end elsewhere; "
                 "a run with --begin goes on from there"
@@ -187,14 +206,15 @@ class Design(Printed):
 
     def record(self) -> dict[str, Any]:
         """Return what a row of a store holds, radians: `DesignSearch.of_record` makes the design of it again."""
-        figures = [[one.wish, one.unit, one.miss, one.part, dict(one.sensitivity)] for one in self.figures]
         return {
             "numbers": self.numbers.tolist(),
-            "figures": figures,
+            "figures": [one.record() for one in self.figures],
             "error": self.error,
             "freedoms": self.freedoms,
             "verdict": self.verdict,
-            "defects": [list(self.defects.defects), self.defects.traced, list(self.defects.inputs)],
+            "defects": [one.to_json() for one in self.defects],
+            "traced": self.traced,
+            "inputs": list(self.inputs),
             "angles": {name: dict(angles) for name, angles in self.angles.items()},
             "settled": self.settled,
         }
@@ -204,6 +224,7 @@ class Design(Printed):
         return {
             "start": self.start,
             "success": self.success,
+            "defects": [one.to_json() for one in self.defects],
             "faults": list(self.faults),
             "miss": self.miss,
             "residual": self.error,
@@ -355,6 +376,8 @@ class DesignSearch:
         Numbers of designs with which the first starts begin, one each.
     ground : link id, optional
         The link that stays, as of `dimensions_of`.
+    freedoms : int, optional
+        Degrees of freedom that designs are to have; by default those of the mechanism, which must move then.
 
     Attributes
     ----------
@@ -379,6 +402,7 @@ class DesignSearch:
         seed: int = 0,
         beginnings: Sequence[Floats] = (),
         ground: LinkId | None = None,
+        freedoms: int | None = None,
     ) -> None:
         generator = GENERATORS.get(mechanism) if isinstance(mechanism, str) else None
         self.family: Dimensions = dimensions_of(
@@ -395,7 +419,37 @@ class DesignSearch:
         if any(len(one) != numbers for one in beginnings):
             raise InvariantError("beginnings", "designs of another mechanism", f"{numbers} numbers each")
         self.beginnings = beginnings
-        self.freedoms = _freedoms_to_keep(self.family.mechanism(self.family.start))
+        kept = freedoms is None
+        self.freedoms = _freedoms_to_keep(self.family.mechanism(self.family.start)) if kept else freedoms
+
+    def begun_at(self, mechanism: HingedSolids | SurfaceLinkage) -> DesignSearch:
+        """Return the same search begun at another mechanism of the type: the problem, and its unit, stay one.
+
+        Parameters
+        ----------
+        mechanism : HingedSolids or SurfaceLinkage
+            Of the chain of this search; on a cone, if that is.
+
+        Raises
+        ------
+        UnsolvableError
+            If what may change are neither axes nor azimuths: rules and folded states of a sheet are read off it.
+
+        Examples
+        --------
+        >>> from math import radians
+        >>> from synth.designing.wishes import Goal, JointAngle, WishedConfiguration
+        >>> from synth.patterns import generate
+        >>> wish = JointAngle(at="open", joint="3", goal=Goal(equals=radians(50)))
+        >>> wishes = Wishes((wish,), (WishedConfiguration("open", {"0": radians(40)}),))
+        >>> search = DesignSearch(generate("four-bar").mechanism, wishes)
+        >>> search.begun_at(search.design(0).mechanism).design(0).miss < 1e-12
+        True
+        """
+        other = copy(self)
+        other.family = family_begun_at(self.family, mechanism)
+        other.problem = self.problem.begun_at(other.family)
+        return other
 
     def design(self, start: int) -> Design | None:
         """Return the design of a start, judged; None where numbers of a start make no mechanism."""
@@ -455,18 +509,19 @@ class DesignSearch:
     def of_record(self, start: int, record: Mapping[str, Any]) -> Design:
         """Return the design of a record that `Design.record` made."""
         numbers = np.array(record["numbers"], dtype=float)
-        defects, passed, inputs = record["defects"]
         return Design(
             start,
             numbers,
             self.family.mechanism(numbers),
-            tuple(WishFigure(*figure) for figure in record["figures"]),
+            tuple(WishFigure(**figure) for figure in record["figures"]),
             record["error"],
             record["freedoms"],
             record["verdict"],
-            DesignDefects(tuple(defects), passed, tuple(inputs)),
+            tuple(map(Defect.of_json, record["defects"])),
             record["angles"],
-            record.get("settled"),
+            record["traced"],
+            tuple(record["inputs"]),
+            record["settled"],
         )
 
 
@@ -503,34 +558,37 @@ def judged(problem: DesignProblem, found: FoundDesign, start: int, wanted: int |
         one.name: {str(joint): float(angle) for joint, angle in zip(names, at, strict=True)}
         for one, at in zip(problem.wishes.configurations, found.angles, strict=True)
     }
-    figures, defects = _figures(problem, found), _defects(problem, found, freedoms)
+    motion = _motion(problem, found, freedoms)
     if wanted and freedoms and freedoms != wanted:
-        has = numbered(freedoms, "degree of freedom", "degrees of freedom")
-        defects = DesignDefects((f"{has} at the pose, and {wanted} before",), False)
-    judgement = (found.error, freedoms, sentence, defects, angles, found.settled)
-    return Design(start, found.numbers, mechanism, figures, *judgement)
+        motion = TracedMotion((Defect(DefectKind.FREEDOMS, values=(freedoms, wanted)),))
+    opened = () if found.error <= DOUBLE.closed else (Defect(DefectKind.OPEN, values=(found.error,)),)
+    immobile = () if freedoms else (Defect(DefectKind.IMMOBILE, reason=sentence),)
+    return Design(
+        start, found.numbers, mechanism, _figures(problem, found), found.error, freedoms, sentence,
+        (*opened, *immobile, *motion.defects), angles, motion.traced, motion.inputs, found.settled,
+    )  # fmt: skip
 
 
-def _defects(problem: DesignProblem, found: FoundDesign, freedoms: int | None) -> DesignDefects:
-    """Return the defects of the motion through all configurations.
+def _motion(problem: DesignProblem, found: FoundDesign, freedoms: int | None) -> TracedMotion:
+    """Return the motion through all configurations, with its defects.
 
     One degree of freedom is driven by one joint, several by as many inputs, if configurations have so many.
     """
     wishes = problem.wishes
-    at_pose = any(POSE in wish.configurations for wish in wishes.wishes)
+    at_pose = wishes.from_pose or any(POSE in wish.configurations for wish in wishes.wishes)
     closure = problem.frame.closure(found.step.design)
     zero = found.step.design.linkage.angles
     if problem.family.sheet is not None and not zero.any():
         at_pose = False  # a flat sheet is singular: many branches meet there
     against = _against_assignment(problem, found)
-    if against:
-        return DesignDefects((against,), False)
+    if against is not None:
+        return TracedMotion((against,))
     passed = {one.name: at for one, at in zip(wishes.configurations, found.angles, strict=True)}
     names = [*([POSE] if at_pose else []), *problem.asked]
     angles = [*([zero] if at_pose else []), *(passed[name] for name in problem.asked)]
     if not angles or max(found.errors, default=0.0) > DOUBLE.closed:
-        return DesignDefects((), False)
-    one, drivers = DesignDefects((), False), problem.together
+        return TracedMotion()
+    one, drivers = TracedMotion(), problem.together
     goals = np.zeros((0, len(drivers)))
     if len(angles) > 1 and freedoms == 1 and problem.drivers:
         one, driver = _best_driven(problem, closure, names, angles)
@@ -541,18 +599,18 @@ def _defects(problem: DesignProblem, found: FoundDesign, freedoms: int | None) -
         return one
     collision = problem.frame.collision(found.step.design)
     crossed = collision_on_the_way(closure, names, angles, goals, drivers, collision)
-    if not crossed and freedoms == 1 and not zero.any():  # back towards the flat sheet, which is singular
+    if crossed is None and freedoms == 1 and not zero.any():  # back towards the flat sheet, which is singular
         turns = _NEAR_FLAT * angles[0][(driver := int(np.abs(angles[0]).argmax()))]
         ends = (names[0], "the flat sheet")
         crossed = collision_on_the_way(closure, ends, angles[:1], np.array([[turns]]), [driver], collision)
-    return replace(one, defects=(crossed,)) if crossed else one
+    return one if crossed is None else replace(one, defects=(crossed,))
 
 
 def _best_driven(
     problem: DesignProblem, closure: ClosureEquations, names: Sequence[str], angles: Sequence[Floats]
-) -> tuple[DesignDefects, int]:
+) -> tuple[TracedMotion, int]:
     """Return the first joint that may be driven without defects, and these; else the first joint and its defects."""
-    first: tuple[DesignDefects, int] | None = None
+    first: tuple[TracedMotion, int] | None = None
     for joint in problem.drivers:
         one = traced(closure, names, angles, joint, in_order=problem.wishes.in_order), joint
         first = first or one
@@ -563,21 +621,21 @@ def _best_driven(
 
 
 _NEAR_FLAT = 0.1
-"""Part of the largest fold angle to which a sheet is unfolded when collisions are looked for."""
+"""Part of the largest fold angle to which a sheet is unfolded when collisions are looked for: the flat state itself is
+singular, and the driven path may leave its branch near it."""
 _SIGN = {"M": -1.0, "V": 1.0}
 
 
-def _against_assignment(problem: DesignProblem, found: FoundDesign) -> str:
-    """Return which creases of a sheet fold against their assignment at a configuration; empty if none does."""
+def _against_assignment(problem: DesignProblem, found: FoundDesign) -> Defect | None:
+    """Return which creases of a sheet fold against their assignment at a configuration; None if none does."""
     sheet = problem.family.sheet
     if sheet is None or not found.angles:
-        return ""
+        return None
     letters = [sheet.assignments[int(str(joint))] for joint in problem.frame.joints]
     signs = np.array([_SIGN.get(letter, 0.0) for letter in letters])
     wrong = (np.array(found.angles) * signs < -DOUBLE.immobile).any(axis=0)
-    names = [str(joint) for joint, off in zip(problem.frame.joints, wrong, strict=True) if off]
-    which = numbered(len(names), "crease") + (" folds" if len(names) == 1 else " fold")
-    return f"{which} against the assignment: {', '.join(names[:6])}" if names else ""
+    creases = tuple(str(joint) for joint, off in zip(problem.frame.joints, wrong, strict=True) if off)
+    return Defect(DefectKind.ASSIGNMENT, parts=creases) if creases else None
 
 
 def _figures(problem: DesignProblem, found: FoundDesign) -> tuple[WishFigure, ...]:
@@ -615,7 +673,7 @@ def _inverse(matrix: Floats) -> Floats:
 
 def compared(found: Sequence[Design], starts: int) -> Designs:
     """Return designs in order: the Pareto list of successes, others, failures."""
-    ranked = sorted(found, key=lambda one: (round(one.miss, 9), one.start))
+    ranked = sorted(found, key=lambda one: (round(one.miss, MET_DIGITS), one.start))
     successes = [one for one in ranked if one.success]
     parts = [np.array([max(figure.part, _MET) for figure in one.figures]) for one in successes]
     pareto: list[Design] = []

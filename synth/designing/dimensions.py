@@ -6,7 +6,10 @@ one middle, whatever the numbers are, so that closure equations of neighbouring 
 docs/theory/design.md.
 """
 
+from __future__ import annotations
+
 from collections.abc import Collection, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from math import inf, pi
 from typing import Any, Protocol
@@ -253,6 +256,15 @@ class AxisDimensions:
         self.bounds = (np.full(len(self.start), -inf), np.full(len(self.start), inf))
         self.scales = np.where(self._free % 6 < 3, self._first.extent, 1.0)
 
+    def begun_at(self, mechanism: HingedSolids) -> AxisDimensions:
+        """Return the same family, in the same unit, begun at other axes of the chain: what stays are theirs too."""
+        other = copy(self)
+        axes = [mechanism.axes[joint] for joint in self.chain.joints]
+        lines = np.array([[*point, *along] for point, along in axes], dtype=float)
+        other._lines = np.hstack([lines[:, :3], unit(lines[:, 3:])])
+        other.start = np.clip(other._lines.ravel()[self._free], *self.bounds)
+        return other
+
     def _with(self, numbers: Floats) -> Floats:
         lines = self._lines.ravel().copy()
         lines[self._free] = numbers
@@ -395,6 +407,14 @@ class ConeDimensions:
         self.bounds = (np.where(last, 0.0, -inf), np.where(last, _STEEPEST, inf))
         self.scales = np.ones(len(self.start))
 
+    def begun_at(self, mechanism: SurfaceLinkage) -> ConeDimensions:
+        """Return the same family begun at another cone and other azimuths of the chain."""
+        assert isinstance(mechanism.surface, Cone)
+        other = copy(self)
+        other._all = np.array([*linkage_on_surfaces(mechanism)[0].places, mechanism.surface.angle])
+        other.start = np.clip(other._all[self._free], *self.bounds)
+        return other
+
     def _with(self, numbers: Floats) -> Floats:
         every = self._all.copy()
         every[self._free] = numbers
@@ -419,6 +439,19 @@ class ConeDimensions:
         """Return the linkage on its cone."""
         every = self._with(numbers)
         return SurfaceLinkage.placed(self._arcs.chain, every[:-1].tolist(), Cone(float(every[-1])))
+
+
+def family_begun_at(family: Dimensions, mechanism: HingedSolids | SurfaceLinkage) -> Dimensions:
+    """Return the same family begun at another mechanism of its type.
+
+    Raise UnsolvableError for families of sheets and generators: the first have rules that are read off the sheet, the
+    others begin at parameters.
+    """
+    if isinstance(family, AxisDimensions) and isinstance(mechanism, HingedSolids):
+        return family.begun_at(mechanism)
+    if isinstance(family, ConeDimensions) and isinstance(mechanism, SurfaceLinkage):
+        return family.begun_at(mechanism)
+    raise UnsolvableError("only axes of a chain, and azimuths on a cone, can begin at another mechanism")
 
 
 class ParameterDimensions:

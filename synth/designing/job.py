@@ -14,17 +14,18 @@ from typing import Any
 import numpy as np
 
 from enumerate.runner.job import Column, Row, Unit
-from synth.designing.designs import SPREAD, STARTS, Design, DesignSearch
+from synth.designing.defects import kinds_of
+from synth.designing.designs import MET_DIGITS, SPREAD, STARTS, Design, DesignSearch
 from synth.designing.problem import reweighed
 from synth.designing.wish_files import read_wishes
 
-_WEIGHT = 40_000
-"""Weight of a start: about a second of a list of chains."""
+START_WEIGHT = 40_000
+"""Weight of a start as a unit: about a second of a list of chains, as starts take."""
 
 COLUMNS: dict[str, Column] = {
-    "start": int, "success": bool, "miss": float, "residual": float, "freedoms": int, "faults": str, "record": str,
+    "start": int, "success": bool, "miss": float, "residual": float, "freedoms": int, "defects": str, "record": str,
 }  # fmt: skip
-"""Values of a row; `record` is the rest of the design as JSON."""
+"""Values of a row; `defects` are the values of their kinds, and `record` is the rest of the design as JSON."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,7 @@ class DesignJob:
 
     def units(self) -> list[Unit]:
         """One unit for each start."""
-        return [Unit(start, _WEIGHT) for start in range(self.starts)]
+        return [Unit(start, START_WEIGHT) for start in range(self.starts)]
 
     def work(self, payload: int) -> list[Row]:
         """Return the row of a start; none where its numbers make no mechanism."""
@@ -85,12 +86,12 @@ class DesignJob:
         if one is None:
             return []
         record = json.dumps(one.record(), separators=(",", ":"))
-        return [(one.start, one.success, one.miss, one.error, one.freedoms, "; ".join(one.faults), record)]
+        return [(one.start, one.success, one.miss, one.error, one.freedoms, kinds_of(one.defects), record)]
 
     @staticmethod
     def numbers(rows: Iterable[Mapping[str, Any]]) -> tuple[tuple[float, ...], ...]:
         """Return the numbers of the designs of rows, successes first, nearest to their wishes first."""
-        ranked = sorted(rows, key=lambda row: (not row["success"], round(row["miss"], 9), row["start"]))
+        ranked = sorted(rows, key=lambda row: (not row["success"], round(row["miss"], MET_DIGITS), row["start"]))
         return tuple(tuple(json.loads(row["record"])["numbers"]) for row in ranked)
 
     def designs(self, rows: Iterable[Mapping[str, Any]]) -> list[Design]:

@@ -23,6 +23,7 @@ from synth.designing.dimensions import DesignedLinkage, Dimensions
 from synth.folding.collisions import Collision, shapes_of_panels
 from synth.motion.closure import ClosureEquations
 from synth.motion.derivatives import BodyPoses, BodyTree, spatial
+from synth.motion.linkage import PosedLinkage
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +94,7 @@ class DesignFrame:
         self.extent, self.middle = first.linkage.extent, first.linkage.middle
         self.joints = list(self.graph.joints)
         self._tree = BodyTree(first.linkage, family.ground)
+        self._equations: dict[int, ClosureEquations] = {}
         sheet = family.sheet
         self.drawn = first.vertices * self.extent + self.middle
         self.link_of = np.zeros(0, dtype=np.int64)
@@ -114,13 +116,21 @@ class DesignFrame:
     def closure(self, design: DesignedLinkage, copies: int = 1) -> ClosureEquations:
         """Return the closure equations of a design at several configurations, joint angles one after the other.
 
-        Of a sheet there are six for loops of creases that are parallel now, which numbers may turn.
+        Of a sheet there are six for loops of creases that are parallel now, which numbers may turn. Loops are the same
+        in all designs, so they are taken apart once for each number of configurations.
         """
+        linkage = self._copied(design, copies)
+        if copies not in self._equations:
+            self._equations[copies] = ClosureEquations(linkage)
+        return self._equations[copies].with_axes(linkage)
+
+    def _copied(self, design: DesignedLinkage, copies: int) -> PosedLinkage:
+        """Return a design several times over, as one linkage whose joints stand one after the other."""
         linkage = design.linkage
         if self.family.sheet is not None and any(loop.centre is Centre.INFINITE for loop in linkage.loops):
             linkage = spatial(linkage)
         if copies == 1:
-            return ClosureEquations(linkage)
+            return linkage
         loops = [
             replace(loop, joints=tuple(joint + copy * len(self.joints) for joint in loop.joints))
             for copy in range(copies)
@@ -128,9 +138,7 @@ class DesignFrame:
         ]
         points, directions = (np.tile(part, (copies, 1)) for part in (linkage.points, linkage.directions))
         angles = np.tile(linkage.angles, copies)
-        return ClosureEquations(
-            replace(linkage, points=points, directions=directions, angles=angles, loops=tuple(loops))
-        )
+        return replace(linkage, points=points, directions=directions, angles=angles, loops=tuple(loops))
 
     def collision(self, design: DesignedLinkage) -> Collision:
         """Return what finds panels of a design that pass through each other on a walk."""

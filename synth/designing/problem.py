@@ -4,7 +4,10 @@ Closure equations of each configuration and rules are to be zero, misses of wish
 Theory: docs/theory/design.md.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Collection, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -155,6 +158,13 @@ class DesignProblem:
         self.together = sorted({joint for inputs in self.inputs for joint in inputs})
         self.start = self.joined(family.start, [self.held(k, self.zero) for k in range(len(self.inputs))])
         self._contradictions()
+
+    def begun_at(self, family: Dimensions) -> DesignProblem:
+        """Return the same equations for a family that begins at another member of its type, in the same unit."""
+        other = copy(self)
+        other.family = family
+        other.start = other.joined(family.start, [self.held(k, self.zero) for k in range(len(self.inputs))])
+        return other
 
     def _drivers(self) -> list[int]:
         """Return the joints that may be driven: as stated, of the first input, else any of the fixed link.

@@ -148,21 +148,25 @@ def _folded_start(problem: DesignProblem, numbers: Floats) -> FoundDesign | None
 def _on_one_branch(problem: DesignProblem, found: FoundDesign) -> FoundDesign:
     """Return a design with the configurations to which the driven joint leads, if they meet the wishes as well.
 
-    Where wishes say nothing of some links these may be found in another assembly mode at each input.
+    Where wishes say nothing of some links these may be found in another assembly mode at each input. The joint leads
+    from the pose, if the motion begins there, else from the first configuration.
     """
     driver = problem.drivers[0] if problem.drivers else None
     given = [driven(inputs, driver) for inputs in problem.inputs]
-    if driver is None or None in given or len(given) < 2:
+    zero = found.step.design.linkage.angles
+    from_pose = problem.wishes.from_pose and not (problem.family.sheet is not None and not zero.any())
+    goals = given if from_pose else given[1:]
+    if driver is None or None in given or not goals:
         return found
     closure = problem.frame.closure(found.step.design)
-    start = found.angles[0]
     try:
-        path = driven_path(closure, start, [driver], np.array(given[1:], dtype=float)[:, None])
+        start = zero if from_pose else found.angles[0]
+        path = driven_path(closure, start, [driver], np.array(goals, dtype=float)[:, None])
     except SynthedraError:
         return found
-    if path.stopped or len(path.angles) != len(given):
+    if path.stopped or len(path.angles) != len(goals) + 1:
         return found
-    angles = [found.angles[0], *path.angles[1:]]
+    angles = [*([] if from_pose else found.angles[:1]), *path.angles[1:]]
     step = problem.tried(problem.joined(found.numbers, [problem.held(k, one) for k, one in enumerate(angles)]))
     if step is None:
         return found

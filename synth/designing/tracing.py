@@ -12,30 +12,26 @@ import numpy as np
 
 from graphs.errors import SynthedraError
 from graphs.types import Floats
+from synth.designing.defects import Defect, DefectKind
 from synth.folding.collisions import Collision
 from synth.motion.closure import ClosureEquations
 from synth.motion.path import Path, PathOptions, circuit_through, driven_path
 
 _SAME = 1e-6
-"""Radians by which a traced configuration may differ from one that was found; what leads there is solved to 1e-12."""
+"""Radians by which a traced configuration may differ from one that was found. Both are solved to 1e-12, and near a
+turning point half of these digits are lost; other assembly modes are farther off by orders of magnitude."""
 
 
 @dataclass(frozen=True, slots=True)
-class DesignDefects:
-    """What is wrong with the motion of a design through its configurations.
+class TracedMotion:
+    """The motion of a design through its configurations, and what is wrong with it.
 
-    Attributes
-    ----------
-    defects : tuple of str
-        In words, none of a sound design.
-    traced : bool
-        Whether the configurations could be traced: designs of one degree of freedom are.
-    inputs : tuple of float
-        Angles of the driven joint at the configurations as they are passed, radians, not wrapped.
+    `defects` are none of a sound design; `traced` is whether the configurations could be traced, as those of designs of
+    one degree of freedom can; `inputs` are the angles of the driven joint where they are passed, radians, not wrapped.
     """
 
-    defects: tuple[str, ...]
-    traced: bool
+    defects: tuple[Defect, ...] = ()
+    traced: bool = False
     inputs: tuple[float, ...] = ()
 
 
@@ -46,8 +42,8 @@ def off_by_turns(one: Floats, other: Floats) -> float:
 
 def traced(
     closure: ClosureEquations, names: Sequence[str], angles: Sequence[Floats], driver: int, *, in_order: bool
-) -> DesignDefects:
-    """Return the defects of a linkage of one freedom that is to pass configurations float[J] in their order.
+) -> TracedMotion:
+    """Return the motion of a linkage of one freedom that is to pass configurations float[J] in their order.
 
     Both senses of the driven joint are tried, up to one turn. If neither passes all, configurations are taken one by
     one: off the branch of the first (the driven joint would have to turn back), on another circuit, or out of order.
@@ -59,49 +55,49 @@ def traced(
         path, goals = _traced_to(closure, start, driver, values[0] + np.cumsum(_steps(values, sense)))
         missed = _passed(path, angles)
         if missed is None and (sense or not in_order):
-            return DesignDefects((), True, tuple(goals.tolist()))
+            return TracedMotion((), True, tuple(goals.tolist()))
     if missed is None:
-        return DesignDefects(("the driven joint passes the configurations out of order",), True)
+        return TracedMotion((Defect(DefectKind.ORDER, tuple(names)),), True)
     circuit = _on_circuit(closure, angles, driver)
     if circuit is None:
-        return DesignDefects(("the configurations could not be traced",), False)
-    apart = [names[place] for place, on in enumerate(circuit) if not on]
+        return TracedMotion((Defect(DefectKind.UNTRACED),))
+    apart = tuple(names[place] for place, on in enumerate(circuit) if not on)
     if apart:
-        return DesignDefects((f"on another circuit than {names[0]}: {', '.join(apart)}",), True)
-    return DesignDefects((f"the driven joint turns back between {names[missed - 1]} and {names[missed]}",), True)
+        return TracedMotion((Defect(DefectKind.CIRCUIT, apart, reference=names[0]),), True)
+    return TracedMotion((Defect(DefectKind.BRANCH, (names[missed - 1], names[missed])),), True)
 
 
 def traced_together(
     closure: ClosureEquations, names: Sequence[str], angles: Sequence[Floats], drivers: Sequence[int]
-) -> DesignDefects:
-    """Return the defects of a linkage with as many inputs as freedoms: all are driven straight on at once."""
+) -> TracedMotion:
+    """Return the motion of a linkage with as many inputs as freedoms: all are driven straight on at once."""
     path = driven_path(closure, angles[0], drivers, np.array(angles)[1:, drivers])
     missed = _passed(path, angles)
     if missed is None:
-        return DesignDefects((), True)
-    return DesignDefects((f"the inputs of {names[missed - 1]} do not lead straight to {names[missed]}",), True)
+        return TracedMotion((), True)
+    return TracedMotion((Defect(DefectKind.INPUTS, (names[missed - 1], names[missed])),), True)
 
 
 def collision_on_the_way(
     closure: ClosureEquations, names: Sequence[str], angles: Sequence[Floats], goals: Floats, drivers: Sequence[int],
     collision: Collision,
-) -> str:  # fmt: skip
-    """Return which panels pass through each other on the way through configurations; empty if none do.
+) -> Defect | None:  # fmt: skip
+    """Return which panels pass through each other on the way through configurations; None if none do.
 
     Goals, float[F - 1, D], are those of the driven joints after the first configuration.
     """
     pair = collision.crossing(angles[0])
     if pair is not None:
-        return f"panels {pair[0]} and {pair[1]} pass through each other at {names[0]}"
+        return Defect(DefectKind.COLLISION, (names[0],), parts=tuple(map(str, pair)))
     if not goals.size:
-        return ""
+        return None
     options = PathOptions(events=[collision])
     path = driven_path(closure, angles[0], drivers, goals, options=options)
     met = next((event for event in path.events if event.kind == "collision"), None)
     if met is None:
-        return ""
-    panels, before = " and ".join(map(str, met.panels)), min(met.frame, len(names) - 2)
-    return f"panels {panels} pass through each other between {names[before]} and {names[before + 1]}"
+        return None
+    before = min(met.frame, len(names) - 2)
+    return Defect(DefectKind.COLLISION, (names[before], names[before + 1]), parts=tuple(map(str, met.panels)))
 
 
 def _steps(values: Floats, sense: int) -> Floats:

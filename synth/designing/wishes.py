@@ -598,6 +598,9 @@ class Wishes:
     between : int
         Closed configurations that are put between each and the next, and at first kept near to each other: so that a
         motion leads from one to the next.
+    from_pose : bool
+        Whether the motion through the configurations begins at the pose, even if no wish names it. A flat sheet is
+        singular and no such configuration: many branches meet there.
 
     Examples
     --------
@@ -616,6 +619,7 @@ class Wishes:
     closed_form: bool = False
     in_order: bool = True
     between: int = 0
+    from_pose: bool = False
 
     def __post_init__(self) -> None:
         if len(set(self.names)) < len(self.names):

@@ -11,7 +11,7 @@ docs/theory/folding.md.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -28,7 +28,8 @@ from synth.motion.linkage import PosedLinkage, PosedLoop
 from synth.motion.tangent import REGULAR, TangentSpace, largest_of
 
 _SMALL = 0.01
-"""Radians, below which a series is taken."""
+"""Radians, below which a series is taken: the next term is a part of some 1e-12 there, and the formula divides by the
+square of the angle."""
 MOST_WHOLE = 1500
 """Joints of the largest linkage whose closure equations are taken apart as a full matrix."""
 
@@ -48,6 +49,13 @@ class _LoopGroup:
     centre: Centre
     frames: Floats
     turning: Floats
+
+    def with_axes(self, points: Floats, directions: Floats) -> _LoopGroup:
+        """Return the same loops with axes through points float[J, 3] along unit vectors float[J, 3]."""
+        axes, frames = directions[self.joints], np.zeros((len(self.joints), 3, 3))
+        if self.centre is Centre.INFINITE:
+            frames = frames_of(axes * self.turning[..., None])
+        return replace(self, axes=axes, points=points[self.joints], frames=frames)
 
     @property
     def equations(self) -> int:
@@ -164,6 +172,19 @@ class ClosureEquations:
         self.rows = sum(group.equations * len(group.joints) for group in self._groups)
         self._kernel = _in_kernel(self.joints, self._groups)
         self._free: Floats | None = None
+
+    def with_axes(self, linkage: PosedLinkage) -> ClosureEquations:
+        """Return the equations of a linkage of the same joints and loops with other axes, and another pose.
+
+        Which loops are alike, and where entries stand in the matrix, is found once for all of them.
+        """
+        _ = self._pattern  # kept, and shared from here on
+        equations = object.__new__(type(self))
+        equations.__dict__.update(self.__dict__)
+        equations._zero, equations._free = linkage.angles, None
+        equations._groups = [group.with_axes(linkage.points, linkage.directions) for group in self._groups]
+        equations._kernel = _in_kernel(self.joints, equations._groups)
+        return equations
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state for another process, which has a library of its own."""
@@ -315,11 +336,9 @@ def _grouped(linkage: PosedLinkage) -> list[_LoopGroup]:
     for (centre, _), loops in kinds.items():
         joints = np.array([loop.joints for loop in loops], dtype=np.int64)
         signs = np.array([loop.signs for loop in loops], dtype=float)
-        axes, turning = linkage.directions[joints], turns[joints]
-        frames = np.zeros((len(loops), 3, 3))
-        if centre is Centre.INFINITE:
-            frames = frames_of(axes * turning[..., None])
-        groups.append(_LoopGroup(joints, axes, linkage.points[joints], signs, centre, frames, turning))
+        nowhere = np.zeros((0, 3))
+        group = _LoopGroup(joints, nowhere, nowhere, signs, centre, nowhere, turns[joints])
+        groups.append(group.with_axes(linkage.points, linkage.directions))
     return groups
 
 
@@ -355,8 +374,9 @@ def _rotation_vectors(rotations: Floats) -> Floats:
 
 
 _STEPS = 12
+"""Newton's method doubles the digits at each step: 12 are enough from wherever it leads to a closed configuration."""
 _HOLDS = 2
-"""Corrections after held joints were put back."""
+"""Corrections after held joints were put back: the first leaves the square of an error of some digits."""
 _SLOW = 0.1
 """A step that leaves more of the error than this is the last with its derivatives."""
 _NEWTON = np.array([DOUBLE.closed, _SLOW, _STEPS, REGULAR])

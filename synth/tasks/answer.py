@@ -8,7 +8,7 @@ from typing import Literal, overload
 
 from enumerate.runner.job import Progress
 from graphs.errors import InvariantError, numbered
-from synth.tasks.dimensioning import ROUNDS, STARTS, halved, opened_store
+from synth.tasks.dimensioning import HALVING, halved, opened_store
 from synth.tasks.ranking import RankedTypes, ranked_types
 from synth.tasks.record import Task
 from synth.tasks.structure import TaskStructure, structure_of
@@ -44,8 +44,8 @@ def task(
     asked: TaskLike,
     *,
     structure_only: bool = False,
-    starts: int = STARTS,
-    rounds: int = ROUNDS,
+    starts: int = HALVING.starts,
+    rounds: int = HALVING.rounds,
     seed: int = 0,
     weights: Mapping[int, float] | None = None,
     store: str | Path | None = None,

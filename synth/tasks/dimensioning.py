@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from dataclasses import dataclass, fields, replace
+from functools import cached_property, lru_cache
 from hashlib import sha256
 from itertools import permutations
 from math import ceil, pi, tau
@@ -34,35 +34,58 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import Cone, SurfaceLinkage
 from graphs.rank.realisation import Reals, realise
 from graphs.types import JointId, LinkId
-from synth.designing.designs import Design, DesignSearch
+from synth.designing.defects import Defect, DefectKind, kinds_of
+from synth.designing.designs import MET_DIGITS, Design, DesignSearch
+from synth.designing.dimensions import Designable
+from synth.designing.job import START_WEIGHT
 from synth.designing.search import seeded
 from synth.designing.wish_files import wishes_of_document
-from synth.designing.wishes import LinkOrientation
+from synth.designing.wishes import LinkOrientation, Wishes
 from synth.guidance.orientations import Orientations
 from synth.guidance.sixbars import GuidedSixBar, links_of, six_bars
 from synth.patterns.catalogue import GENERATORS
 from synth.realisation.realised import realise as sheet_realisation
+from synth.tasks.planes import turned_to_wishes
 from synth.tasks.record import Task, renamed
 from synth.tasks.structure import CandidateType, Placement, TaskStructure
 from synth.tasks.task_files import wishes_document
 
-STARTS, ROUNDS = 2, 4
-_WEIGHT = 40_000
-"""Weight of a start: about a second of a list of chains."""
-_SPREAD = 0.3
-"""How far starts of a generator are off its default parameters, as parts of them; of other types starts are random."""
-_CONES = (0.15, 1.2)
-"""Least and largest angle of the cones on which starts lie, radians."""
-_POPULATIONS = 4
-"""Populations of six-bars that guide, tried at a start."""
-_MET = 9
-"""Decimals of a miss by which candidates are compared, as designs are: below them a wish is met."""
 
+@dataclass(frozen=True, slots=True)
+class HalvingManner:
+    """How the starts of a task are made, and how many there are.
+
+    Examples
+    --------
+    >>> HALVING.starts, HALVING.rounds
+    (2, 4)
+    """
+
+    starts: int = 2
+    """Of each candidate in the first round: one alone may end on another circuit, as 14 of 36 starts of four-bars
+    through three orientations did, or turn back."""
+    rounds: int = 4
+    """With twice as many starts in each, 30 for the best: what succeeds at a tenth of its starts is missed by 4 %."""
+    spread: float = 0.3
+    """How far starts of a generator are off its default parameters, as parts of them: other proportions, and still
+    within the ranges of most parameters. Of other types starts are random."""
+    cones: tuple[float, float] = (0.15, 1.2)
+    """Least and largest angle of the cones on which starts lie, radians: axes on a narrower one are nearly one line, on
+    a wider one nearly in a plane, and there arcs of links hardly depend on the cone angle."""
+    populations: int = 4
+    """Populations of six-bars that guide, tried at a start: each takes some seconds, and a start is a unit, between
+    which alone a run stops."""
+    kept: int = 4
+    """Candidates whose searches are kept at a time: starts of one come one after the other, and a process has no more
+    of them at work."""
+
+
+HALVING = HalvingManner()
 COLUMNS: dict[str, Column] = {
-    "candidate": int, "start": int, "success": bool, "miss": float, "residual": float, "freedoms": int, "faults": str,
+    "candidate": int, "start": int, "success": bool, "miss": float, "residual": float, "freedoms": int, "defects": str,
     "record": str,
 }  # fmt: skip
-"""Values of a row; `record` is the rest of the design as JSON, empty where a start gave none."""
+"""Values of a row; `defects` are the values of their kinds, and `record` is the rest of the design as JSON."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,7 +171,8 @@ class CandidateSearch:
             if joint is not None:
                 joint_of[f"{one}-{other}"] = self._joint_name(joint)
         document = wishes_document(renamed(task.wishes, link_of, joint_of))
-        self.wishes = wishes_of_document(document, task.place)
+        # wishes say how bodies move from where they are, so the motion through the configurations begins there
+        self.wishes = replace(wishes_of_document(document, task.place), from_pose=True)
 
     def _link_name(self, link: LinkId) -> str:
         return str(list(self.type.mechanism.nodes).index(link)) if self.type.source == "scd" else str(link)
@@ -157,29 +181,51 @@ class CandidateSearch:
         return str(list(self.type.mechanism.joints).index(joint)) if self.type.source == "scd" else str(joint)
 
     def search(self, start: int) -> DesignSearch:
-        """Return the search from a random member of the type; of a generator, from its parameters."""
-        if self.type.values is not None and all(one.unit == "count" for one in GENERATORS[self.type.code].parameters):
-            assert self.type.made is not None  # without parameters that may change, its vertices or axes do
-            return DesignSearch(self.type.made, self.wishes, _SPREAD, self.seed, ground=self.base)
+        """Return the search from a random member of the type; of a generator, from its parameters.
+
+        There is one problem for all starts. Only sheets of SCD graphs have one for each: their rules and folded states
+        are read off the sheet.
+        """
         if self.type.values is not None:
-            wishes = replace(self.wishes, parameters={**self.type.values, **self.wishes.parameters})
-            return DesignSearch(self.candidate.code, wishes, _SPREAD, self.seed, ground=self.base)
-        base = self.base
-        if self.type.source == "scd" and base is not None:
-            base = list(self.type.mechanism.nodes).index(base)
-        return DesignSearch(self.member(start), self.wishes, seed=self.seed, ground=base)
+            return self._whole
+        if self.type.source == "scd":
+            base = None if self.base is None else list(self.type.mechanism.nodes).index(self.base)
+            return self._searched(self.member(start), self.wishes, base)
+        return self._whole.begun_at(self.member(start))  # type: ignore[arg-type]
+
+    @cached_property
+    def _whole(self) -> DesignSearch:
+        """The search with the problem of all starts: it must not depend on which of them is asked for first."""
+        if self.type.values is None:
+            rng = seeded(f"{self.seed} {self.type.source} {self.type.code} {self.candidate.links} unit", 0)
+            return self._searched(self._random(self._chain, rng), self.wishes, self.base)
+        if all(one.unit == "count" for one in GENERATORS[self.type.code].parameters):
+            assert self.type.made is not None  # without parameters that may change, its vertices or axes do
+            return self._searched(self.type.made, self.wishes, self.base)
+        wishes = replace(self.wishes, parameters={**self.type.values, **self.wishes.parameters})
+        return self._searched(self.candidate.code, wishes, self.base)
+
+    def _searched(self, mechanism: Designable, wishes: Wishes, base: LinkId | None) -> DesignSearch:
+        return DesignSearch(mechanism, wishes, HALVING.spread, self.seed, ground=base, freedoms=self.task.freedoms)
 
     def member(self, start: int) -> HingedSolids | SurfaceLinkage | Sheet:
         """Return a random member of the type, from which a start begins."""
         rng = seeded(f"{self.seed} {self.type.source} {self.type.code} {self.candidate.links}", start)
-        graph = self.type.mechanism
         if self.type.source == "scd":
-            return sheet_realisation(graph, seed=int(rng.integers(2**31)), tries=2).sheet
-        chain = SCGraph(graph.nodes, graph.joints, graph.loops, ground=self.base)
+            return sheet_realisation(self.type.mechanism, seed=int(rng.integers(2**31)), tries=2).sheet
+        guided = self._guided(self._chain, start) if self.task.form == "space" else None
+        return self._random(self._chain, rng) if guided is None else guided
+
+    @cached_property
+    def _chain(self) -> SCGraph:
+        graph = self.type.mechanism
+        return SCGraph(graph.nodes, graph.joints, graph.loops, ground=self.base)
+
+    def _random(self, chain: SCGraph, rng: np.random.Generator) -> HingedSolids | SurfaceLinkage:
         if self.task.form == "cone":
             places = rng.uniform(0.0, tau, len(chain.joints)).tolist()
-            return SurfaceLinkage.placed(chain, places, Cone(float(rng.uniform(*_CONES))))
-        return self._guided(chain, start) or random_member(chain, int(rng.integers(2**31)))
+            return SurfaceLinkage.placed(chain, places, Cone(float(rng.uniform(*HALVING.cones))))
+        return turned_to_wishes(random_member(chain, int(rng.integers(2**31))), self.wishes.wishes)
 
     def _guided(self, chain: SCGraph, start: int) -> HingedSolids | None:
         """Return a six-bar of Watt that guides a link through five orientations in order, if these are the wishes.
@@ -197,14 +243,15 @@ class CandidateSearch:
         if body is None or not is_watts(chain, body):
             return None
         five = [(1.0, 0.0, 0.0, 0.0), *(one.quaternion for one in turns)]
-        first = _POPULATIONS * start
+        first = HALVING.populations * start
         five_turns = Orientations.from_rotation(Rotation.from_quat(five, scalar_first=True))
-        found = six_bars(five_turns, tries=_POPULATIONS, driven="ground", first=first).six_bars
+        found = six_bars(five_turns, tries=HALVING.populations, driven="ground", first=first).six_bars
         return guiding_member(chain, body, found[0]) if found else None
 
     def design(self, start: int) -> Design | None:
         """Return the design of a start, judged; None where its numbers make no mechanism."""
-        return self.search(start).design(start if self.type.values is not None else 0)
+        one = self.search(start).design(start if self.type.values is not None else 0)
+        return None if one is None else replace(one, start=start)
 
     def of_record(self, start: int, record: Mapping[str, Any]) -> Design:
         """Return the design that a row of a store holds."""
@@ -343,27 +390,41 @@ class HalvingRound:
             "round": self.number,
         }
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Return the state for a worker: without searches, which each makes itself."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @cached_property
+    def _search_of(self) -> Callable[[int], CandidateSearch]:
+        """The searches of candidates by their places, the last ones kept: starts of one come one after the other."""
+        made = lambda place: CandidateSearch(self.task, self.candidates[place], self.seed)  # noqa: E731
+        return lru_cache(maxsize=HALVING.kept)(made)
+
     def units(self) -> list[Unit]:
         """One unit for each start of each candidate."""
         numbers = range(len(self.candidates))
-        return [Unit((place, start), _WEIGHT) for place in numbers for start in range(self.first, self.last)]
+        return [Unit((place, start), START_WEIGHT) for place in numbers for start in range(self.first, self.last)]
 
     def work(self, payload: tuple[int, int]) -> list[Row]:
         """Return the row of a start."""
         place, start = payload
         candidate = self.candidates[place]
         try:
-            one = CandidateSearch(self.task, candidate, self.seed).design(start)
+            one = self._search_of(place).design(start)
         except SynthedraError as error:
-            return [(candidate.number, start, False, pi, 0.0, 0, str(error), "")]
+            return [_row_without_member(candidate, start, str(error))]
         if one is None:
-            return [(candidate.number, start, False, pi, 0.0, 0, "no member at this start", "")]
-        faults = one.faults
-        if one.moves and one.freedoms != self.task.freedoms:
-            faults = (*faults, f"degrees of freedom of the design: {one.freedoms}")
+            return [_row_without_member(candidate, start, "no member at this start")]
         record = json.dumps(one.record(), separators=(",", ":"))
-        fault = "; ".join(faults)
-        return [(candidate.number, start, not faults, one.miss, one.error, one.freedoms or 0, fault, record)]
+        figures = (one.success, one.miss, one.error, one.freedoms or 0)
+        return [(candidate.number, start, *figures, kinds_of(one.defects), record)]
+
+
+def _row_without_member(candidate: Candidate, start: int, reason: str) -> Row:
+    """Return the row of a start that gave no design: it is as far from the wishes as an orientation can be."""
+    defect = Defect(DefectKind.NO_MEMBER, reason=reason)
+    record = json.dumps({"defects": [defect.to_json()]}, separators=(",", ":"))
+    return candidate.number, start, False, pi, 0.0, 0, kinds_of([defect]), record
 
 
 Rows = list[dict[str, Any]]
@@ -389,8 +450,8 @@ def opened_store(folder: Path, *, resume: bool, force: bool) -> Path:
 def halved(
     structure: TaskStructure,
     *,
-    starts: int = STARTS,
-    rounds: int = ROUNDS,
+    starts: int = HALVING.starts,
+    rounds: int = HALVING.rounds,
     seed: int = 0,
     workers: int = 1,
     store: Path | None = None,
@@ -453,9 +514,9 @@ def _better_half(candidates: Sequence[Candidate], rows: Iterable[Mapping[str, An
     """
     best: dict[int, tuple[bool, float]] = {}
     for row in rows:
-        key = (not row["success"], round(row["miss"], _MET))
+        key = (not row["success"], round(row["miss"], MET_DIGITS))
         best[row["candidate"]] = min(best.get(row["candidate"], (True, pi)), key)
     open_ones = [one for one in candidates if best.get(one.number, (True, pi)) > (False, 0.0)]
-    ranked = sorted(open_ones, key=lambda one: (round(best.get(one.number, (True, pi))[1], _MET), one.number))
+    ranked = sorted(open_ones, key=lambda one: (round(best.get(one.number, (True, pi))[1], MET_DIGITS), one.number))
     chosen = {one.number for one in ranked[: ceil(len(ranked) / 2)]}
     yield from (one for one in candidates if one.number in chosen)

@@ -8,50 +8,52 @@ from __future__ import annotations
 
 import json
 from collections import Counter, defaultdict
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from enum import Enum
 from functools import cached_property
 from math import degrees, inf, pi
 from typing import Any
 
 from graphs.errors import numbered
 from graphs.printing import Block, Printed, TableBlock
-from synth.designing.designs import Design
+from synth.designing.defects import Defect, DefectKind, first_kind, sentence_of
+from synth.designing.designs import MET_DIGITS, Design
 from synth.tasks.dimensioning import Candidate, CandidateSearch, Rows, candidates_of
 from synth.tasks.record import Task
 from synth.tasks.structure import PlacedType, TaskStructure, reasons_text
 
 WITHIN = 1e-6
-"""Radians, or parts of the extent: a design whose weighted misses are larger has not met the wishes."""
+"""Radians, or parts of the extent: a design whose weighted misses are larger has not met the wishes. Wishes in files
+are rounded, as quaternions of nine digits, and a design that meets them as they were meant may miss them by that."""
 _FIGURES = 6
 """Figures of a sensitivity by which designs are compared; later ones differ among processors."""
-_MET = 9
-"""Decimals of a miss by which designs are compared."""
 _HEADS = ("rank", "type", "links", "roles", "largest miss", "sensitivity", "travel", "Pareto")
-_CIRCUIT = "on another circuit"
-_FAULTS = {
-    _CIRCUIT: "configurations on several circuits",
-    "turns back": "a driven joint that turns back",
-    "out of order": "configurations out of order",
-    "do not lead straight": "inputs that do not lead straight on",
-    "pass through each other": "panels that pass through each other",
-    "against the assignment": "creases that fold against the assignment",
-    "degree of freedom": "other degrees of freedom",
-    "degrees of freedom": "other degrees of freedom",
-    "loop-closure residual": "loops that do not close",
-    "could not be traced": "configurations that could not be traced",
-}
-"""What is counted of a design that meets the wishes and is no success, by a part of its first fault."""
-_NO_MEMBER = "no member that moves"
-_SHORT = {
-    "configurations on several circuits": "circuit",
-    "a driven joint that turns back": "branch",
-    "configurations out of order": "order",
-}
-"""Defects of a design that meets the wishes, by their names in Chase and Mirth 1993."""
 _MISSED_HEADS = ("not ranked", "links", "roles", "largest miss", "defect", "starts by defect")
 _MOST_MISSED = 10
-"""Types that are not ranked, and are printed."""
+"""Types that are not ranked, and are printed: all are in the JSON and in the report."""
+
+
+class Outcome(Enum):
+    """What became of a start whose design has no defect: it meets the wishes, or misses them.
+
+    Examples
+    --------
+    >>> Outcome.MISSED.title
+    'misses above 1e-06'
+    """
+
+    SUCCESS = "success"
+    MISSED = "missed"
+
+    @property
+    def title(self) -> str:
+        """What is counted, in words."""
+        return "success" if self is Outcome.SUCCESS else f"misses above {WITHIN:g}"
+
+
+StartOutcome = Outcome | DefectKind
+"""What is counted of a start: a design that meets the wishes and is no success has the kind of its first defect."""
 
 
 @dataclass(frozen=True)
@@ -71,8 +73,8 @@ class RankedDesign:
         The largest change of a wish for a unit change of a dimension.
     travel : float or None
         How far the driven joint turns from the first configuration to the last, radians; None if none is driven.
-    faults : str
-        Why it is no success; empty for one.
+    defects : tuple of Defect
+        Why it is no success; none of a success.
     pareto : bool
         Whether no other success is better in one figure, and as good in the others.
     record : mapping
@@ -80,7 +82,7 @@ class RankedDesign:
 
     Examples
     --------
-    >>> RankedDesign(Candidate(0, "chains", "k1:Cr", (0, 2)), 0, 0.0, (0.0,), 2.0, None, "", True, {}).meets
+    >>> RankedDesign(Candidate(0, "chains", "k1:Cr", (0, 2)), 0, 0.0, (0.0,), 2.0, None, (), True, {}).meets
     True
     """
 
@@ -90,19 +92,34 @@ class RankedDesign:
     misses: tuple[float, ...]
     sensitivity: float
     travel: float | None
-    faults: str
+    defects: tuple[Defect, ...]
     pareto: bool = False
     record: Mapping[str, Any] = field(default_factory=dict, compare=False)
 
     @property
     def meets(self) -> bool:
-        """Whether its wishes are met, whatever its faults are."""
+        """Whether its wishes are met, whatever its defects are."""
         return self.miss <= WITHIN
+
+    @property
+    def outcome(self) -> StartOutcome:
+        """What is counted of its start: no member, else wishes that are missed, else the first of its defects."""
+        kind = first_kind(self.defects)
+        if kind is DefectKind.NO_MEMBER:
+            return kind
+        if not self.meets:
+            return Outcome.MISSED
+        return Outcome.SUCCESS if kind is None else kind
+
+    @property
+    def faults(self) -> str:
+        """Its defects in sentences, to be printed."""
+        return "; ".join(map(sentence_of, self.defects))
 
     @property
     def figures(self) -> tuple[float, int, float]:
         """What is compared: miss, numbers of links are added by the ranking, sensitivity."""
-        return round(self.miss, _MET), 0, float(f"{self.sensitivity:.{_FIGURES}g}")
+        return round(self.miss, MET_DIGITS), 0, float(f"{self.sensitivity:.{_FIGURES}g}")
 
 
 @dataclass(frozen=True, repr=False)
@@ -113,13 +130,13 @@ class RankedTypes(Printed):
     ----------
     structure : TaskStructure
     ranked : tuple of RankedDesign
-        The best design of each type that meets the wishes without faults.
+        The best design of each type that meets the wishes without defects.
     missed : tuple of RankedDesign
         The best of each other type, nearest first.
     starts : int
         How many starts were made.
     seed : int
-    outcomes : mapping of (str, str) to mapping of str to int
+    outcomes : mapping of (str, str) to mapping of StartOutcome to int
         For each source and id of a type, numbers of starts: successes, and by the reason why they are none.
 
     Examples
@@ -137,7 +154,7 @@ class RankedTypes(Printed):
     missed: tuple[RankedDesign, ...]
     starts: int
     seed: int = 0
-    outcomes: Mapping[tuple[str, str], Mapping[str, int]] = field(default_factory=dict)
+    outcomes: Mapping[tuple[str, str], Mapping[StartOutcome, int]] = field(default_factory=dict)
 
     @property
     def task(self) -> Task:
@@ -150,9 +167,9 @@ class RankedTypes(Printed):
         return self.ranked[0] if self.ranked else None
 
     @cached_property
-    def fell_out(self) -> dict[str, int]:
-        """Numbers of types by the reasons why they fell out, those left out by structure first."""
-        return {**self.structure.left_out, **dict(sorted(Counter(map(_reason, self.missed)).items()))}
+    def fell_out(self) -> dict[StartOutcome, int]:
+        """Numbers of types that fell out when they were designed, by what became of the best design of each."""
+        return counted(one.outcome for one in self.missed)
 
     def design(self, one: RankedDesign) -> Design:
         """Return a ranked design with its mechanism."""
@@ -177,12 +194,13 @@ class RankedTypes(Printed):
         """Return the answer in sentences."""
         of, starts = numbered(self.structure.types, "type"), numbered(self.starts, "start")
         lines = [f"{len(self.ranked)} of {of} can do it ({starts})"]
-        if self.fell_out:
-            lines.append("types left out: " + reasons_text(self.fell_out))
+        left_out = {**self.structure.left_out, **{one.title: number for one, number in self.fell_out.items()}}
+        if left_out:
+            lines.append("types left out: " + reasons_text(left_out))
         if not self.ranked and self.missed:
             one = self.missed[0]
             fault = f"; {one.faults}" if one.faults else ""
-            miss = "all wishes met" if round(one.miss, _MET) == 0.0 else f"largest miss {one.miss:.2e}"
+            miss = "all wishes met" if round(one.miss, MET_DIGITS) == 0.0 else f"largest miss {one.miss:.2e}"
             lines.append(f"nearest: {self.name(one)} ({self._roles(one)}), {miss}{fault}")
         return lines
 
@@ -191,7 +209,7 @@ class RankedTypes(Printed):
         return [
             (
                 str(place), self.name(one), str(self.links(one)), self._roles(one),
-                "met" if round(one.miss, _MET) == 0.0 else f"{one.miss:.1e}",
+                "met" if round(one.miss, MET_DIGITS) == 0.0 else f"{one.miss:.1e}",
                 f"{one.sensitivity:.3g}", "" if one.travel is None else f"{degrees(one.travel):.1f}°",
                 "yes" if one.pareto else "",
             )
@@ -207,7 +225,7 @@ class RankedTypes(Printed):
         rows = []
         for one in self.missed[:most]:
             starts = self.outcomes.get((one.candidate.source, one.candidate.code), {})
-            counts = ", ".join(f"{_SHORT.get(reason, reason)}: {number}" for reason, number in starts.items())
+            counts = ", ".join(f"{_short(outcome)}: {number}" for outcome, number in starts.items())
             miss = "met" if one.meets else f"{one.miss:.1e}"
             rows.append((self.name(one), str(self.links(one)), self._roles(one), miss, one.faults, counts))
         return TableBlock(_MISSED_HEADS, rows, ("links",))
@@ -232,7 +250,7 @@ class RankedTypes(Printed):
             "types": self.structure.types,
             "placements": self.structure.placements,
             "starts": self.starts,
-            "left_out": dict(self.fell_out),
+            "left_out": {**self.structure.left_out, **{one.value: number for one, number in self.fell_out.items()}},
             "placements_left_out": dict(self.structure.placements_left_out),
             "ranked": [self._json(one) for one in self.ranked],
             "missed": [self._json(one) for one in self.missed],
@@ -240,6 +258,7 @@ class RankedTypes(Printed):
 
     def _json(self, one: RankedDesign) -> dict[str, Any]:
         pairs = zip(self.task.roles, one.candidate.links, strict=True)
+        outcomes = self.outcomes.get((one.candidate.source, one.candidate.code), {})
         return {
             "type": one.candidate.code,
             "name": self.name(one),
@@ -253,8 +272,9 @@ class RankedTypes(Printed):
             "sensitivity": one.sensitivity,
             "travel_deg": None if one.travel is None else degrees(one.travel),
             "pareto": one.pareto,
+            "defects": [defect.to_json() for defect in one.defects],
             "faults": one.faults,
-            "outcomes": dict(self.outcomes.get((one.candidate.source, one.candidate.code), {})),
+            "outcomes": {outcome.value: number for outcome, number in outcomes.items()},
         }
 
 
@@ -290,7 +310,7 @@ def ranked_types(
         by_type[candidate.source, candidate.code].append(_of_row(candidate, row, weights or {}))
     size = {(one.type.source, one.type.code): len(one.type.bodies) for one in structure.placed}
     best = [min(some, key=_order) for some in by_type.values()]
-    successes = [one for one in best if one.meets and not one.faults]
+    successes = [one for one in best if one.outcome is Outcome.SUCCESS]
     links = {id(one): size[one.candidate.source, one.candidate.code] for one in best}
 
     def figures(one: RankedDesign) -> tuple[float, int, float]:
@@ -299,9 +319,9 @@ def ranked_types(
 
     marked = [(one, not any(_beats(figures(other), figures(one)) for other in successes)) for one in successes]
     marked.sort(key=lambda pair: (not pair[1], *_ranks(figures(pair[0])), pair[0].candidate.number))
-    ranked = tuple(_with_mark(one, pareto) for one, pareto in marked)
-    missed = sorted((one for one in best if not (one.meets and not one.faults)), key=_order)
-    outcomes = {key: dict(sorted(Counter(map(_outcome, some)).items())) for key, some in by_type.items()}
+    ranked = tuple(replace(one, pareto=pareto) for one, pareto in marked)
+    missed = sorted((one for one in best if one.outcome is not Outcome.SUCCESS), key=_order)
+    outcomes = {key: counted(one.outcome for one in some) for key, some in by_type.items()}
     return RankedTypes(structure, ranked, tuple(missed), len(rows), seed, outcomes)
 
 
@@ -315,59 +335,50 @@ def _beats(one: Sequence[float], other: Sequence[float]) -> bool:
     return all(a <= b for a, b in zip(one, other, strict=True)) and tuple(one) != tuple(other)
 
 
-def _with_mark(one: RankedDesign, pareto: bool) -> RankedDesign:
-    values = {name: getattr(one, name) for name in one.__dataclass_fields__}
-    return RankedDesign(**{**values, "pareto": pareto})
-
-
 def _order(one: RankedDesign) -> tuple[float, ...]:
     """Return the order of designs of one type: successes, then the nearest, the least defects, the least sensitive."""
-    sound = one.meets and not one.faults
-    return not sound, round(one.miss, _MET), *_defects(one), one.figures[2], one.candidate.number, one.start
+    success = one.outcome is Outcome.SUCCESS
+    return not success, round(one.miss, MET_DIGITS), *_severity(one), one.figures[2], one.candidate.number, one.start
 
 
-def _defects(one: RankedDesign) -> tuple[int, int]:
-    """Return how bad the faults of a design are: it has none, its motion has defects, or it does not move as it is to.
+def _severity(one: RankedDesign) -> tuple[int, int]:
+    """Return how bad the defects of a design are: it has none, its motion has some, or it does not move as it is to.
 
     The second number is that of the configurations on other circuits than the first.
     """
-    if not one.faults:
+    kind = first_kind(one.defects)
+    if kind is None:
         return 0, 0
-    if _fault(one) not in _SHORT:
+    if not kind.of_motion:
         return 2, 0
-    apart = [fault for fault in one.faults.split("; ") if _CIRCUIT in fault]
-    return 1, sum(fault.partition(": ")[2].count(",") + 1 for fault in apart)
+    return 1, sum(len(defect.configurations) for defect in one.defects if defect.kind is DefectKind.CIRCUIT)
 
 
 def _of_row(candidate: Candidate, row: Mapping[str, Any], weights: Mapping[int, float]) -> RankedDesign:
     """Return the design of a row, its misses weighed anew."""
-    if not row["record"]:
-        return RankedDesign(candidate, row["start"], pi, (), inf, None, row["faults"])
     record = json.loads(row["record"])
-    parts = tuple(figure[3] for figure in record["figures"])
-    weighed = [part * weights.get(number, 1.0) for number, part in enumerate(parts)]
-    most = max((max(figure[4].values(), default=0.0) for figure in record["figures"]), default=0.0)
-    inputs = record["defects"][2]
+    defects = tuple(map(Defect.of_json, record["defects"]))
+    if first_kind(defects) is DefectKind.NO_MEMBER:
+        return RankedDesign(candidate, row["start"], pi, (), inf, None, defects)
+    misses = tuple(figure["part"] for figure in record["figures"])
+    weighed = [part * weights.get(number, 1.0) for number, part in enumerate(misses)]
+    sensitivity = max((max(one["sensitivity"].values(), default=0.0) for one in record["figures"]), default=0.0)
+    inputs = record["inputs"]
     travel = max(inputs) - min(inputs) if inputs else None
-    return RankedDesign(
-        candidate, row["start"], max(weighed, default=0.0), parts, most, travel, row["faults"], False, record
-    )
+    most = max(weighed, default=0.0)
+    return RankedDesign(candidate, row["start"], most, misses, sensitivity, travel, defects, False, record)
 
 
-def _reason(one: RankedDesign) -> str:
-    """Return why a type fell out: its nearest design missed the wishes, or has a fault."""
-    if not one.record:
-        return _NO_MEMBER
-    if not one.meets:
-        return f"misses above {WITHIN:g}"
-    return _fault(one)
+def counted(outcomes: Iterable[StartOutcome]) -> dict[StartOutcome, int]:
+    """Return how often each outcome is among some, in the order of their values.
+
+    >>> counted([DefectKind.ORDER, Outcome.SUCCESS, DefectKind.ORDER])
+    {<DefectKind.ORDER: 'order'>: 2, <Outcome.SUCCESS: 'success'>: 1}
+    """
+    return dict(sorted(Counter(outcomes).items(), key=lambda pair: pair[0].value))
 
 
-def _fault(one: RankedDesign) -> str:
-    """Return what is counted of the faults of a design."""
-    return next((words for part, words in _FAULTS.items() if part in one.faults), "a design that does not move")
-
-
-def _outcome(one: RankedDesign) -> str:
-    """Return what is counted of a start."""
-    return "success" if one.meets and not one.faults else _reason(one)
+def _short(outcome: StartOutcome) -> str:
+    """Return an outcome for a cell of a table: the defects of a motion by their names in Chase and Mirth 1993."""
+    of_motion = isinstance(outcome, DefectKind) and outcome.of_motion
+    return outcome.value if of_motion else outcome.title

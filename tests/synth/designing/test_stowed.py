@@ -66,6 +66,6 @@ def test_panels_that_pass_through_each_other_make_no_design():
         found = design(strip, wishes, starts=1)
         (one,) = (*found.pareto, *found.failures)
         assert one.freedoms == 2
-        assert one.defects.traced
+        assert one.traced
         assert one.success is not crossed
         assert (one.faults == ("panels 0 and 2 pass through each other between begun and folded",)) is crossed

@@ -32,13 +32,13 @@ ADMITTED = {
     "carton": {"crash-lock", "m1:ab.ac.bde.cef.dgh.fhi.gj.ij", "m1:ab.ac.bde.cef.dgh.fhi.gj.ij;ifi"},
 }
 ANSWERS = [
-    ("lid", "four-bar", lambda: chain_from_id(chain_named("four-bar")), 1),
+    ("lid", "four-bar", lambda: chain_from_id(chain_named("four-bar")), 2),
     ("skew-axes", "bennett", lambda: to_sc(synth.read(ROOT / "data" / "linkages" / "bennett.json")), 2),
     ("straight-lift", "sarrus", lambda: to_sc(synth.read(ROOT / "data" / "linkages" / "sarrus.json")), 1),
     ("packing", "miura", lambda: to_sc(generate("miura", rows=2, columns=2).mechanism), 2),
     ("four-fingers", "fortune-teller", lambda: to_sc(synth.read(ROOT / "data" / "wiener" / "fortune-teller.json")), 1),
-    ("on-a-cone", "watt", lambda: chain_from_id(chain_named("watt")), 2),
-    ("on-a-cone", "stephenson", lambda: synth.read(ROOT / "data" / "hyatt" / "fig11-stephenson.json"), 2),
+    ("on-a-cone", "watt", lambda: chain_from_id(chain_named("watt")), 4),
+    ("on-a-cone", "stephenson", lambda: synth.read(ROOT / "data" / "hyatt" / "fig11-stephenson.json"), 4),
     ("pop-up", "box-pop-up", lambda: to_sc(generate("slit-array", strips=1).mechanism), 1),
     ("carton", "crash-lock", lambda: to_sc(generate("crash-lock", opening=0.5).mechanism), 1),
 ]
