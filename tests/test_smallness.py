@@ -44,7 +44,7 @@ EXEMPT = {
     ("graphs/rank/pose.py", "_SPREAD"): "how far off a plane is nearly flat",
     ("synth/assembly/family.py", "_LEVENBERG"): "regularisation of steps",
     ("synth/atlas/signatures.py", "_SHORTEST"): "motion that is too short for a signature",
-    ("synth/atlas/in_order.py", "_NUDGE"): "step of differences",
+    ("synth/atlas/in_order.py", "_REFINING"): "step of differences",
     ("synth/atlas/signatures.py", "_DAMPING"): "regularisation of a step",
     ("synth/atlas/signatures.py", "_NUDGE"): "step of differences",
     ("synth/atlas/signatures.py", "_SLOW"): "end of an iteration",

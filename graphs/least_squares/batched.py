@@ -117,7 +117,8 @@ class BatchedSearch:
         self.unknowns[better], self.residual[better] = unknowns[accepted], residual[accepted]
         self._data[better], self.costs[better], self._stale[better] = data[accepted], costs[accepted], True
         gained = 1.0 - costs[accepted] / before[accepted]
-        self.damping[which] *= np.where(accepted, 1.0 / rule.lowered[0], rule.raised)
+        damping = self.damping[which]
+        self.damping[which] = np.where(accepted, damping / rule.lowered[0], damping * rule.raised)
         self._end(better[gained < rule.least_gain], StopReason.SETTLED)
         self._end(which[self.damping[which] > rule.most], StopReason.STALLED)
 
