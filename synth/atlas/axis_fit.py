@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphs.geometry import unit
-from graphs.least_squares import BatchedSearch, LevenbergMarquardt
+from graphs.least_squares.batched import BatchedSearch
+from graphs.least_squares.levenberg_marquardt import LevenbergMarquardt
 from graphs.least_squares.steps import by_the_mean
 from graphs.mechanism.sc import SCGraph
 from graphs.tolerances import DOUBLE
@@ -37,7 +38,7 @@ _FITTING = _Fitting(
     most=1e4,  # a step is then a ten-thousandth of the gradient, and its circuit still did not close or come nearer
     longest=0.3,  # radians of one turn: farther on circuits are other ones
     least_gain=1e-4,  # of the sum of squares: the next stage takes only the best members on
-    frames=128,  # of circuits: read between frames to 1e-6 radians, below what fits differ by
+    frames=128,  # of circuits, joined by quintics: what these miss is far below what fits differ by
     beginnings=96,  # places on a circuit where a motion may begin: four for each that is compared
     together=64,  # members whose derivatives are found at once, so that these fit into memory
     nudge=1e-5,  # radians, for differences: the root of what rounding leaves of an angle

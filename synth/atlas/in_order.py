@@ -12,7 +12,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from graphs.least_squares import BatchedSearch, LevenbergMarquardt
+from graphs.least_squares.batched import BatchedSearch
+from graphs.least_squares.levenberg_marquardt import LevenbergMarquardt
 from graphs.least_squares.steps import by_each_unknown
 from graphs.types import Floats, Ints
 from synth.atlas.signatures import Around, angles_between
@@ -31,8 +32,8 @@ _REFINING = _Refining(
     first=0.01,  # of each entry of the diagonal: choices among equal distances are a few degrees off
     raised=5.0,
     lowered=(5.0,),  # the same back: with so few steps the damping finds its size soonest
-    at_once=32,  # circuits: tables of angles between all places of more would not stay in the cache
-    even=256,  # places round each circuit that are joined by cubics: read between them to 1e-6 radians
+    at_once=32,  # circuits: bounds the memory of tables of all choices of three places
+    even=256,  # places round each circuit, joined by cubics: what these miss is far below what circuits differ by
     nudge=3e-4,  # part of a circuit by which differences are taken: within one cubic
 )
 
@@ -68,8 +69,8 @@ def differences_in_order(circuits: Floats, rows: Floats, effort: Effort = THOROU
     >>> path = np.stack([np.cos(turn), np.sin(turn), 0.5 * np.cos(2 * turn)], axis=1)
     >>> path /= np.linalg.norm(path, axis=1)[:, None]
     >>> circle = np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
-    >>> off, _ = differences_in_order(np.stack([circle, path]), path[[200, 130, 100, 40, 10]][:, [1, 2, 0]])
-    >>> bool(off[1] < 1e-6 < 0.1 < off[0])
+    >>> differences, _ = differences_in_order(np.stack([circle, path]), path[[200, 130, 100, 40, 10]][:, [1, 2, 0]])
+    >>> bool(differences[1] < 1e-6 < 0.1 < differences[0])
     True
     """
     wanted = angles_between(rows[:, None], rows[None])
@@ -84,13 +85,13 @@ def differences_in_order(circuits: Floats, rows: Floats, effort: Effort = THOROU
         parts = np.concatenate([way * _choices(evenly, wanted, way, effort) for way in (1, -1)], axis=1)
         ways = np.broadcast_to(np.repeat([1.0, -1.0], effort.starts), parts.shape[:2])
         for steps, kept in ((effort.steps, max(1, effort.starts // 4)), (2 * effort.steps, 1)):
-            off, parts = _refined(evenly, parts, ways, wanted, steps)
+            differences, parts = _refined(evenly, parts, ways, wanted, steps)
             # symmetric circuits pass equal angles twice: of choices that are equal but for rounding the first is kept
-            best = np.argsort(np.round(off, 9), axis=1, kind="stable")[:, :kept]
+            best = np.argsort(np.round(differences, 9), axis=1, kind="stable")[:, :kept]
             parts, ways = np.take_along_axis(parts, best[..., None], axis=1), np.take_along_axis(ways, best, axis=1)
-        found.append((off.min(axis=1), parts[:, 0]))
-    off, places = (np.concatenate(some) for some in zip(*found, strict=True))
-    return off, np.remainder(places[:, np.argsort(order)], 1.0)
+        found.append((differences.min(axis=1), parts[:, 0]))
+    differences, places = (np.concatenate(some) for some in zip(*found, strict=True))
+    return differences, np.remainder(places[:, np.argsort(order)], 1.0)
 
 
 class _Evenly:

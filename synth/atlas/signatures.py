@@ -32,13 +32,20 @@ from graphs.errors import InvariantError
 from graphs.tolerances import DOUBLE, MARGIN
 from graphs.types import Floats, Ints
 
-CIRCUIT, ROUND, SPANS = 16, 24, (3, 6)
-"""Numbers of a circuit; places round it, and numbers of places from each to those to which it has angles."""
+CIRCUIT = 16
+"""Numbers of a circuit: its length, and the Fourier coefficients of `_HARMONICS`."""
+ROUND = 24
+"""Places round a circuit: an arc of a third of it has eight, enough to tell arcs apart."""
+SPANS = (3, 6)
+"""Numbers of places from each to those to which it has angles: an eighth and a quarter of a circuit."""
 _PLACES = 2 * ROUND
-"""Places of a circuit whose angles are taken for Fourier coefficients."""
-_PHASES, _LADDER, _PART = 8, 48, 3.05
-"""Phases in which an arc is laid on the places of a circuit; lengths of circuits that are tried, for each factor of 2;
-the longest circuit in which an arc is looked for, in lengths of the arc."""
+"""Places of a circuit whose angles are taken for Fourier coefficients: many more than those that are kept."""
+_PHASES = 8
+"""Phases in which an arc is laid on the places of a circuit: where it begins is not known."""
+_LADDER = 48
+"""Lengths of circuits that are tried, for each factor of 2: the next one is longer by 1.5 per cent."""
+_PART = 3.05
+"""The longest circuit in which an arc is looked for, in lengths of the arc: three, and a margin."""
 _HARMONICS = {24: (0, 2, 4), 12: (0, 1, 2, 3), 6: (0, 1, 2, 3), 18: (0, 1, 2, 3)}
 """Fourier coefficients that are kept, for each distance in places; odd ones of half a circuit vanish."""
 _SHORTEST = 1e-2
