@@ -35,7 +35,7 @@ import numpy as np
 
 import synth
 from graphs.convert.duality import mechanism_of_sheet
-from graphs.least_squares import least_squares
+from graphs.least_squares.levenberg_marquardt import least_squares
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.designing.search import SEARCH, seeded

@@ -2,7 +2,7 @@
 
 Solutions are a curved space. A step goes from one of them towards the start, as far as that changes no residual to
 first order, and back to the space by the shortest way; where steps end the line to the start is perpendicular to the
-space. So residuals and start decide, not the way. Theory: docs/theory/design.md.
+space. So residuals and start decide, not the way. Theory: docs/theory/least-squares.md.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Levenberg and Marquardt's method for many small problems of one shape, each with its own damping, together.
 
 Residuals and Jacobians of all problems are arrays: Python's work is that of one. A Jacobian is found anew only where a
-problem has moved.
+problem has moved. Theory: docs/theory/least-squares.md.
 """
 
 from __future__ import annotations

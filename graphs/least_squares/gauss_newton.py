@@ -1,7 +1,7 @@
 """Gauss and Newton's method by shortest steps, undamped: to where equations hold, near where they nearly do.
 
 Which step is shortest is the problem's own: of a full matrix `minimum_norm_step`, of a sparse one that of normal
-equations. The best iterate is kept, so that steps that lead away do no harm.
+equations. The best iterate is kept, so that steps that lead away do no harm. Theory: docs/theory/least-squares.md.
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@ drawing steps along its conditions, a design is closed again after each step. `l
 system of residuals within bounds.
 
 Sources: D. W. Marquardt, SIAM J. 11 (1963); J. J. Moré, The Levenberg-Marquardt algorithm (1978). Theory:
-docs/theory/design.md.
+docs/theory/least-squares.md.
 """
 
 from __future__ import annotations

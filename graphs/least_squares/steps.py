@@ -1,7 +1,7 @@
 """Steps of least squares, with a residual r, a Jacobian J and a damping: each minimises |J s + r|^2 and some |s|^2.
 
 A step with one damping for all unknowns is a sum of rows of J, so it has no part along which no residual changes,
-and rounding adds none. Theory: docs/theory/design.md.
+and rounding adds none. Theory: docs/theory/least-squares.md.
 """
 
 from collections.abc import Callable

@@ -13,18 +13,10 @@ from math import inf, pi
 import numpy as np
 
 from graphs.errors import SynthedraError
-from graphs.least_squares import (
-    GaussNewton,
-    LevenbergMarquardt,
-    System,
-    Trial,
-    bounded_step,
-    find_root,
-    least_squares,
-    minimise,
-    minimum_norm_step,
-    nearest_solution,
-)
+from graphs.least_squares import nearest_solution
+from graphs.least_squares.gauss_newton import GaussNewton, find_root
+from graphs.least_squares.levenberg_marquardt import LevenbergMarquardt, System, Trial, least_squares, minimise
+from graphs.least_squares.steps import bounded_step, minimum_norm_step
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.designing.problem import DesignProblem, DesignStep

@@ -21,16 +21,10 @@ import numpy.typing as npt
 
 from graphs.compiled import library
 from graphs.geometry import common_direction, unit
-from graphs.least_squares import (
-    GaussNewton,
-    LevenbergMarquardt,
-    StopReason,
-    Trial,
-    damped_step,
-    find_root,
-    minimise,
-    minimum_norm_step,
-)
+from graphs.least_squares.gauss_newton import GaussNewton, find_root
+from graphs.least_squares.levenberg_marquardt import LevenbergMarquardt, Trial, minimise
+from graphs.least_squares.steps import damped_step, minimum_norm_step
+from graphs.least_squares.stop_reason import StopReason
 from graphs.rank.singular_values import split
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats

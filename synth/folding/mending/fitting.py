@@ -20,7 +20,8 @@ import scipy
 
 from graphs.convert.duality import SheetMechanism
 from graphs.geometry import crossing, principal_axes, unit
-from graphs.least_squares import GaussNewton, StopReason, find_root
+from graphs.least_squares.gauss_newton import GaussNewton, find_root
+from graphs.least_squares.stop_reason import StopReason
 from graphs.loops.loop import Centre
 from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet

@@ -22,7 +22,7 @@ import numpy.typing as npt
 
 from graphs.errors import UnsolvableError, numbered
 from graphs.geometry import lines_meet, unit
-from graphs.least_squares import LevenbergMarquardt, System, least_squares
+from graphs.least_squares.levenberg_marquardt import LevenbergMarquardt, System, least_squares
 from graphs.loops.loop import Centre, signed_cycle
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet

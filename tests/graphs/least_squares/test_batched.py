@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 import scipy.optimize
 
-from graphs.least_squares import BatchedSearch, LevenbergMarquardt, StopReason
+from graphs.least_squares.batched import BatchedSearch
+from graphs.least_squares.levenberg_marquardt import LevenbergMarquardt
 from graphs.least_squares.steps import by_each_unknown, by_the_mean
+from graphs.least_squares.stop_reason import StopReason
 
 RULE = LevenbergMarquardt(first=1e-2, raised=8.0, lowered=(8.0,), most=1e8, least_gain=1e-9)
 

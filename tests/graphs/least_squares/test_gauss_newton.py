@@ -5,7 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from graphs.least_squares import GaussNewton, StopReason, find_root, minimum_norm_step
+from graphs.least_squares.gauss_newton import GaussNewton, find_root
+from graphs.least_squares.steps import minimum_norm_step
+from graphs.least_squares.stop_reason import StopReason
 
 
 @dataclass

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import scipy.optimize
 
-from graphs.least_squares import LevenbergMarquardt, StopReason, Trial, least_squares, minimise
+from graphs.least_squares.levenberg_marquardt import LevenbergMarquardt, Trial, least_squares, minimise
+from graphs.least_squares.stop_reason import StopReason
 
 PLAIN = LevenbergMarquardt(
     first=1e-2, raised=4.0, lowered=(8.0,), least=1e-16, most=1e6, most_trials=400, shortest=1e-15

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import scipy.optimize
 
-from graphs.least_squares import StopReason, nearest_solution
+from graphs.least_squares import nearest_solution
+from graphs.least_squares.stop_reason import StopReason
 
 FREE = (np.full(4, -np.inf), np.full(4, np.inf))
 

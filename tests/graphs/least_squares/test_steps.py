@@ -3,8 +3,14 @@
 import numpy as np
 import pytest
 
-from graphs.least_squares import bounded_step, damped_step, minimum_norm_step, normal_step
-from graphs.least_squares.steps import by_each_unknown, by_the_mean
+from graphs.least_squares.steps import (
+    bounded_step,
+    by_each_unknown,
+    by_the_mean,
+    damped_step,
+    minimum_norm_step,
+    normal_step,
+)
 
 
 @pytest.mark.parametrize("shape", [(7, 3), (3, 7), (4, 4)])
