@@ -129,3 +129,16 @@ def test_steps_are_used_up_on_the_way_round_a_long_spiral():
     found = nearest_solution(helix, np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 3.0]), free)
     assert found.reason in (StopReason.STEPS, StopReason.STALLED)
     assert not found.settled
+
+
+def test_a_limit_that_is_reached_at_the_solution_lets_go_where_the_start_is_within_it():
+    """At x = 0.3 the limit has derivatives, and no residual; the start says that it need not act."""
+
+    def system(x):
+        beyond = float(x[0] >= 0.3)
+        return np.array([x @ x - 1.0, beyond * (x[0] - 0.3)]), np.array([2.0 * x, [beyond, 0.0, 0.0, 0.0]])
+
+    begun, start = np.array([0.3, np.sqrt(1.0 - 0.09), 0.0, 0.0]), np.array([0.1, 0.9, 0.1, 0.2])
+    found = nearest_solution(system, begun, start, FREE)
+    assert found.settled
+    np.testing.assert_allclose(found.unknowns, start / np.linalg.norm(start), atol=1e-9)
