@@ -112,11 +112,34 @@ def test_each_reason_to_stop_is_reached():
     assert not slow.running[0]
 
 
-def test_a_required_gain_that_is_not_reached_is_a_rejected_step():
-    search = BatchedSearch(Valleys([1.0]), np.array([[-1.0, 1.0]]), replace(RULE, required=1.0), by_the_mean)
+@pytest.mark.parametrize(("required", "accepted"), [(0.0, True), (0.5, True), (0.999, False)])
+def test_a_required_gain_that_is_not_reached_is_a_rejected_step(required, accepted):
+    start = np.array([[0.9, 0.0]])
+    search = BatchedSearch(Valleys([1.0]), start, replace(RULE, first=1.0, required=required), by_the_mean)
     search.step(np.arange(1))
-    assert search.unknowns.tolist() == [[-1.0, 1.0]]
-    assert search.damping[0] == 8.0 * RULE.first
+    assert (search.unknowns != start).any() == accepted
+    assert search.damping[0] == (1.0 / 8.0 if accepted else 8.0)
+
+
+def test_a_step_that_changes_nothing_is_rejected_until_the_damping_is_above_its_most():
+    """Two values that one unknown cannot both have: begun at the least cost no step gains."""
+
+    class Apart:
+        def residual(self, which, unknowns):
+            return np.concatenate([unknowns - 1.0, unknowns + 1.0], axis=1), unknowns
+
+        def jacobian(self, which, unknowns, residual, data):
+            return np.ones((len(which), 2, 1))
+
+        def moved(self, which, unknowns, step):
+            return unknowns + step
+
+    rule = LevenbergMarquardt(first=1.0, raised=8.0, lowered=(8.0,), most=8.0)
+    search = BatchedSearch(Apart(), np.zeros((1, 1)), rule, by_the_mean)
+    search.step(np.arange(1))
+    assert (search.damping[0], search.running[0]) == (8.0, True)  # its most is not above it
+    search.step(np.arange(1))
+    assert (search.damping[0], search.reasons) == (64.0, [StopReason.STALLED])
 
 
 def test_no_problems_are_no_work():

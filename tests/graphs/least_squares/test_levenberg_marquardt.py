@@ -182,7 +182,14 @@ def dampings(start, **changed):
         (Countdown(1.0, 0.0, length=1e-3), {"shortest": 1e-3}, StopReason.STALLED, 0, 1),
         (Countdown(1.0, 0.0, length=2e-3), {"shortest": 1e-3, "most": 2.0}, StopReason.STALLED, 0, 1),
         (Countdown(1.0, 0.0, length=2e-3), {"shortest": 1e-3, "most_trials": 2}, StopReason.STEPS, 0, 2),
-        # a step that gains less than predicted is not the last
+        # a step that gains a poor part of what is predicted, or just that, is not the last
+        (
+            Countdown(1.0, 0.25, predicted=1.0),
+            {"least_gain": 0.5, "poor": 0.25, "most_steps": 1},
+            StopReason.STEPS,
+            1,
+            1,
+        ),
         (
             Countdown(1.0, 0.1, predicted=9.0),
             {"least_gain": 0.5, "poor": 0.25, "most_steps": 4},
@@ -238,6 +245,7 @@ def test_a_step_to_where_there_is_no_residual_is_rejected():
         (Countdown(1.0), {"most_trials": 2, "cautious": 2.0}, [1.0, 1 / 8]),
         # half of what is predicted: neither poor nor good; a fifth: poor; six tenths: good
         (Countdown(1.0, predicted=1.0), {"most_steps": 2, "poor": 0.25, "good": 0.5}, [1.0, 1.0]),
+        (Countdown(1.0, 0.25, predicted=1.0), {"most_steps": 2, "poor": 0.25, "good": 0.5}, [1.0, 1.0]),
         (Countdown(1.0, predicted=2.5), {"most_steps": 2, "poor": 0.25, "good": 0.5}, [1.0, 4.0]),
         (Countdown(1.0, predicted=0.8), {"most_steps": 2, "poor": 0.25, "good": 0.5}, [1.0, 1 / 8]),
     ],
@@ -280,3 +288,8 @@ def test_the_defaults_are_what_counts_as_closed():
     assert abs(found.at.residual[0]) <= 1e-14
     rough = least_squares(circle, np.array([3.0, 4.0]), replace(PLAIN, solved=1e-2))
     assert 1e-12 < abs(rough.at.residual[0]) <= 1e-2
+
+
+def test_a_residual_of_zero_is_solved_even_where_no_other_is():
+    found = least_squares(lambda x: (x, np.eye(2)), np.zeros(2), replace(PLAIN, solved=0.0))
+    assert (found.reason, found.trials) == (StopReason.SOLVED, 0)

@@ -102,3 +102,23 @@ def test_an_unknown_without_effect_takes_no_step():
         assert step[0, 1] == 0.0
         assert step[0, 0] == pytest.approx(-0.6, abs=1e-2)
     assert normal_step(np.zeros((1, 2, 2)), np.ones((1, 2)), np.array([1.0]), by_the_mean).tolist() == [[0.0, 0.0]]
+
+
+def test_problems_may_stand_in_rows_of_rows():
+    rng = np.random.default_rng(2)
+    jacobian, residual, damping = (
+        rng.normal(size=(2, 4, 6, 3)),
+        rng.normal(size=(2, 4, 6)),
+        rng.uniform(0.1, 1.0, (2, 4)),
+    )
+    for scaling in (by_the_mean, by_each_unknown):
+        steps = normal_step(jacobian, residual, damping, scaling)
+        flat = normal_step(jacobian.reshape(8, 6, 3), residual.reshape(8, 6), damping.reshape(8), scaling)
+        np.testing.assert_allclose(steps.reshape(8, 3), flat, rtol=0, atol=1e-12)
+
+
+def test_what_is_added_to_the_diagonal():
+    diagonal, damping = np.array([[4.0, 0.0]]), np.array([0.5])
+    np.testing.assert_allclose(by_the_mean(diagonal, damping), [[1.0, 1.0]], rtol=1e-8)
+    np.testing.assert_allclose(by_each_unknown(diagonal, damping), [[2.0 + 4e-6, 4e-6]], rtol=1e-12)
+    assert by_the_mean(np.zeros((1, 2)), damping).min() > 0.0  # else the matrix would be singular
