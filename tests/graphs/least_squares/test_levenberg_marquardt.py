@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 import scipy.optimize
 
-from graphs.least_squares.levenberg_marquardt import LevenbergMarquardt, Trial, least_squares, minimise
+from graphs.least_squares import bounded_step
+from graphs.least_squares.levenberg_marquardt import (
+    LeastSquaresIterate,
+    LevenbergMarquardt,
+    Trial,
+    least_squares,
+    minimise,
+)
 from graphs.least_squares.stop_reason import StopReason
 
 PLAIN = LevenbergMarquardt(
@@ -293,3 +300,78 @@ def test_the_defaults_are_what_counts_as_closed():
 def test_a_residual_of_zero_is_solved_even_where_no_other_is():
     found = least_squares(lambda x: (x, np.eye(2)), np.zeros(2), replace(PLAIN, solved=0.0))
     assert (found.reason, found.trials) == (StopReason.SOLVED, 0)
+
+
+FREE = (np.full(2, -np.inf), np.full(2, np.inf))
+
+
+def bent(x):
+    """Two equations with terms of second and third degree."""
+    residual = np.array([x[0] + 0.06 * x[1] ** 2 - 1.0, x[1] + 0.04 * x[0] ** 3 + 0.5])
+    return residual, np.array([[1.0, 0.12 * x[1]], [0.12 * x[0] ** 2, 1.0]])
+
+
+def iterate(system, unknowns, rule):
+    return LeastSquaresIterate(system, FREE, rule, unknowns, *system(unknowns))
+
+
+def test_corrections_take_away_what_the_residual_has_besides_its_linear_part():
+    """The second method takes the steps one by one, each by the Jacobian of the first."""
+    here, damping = np.array([0.6, 0.1]), 1e-3
+    residual, jacobian = bent(here)
+
+    def step(missed):
+        return bounded_step(here, jacobian, missed, FREE, damping) - here
+
+    first = here + step(residual)
+    second = first + step(bent(first)[0] - (residual + jacobian @ (first - here)))
+    third = second + step(bent(second)[0])
+    for corrections, end in enumerate((first, second, third)):
+        rule = replace(CURVED, poor=1e9, corrections=corrections)  # no step is good enough
+        trial = iterate(bent, here, rule).trial(damping)
+        assert trial.corrections == corrections
+        np.testing.assert_allclose(trial.at.unknowns, end, rtol=0, atol=1e-14)
+        assert trial.length == pytest.approx(np.abs(end - here).max(), abs=1e-14)
+        linear = residual + jacobian @ (first - here)
+        assert trial.predicted == pytest.approx(residual @ residual - linear @ linear)
+    costs = [(bent(end)[0] ** 2).sum() for end in (first, second, third)]
+    assert costs == sorted(costs, reverse=True)
+
+
+def test_a_step_that_is_good_enough_is_not_corrected():
+    asked = []
+
+    def straight(x):
+        asked.append(x)
+        return x - 1.0, np.eye(2)
+
+    trial = iterate(straight, np.zeros(2), CURVED).trial(1e-3)
+    assert (trial.corrections, len(asked)) == (0, 2)  # where it is, and where the step leads
+
+
+@pytest.mark.parametrize("beyond", [None, (np.full(2, 9.0), np.eye(2))], ids=["undefined", "worse"])
+def test_a_correction_that_does_not_help_is_not_taken(beyond):
+    asked = []
+
+    def system(x):
+        asked.append(x.copy())
+        return bent(x) if len(asked) < 3 else beyond
+
+    here = np.array([0.4, 0.3])
+    trial = iterate(system, here, replace(CURVED, poor=1e9)).trial(1e-3)
+    assert len(asked) == 3
+    assert trial.at.unknowns.tolist() == asked[1].tolist()
+    assert trial.length == pytest.approx(np.abs(asked[1] - here).max(), abs=1e-15)
+
+
+def test_the_length_of_a_step_to_where_there_is_no_residual_is_known():
+    asked = []
+
+    def system(x):
+        asked.append(x.copy())
+        return bent(x) if len(asked) < 2 else None
+
+    here = np.array([0.4, 0.3])
+    trial = iterate(system, here, CURVED).trial(1e-3)
+    assert (trial.at, len(asked)) == (None, 2)
+    assert trial.length == pytest.approx(np.abs(asked[1] - here).max(), abs=1e-15)
