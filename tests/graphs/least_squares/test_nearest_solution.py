@@ -142,3 +142,24 @@ def test_a_limit_that_is_reached_at_the_solution_lets_go_where_the_start_is_with
     found = nearest_solution(system, begun, start, FREE)
     assert found.settled
     np.testing.assert_allclose(found.unknowns, start / np.linalg.norm(start), atol=1e-9)
+
+
+def test_lower_bounds_hold_as_upper_ones_do_and_bound_unknowns_are_known_to_the_others():
+    """In the mirror image of a bounded problem all is mirrored, and one linear equation is met in one step."""
+    start, begun = np.array([-0.8, -0.9, 0.1, 0.2]), np.array([-0.1, -0.1, 0.7, -0.7])
+    low = FREE[0].copy()
+    low[1] = -0.5
+    found = nearest_solution(sphere, begun / np.linalg.norm(begun), start, (low, FREE[1]))
+    assert found.settled
+    rest = np.array([-0.8, 0.1, 0.2]) * np.sqrt(1.0 - 0.25) / np.linalg.norm([-0.8, 0.1, 0.2])
+    np.testing.assert_allclose(found.unknowns, [rest[0], -0.5, *rest[1:]], atol=1e-9)
+    asked = []
+
+    def plane(x):
+        asked.append(x)
+        return np.array([x.sum() - 1.0]), np.ones((1, 4))
+
+    high = np.array([0.5, 9.0, 9.0, 9.0])
+    found = nearest_solution(plane, np.array([0.0, 1.0, 0.0, 0.0]), np.array([3.0, 0.0, 0.0, 0.0]), (FREE[0], high))
+    np.testing.assert_allclose(found.unknowns, [0.5, 1 / 6, 1 / 6, 1 / 6], atol=1e-12)
+    assert len(asked) == 3  # at the solution and the start, and where the one step leads
