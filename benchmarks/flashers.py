@@ -23,7 +23,7 @@ import json
 import os
 import platform
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import cos, pi, sin, tan
 from pathlib import Path
@@ -35,10 +35,10 @@ import numpy as np
 
 import synth
 from graphs.convert.duality import mechanism_of_sheet
+from graphs.least_squares.levenberg_marquardt import least_squares
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
-from synth.designing.least import least_squares
-from synth.designing.search import seeded
+from synth.designing.search import SEARCH, seeded
 from synth.folding.collisions import shapes_of_panels
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_sheet
@@ -197,13 +197,14 @@ def row(sides: int, starts: int = 200) -> dict[str, object]:
     free = np.full(len(first), np.inf)
     lengths = np.ones(len(first))
     lengths[::3] = np.abs(flasher.radius * np.sin(first[1::3] / flasher.radius))  # of an arc for a radian of azimuth
+    rule = replace(SEARCH, most_trials=STEPS, least_gain=0.0)
     openings, found = [], []
     for start in range(starts):
         beside = SPREAD * seeded(f"flasher {sides}", start).normal(size=len(first)) if start else 0.0
-        one = least_squares(flasher.misses, first + beside / lengths, (-free, free), STEPS, 0.0)
+        one = least_squares(flasher.misses, first + beside / lengths, rule, (-free, free))
         if one is not None:
-            openings.append(float(np.abs(one.residual).max()))
-            found.append(one.unknowns)
+            openings.append(float(np.abs(one.at.residual).max()))
+            found.append(one.at.unknowns)
     closed = [number for number, opening in enumerate(openings) if opening <= DOUBLE.closed]
     sound = [number for number in closed if least_corner(flasher.sheet(found[number])) >= CORNER]
     best = (sound or closed or [int(np.argmin(openings))])[0]

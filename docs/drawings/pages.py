@@ -9,7 +9,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from drawings import cones, enumeration, guidance, holding, kinds, mobility, motion, thick, things, turning
+from drawings import cones, enumeration, guidance, holding, kinds, mobility, motion, searching, thick, things, turning
 from synth.drawing import Scene
 
 FOLDER = Path(__file__).resolve().parent.parent / "pictures" / "theory"
@@ -25,6 +25,7 @@ DRAWINGS: dict[str, Callable[[], Scene]] = {
     **turning.DRAWINGS,
     **guidance.DRAWINGS,
     **thick.DRAWINGS,
+    **searching.DRAWINGS,
 }
 """Name of a theory page to what draws its picture."""
 

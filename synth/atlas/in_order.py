@@ -5,19 +5,37 @@ Theory: docs/theory/atlas.md.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from graphs.tolerances import DOUBLE
+from graphs.least_squares.batched import BatchedSearch
+from graphs.least_squares.levenberg_marquardt import LevenbergMarquardt
+from graphs.least_squares.steps import by_each_unknown
 from graphs.types import Floats, Ints
 from synth.atlas.signatures import Around, angles_between
 
-_AT_ONCE, _EVEN, _DAMPED, _NUDGE = 32, 256, 0.01, 3e-4
-"""Circuits that are compared with single orientations at once; places round each that are joined by cubics; damping
-of least squares at first; parts of a circuit by which differences are taken."""
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Refining(LevenbergMarquardt):
+    """How places are refined."""
+
+    at_once: int
+    even: int
+    nudge: float
+
+
+_REFINING = _Refining(
+    first=0.01,  # of each entry of the diagonal: choices among equal distances are a few degrees off
+    raised=5.0,
+    lowered=(5.0,),  # the same back: with so few steps the damping finds its size soonest
+    at_once=32,  # circuits: bounds the memory of tables of all choices of three places
+    even=256,  # places round each circuit, joined by cubics: what these miss is far below what circuits differ by
+    nudge=3e-4,  # part of a circuit by which differences are taken: within one cubic
+)
 
 
 class Effort(NamedTuple):
@@ -51,8 +69,8 @@ def differences_in_order(circuits: Floats, rows: Floats, effort: Effort = THOROU
     >>> path = np.stack([np.cos(turn), np.sin(turn), 0.5 * np.cos(2 * turn)], axis=1)
     >>> path /= np.linalg.norm(path, axis=1)[:, None]
     >>> circle = np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
-    >>> off, _ = differences_in_order(np.stack([circle, path]), path[[200, 130, 100, 40, 10]][:, [1, 2, 0]])
-    >>> bool(off[1] < 1e-6 < 0.1 < off[0])
+    >>> differences, _ = differences_in_order(np.stack([circle, path]), path[[200, 130, 100, 40, 10]][:, [1, 2, 0]])
+    >>> bool(differences[1] < 1e-6 < 0.1 < differences[0])
     True
     """
     wanted = angles_between(rows[:, None], rows[None])
@@ -62,39 +80,40 @@ def differences_in_order(circuits: Floats, rows: Floats, effort: Effort = THOROU
     order = np.arange(first, first + count) % count
     wanted = wanted[np.ix_(order, order)]
     found = []
-    for begin in range(0, len(circuits), _AT_ONCE):
-        evenly = _Evenly(circuits[begin : begin + _AT_ONCE])
+    for begin in range(0, len(circuits), _REFINING.at_once):
+        evenly = _Evenly(circuits[begin : begin + _REFINING.at_once])
         parts = np.concatenate([way * _choices(evenly, wanted, way, effort) for way in (1, -1)], axis=1)
         ways = np.broadcast_to(np.repeat([1.0, -1.0], effort.starts), parts.shape[:2])
         for steps, kept in ((effort.steps, max(1, effort.starts // 4)), (2 * effort.steps, 1)):
-            off, parts = _refined(evenly, parts, ways, wanted, steps)
-            best = np.argsort(off, axis=1, kind="stable")[:, :kept]
+            differences, parts = _refined(evenly, parts, ways, wanted, steps)
+            # symmetric circuits pass equal angles twice: of choices that are equal but for rounding the first is kept
+            best = np.argsort(np.round(differences, 9), axis=1, kind="stable")[:, :kept]
             parts, ways = np.take_along_axis(parts, best[..., None], axis=1), np.take_along_axis(ways, best, axis=1)
-        found.append((off.min(axis=1), parts[:, 0]))
-    off, places = (np.concatenate(some) for some in zip(*found, strict=True))
-    return off, np.remainder(places[:, np.argsort(order)], 1.0)
+        found.append((differences.min(axis=1), parts[:, 0]))
+    differences, places = (np.concatenate(some) for some in zip(*found, strict=True))
+    return differences, np.remainder(places[:, np.argsort(order)], 1.0)
 
 
 class _Evenly:
     """Circuits at places of equal distances, read between these by cubics: faster than by `Around`."""
 
     def __init__(self, circuits: Floats) -> None:
-        at = Around(circuits).at(np.broadcast_to(np.arange(-1, _EVEN + 2) / _EVEN, (len(circuits), _EVEN + 3)))
+        even = _REFINING.even
+        at = Around(circuits).at(np.broadcast_to(np.arange(-1, even + 2) / even, (len(circuits), even + 3)))
         if at.shape[2] == 4:  # of two quaternions of a rotation the nearer one
             dots = (at[:, 1:] * at[:, :-1]).sum(axis=2)
             at[:, 1:] *= np.cumprod(np.where(dots < 0.0, -1.0, 1.0), axis=1)[..., None]
         self._rows, self.count = at, len(circuits)
 
-    def at(self, parts: Floats) -> Floats:
-        """Return unit vectors at parts of the lengths, float[n, ..., d]."""
-        along = np.remainder(parts, 1.0) * _EVEN
-        place = np.minimum(along.astype(np.int64), _EVEN - 1)
+    def at(self, circuits: Ints, parts: Floats) -> Floats:
+        """Return unit vectors at parts float[k, p] of the lengths of circuits, int[k]: float[k, p, d]."""
+        along = np.remainder(parts, 1.0) * _REFINING.even
+        place = np.minimum(along.astype(np.int64), _REFINING.even - 1)
         t = along - place
         a, b, c = t + 1.0, t - 1.0, t - 2.0
-        who = np.arange(self.count).reshape(-1, *(1,) * (parts.ndim - 1))
         total = np.zeros((*parts.shape, self._rows.shape[2]))
         for node, weight in enumerate((-t * b * c / 6.0, a * b * c / 2.0, -a * t * c / 2.0, a * t * b / 6.0)):
-            total += weight[..., None] * self._rows[who, place + node]
+            total += weight[..., None] * self._rows[circuits[:, None], place + node]
         return np.asarray(total / np.linalg.norm(total, axis=-1, keepdims=True))
 
 
@@ -104,7 +123,7 @@ def _choices(evenly: _Evenly, wanted: Floats, way: int, effort: Effort) -> Float
     Three places are chosen together, from all, then one after the other; the least sums of squares are kept.
     """
     circuits, size, count = evenly.count, effort.places, len(wanted)
-    at = evenly.at(np.broadcast_to(way * np.arange(size) / size, (circuits, size)))
+    at = evenly.at(np.arange(circuits), np.broadcast_to(way * np.arange(size) / size, (circuits, size)))
     table = angles_between(at[:, :, None], at[:, None]).astype(np.float32)
     squares = {pair: (table - np.float32(wanted[pair])) ** 2 for pair in combinations(range(count), 2)}
     later = np.array(np.triu_indices(size))  # how far the second and third place are after the first
@@ -143,37 +162,50 @@ def _apart(sums: npt.NDArray[np.float32], places: Ints, effort: Effort) -> Float
     return np.asarray((starts[:, :, :1] + offsets + spread) / size)
 
 
+class _PlacesInOrder:
+    """Places on circuits, int[n], that keep their order, each in its way, float[n]: a `BatchedSystem`.
+
+    Residuals are the angles between all pairs of places less those of the pairs of `wanted`, float[k, k].
+    """
+
+    def __init__(self, evenly: _Evenly, circuits: Ints, ways: Floats, wanted: Floats) -> None:
+        self._evenly, self._circuits, self._ways = evenly, circuits, ways[:, None]
+        self._one, self._other = np.triu_indices(len(wanted), 1)
+        self._wanted = wanted[self._one, self._other]
+
+    def residual(self, which: Ints, unknowns: Floats) -> tuple[Floats, Floats]:
+        """Return residuals, and unit vectors at the places."""
+        here = self._evenly.at(self._circuits[which], unknowns)
+        return self._between(here, here), here
+
+    def jacobian(self, which: Ints, unknowns: Floats, residual: Floats, data: Floats) -> Floats:
+        """Return derivatives by differences: of two equal places neither may overtake the other."""
+        nudge, pairs = _REFINING.nudge * self._ways[which], np.arange(len(self._one))
+        behind, ahead = (self._evenly.at(self._circuits[which], unknowns + sign * nudge) for sign in (-1.0, 1.0))
+        jacobian = np.zeros((*residual.shape, unknowns.shape[1]))
+        jacobian[:, pairs, self._one] = (residual - self._between(behind, data)) / nudge
+        jacobian[:, pairs, self._other] = (self._between(data, ahead) - residual) / nudge
+        return jacobian
+
+    def moved(self, which: Ints, unknowns: Floats, step: Floats) -> Floats:
+        """Return the places after steps: none overtakes the one before it, nor the first by a whole round."""
+        way = self._ways[which]
+        along = np.maximum.accumulate(way * (unknowns + step), axis=1)
+        return np.asarray(way * np.minimum(along, along[:, :1] + 1.0))
+
+    def _between(self, some: Floats, others: Floats) -> Floats:
+        return np.asarray(angles_between(some[:, self._one], others[:, self._other]) - self._wanted)
+
+
 def _refined(evenly: _Evenly, parts: Floats, ways: Floats, wanted: Floats, steps: int) -> tuple[Floats, Floats]:
     """Return how much parts of circuits, float[n, B, k], miss angles float[k, k] once they are refined, and the parts.
 
-    The method is that of Levenberg and Marquardt; parts keep their order, each in its way, float[n, B].
+    Parts keep their order, each in its way, float[n, B].
     """
-    at, way = evenly.at, ways[..., None]
-    one, other = np.triu_indices(len(wanted), 1)
-    angles, pairs = wanted[one, other], np.arange(len(one))
-
-    def misses(some: Floats, others: Floats) -> Floats:
-        return angles_between(some[:, :, one], others[:, :, other]) - angles
-
-    here = at(parts)
-    miss = misses(here, here)
-    damping, nudge = np.full(parts.shape[:2], _DAMPED), _NUDGE * way
-    for _ in range(steps):
-        behind, ahead = at(parts - nudge), at(parts + nudge)  # of two equal places neither may overtake the other
-        rates = np.zeros((*parts.shape[:2], len(pairs), parts.shape[2]))
-        rates[:, :, pairs, one] = (miss - misses(behind, here)) / nudge
-        rates[:, :, pairs, other] = (misses(here, ahead) - miss) / nudge
-        gram = np.swapaxes(rates, 2, 3) @ rates
-        sizes = np.einsum("...ii->...i", gram)
-        damped = damping[..., None] * sizes + DOUBLE.clear * sizes.sum(axis=2, keepdims=True)
-        gram += np.eye(len(wanted)) * damped[..., None]
-        step = np.linalg.solve(gram, np.swapaxes(rates, 2, 3) @ miss[..., None])[..., 0]
-        along = np.maximum.accumulate(way * (parts - step), axis=2)
-        trial = way * np.minimum(along, along[:, :, :1] + 1.0)
-        there = at(trial)
-        off = misses(there, there)
-        better = (off**2).sum(axis=2) < (miss**2).sum(axis=2)
-        parts, miss = (np.where(better[..., None], *pair) for pair in ((trial, parts), (off, miss)))
-        here = np.where(better[..., None, None], there, here)
-        damping = np.where(better, damping / 5.0, damping * 5.0)
-    return np.sqrt((miss**2).mean(axis=2)), parts
+    shape = parts.shape
+    circuits = np.repeat(np.arange(shape[0]), shape[1])
+    system = _PlacesInOrder(evenly, circuits, ways.reshape(-1), wanted)
+    search = BatchedSearch(system, parts.reshape(-1, shape[2]), _REFINING, by_each_unknown)
+    search.run(steps, np.arange(len(circuits)))
+    missed = np.sqrt((search.residual**2).mean(axis=1))
+    return missed.reshape(shape[:2]), search.unknowns.reshape(shape)

@@ -39,6 +39,7 @@ from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.types import Floats, JointId, LinkId
+from synth.atlas.axis_fit import AxisFit
 from synth.atlas.in_order import QUICK, differences_in_order
 from synth.atlas.opened import Atlas
 from synth.atlas.signatures import (
@@ -47,7 +48,6 @@ from synth.atlas.signatures import (
     NO_SPANS,
     ROUND,
     SPANS,
-    Fit,
     MotionCurve,
     Signatures,
     arc_distances,
@@ -585,7 +585,7 @@ def _traced(
         directions = np.stack([units[source[0]][source[1]] for source in members])
         axes = directions[:, : len(chain.joints)]
         if fit:
-            search = Fit(chain, axes, [pairs[source[2]] for source in members], curve)
+            search = AxisFit(chain, axes, [pairs[source[2]] for source in members], curve)
             search.run([(steps, max(least, len(members) // part)) for steps, part, least in _STAGES])
             axes[:] = search.axes
         circuits = circuits_of(chain, axes)

@@ -29,19 +29,23 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import InvariantError
-from graphs.geometry import unit
-from graphs.mechanism.sc import SCGraph
 from graphs.tolerances import DOUBLE, MARGIN
-from graphs.types import Floats, Ints, LinkId
-from synth.members.circuits import Circuits, across, circuits_of, product, relative
+from graphs.types import Floats, Ints
 
-CIRCUIT, ROUND, SPANS = 16, 24, (3, 6)
-"""Numbers of a circuit; places round it, and numbers of places from each to those to which it has angles."""
+CIRCUIT = 16
+"""Numbers of a circuit: its length, and the Fourier coefficients of `_HARMONICS`."""
+ROUND = 24
+"""Places round a circuit: an arc of a third of it has eight, enough to tell arcs apart."""
+SPANS = (3, 6)
+"""Numbers of places from each to those to which it has angles: an eighth and a quarter of a circuit."""
 _PLACES = 2 * ROUND
-"""Places of a circuit whose angles are taken for Fourier coefficients."""
-_PHASES, _LADDER, _PART = 8, 48, 3.05
-"""Phases in which an arc is laid on the places of a circuit; lengths of circuits that are tried, for each factor of 2;
-the longest circuit in which an arc is looked for, in lengths of the arc."""
+"""Places of a circuit whose angles are taken for Fourier coefficients: many more than those that are kept."""
+_PHASES = 8
+"""Phases in which an arc is laid on the places of a circuit: where it begins is not known."""
+_LADDER = 48
+"""Lengths of circuits that are tried, for each factor of 2: the next one is longer by 1.5 per cent."""
+_PART = 3.05
+"""The longest circuit in which an arc is looked for, in lengths of the arc: three, and a margin."""
 _HARMONICS = {24: (0, 2, 4), 12: (0, 1, 2, 3), 6: (0, 1, 2, 3), 18: (0, 1, 2, 3)}
 """Fourier coefficients that are kept, for each distance in places; odd ones of half a circuit vanish."""
 _SHORTEST = 1e-2
@@ -53,8 +57,10 @@ FAR = np.float32(1e3)
 
 FEW = 12
 """Rows below which they are single orientations or points, and chords the parameter of a spline through them."""
-_COMPARED, _SHIFTS = 24, 8
-"""Places of a motion that are compared with another; shifts of the other between two of them."""
+COMPARED = 24
+"""Places of a motion that are compared with another: chords between them are a few degrees long."""
+_SHIFTS = 8
+"""Shifts of the other motion between two of them, from which the best one is found."""
 
 
 class Signatures(NamedTuple):
@@ -342,12 +348,12 @@ def difference(motion: MotionCurve, circuit: MotionCurve) -> float:
     whole = motion.closed and circuit.closed
     if not whole and motion.length > 1.01 * circuit.length:
         return float("inf")
-    places = np.arange(_COMPARED) / (_COMPARED if whole else _COMPARED - 1)
-    one, other = np.triu_indices(_COMPARED, 1)
+    places = np.arange(COMPARED) / (COMPARED if whole else COMPARED - 1)
+    one, other = np.triu_indices(COMPARED, 1)
     mine = motion.at(motion.length * places)
     reach = circuit.length if whole else min(motion.length, circuit.length)
     free = circuit.length if circuit.closed else circuit.length - reach
-    count = _COMPARED * _SHIFTS
+    count = COMPARED * _SHIFTS
     gap, begin = free / count, np.linspace(0.0, free, count + 1)
     at = circuit.at(begin[:, None] + reach * places)
     cosines = np.clip((at @ at.swapaxes(1, 2))[:, one, other], -1.0, 1.0)
@@ -503,166 +509,3 @@ def nearest(numbers: npt.NDArray[np.float32], goals: Floats) -> Floats:
         mixed += (others * others).sum(axis=1)
         squares += mixed.min(axis=1)
     return np.asarray(np.sqrt(np.maximum(squares, 0.0)))
-
-
-_FIT_FRAMES, _BEGINNINGS, _TOGETHER, _NUDGE = 128, 96, 64, 1e-5
-"""Frames of circuits whose axes are fitted; places where a motion may begin on them; members whose slopes are found
-together; step of differences, radians."""
-_DAMPING, _FACTOR, _MOST_DAMPING, _LONGEST = 1e-2, 8.0, 1e4, 0.3
-"""Damping of steps at first, over the mean of squares of slopes, the factor by which it changes, and the most; the
-most radians of a step."""
-_SLOW = 1e-4
-"""Part of the sum of squares below which a gain ends the fit of a member."""
-
-
-class Fit:
-    """Members of a chain whose axes are changed until two of their links move like a motion.
-
-    Levenberg and Marquardt's method for the angles between 24 places of the motion and as many of the circuit, by two
-    turns of each axis and the place where the motion begins; all members go a step together. The motion stays on
-    one circuit, which closes: a step to a member whose circuit does not is not taken.
-
-    Attributes
-    ----------
-    axes : float[N, J, 3]
-        Unit vectors, where members are now.
-    costs : float[N]
-        Sums of squares of differences of angles, infinite for a circuit that does not close.
-    """
-
-    def __init__(
-        self, chain: SCGraph, axes: Floats, pairs: Sequence[tuple[LinkId, LinkId]], motion: MotionCurve
-    ) -> None:
-        self.axes, self.costs = unit(axes), np.full(len(axes), np.inf)
-        self._chain, self._pairs, self._motion = chain, list(pairs), motion
-        self._places = np.arange(_COMPARED) / (_COMPARED if motion.closed else _COMPARED - 1)
-        self._wanted = self._angles(motion.at(motion.length * self._places)[None])[0]
-        size = 2 * axes.shape[1] + 1
-        self._angles_of = np.zeros((len(axes), _FIT_FRAMES, axes.shape[1]))
-        self._offs = np.full((len(axes), len(self._wanted)), np.inf)
-        self._slopes = np.zeros((len(axes), len(self._wanted), size))
-        self._damping = np.full(len(axes), _DAMPING)
-        self._begins, self._ways = np.zeros(len(axes)), np.ones(len(axes))
-        self._stale, self._ended = np.ones(len(axes), dtype=bool), np.zeros(len(axes), dtype=bool)
-        self._begin()
-
-    def run(self, stages: Sequence[tuple[int, int]]) -> None:
-        """Go so many steps with so many of the members, the best ones, stage by stage."""
-        for steps, kept in stages:
-            best = np.argsort(self.costs, kind="stable")[:kept]
-            for _ in range(steps):
-                under_way = best[~self._ended[best]]
-                if not len(under_way):
-                    break
-                self.step(under_way)
-
-    def step(self, who: Ints) -> None:
-        """Go a step with some members, where it makes them better; else the next one is shorter."""
-        slopes, off = self.slopes(who), self._offs[who]
-        gram = slopes.swapaxes(1, 2) @ slopes
-        size = np.trace(gram, axis1=1, axis2=2) / gram.shape[1] + DOUBLE.zero
-        gram += (self._damping[who] * size)[:, None, None] * np.eye(gram.shape[1])
-        change = -np.linalg.solve(gram, slopes.swapaxes(1, 2) @ off[..., None])[..., 0]
-        change *= np.minimum(1.0, _LONGEST / np.maximum(np.abs(change).max(axis=1), DOUBLE.zero))[:, None]
-        turns = (change[:, :-1].reshape(*self.axes[who].shape[:2], 2, 1) * across(self.axes[who])).sum(axis=2)
-        axes, begins = unit(self.axes[who] + np.cross(turns, self.axes[who])), self._begins[who] + change[:, -1]
-        circuits, tried = self._tried(who, axes, begins)
-        costs = (tried**2).sum(axis=1)
-        good = costs < self.costs[who]
-        better = who[good]
-        gained = 1.0 - costs[good] / self.costs[better]
-        self._ended[better] = gained < _SLOW
-        self._keep(better, circuits.angles[good], tried[good])
-        self.axes[better], self._begins[better] = axes[good], begins[good]
-        self._damping[who] *= np.where(good, 1.0 / _FACTOR, _FACTOR)
-        self._ended[who] |= self._damping[who] > _MOST_DAMPING
-
-    def _keep(self, who: Ints, angles: Floats, offs: Floats) -> None:
-        self._angles_of[who], self._offs[who], self._stale[who] = angles, offs, True
-        self.costs[who] = (offs**2).sum(axis=1)
-
-    @staticmethod
-    def _angles(at: Floats) -> Floats:
-        """Return the angles between all pairs of 24 places, radians up to a whole turn: [n, 276].
-
-        Each quaternion is the one nearer to that of the place before; so angles are smooth beyond half a turn too.
-        """
-        near = (at[:, 1:] * at[:, :-1]).sum(axis=2) >= 0.0
-        signs = np.cumprod(np.where(near, 1.0, -1.0), axis=1)
-        at = np.concatenate([at[:, :1], at[:, 1:] * signs[..., None]], axis=1)
-        one, other = np.triu_indices(_COMPARED, 1)
-        gap = at[:, one] - at[:, other]
-        return np.asarray(4.0 * np.arcsin(np.minimum(np.sqrt(np.einsum("npi,npi->np", gap, gap)) / 2.0, 1.0)))
-
-    def _parts(self, who: Ints, lengths: Floats, begins: Floats) -> Floats:
-        """Return where places of the motion are on circuits, as parts of their lengths: float[n, 24]."""
-        reach = np.ones(len(lengths)) if self._motion.closed else self._motion.length / lengths
-        return begins[:, None] + (self._ways[who] * reach)[:, None] * self._places
-
-    def _misses(self, who: Ints, around: Around, begins: Floats) -> Floats:
-        return np.asarray(self._angles(around.at(self._parts(who, around.lengths, begins))) - self._wanted)
-
-    def _rows(self, who: Ints, circuits: Circuits) -> Floats:
-        """Return the motions of the two links of some members."""
-        turned = circuits.rotations()
-        rows = np.empty((*circuits.angles.shape[:2], 4))
-        for place, (first, second) in enumerate(self._pairs[member] for member in who.tolist()):
-            rows[place] = relative(turned[first][place], turned[second][place])
-        return rows
-
-    def _tried(self, who: Ints, axes: Floats, begins: Floats) -> tuple[Circuits, Floats]:
-        """Return circuits with other axes, and by how much they miss; infinite where they do not close."""
-        circuits = circuits_of(self._chain, axes, frames=_FIT_FRAMES)
-        offs = np.full((len(who), len(self._wanted)), np.inf)
-        good = np.flatnonzero(circuits.closed)
-        if len(good):
-            around = Around(self._rows(who, circuits)[good])
-            offs[good] = self._misses(who[good], around, begins[good])
-        return circuits, offs
-
-    def _begin(self) -> None:
-        """Find where motions begin on the circuits, and which way they go."""
-        who = np.arange(len(self.axes))
-        circuits = circuits_of(self._chain, self.axes, frames=_FIT_FRAMES)
-        rows = self._rows(who, circuits)
-        back = self._angles(self._motion.at(self._motion.length * self._places[::-1])[None])[0]
-        for member in np.flatnonzero(circuits.closed):
-            around, own = Around(rows[[member]]), who[[member]]
-            reach = float((self._parts(own, around.lengths, np.zeros(1)))[0, -1])
-            begins = np.arange(_BEGINNINGS) / _BEGINNINGS
-            at = around.at((begins[:, None] + reach * self._places / self._places[-1]).reshape(1, -1))[0]
-            angles = self._angles(at.reshape(_BEGINNINGS, _COMPARED, -1))
-            costs = [((angles - wanted) ** 2).sum(axis=1) for wanted in (self._wanted, back)]
-            turned = int(costs[1].min() < costs[0].min())
-            begin = float(begins[int(costs[turned].argmin())])
-            self._begins[member], self._ways[member] = ((begin, 1.0), (begin + reach, -1.0))[turned]
-        good = np.flatnonzero(circuits.closed)
-        self._ended[:] = ~circuits.closed
-        self._keep(good, circuits.angles[good], self._misses(good, Around(rows[good]), self._begins[good]))
-
-    def misses_of(self, axes: Floats) -> Floats:
-        """Return by how much angles of all members miss with other axes, float[N, 276], where motions begin as now."""
-        return self._tried(np.arange(len(axes)), axes, self._begins)[1]
-
-    def slopes(self, who: Ints) -> Floats:
-        """Return the derivatives of misses of some members by two turns of each axis and the beginning: [n, 276, C]."""
-        stale = who[self._stale[who]]
-        for first in range(0, len(stale), _TOGETHER):
-            self._renew(stale[first : first + _TOGETHER])
-        return self._slopes[who]
-
-    def _renew(self, who: Ints) -> None:
-        """Find slopes by differences of frames along which loops stay closed."""
-        closed = np.ones(len(who), dtype=bool)
-        circuits = Circuits(self._chain, self.axes[who], self._angles_of[who], closed)
-        rows, rates = circuits.with_rates([self._pairs[member] for member in who.tolist()])
-        turns = np.concatenate([np.zeros((*rates.shape[:3], 1)), 0.5 * _NUDGE * rates], axis=-1)
-        moved = unit(rows[:, :, None] + product(turns, np.broadcast_to(rows[:, :, None], turns.shape)))
-        count = moved.shape[2]
-        around = Around(moved.swapaxes(1, 2).reshape(-1, *rows.shape[1:]))
-        every, begins = np.repeat(who, count), np.repeat(self._begins[who], count)
-        there = self._misses(every, around, begins).reshape(len(who), count, -1)
-        shifted = self._misses(who, Around(rows), self._begins[who] + _NUDGE)
-        there = np.concatenate([there, shifted[:, None]], axis=1)
-        self._slopes[who] = (there - self._offs[who, None]).swapaxes(1, 2) / _NUDGE
-        self._stale[who] = False

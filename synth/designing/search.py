@@ -6,38 +6,87 @@ configurations are closed to the last digit. Theory: docs/theory/design.md.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from hashlib import sha256
 from math import inf, pi
 
 import numpy as np
 
 from graphs.errors import SynthedraError
+from graphs.least_squares import nearest_solution
+from graphs.least_squares.gauss_newton import GaussNewton, find_root
+from graphs.least_squares.levenberg_marquardt import LevenbergMarquardt, System, Trial, least_squares, minimise
+from graphs.least_squares.steps import bounded_step, minimum_norm_step
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
-from synth.designing.least import System, least_squares, least_weight, nearest, shortest_step
 from synth.designing.problem import DesignProblem, DesignStep
 from synth.motion.closure import corrected, exactly_held
 from synth.motion.path import driven_path
 
-_WEIGHTS = (1.0, 30.0, 1e3)
-"""Of closure and rules, one search after the other until configurations can be closed."""
-_STEPS = (40, 30, 30)
-_STIFF = 1e3
-_SMOOTH = (0.1, 0.01)
-"""Weights of turns between configurations, one search after the other, where they are to be near to each other."""
-_DAMPING, _MORE, _LESS, _MOST_DAMPING = 1e-3, 4.0, 8.0, 1e3
-_REFINED, _GAIN = 80, 1e-9
-"""Most steps along closed designs, and the part of the sum of squares that a step must take away to be followed."""
-_ROUGH = 1e-8
-"""Part of the sum of squares that a step must take away, else a search ends."""
-_FIT, _FITTED = 25, 1e-5
-_BETTER = 10.0
-"""How many times worse the nearest configuration may fit than another guess, and still be taken."""
-_BESIDE = 0.03
-"""How far beside a saddle a search begins, in units of dimensions."""
-_LOOSE = 10.0
-"""Radians of a joint angle that count as much as a unit of dimensions where the nearest design is looked for."""
-_ROUNDS = 8
+SEARCH = LevenbergMarquardt(
+    first=9e-4,  # holds back what changes residuals by less than 0.03 per unit, of which little is known at first
+    least=1e-14,  # below it rounding shows along what the equations leave free
+    least_of_cost=1e-4,  # a hundredth of the residual: so far the linear model may be wrong
+    most=1e6,  # steps are then a millionth of the gradient, and none of them gained
+    raised=16.0,  # steps of a quarter: where one is rejected, the next few would be too
+    lowered=(25.0, 6.25, 2.25),  # a step that had to be corrected once or twice was at the end of what is linear
+    poor=0.25,  # Moré's bounds: less than a quarter of what is predicted comes of curvature,
+    good=0.5,  # and of a step with half of it a longer one has more still
+    least_gain=1e-8,  # the search along closed designs, which follows, does the rest
+    longest=1.0,  # radians and units of dimensions: farther away derivatives say nothing
+    shortest=DOUBLE.closed,  # a shorter one closes nothing that is open
+    corrections=2,  # the first takes away what is quadratic along the step, the second what is cubic
+)
+"""Dimensions and angles at once."""
+
+_ANGLES = replace(
+    SEARCH,
+    most_trials=25,  # several guesses are fitted, and one that needs more is not near
+    least_gain=1e-5,  # guesses are compared by factors of ten, and what is chosen is searched again
+)
+"""Angles of one configuration, dimensions as they are."""
+
+_CLOSED = LevenbergMarquardt(
+    first=1e-6,  # the search before ended near a minimum
+    least=SEARCH.least,
+    least_of_cost=SEARCH.least_of_cost,
+    most=SEARCH.most,
+    raised=16.0,
+    lowered=(64.0,),  # closing the loops corrects each step, so longer ones are good
+    most_trials=80,  # each of them closes all configurations, which takes longest
+    least_gain=1e-9,  # of designs that cannot meet their wishes half the digits are then right
+    solved=DOUBLE.closed,
+)
+"""Along closed designs."""
+
+_RULES = GaussNewton(
+    most_steps=8  # errors are squared: from a tenth to rounding in five, and three for a bad start
+)
+"""To where rules hold and loops close."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Search:
+    """Weights, and what else the search for a design decides by."""
+
+    weights: tuple[float, ...]
+    trials: tuple[int, ...]
+    stiff: float
+    smooth: tuple[float, ...]
+    better: float
+    beside: float
+    loose: float
+
+
+_SEARCH = _Search(
+    weights=(1.0, 30.0, 1e3),  # of closure and rules, one search after the other until configurations can be closed
+    trials=(40, 30, 30),  # of each of these searches: later ones begin nearer
+    stiff=1e3,  # weight of closure along closed designs: steps are tangent to these to a millionth
+    smooth=(0.1, 0.01),  # of turns between configurations, one search after the other, where they are to be near
+    better=10.0,  # times that the nearest configuration may fit worse than another guess, and still be taken
+    beside=0.03,  # how far beside a saddle a search begins, in units of dimensions: beyond where it is flat
+    loose=10.0,  # radians of a joint angle that count as a unit of dimensions: these decide which design is nearest
+)
 
 
 @dataclass(frozen=True)
@@ -97,12 +146,12 @@ def found_from(
         return None
     unknowns = start = problem.joined(numbers, fitted_angles(problem, numbers, rng, follow=follow))
     unknowns = _off_saddle(problem, unknowns, rng)
-    for smooth in _SMOOTH if problem.wishes.between else ():
-        unknowns = _least(problem, unknowns, 1.0, _STEPS[0], smooth)
-    for weight, steps in zip(_WEIGHTS, _STEPS, strict=True):
-        unknowns = _least(problem, unknowns, weight, steps)
+    for smooth in _SEARCH.smooth if problem.wishes.between else ():
+        unknowns = _minimised(problem, unknowns, 1.0, _SEARCH.trials[0], smooth)
+    for weight, trials in zip(_SEARCH.weights, _SEARCH.trials, strict=True):
+        unknowns = _minimised(problem, unknowns, weight, trials)
         found = closed(problem, unknowns)
-        if found is not None and found.error > DOUBLE.closed and weight == _WEIGHTS[-1]:
+        if found is not None and found.error > DOUBLE.closed and weight == _SEARCH.weights[-1]:
             found = closed(problem, _ruled(problem, unknowns, loops=True)) or found
         if found is not None and found.error <= DOUBLE.closed:
             return _finished(problem, found, start)
@@ -122,12 +171,12 @@ def _off_saddle(problem: DesignProblem, unknowns: Floats, rng: np.random.Generat
     """
     step = problem.tried(unknowns)
     assert step is not None
-    off, by = step.residual(1.0), step.jacobian(1.0) * problem.scales
-    size = np.linalg.norm(off)
-    if size <= DOUBLE.closed or np.linalg.norm(off @ by) > DOUBLE.same_configuration * size:
+    residual, jacobian = step.residual(1.0), step.jacobian(1.0) * problem.scales
+    size = np.linalg.norm(residual)
+    if size <= DOUBLE.closed or np.linalg.norm(residual @ jacobian) > DOUBLE.same_configuration * size:
         return unknowns
     moved = unknowns.copy()
-    moved[: problem.numbers] += _BESIDE * problem.family.scales * rng.normal(size=problem.numbers)
+    moved[: problem.numbers] += _SEARCH.beside * problem.family.scales * rng.normal(size=problem.numbers)
     moved = np.clip(moved, *problem.bounds)
     return unknowns if problem.tried(moved) is None else np.asarray(moved)
 
@@ -180,30 +229,41 @@ def driven(inputs: Mapping[int, float], driver: int | None) -> float | None:
     return inputs.get(driver) if driver is not None and len(inputs) == 1 else None
 
 
-def _refined(problem: DesignProblem, found: FoundDesign) -> FoundDesign:
-    """Return a design that meets wishes better, closed at each step: Levenberg and Marquardt's method along rules.
+@dataclass(frozen=True)
+class _ClosedIterate:
+    """A closed design as an iterate: each step is closed again, and wishes alone are its cost."""
 
-    Steps are those of least squares in which closure and rules weigh so much that they hold to first order; then
-    configurations are closed again. So the search follows curved families of closed designs, however narrow.
+    problem: DesignProblem
+    found: FoundDesign
+
+    @cached_property
+    def cost(self) -> float:
+        """The sum of squares of weighted misses."""
+        return self.found.cost
+
+    @property
+    def solved(self) -> bool:
+        """Whether all wishes are met but for rounding."""
+        return self.cost <= _CLOSED.solved**2
+
+    def trial(self, damping: float) -> Trial["_ClosedIterate"]:
+        """Return the step in which closure and rules weigh so much that they hold to first order, closed again."""
+        problem, step, scales = self.problem, self.found.step, self.problem.scales
+        bounds = (problem.bounds[0] / scales, problem.bounds[1] / scales)
+        here = problem.joined(self.found.numbers, self.found.angles) / scales
+        residual, jacobian = step.residual(_SEARCH.stiff), step.jacobian(_SEARCH.stiff) * scales
+        tried = closed(problem, scales * bounded_step(here, jacobian, residual, bounds, damping))
+        there = None if tried is None or tried.error > DOUBLE.closed else _ClosedIterate(problem, tried)
+        return Trial(there, damping)
+
+
+def _refined(problem: DesignProblem, found: FoundDesign) -> FoundDesign:
+    """Return a design that meets wishes better, closed at each step: so curved families are followed, however narrow.
+
+    It is `settled` if no further step would make it better.
     """
-    damping, scales = _DAMPING, problem.scales
-    bounds = (problem.bounds[0] / scales, problem.bounds[1] / scales)
-    for _ in range(_REFINED):
-        step, before = found.step, found.cost
-        if before <= DOUBLE.closed**2:
-            return replace(found, settled=True)
-        here = problem.joined(found.numbers, found.angles) / scales
-        moved = scales * shortest_step(here, step.residual(_STIFF), step.jacobian(_STIFF) * scales, bounds, damping)
-        tried = closed(problem, moved)
-        if tried is None or tried.error > DOUBLE.closed or tried.cost >= before:
-            damping *= _MORE
-            if damping > _MOST_DAMPING:
-                return replace(found, settled=True)
-            continue
-        found, damping = tried, max(damping / _LESS, least_weight(tried.cost))
-        if before - tried.cost <= _GAIN * before:
-            return replace(found, settled=True)
-    return found
+    end = minimise(_ClosedIterate(problem, found), _CLOSED)
+    return replace(end.at.found, settled=True) if end.reason.converged else end.at.found
 
 
 def _nearest(problem: DesignProblem, found: FoundDesign, start: Floats) -> FoundDesign:
@@ -211,10 +271,10 @@ def _nearest(problem: DesignProblem, found: FoundDesign, start: Floats) -> Found
     if found.cost > DOUBLE.derivative**2:
         return found
     scales = problem.scales.copy()
-    scales[problem.numbers :] = _LOOSE
+    scales[problem.numbers :] = _SEARCH.loose
     bounds = (problem.bounds[0] / scales, problem.bounds[1] / scales)
     here = problem.joined(found.numbers, found.angles)
-    near = nearest(_system(problem, scales), here / scales, start / scales, bounds)
+    near = nearest_solution(_system(problem, scales), here / scales, start / scales, bounds)
     tried = closed(problem, near.unknowns * scales) if near.settled else None
     if tried is None or tried.error > DOUBLE.closed:
         return replace(found, settled=False)
@@ -232,18 +292,14 @@ def _system(problem: DesignProblem, scales: Floats, weight: float = 1.0, smooth:
     return system
 
 
-def _least(problem: DesignProblem, unknowns: Floats, weight: float, steps: int, smooth: float = 0.0) -> Floats:
+def _minimised(problem: DesignProblem, unknowns: Floats, weight: float, trials: int, smooth: float = 0.0) -> Floats:
     """Return unknowns of least squares: closure and rules with a weight, turns between configurations with another."""
-    scales, bounds = problem.scales, problem.bounds
-    found = least_squares(
-        _system(problem, scales, weight, smooth),
-        unknowns / scales,
-        (bounds[0] / scales, bounds[1] / scales),
-        steps,
-        _ROUGH,
-    )
-    assert found is not None
-    return np.asarray(found.unknowns * scales)
+    scales = problem.scales
+    bounds = (problem.bounds[0] / scales, problem.bounds[1] / scales)
+    rule = replace(SEARCH, most_trials=trials)
+    end = least_squares(_system(problem, scales, weight, smooth), unknowns / scales, rule, bounds)
+    assert end is not None
+    return np.asarray(end.at.unknowns * scales)
 
 
 def fitted_angles(
@@ -268,7 +324,7 @@ def fitted_angles(
         tried = [_fitted(problem, numbers, number, problem.held(number, guess)) for guess in guesses]
         best = min(tried, key=lambda one: one[0])
         first = tried[0]
-        fitted[number] = first[1] if first[0] <= _BETTER * best[0] + DOUBLE.zero else best[1]
+        fitted[number] = first[1] if first[0] <= _SEARCH.better * best[0] + DOUBLE.zero else best[1]
     return [fitted[number] for number in range(count)]
 
 
@@ -312,16 +368,16 @@ def _fitted(problem: DesignProblem, numbers: Floats, number: int, guess: Floats)
         return whole
 
     def system(x: Floats) -> tuple[Floats, Floats]:
-        off, by = alone(angles(x))
-        return off, by[:, free]
+        residual, jacobian = alone(angles(x))
+        return residual, jacobian[:, free]
 
     if not len(free):
-        off, _ = alone(guess)
-        return float(off @ off), guess
+        residual, _ = alone(guess)
+        return float(residual @ residual), guess
     reach = np.full(len(free), inf if problem.family.sheet is None else pi)
-    found = least_squares(system, guess[free], (-reach, reach), _FIT, _FITTED)
-    assert found is not None
-    return found.cost / 2.0, angles(found.unknowns)
+    end = least_squares(system, guess[free], _ANGLES, (-reach, reach))
+    assert end is not None
+    return end.at.cost / 2.0, angles(end.at.unknowns)
 
 
 def closed(problem: DesignProblem, unknowns: Floats) -> FoundDesign | None:
@@ -341,18 +397,36 @@ def closed(problem: DesignProblem, unknowns: Floats) -> FoundDesign | None:
     return None if step is None else FoundDesign(numbers, angles, errors, step)
 
 
-def _ruled(problem: DesignProblem, unknowns: Floats, *, loops: bool = False) -> Floats:
-    """Return the nearest unknowns at which rules hold and loops close: Newton's method, least steps within bounds.
+@dataclass(frozen=True)
+class _RuledIterate:
+    """Unknowns at which rules are to hold; with `loops` these are to close too."""
 
-    It ends where rules hold; with `loops` where these close too, which at a limit of the motion angles alone cannot do.
+    problem: DesignProblem
+    unknowns: Floats
+    step: DesignStep
+    loops: bool
+
+    @property
+    def error(self) -> float:
+        """The largest residual of a rule, with `loops` of a closure equation too."""
+        rules = float(np.abs(self.step.rules).max(initial=0.0))
+        return max(rules, float(np.abs(self.step.closure).max(initial=0.0))) if self.loops else rules
+
+    def onwards(self) -> "_RuledIterate | None":
+        """Return what the shortest step leads to that takes rules and closure equations away, within bounds."""
+        problem, step = self.problem, self.step
+        jacobian = np.vstack([step.by_closure, step.by_rules]) * problem.scales
+        change = minimum_norm_step(jacobian, np.concatenate([step.closure, step.rules]))
+        moved = np.clip(self.unknowns + problem.scales * change, *problem.bounds)
+        there = problem.tried(moved)
+        return None if there is None else _RuledIterate(problem, moved, there, self.loops)
+
+
+def _ruled(problem: DesignProblem, unknowns: Floats, *, loops: bool = False) -> Floats:
+    """Return the nearest unknowns at which rules hold and loops close.
+
+    The search ends where rules hold; with `loops` where these close too, which at a limit of the motion angles alone
+    cannot do.
     """
-    for _ in range(_ROUNDS):
-        step = problem.tried(unknowns)
-        if step is None:
-            break
-        matrix, off = np.vstack([step.by_closure, step.by_rules]), np.concatenate([step.closure, step.rules])
-        if np.abs(off if loops else step.rules).max(initial=0.0) <= DOUBLE.closed / 100:
-            break
-        change = np.linalg.lstsq(matrix * problem.scales, off, rcond=DOUBLE.zero)[0]
-        unknowns = np.clip(unknowns - problem.scales * change, *problem.bounds)
-    return unknowns
+    step = problem.tried(unknowns)
+    return unknowns if step is None else find_root(_RuledIterate(problem, unknowns, step, loops), _RULES).at.unknowns

@@ -35,8 +35,8 @@ def together(*conditions: Condition) -> Condition:
         return conditions[0]
 
     def condition(unknowns: Floats) -> tuple[Floats, Floats]:
-        off, by = zip(*(part(unknowns) for part in conditions), strict=True)
-        return np.concatenate(off), np.concatenate(by)
+        residuals, jacobians = zip(*(part(unknowns) for part in conditions), strict=True)
+        return np.concatenate(residuals), np.concatenate(jacobians)
 
     return condition
 

@@ -14,7 +14,6 @@ from ctypes import c_int, c_void_p
 from dataclasses import astuple, dataclass
 from functools import cached_property, partial
 from pathlib import Path
-from typing import NamedTuple
 from weakref import finalize
 
 import numpy as np
@@ -22,6 +21,10 @@ import numpy.typing as npt
 
 from graphs.compiled import library
 from graphs.geometry import common_direction, unit
+from graphs.least_squares.gauss_newton import GaussNewton, find_root
+from graphs.least_squares.levenberg_marquardt import LevenbergMarquardt, Trial, minimise
+from graphs.least_squares.steps import damped_step, minimum_norm_step
+from graphs.least_squares.stop_reason import StopReason
 from graphs.rank.singular_values import split
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
@@ -152,7 +155,7 @@ def first_unknowns(pattern: Pattern, places: Floats, in_holes: Floats, in_panels
     return np.concatenate([places, np.array(points).reshape(-1, 2), in_panels])
 
 
-def off_centres(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
+def centre_residual(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
     """Return the sine of the angle by which each crease misses its centre, and the derivatives.
 
     A value for each row of `Pattern.aims`, then by how much the direction of each infinite centre is longer than
@@ -175,69 +178,151 @@ def off_centres(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
     derivatives[rows, a] = -by_along - half
     derivatives[rows, centre] += by_to
     derivatives[len(rows) + np.arange(len(directions)), directions] = unknowns[directions]
-    off = (along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0]) / scale
+    sines = (along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0]) / scale
     longer = ((unknowns[directions] ** 2).sum(axis=1) - 1.0) / 2
-    return np.concatenate([off, longer]), derivatives.reshape(len(derivatives), unknowns.size)
+    return np.concatenate([sines, longer]), derivatives.reshape(len(derivatives), unknowns.size)
 
 
-_ROUNDS = 40
-_SHARP = float(np.radians(35.0))
-"""Corners sharper than this, or as near to 180 degrees, cost more than they should."""
-_LENGTH = 1.1
-_BORDER = 0.15
-"""Part of the mean turn at a vertex of the border below which the border is nearly straight there."""
-_OFF = 30.0
-"""Cost of a crease off its centre, per sine of the angle."""
-_SEEN = float(np.radians(6.0))
-"""Sides of bent panels that are seen from the hub under less than this cost more than they should."""
-_TIGHT = 1e-14
-"""Conditions that are off by less are met: no step can do better."""
-_ENOUGH = 1e-3
-"""A step that gains less than this part is the last, where creases are near to their centres."""
-_LEAST = 1e-9
-"""A step that gains less than this part may gain by rounding alone: it is none."""
-_DIGITS = 6
-"""Decimals that each step keeps, edges being about 1 long: where a symmetric drawing leaves its symmetry, steps
-would make more of the rounding errors of the step before than of anything else."""
-_IDLE = 1e-6
-"""Motions of the whole plane of length 1 by which conditions are off by less than this change nothing."""
-_NEAR, _NOTHING = 1e-4, 1e-5
-"""Creases off their centres by less than the first are near; where they are not, a step that gains less than the
-second is the last."""
+SHAPE = Sizes(
+    sharp=float(np.radians(35.0)),  # corners sharper than this, or as near to 180 degrees, are hard to fold
+    length=1.1,  # weight of logarithms of lengths: a little more than of corners, so that no edge is short
+    border=0.15,  # part of the mean turn at a vertex of the border below which the border is nearly straight there
+    seen=float(np.radians(6.0)),  # sides of bent panels seen from the hub under less: they may be narrow, not closed
+)
+"""Of the cost of a shape."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Shaping(LevenbergMarquardt):
+    """How shapes are searched: which gain is the last depends on the creases."""
+
+    missed: float
+    near: float
+    enough: float
+    creeping: float
+    digits: int
+    idle: float
+
+    def least_gain_at(self, there: "_DrawingIterate") -> float:
+        """Return the reduction of the cost that is the last: creases far from their centres may creep to them."""
+        return self.enough if np.abs(there.missed).max(initial=0.0) < self.near else self.creeping
+
+
+_SHAPING = _Shaping(
+    first=1e-2,  # the start is even already
+    least=1e-6,  # motions of the whole plane change nothing, and need some damping
+    most=1e8,  # steps are then below the decimals that are kept
+    raised=6.0,
+    lowered=(10.0,),
+    cautious=2.0,  # where a panel would have turned over, the next step might turn it too
+    required=1e-9,  # a step that gains less may gain by rounding alone
+    most_steps=40,  # bounds the time of large drawings: a shape need not be the best one
+    missed=30.0,  # cost of a crease off its centre, per sine of the angle: more than a better shape gains by it
+    near=1e-4,  # creases off their centres by less are near: the last steps put them there
+    enough=1e-3,  # a step that gains less is the last, where creases are near: no eye sees more
+    creeping=1e-5,  # the same where they are not near yet
+    digits=6,  # decimals kept, edges being about 1 long: symmetric drawings else lose symmetry, as rounding grows
+    idle=1e-6,  # motions of the plane of length 1 by which conditions change by less than this change nothing
+)
+"""Shapes."""
+
+_MEETING = GaussNewton(
+    most_steps=12  # errors are squared, or halved where conditions become dependent
+)
+"""To where creases meet their centres."""
 
 
 @dataclass(frozen=True)
-class _Cost:
-    """Residuals at a drawing, and by how much creases miss their centres, with derivatives."""
+class _Goal:
+    """What a drawing of a pattern is to have: logarithms of lengths, and exact conditions; maybe a convex border.
 
-    residuals: Floats
-    by: Floats
-    off: Floats
-    off_by: Floats
+    The library computes the cost, if there is one.
+    """
 
-    @cached_property
-    def merit(self) -> float:
-        return float(self.residuals @ self.residuals + _OFF * np.abs(self.off).sum())
-
-    @cached_property
-    def steps(self) -> tuple[Floats, Floats, Floats]:
-        """The shortest steps by which creases turn to their centres, and steps by which none turns off its own.
-
-        Both in columns, then the derivatives of the residuals along the second.
-        """
-        parts = split(self.off_by)
-        rank, right = parts.rank, parts.right
-        back = (right[:rank].T / parts.values[:rank]) @ parts.left[:, :rank].T
-        return back, right[rank:].T, self.by @ right[rank:].T
-
-
-class _Aims(NamedTuple):
-    """A convex border, logarithms of the lengths of edges, and the exact conditions; the library, if there is one."""
-
+    pattern: Pattern
     convex: bool
     lengths: Floats
     exactly: Condition
     library: KernelDrawing | None
+
+    def at(self, unknowns: Floats) -> "_DrawingIterate | None":
+        """Return the drawing; None where vertices coincide, a panel is turned over or the border is bent."""
+        if self.library is None:
+            shape = shape_cost(self.pattern, unknowns, self.lengths, convex=self.convex)
+        else:
+            shape = self.library.cost(unknowns, self.lengths, convex=self.convex)
+        if shape is None:
+            return None
+        missed, missed_jacobian = self.exactly(unknowns)
+        if not (np.isfinite(missed).all() and np.isfinite(missed_jacobian).all()):
+            return None
+        return _DrawingIterate(self, unknowns, *shape, missed, missed_jacobian)
+
+
+@dataclass(frozen=True)
+class _DrawingIterate:
+    """A drawing with the residual of its shape, by how much it misses the exact conditions, and both Jacobians."""
+
+    goal: _Goal
+    unknowns: Floats
+    residual: Floats
+    jacobian: Floats
+    missed: Floats
+    missed_jacobian: Floats
+    solved: bool = False
+
+    @cached_property
+    def cost(self) -> float:
+        """The sum of squares, with an exact penalty for creases off their centres."""
+        return float(self.residual @ self.residual + _SHAPING.missed * np.abs(self.missed).sum())
+
+    @cached_property
+    def _parts(self) -> tuple[Floats, Floats, Floats]:
+        """The shortest steps by which creases turn to their centres, and steps by which none turns off its own.
+
+        Both in columns, then the Jacobian of the shape along the second.
+        """
+        parts = split(self.missed_jacobian)
+        rank, right = parts.rank, parts.right
+        back = (right[:rank].T / parts.values[:rank]) @ parts.left[:, :rank].T
+        return back, right[rank:].T, self.jacobian @ right[rank:].T
+
+    def trial(self, damping: float) -> Trial["_DrawingIterate"]:
+        """Return the step to the better shape, and a part of the way to where all conditions are met."""
+        step = self._without_idle(self._stepped(damping) - self.unknowns)
+        return Trial(self.goal.at(np.round(self.unknowns + step, _SHAPING.digits)), damping)
+
+    def _stepped(self, damping: float) -> Floats:
+        unknowns = self.unknowns
+        if not len(self.missed):
+            return unknowns + damped_step(self.jacobian, self.residual, damping).reshape(unknowns.shape)
+        part = 1.0 / (1.0 + damping)
+        back, free, jacobian = self._parts
+        there = -part * (back @ self.missed)
+        within = free @ damped_step(jacobian, self.residual + self.jacobian @ there, damping)
+        trial = unknowns + (there + within).reshape(unknowns.shape)
+        # Second-order correction: creases turn on the way, so that the step misses their centres in second order.
+        # Else the gain in shape would have to outweigh it, and steps would be short.
+        missed = self.goal.exactly(trial)[0] - (1.0 - part) * self.missed
+        return np.asarray(trial - (back @ missed).reshape(unknowns.shape))
+
+    def _without_idle(self, step: Floats) -> Floats:
+        """Return a step without the motions of the whole plane that change nothing.
+
+        Only rounding puts them there, but the damping alone keeps it small, and it would grow from step to step.
+        """
+        unknowns = self.unknowns
+        points = np.ones(len(unknowns))
+        points[self.goal.pattern.directions] = 0.0
+        middle = points[:, None] * (points @ unknowns / points.sum())
+        motions = np.zeros((3, *unknowns.shape))
+        motions[0, :, 0] = motions[1, :, 1] = points
+        motions[2] = (unknowns - middle)[:, ::-1] * (-1.0, 1.0)
+        rows = unit(motions.reshape(3, -1))  # at right angles to each other, since they are about the middle
+        moved = np.abs(self.missed_jacobian @ rows.T).max(axis=0, initial=0.0)
+        idle = rows[moved < _SHAPING.idle]
+        within: Floats = (idle @ step.ravel()) @ idle
+        return step - within.reshape(step.shape)
 
 
 @np.errstate(divide="ignore", invalid="ignore")  # steps on which vertices coincide are not taken
@@ -256,103 +341,57 @@ def improved(
     the result have the mean length 1, or that of the aims, float[E], logarithms of lengths. Conditions are met
     exactly too. The allowance counts steps: where it is used up the shape that was reached is returned.
     """
-    # Gauss-Newton, damped. The cost is a sum of squares that grow without bound where a corner closes or opens; no
-    # step may turn a panel over. Each step goes to where creases meet their centres, as far as derivatives tell,
-    # and within that to the better shape; it is accepted if the cost with its penalty for creases off their
-    # centres falls.
-    exactly = together(partial(off_centres, pattern), *conditions)
-    goal = _Aims(convex, np.zeros(len(pattern.edges)) if aims is None else aims, exactly, _library(pattern, len(start)))
-    unknowns, cost = start, _cost(pattern, start, goal)
-    damping = 1e-2
-    for _ in range(_ROUNDS):
-        if cost is None:
+    # The cost is a sum of squares that grow without bound where a corner closes or opens; no step may turn a panel
+    # over. Each step goes to where creases meet their centres, as far as derivatives tell, and within that to the
+    # better shape; it is accepted if the cost with its penalty for creases off their centres falls.
+    exactly = together(partial(centre_residual, pattern), *conditions)
+    lengths = np.zeros(len(pattern.edges)) if aims is None else aims
+    first = _Goal(pattern, convex, lengths, exactly, _library(pattern, len(start))).at(start)
+    if first is None:
+        return None
+    may_try = (lambda: True) if allowance is None else allowance.take
+    end = minimise(first, _SHAPING, may_try=may_try, least_gain=_SHAPING.least_gain_at)
+    return _met(pattern, end.at.unknowns, exactly)
+
+
+@dataclass(frozen=True)
+class _MeetingIterate:
+    """A drawing in which conditions are to be met exactly."""
+
+    exactly: Condition
+    unknowns: Floats
+
+    @cached_property
+    def _residual(self) -> tuple[Floats, Floats]:
+        return self.exactly(self.unknowns)
+
+    @property
+    def error(self) -> float:
+        """By how much a condition is missed at most."""
+        return float(np.abs(self._residual[0]).max(initial=0.0))
+
+    def onwards(self) -> "_MeetingIterate | None":
+        """Return the drawing moved as little as may be to where conditions are met; None where vertices coincide."""
+        residual, jacobian = self._residual
+        if not np.isfinite(jacobian).all():
             return None
-        better, lower = None, 10.0
-        while better is None and damping < 1e8 and (allowance is None or allowance.take()):
-            step = _stepped(unknowns, cost, damping, exactly) - unknowns
-            trial = np.round(unknowns + _held(pattern, unknowns, cost, step), _DIGITS)
-            trial_cost = _cost(pattern, trial, goal)
-            if trial_cost is not None and trial_cost.merit < (1.0 - _LEAST) * cost.merit:
-                better = trial_cost
-            else:
-                damping, lower = damping * 6.0, 2.0
-        if better is None:
-            break
-        gained = (cost.merit - better.merit) / cost.merit
-        unknowns, cost, damping = trial, better, max(damping / lower, 1e-6)
-        if gained < (_ENOUGH if np.abs(cost.off).max(initial=0.0) < _NEAR else _NOTHING):
-            break
-    return _closed(pattern, unknowns, exactly)
+        step = minimum_norm_step(jacobian, residual)
+        return _MeetingIterate(self.exactly, self.unknowns + step.reshape(self.unknowns.shape))
 
 
-def _closed(pattern: Pattern, unknowns: Floats, exactly: Condition) -> Floats | None:
+def _met(pattern: Pattern, unknowns: Floats, exactly: Condition) -> Floats | None:
     """Return the drawing with all creases on their centres and all conditions met, moved as little as possible."""
-    for _ in range(12):
-        off, by = exactly(unknowns)
-        if np.abs(off).max(initial=0.0) <= _TIGHT:
-            break
-        if not np.isfinite(by).all():  # vertices coincide
-            return None
-        unknowns = unknowns - (np.linalg.pinv(by, rcond=DOUBLE.zero) @ off).reshape(unknowns.shape)
-    angles, _ = measures.opened_angles(pattern, unknowns[: pattern.vertices])
-    off, _ = exactly(unknowns)
-    if np.abs(off).max(initial=0.0) > DOUBLE.closed or not measures.is_drawn(pattern, angles):
+    end = find_root(_MeetingIterate(exactly, unknowns), _MEETING)
+    if end.reason is StopReason.UNDEFINED or end.at.error > DOUBLE.closed:
         return None
-    return unknowns
-
-
-def _stepped(unknowns: Floats, cost: _Cost, damping: float, exactly: Condition) -> Floats:
-    """Return where a step leads that goes to the least cost, and a part of the way to where nothing is off."""
-    if not len(cost.off):
-        step = -measures.damped_least_squares(cost.by, cost.residuals, damping**0.5)
-        return unknowns + step.reshape(unknowns.shape)
-    part = 1.0 / (1.0 + damping)
-    back, free, by_free = cost.steps
-    there = -part * (back @ cost.off)
-    within = free @ measures.damped_least_squares(by_free, cost.residuals + cost.by @ there, damping**0.5)
-    trial = unknowns + (there - within).reshape(unknowns.shape)
-    # Creases turn on the way, so that the step misses their centres in second order. That is taken back; else the
-    # gain in shape would have to outweigh it, and steps would be short.
-    missed = exactly(trial)[0] - (1.0 - part) * cost.off
-    trial -= (back @ missed).reshape(unknowns.shape)
-    return trial
-
-
-def _held(pattern: Pattern, unknowns: Floats, cost: _Cost, step: Floats) -> Floats:
-    """Return a step without the motions of the whole plane that change nothing.
-
-    Only rounding puts them there, but the damping alone keeps it small, and it would grow from round to round.
-    """
-    points = np.ones(len(unknowns))
-    points[pattern.directions] = 0.0
-    middle = points[:, None] * (points @ unknowns / points.sum())
-    motions = np.zeros((3, *unknowns.shape))
-    motions[0, :, 0] = motions[1, :, 1] = points
-    motions[2] = (unknowns - middle)[:, ::-1] * (-1.0, 1.0)
-    rows = unit(motions.reshape(3, -1))  # at right angles to each other, since they are about the middle
-    idle = rows[np.abs(cost.off_by @ rows.T).max(axis=0, initial=0.0) < _IDLE]
-    within: Floats = (idle @ step.ravel()) @ idle
-    return step - within.reshape(step.shape)
-
-
-def _cost(pattern: Pattern, unknowns: Floats, goal: _Aims) -> _Cost | None:
-    """Return the cost of a drawing; None where vertices coincide, a panel is turned over or the border is bent."""
-    if goal.library is None:
-        shape = shape_cost(pattern, unknowns, goal.lengths, convex=goal.convex)
-    else:
-        shape = goal.library.cost(unknowns, goal.lengths, convex=goal.convex)
-    if shape is None:
-        return None
-    off, off_by = goal.exactly(unknowns)
-    if not (np.isfinite(off).all() and np.isfinite(off_by).all()):
-        return None
-    return _Cost(*shape, off, off_by)
+    angles, _ = measures.opened_angles(pattern, end.at.unknowns[: pattern.vertices])
+    return end.at.unknowns if measures.is_drawn(pattern, angles) else None
 
 
 def _library(pattern: Pattern, points: int) -> KernelDrawing | None:
     """Return what the library does for drawings of so many points; None where there is no library."""
     found = kernel()
-    return None if found is None else KernelDrawing(found, pattern, points, Sizes(_SHARP, _LENGTH, _BORDER, _SEEN))
+    return None if found is None else KernelDrawing(found, pattern, points, SHAPE)
 
 
 def shape_cost(pattern: Pattern, unknowns: Floats, aims: Floats, *, convex: bool) -> tuple[Floats, Floats] | None:
@@ -364,22 +403,22 @@ def shape_cost(pattern: Pattern, unknowns: Floats, aims: Floats, *, convex: bool
     points = np.concatenate([places, unknowns[len(unknowns) - len(pattern.hubs) :]])
     if len(set(map(tuple, points.tolist()))) < len(points):
         return None
-    angles, by = measures.opened_angles(pattern, places)
+    angles, jacobian = measures.opened_angles(pattern, places)
     if not measures.is_drawn(pattern, angles):
         return None
     lengths, by_lengths = measures.edge_lengths(places, pattern.edges)
     lengths = lengths - aims
     rows = [
-        *_near(angles, by, _SHARP, 1.0),
-        *_near(pattern.widest - angles, by, _SHARP, -1.0),
-        _LENGTH * (lengths + lengths**3),
-        _LENGTH * (1 + 3 * lengths[:, None] ** 2) * by_lengths,
+        *_near(angles, jacobian, SHAPE.sharp, 1.0),
+        *_near(pattern.widest - angles, jacobian, SHAPE.sharp, -1.0),
+        SHAPE.length * (lengths + lengths**3),
+        SHAPE.length * (1 + 3 * lengths[:, None] ** 2) * by_lengths,
     ]
     for place, sums in enumerate(pattern.sums_at_rings):  # the border first
         left = (np.pi if convex and not place else 2 * np.pi) - sums @ angles
         if left.min() <= 0.0:
             return None
-        rows += _near(left, sums @ by, _BORDER * 2 * np.pi / len(left), -1.0)
+        rows += _near(left, sums @ jacobian, SHAPE.border * 2 * np.pi / len(left), -1.0)
     if pattern.hubs:
         seen, by_seen = _seen(pattern, unknowns)
         if seen.min() <= 0.0 or measures.crossings(pattern, places):
@@ -395,15 +434,15 @@ def shape_cost(pattern: Pattern, unknowns: Floats, aims: Floats, *, convex: bool
 
 def _seen(pattern: Pattern, unknowns: Floats) -> tuple[Floats, Floats]:
     """Return the cost of sides of bent panels that are hardly seen from their hub; negative if one is not seen."""
-    angles, by = measures.corner_angles(unknowns, pattern.seen_from_hubs)
-    costs, by_costs = _near(angles, by, _SEEN, 1.0)
+    angles, jacobian = measures.corner_angles(unknowns, pattern.seen_from_hubs)
+    costs, by_costs = _near(angles, jacobian, SHAPE.seen, 1.0)
     return np.where(angles > 0.0, costs, -1.0), by_costs
 
 
-def _near(angles: Floats, by: Floats, size: float, sign: float) -> tuple[Floats, Floats]:
+def _near(angles: Floats, jacobian: Floats, size: float, sign: float) -> tuple[Floats, Floats]:
     """Return residuals that grow as angles come near to 0, and derivatives; ``sign`` is that of their own."""
     residuals = (size / angles) ** 2
-    return residuals, (-2.0 * sign * residuals / angles)[:, None] * by
+    return residuals, (-2.0 * sign * residuals / angles)[:, None] * jacobian
 
 
 _VARIED = 0.35

@@ -66,25 +66,22 @@ def opened_angles(pattern: Pattern, places: Floats) -> tuple[Floats, Floats]:
 
     Radians, negative where a corner is turned over; derivatives are float[K, 2 V].
     """
-    angles, by = corner_angles(places, pattern.corners)
-    return np.where((angles < 0.0) & (pattern.widest > np.pi), angles + 2 * np.pi, angles), by
+    angles, jacobian = corner_angles(places, pattern.corners)
+    return np.where((angles < 0.0) & (pattern.widest > np.pi), angles + 2 * np.pi, angles), jacobian
 
 
-def damped_least_squares(by: Floats, residuals: Floats, weight: float) -> Floats:
-    """Return the solution x of least squares of by x - residuals and weight x.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Worst:
+    """Of panels that can just be cut and folded by hand."""
 
-    It is found by a QR decomposition, of the residuals beside the matrix: where corners are sharp derivatives are
-    large, and squares of them would square the rounding errors too.
-    """
-    rows, columns = by.shape
-    beside = np.zeros((rows + columns, columns + 1))
-    beside[:rows, :columns], beside[:rows, columns] = by, residuals
-    beside[rows + np.arange(columns), np.arange(columns)] = weight
-    r: Floats = np.asarray(np.linalg.qr(beside, mode="r"))
-    return np.asarray(np.linalg.solve(r[:columns, :columns], r[:columns, columns]), dtype=np.float64)
+    angle: float
+    edge_ratio: float
 
 
-_SHARP, _RATIO = float(np.radians(15.0)), 0.15
+_WORST = _Worst(
+    angle=float(np.radians(15.0)),  # sharper corners tear, and are hard to draw legibly
+    edge_ratio=0.15,  # shorter edges are creases that can hardly be folded beside the longest one
+)
 
 
 def first_order_freedoms(freedoms: int | None) -> str:
@@ -113,7 +110,7 @@ class ShapeFigures:
     @property
     def quality(self) -> float:
         """The worse of sharpest corner and edge ratio; 1 at 15 degrees, and at 0.15."""
-        return min(self.least_angle / _SHARP, self.edge_ratio / _RATIO)
+        return min(self.least_angle / _WORST.angle, self.edge_ratio / _WORST.edge_ratio)
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -14,20 +15,20 @@ from typing import Any
 import numpy as np
 import scipy.sparse
 import shapely
-from scipy.sparse.linalg import spsolve
 
 from graphs.errors import InvariantError, UnsolvableError, numbered
 from graphs.files.accepted import MechanismLike, mechanism_for
 from graphs.files.formats import write
 from graphs.files.outputs import check_writable, write_as
 from graphs.geometry import unit
+from graphs.least_squares.gauss_newton import GaussNewton, find_root
 from graphs.mechanism.precision import in_space, keeping
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import Axis, HingedSolids, LinkShape
 from graphs.printing import Block, Printed, TableBlock
 from graphs.rank.singular_values import rank_of
-from graphs.tolerances import DOUBLE, EPSILON
+from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.folding.alike import folded_towards
 from synth.folding.configuration import SheetConfiguration
@@ -38,6 +39,7 @@ from synth.motion.driving import MotionOptions
 from synth.motion.motion import motion_of
 from synth.motion.singular.nearest import begun_near
 from synth.motion.singular.sampling import rates_towards
+from synth.motion.tangent import TangentSpace
 from synth.moving.made import configuration_of
 from synth.templates.solids import SOLIDS, Solids
 from synth.templates.template import GREATEST, Template
@@ -70,8 +72,11 @@ TECHNIQUES = ("spatial", "tapered", "offset", "hinge")
 """Ways to give panels a thickness."""
 _GREATEST_ANGLES = {"spatial": 179.0, "tapered": 150.0, "offset": 179.0, "hinge": 150.0}
 """Default greatest fold angles, degrees."""
-_NEWTON = 8
-"""Steps of Newton's method to angles that are alike."""
+_MEETING = GaussNewton(
+    most_steps=8,  # angles are off by rounding errors, and these are squared: two or three steps are enough
+    solved=DOUBLE.closed,
+)
+"""To where angles that are meant to be alike are so."""
 _FRAMES = 40
 """Frames of a motion that is not that of the thin sheet: hinges may turn by a whole turn."""
 _STEPS = (1.5, 0.5)
@@ -473,22 +478,40 @@ def _exact(at: SheetConfiguration) -> SheetConfiguration:
     """
     places = VertexPlaces(at.sheet, at.mechanism, at.linkage)
     meant = MeantAngles(places, max(at.precision.size, DOUBLE.same_point))
-    by = np.zeros(places.unknowns)
-    for _ in range(_NEWTON):
-        corners = places.moved(by)
-        bent, bending = places.off_lines(corners)
-        off = np.concatenate([meant.off(corners), bent])
-        if np.abs(off).max(initial=0.0) <= DOUBLE.closed:
-            break
-        jacobian = scipy.sparse.vstack([meant.by_axes() @ places.motions_of_axes(corners), bending], format="csr")
-        normal = (jacobian @ jacobian.T).tocsc()
-        dependent = EPSILON * normal.diagonal().max()  # conditions that follow from others are met with them
-        by -= jacobian.T @ spsolve(normal + dependent * scipy.sparse.eye_array(len(off), format="csc"), off)
-    if not by.any():
+    shifts = find_root(_MeantIterate(places, meant, np.zeros(places.unknowns)), _MEETING).at.shifts
+    if not shifts.any():
         return at
-    written = places.moved(by) * at.linkage.extent + at.linkage.middle
+    written = places.moved(shifts) * at.linkage.extent + at.linkage.middle
     sheet = replace(at.sheet, coordinates=tuple(map(tuple, written.tolist())))
     return _flat_configuration(keeping(sheet, at.precision))
+
+
+@dataclass(frozen=True)
+class _MeantIterate:
+    """Shifts of vertices, float[unknowns], with which angles are to be as they are meant, and creases straight."""
+
+    places: VertexPlaces
+    meant: MeantAngles
+    shifts: Floats
+
+    @cached_property
+    def _corners(self) -> Floats:
+        return self.places.moved(self.shifts)
+
+    @cached_property
+    def _residual(self) -> Floats:
+        return np.concatenate([self.meant.residual(self._corners), self.places.line_residual(self._corners)[0]])
+
+    @property
+    def error(self) -> float:
+        """The largest difference of an angle, or distance from a line."""
+        return float(np.abs(self._residual).max(initial=0.0))
+
+    def onwards(self) -> _MeantIterate:
+        """Return the vertices moved as little as may be; conditions that follow from others are met with them."""
+        by_axes = self.meant.by_axes() @ self.places.motions_of_axes(self._corners)
+        jacobian = scipy.sparse.vstack([by_axes, self.places.line_residual(self._corners)[1]], format="csr")
+        return replace(self, shifts=self.shifts + TangentSpace(jacobian).step(self._residual))
 
 
 def _spatial_heights(at: SheetConfiguration, greatest: float) -> tuple[HingeHeights, FoldCourse | None]:

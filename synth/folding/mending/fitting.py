@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import pi, radians
 from typing import NamedTuple
 
@@ -19,6 +20,8 @@ import scipy
 
 from graphs.convert.duality import SheetMechanism
 from graphs.geometry import crossing, principal_axes, unit
+from graphs.least_squares.gauss_newton import GaussNewton, find_root
+from graphs.least_squares.stop_reason import StopReason
 from graphs.loops.loop import Centre
 from graphs.mechanism.precision import in_space
 from graphs.mechanism.sheet import Sheet
@@ -61,16 +64,16 @@ class VertexPlaces:
     @property
     def bent(self) -> float:
         """How far vertices on creases of several pieces are off their lines, at most."""
-        return float(np.abs(self.off_lines(self.given)[0]).max(initial=0.0))
+        return float(np.abs(self.line_residual(self.given)[0]).max(initial=0.0))
 
     @property
     def lengths(self) -> Floats:
         """The lengths of the creases: float[J]."""
         return np.asarray(np.linalg.norm(self.given[self.ends[:, 1]] - self.given[self.ends[:, 0]], axis=1))
 
-    def moved(self, by: Floats) -> Floats:
+    def moved(self, shifts: Floats) -> Floats:
         """Return the vertices, moved by unknowns float[unknowns]: float[V, 3]."""
-        return np.asarray(self.given + by.reshape(len(self.given), -1) @ self.along)
+        return np.asarray(self.given + shifts.reshape(len(self.given), -1) @ self.along)
 
     def linkage(self, corners: Floats) -> PosedLinkage:
         """Return the linkage with vertices at float[V, 3]; loops with parallel axes close with six equations."""
@@ -83,27 +86,27 @@ class VertexPlaces:
         """Return how each axis turns and shifts with the unknowns: sparse float[6 J, unknowns]."""
         return (axis_motions(self.ends, corners) @ self._into_space).tocsr()
 
-    def off_lines(self, corners: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
-        """Return how far vertices on creases of several pieces are off their lines, with the derivatives."""
+    def line_residual(self, corners: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
+        """Return how far vertices on creases of several pieces are off their lines, with the Jacobian."""
         vertices, near, far = corners[self._on_lines.T]
         along = far - near
         sizes = np.linalg.norm(along, axis=1, keepdims=True)
         direction = along / np.where(sizes == 0.0, 1.0, sizes)
-        off = np.cross(vertices - near, direction)
+        residual = np.cross(vertices - near, direction)
         part = ((vertices - near) * direction).sum(axis=1, keepdims=True) / np.where(sizes == 0.0, 1.0, sizes)
         across = -crossing(direction) @ self.along.T
         count, free = len(vertices), len(self.along)
         rows = np.broadcast_to((3 * np.arange(count)[:, None] + np.arange(3))[..., None], across.shape).ravel()
-        matrix = scipy.sparse.csr_matrix((3 * count, self.unknowns))
+        jacobian = scipy.sparse.csr_matrix((3 * count, self.unknowns))
         for share, which in zip((np.ones_like(part), part - 1.0, -part), self._on_lines.T, strict=True):
             columns = np.broadcast_to((free * which[:, None] + np.arange(free))[:, None], across.shape).ravel()
             values = (share[..., None] * across).ravel()
-            matrix = matrix + scipy.sparse.csr_matrix((values, (rows, columns)), shape=matrix.shape)
-        return off.ravel(), matrix.tocsr()
+            jacobian = jacobian + scipy.sparse.csr_matrix((values, (rows, columns)), shape=jacobian.shape)
+        return residual.ravel(), jacobian.tocsr()
 
-    def off_planes(self, corners: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
-        """Return how far vertices are off the planes of their panels, with the derivatives by the unknowns."""
-        off: list[Floats] = [np.zeros(0)]
+    def plane_residual(self, corners: Floats) -> tuple[Floats, scipy.sparse.csr_matrix]:
+        """Return how far vertices are off the planes of their panels, with the Jacobian by the unknowns."""
+        residuals: list[Floats] = [np.zeros(0)]
         blocks: list[scipy.sparse.csr_matrix] = [scipy.sparse.csr_matrix((0, self.unknowns))]
         for panel in self._panels:
             around = np.array(panel)
@@ -114,14 +117,14 @@ class VertexPlaces:
             linear = np.column_stack([np.ones(len(around)), middle @ np.transpose(inside)])
             basis = row_space(linear.T)
             across = np.eye(len(around)) - basis @ basis.T
-            off.append(across @ here)
+            residuals.append(across @ here)
             values = np.einsum("ij,c->ijc", across, normal).reshape(len(around), -1)
             rows, columns = np.arange(len(around))[:, None], (3 * around[:, None] + np.arange(3)).ravel()
             where = (np.broadcast_to(rows, values.shape).ravel(), np.tile(columns, len(around)))
             blocks.append(scipy.sparse.csr_matrix((values.ravel(), where), shape=(len(around), self.unknowns)))
-        matrix = scipy.sparse.vstack(blocks, format="csr")
-        matrix.eliminate_zeros()
-        return np.concatenate(off), matrix
+        jacobian = scipy.sparse.vstack(blocks, format="csr")
+        jacobian.eliminate_zeros()
+        return np.concatenate(residuals), jacobian
 
 
 def _between(mechanism: SheetMechanism, linkage: PosedLinkage) -> Iterator[tuple[int, int, int]]:
@@ -133,7 +136,8 @@ def _between(mechanism: SheetMechanism, linkage: PosedLinkage) -> Iterator[tuple
 
 
 _ROUNDING = 3.0
-"""Angles differ by this times what a coordinate's precision makes of them, at most, if they are meant to agree."""
+"""Angles differ by this times what a coordinate's precision makes of them, at most, if they are meant to agree: both
+ends of a crease are rounded, in two directions, and sums of such errors reach three times one of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,13 +203,13 @@ class MeantAngles:
             sectors.append(_Sector((joints[i], joints[j]), angle, error))
         return sectors
 
-    def off(self, corners: Floats) -> Floats:
+    def residual(self, corners: Floats) -> Floats:
         """Return by how much the equations do not hold with vertices at float[V, 3], radians."""
         ends = corners[self._places.ends]
         along = (ends[:, 1] - ends[:, 0]) @ self._places.along.T
         headings = np.arctan2(along[:, 1], along[:, 0])
-        off = [float(np.dot(headings[list(total.joints)], total.signs)) - total.value for total in self._sums]
-        return np.asarray((np.array(off) + pi / 2) % pi - pi / 2)
+        sums = [float(np.dot(headings[list(total.joints)], total.signs)) - total.value for total in self._sums]
+        return np.asarray((np.array(sums) + pi / 2) % pi - pi / 2)
 
     def by_axes(self) -> scipy.sparse.csr_matrix:
         """Return the derivatives by small motions of the axes: sparse float[rows, 6 J]."""
@@ -248,81 +252,111 @@ def _alike(sectors: Sequence[_Sector]) -> list[_Sum]:
     return sums
 
 
-def _least_step(off: Floats, by_vertices: Floats, poses: Sequence[_Pose], least: float) -> list[Floats]:
+def _shortest_step(residual: Floats, by_vertices: Floats, poses: Sequence[_Pose], least: float) -> list[Floats]:
     """Return the least change of the vertices, float[u], and of the angles of each pose, to leave no residual.
 
     The derivatives by the angles of a configuration are taken apart, T = U S V'. Then its equations say of each
-    angle along V alone how far it has to turn for a change u of the vertices, (r + B u) / s along U, where r does
-    not hold and B are the derivatives by the vertices: a least-squares problem in u alone, in which an equation
-    that no angle takes away (s = 0) weighs most. Equations between vertices alone do not hold by `off`, float[n],
+    angle along V alone how far it has to turn for a change u of the vertices, (r + B u) / s along U, where r is its
+    residual and B are the derivatives by the vertices: a least-squares problem in u alone, in which an equation
+    that no angle takes away (s = 0) weighs most. Equations between vertices alone have the residual float[n] and
     derivatives float[n, u]. Singular values below `least` count as that.
     """
     unknowns = by_vertices.shape[1]
-    rows, right_sides = [by_vertices / least, np.eye(unknowns)], [-off / least, np.zeros(unknowns)]
-    apart = []
+    rows, right_sides = [by_vertices / least, np.eye(unknowns)], [-residual / least, np.zeros(unknowns)]
+    eliminated = []
     for pose in poses:
         parts = split(pose.by_angles.toarray())
         sizes = np.full(len(pose.residual), least)
         count = len(parts.values)
         sizes[:count] = np.maximum(parts.values, least)
-        own, by = parts.left.T @ (pose.residual / pose.size), parts.left.T @ pose.by_vertices.toarray()
-        rows.append(by / sizes[:, None])
+        own, jacobian = parts.left.T @ (pose.residual / pose.size), parts.left.T @ pose.by_vertices.toarray()
+        rows.append(jacobian / sizes[:, None])
         right_sides.append(-own / sizes)
         shares = parts.values / sizes[:count] ** 2  # of values below the least only a part: no angle turns far
-        apart.append((parts.right[:count], shares, own[:count], by[:count]))
+        eliminated.append((parts.right[:count], shares, own[:count], jacobian[:count]))
     change = np.linalg.lstsq(np.concatenate(rows), np.concatenate(right_sides), rcond=EPSILON)[0]
-    return [change, *(-right.T @ (shares * (own + by @ change)) for right, shares, own, by in apart)]
+    turns = (-right.T @ (shares * (own + jacobian @ change)) for right, shares, own, jacobian in eliminated)
+    return [change, *turns]
 
 
-_TURNS = tuple(radians(turn) for turn in (12.0, 30.0, 55.0, 90.0))
-"""Turns of the joint that moves most, at the configurations that have to close along the first motion."""
-_BESIDE = tuple(radians(turn) for turn in (15.0, 50.0))
-"""The same along further motions of a branch with several freedoms."""
-_FOLLOWED = tuple(radians(turn) for turn in (5.0, 20.0, 40.0, 70.0, 100.0))
-"""Turns at which motions are examined when all configurations close."""
-_ADDED = 6
-"""At most so many configurations are added where a motion stays open."""
-_BEYOND = 30.0
-"""A residual of more than this times the displacement of vertices is out of reach, where panels meet."""
 FARTHEST_PATTERN = 0.01
 """Vertices are displaced by this part of the extent at most: what is nearest farther off is another pattern."""
-_STEP = radians(3.0)
-_ENOUGH = 2
-"""Configurations without which nothing is said; further ones may be out of reach, where panels meet."""
-_TIGHT = 1e-14
-_ROUNDS, _SLOW, _IDLE = 40, 0.7, 3
-_DEAR = 0.1
-"""Vertices are moved rather than angles changed, by the inverse of this."""
-_STILL = 0.02
-"""Loops whose joints turn by less, radians, count as if they turned by this."""
-_HELD = 1e-3
-"""A driven joint keeps its turn to this: it is as dear as many others."""
-_LEAST_VALUE = 1e-9
-_LEAST, _MOST, _SHARE = 1e-14, 1e-6, 0.1
-"""Regularisation: a share of the error, between bounds. Equations may become dependent as they come to hold."""
-_DENSE = 400
-"""Matrices with up to so many equations of a configuration, or between vertices, are full."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Motions:
+    """At which configurations along a motion loops have to close."""
+
+    turns: tuple[float, ...]
+    beside: tuple[float, ...]
+    followed: tuple[float, ...]
+    added: int
+    beyond: float
+    step: float
+    enough: int
+
+
+_MOTIONS = _Motions(
+    turns=tuple(map(radians, (12.0, 30.0, 55.0, 90.0))),  # of the joint that moves most: the first is where rates lead
+    beside=tuple(map(radians, (15.0, 50.0))),  # along further motions of a branch with several freedoms: fewer suffice
+    followed=tuple(map(radians, (5.0, 20.0, 40.0, 70.0, 100.0))),  # where motions are examined: between these turns
+    added=6,  # most configurations added where a motion stays open: bounds the work on what has no such motion
+    beyond=30.0,  # a residual of more times the displacement of vertices is out of reach, where panels meet
+    step=radians(3.0),  # of the driven joint on the way to a configuration: Newton's method stays on its branch
+    enough=2,  # configurations without which nothing is said; further ones may be out of reach, where panels meet
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Closing(GaussNewton):
+    """How vertices and angles are changed until all loops close."""
+
+    dear: float
+    still: float
+    held: float
+    least_value: float
+    least: float
+    most: float
+    share: float
+    dense: int
+
+
+_CLOSING = _Closing(
+    most_steps=39,  # equations that become dependent as they hold halve their residual with each step
+    solved=1e-14,
+    slow=0.7,  # halving is fast enough
+    patience=3,  # one or two steps may be slow where the active equations change
+    dear=0.1,  # vertices are moved rather than angles changed, by the inverse: these are only to follow
+    still=0.02,  # radians: loops whose joints turn by less count so, else the flat state would divide by zero
+    held=1e-3,  # a driven joint keeps its turn to this part: configurations are to stay apart
+    least_value=1e-9,  # singular values count as this at least, or a share of the residual
+    least=1e-14,  # the same of large sheets, in normal equations: as a part of the largest square
+    most=1e-6,  # above it steps would be too short where the residual is large
+    share=0.1,  # of the residual: equations may become dependent as they come to hold
+    dense=400,  # equations of a configuration, or between vertices, whose matrices are taken apart as full ones
+)
+"""To where all configurations close."""
 
 
 @dataclass(frozen=True)
 class _State:
     """Changes of the vertices, configurations float[K, J], and how readily their angles change, float[K, J]."""
 
-    by: Floats
+    shifts: Floats
     poses: Floats
     weights: Floats
 
     def with_pose(self, angles: Floats, motion: _Motion) -> _State:
         """Return the state with one more configuration of a motion."""
         weights = np.ones_like(angles)
-        weights[motion.driver], weights[list(motion.still)] = _HELD, 0.0
-        return _State(self.by, np.vstack([self.poses, angles]), np.vstack([self.weights, weights]))
+        weights[motion.driver], weights[list(motion.still)] = _CLOSING.held, 0.0
+        return _State(self.shifts, np.vstack([self.poses, angles]), np.vstack([self.weights, weights]))
 
     def onwards(self, step: Floats) -> _State:
         """Return the state after a step in the unknowns of the least-squares problem."""
-        n = len(self.by)
+        n = len(self.shifts)
         turned = step[n:].reshape(self.poses.shape) * self.weights
-        return _State(self.by + _DEAR * step[:n], self.poses + turned, self.weights)
+        return _State(self.shifts + _CLOSING.dear * step[:n], self.poses + turned, self.weights)
 
 
 class _Motion(NamedTuple):
@@ -354,7 +388,7 @@ class Fitting:
     @property
     def corners(self) -> Floats:
         """The vertices as they are now: float[V, 3]."""
-        return self._places.moved(self._state.by)
+        return self._places.moved(self._state.shifts)
 
     @property
     def moved(self) -> float:
@@ -380,8 +414,8 @@ class Fitting:
         begun = [_Motion(rates, leading(rates), tuple(np.flatnonzero(rates == 0.0).tolist())) for rates in motions]
         for number, motion in enumerate(begun):
             if state is not None:
-                state = self._with_motion(state, motion, most, _BESIDE if number else _TURNS)
-        for _ in range(_ADDED):
+                state = self._with_motion(state, motion, most, _MOTIONS.beside if number else _MOTIONS.turns)
+        for _ in range(_MOTIONS.added):
             if state is None:
                 return None
             worst = self._most_open(state, begun)
@@ -392,7 +426,7 @@ class Fitting:
         return None
 
     def _displacement(self, state: _State) -> float:
-        shifts = self._places.moved(state.by) - self._places.given
+        shifts = self._places.moved(state.shifts) - self._places.given
         return float(np.linalg.norm(shifts, axis=1).max(initial=0.0))
 
     def _with_motion(self, state: _State, motion: _Motion, most: float, turns: Sequence[float]) -> _State | None:
@@ -403,7 +437,7 @@ class Fitting:
             there = _near(closure, here, direction, motion.driver, motion.at(self._start, turn))
             tried = self._refitted(state.with_pose(there, motion), most)
             if tried is None:
-                return None if number < min(_ENOUGH, len(turns) - 1) else state
+                return None if number < min(_MOTIONS.enough, len(turns) - 1) else state
             state = tried
             direction, here = state.poses[-1] - here, state.poses[-1]
         return state
@@ -414,7 +448,7 @@ class Fitting:
         return None if closed is None or self._displacement(closed) > most else closed
 
     def _closure(self, state: _State) -> ClosureEquations:
-        return ClosureEquations(self._places.linkage(self._places.moved(state.by)))
+        return ClosureEquations(self._places.linkage(self._places.moved(state.shifts)))
 
     def _most_open(self, state: _State, motions: Sequence[_Motion]) -> tuple[Floats, _Motion] | None:
         """Return the configuration along the motions that stays open most, with its motion."""
@@ -422,10 +456,10 @@ class Fitting:
         most_open = None
         for motion in motions:
             locked, here, direction = closure.locked(motion.still), self._start, motion.rates
-            for turn in _FOLLOWED:
+            for turn in _MOTIONS.followed:
                 there = _near(locked, here, direction, motion.driver, motion.at(self._start, turn))
                 error = closure.error(there)
-                if error > _BEYOND * max(self._displacement(state), DOUBLE.closed):
+                if error > _MOTIONS.beyond * max(self._displacement(state), DOUBLE.closed):
                     break
                 if error > worst:
                     most_open, worst = (there, motion), error
@@ -433,35 +467,31 @@ class Fitting:
         return most_open
 
     def _closed(self, state: _State) -> _State | None:
-        """Return what closes near a state, by Newton's method."""
-        best, least, idle = state, np.inf, 0
-        for _ in range(_ROUNDS):
-            if not self._allowance.take(len(state.by) + state.poses.size):
-                self.error = np.inf
-                return None
-            equations = self._equations(state)
-            error = equations.error
-            idle = idle + 1 if error > _SLOW * least else 0
-            if error < least:
-                best, least = state, error
-            if error <= _TIGHT or idle == _IDLE:
-                break
-            state = equations.solved(state)
-        at_best = self._equations(best)
-        if _largest([at_best.fixed, *(pose.residual for pose in at_best.poses)]) > DOUBLE.closed:
-            self.error, self.displaced = least, self._displacement(best)
-            return None
-        return best
+        """Return what closes near a state, by Gauss and Newton's method; None where it does not or work is used up."""
 
-    def _equations(self, state: _State) -> _Equations:
+        def may_step() -> bool:
+            return self._allowance.take(len(state.shifts) + state.poses.size)
+
+        end = find_root(_FittingIterate(self, state), _CLOSING, may_step=may_step) if may_step() else None
+        if end is None or end.reason is StopReason.ALLOWANCE:
+            self.error = np.inf
+            return None
+        equations = end.at.equations
+        if _largest([equations.fixed, *(pose.residual for pose in equations.poses)]) > DOUBLE.closed:
+            self.error, self.displaced = end.at.error, self._displacement(end.at.state)
+            return None
+        return end.at.state
+
+    def equations(self, state: _State) -> _Equations:
         """Return what does not hold, and its derivatives by the unknowns."""
-        corners = self._places.moved(state.by)
+        corners = self._places.moved(state.shifts)
         closure = ClosureEquations(self._places.linkage(corners))
-        axes = self._places.motions_of_axes(corners) * _DEAR
-        off, planes = self._places.off_planes(corners)
-        bent, lines = self._places.off_lines(corners)
-        fixed = np.concatenate([off, bent, self._angles.off(corners)])
-        by_vertices = scipy.sparse.vstack([planes * _DEAR, lines * _DEAR, self._angles.by_axes() @ axes]).tocsr()
+        axes = self._places.motions_of_axes(corners) * _CLOSING.dear
+        warped, by_planes = self._places.plane_residual(corners)
+        bent, by_lines = self._places.line_residual(corners)
+        fixed = np.concatenate([warped, bent, self._angles.residual(corners)])
+        both = [by_planes * _CLOSING.dear, by_lines * _CLOSING.dear]
+        by_vertices = scipy.sparse.vstack([*both, self._angles.by_axes() @ axes]).tocsr()
         poses = []
         for pose, weights in zip(state.poses, state.weights, strict=True):
             residual, jacobian = closure.at(pose)
@@ -470,6 +500,28 @@ class Fitting:
             by_angles = (scale @ jacobian @ scipy.sparse.diags(weights)).tocsr()
             poses.append(_Pose(residual, size, scale @ (closure.by_axes(pose) @ axes), by_angles))
         return _Equations(fixed, by_vertices, poses)
+
+
+@dataclass(frozen=True)
+class _FittingIterate:
+    """A state as an iterate of Gauss and Newton's method."""
+
+    fitting: Fitting
+    state: _State
+
+    @cached_property
+    def equations(self) -> _Equations:
+        """The equations at the state."""
+        return self.fitting.equations(self.state)
+
+    @property
+    def error(self) -> float:
+        """The largest residual, as divided."""
+        return self.equations.error
+
+    def onwards(self) -> _FittingIterate:
+        """Return the iterate after the shortest step."""
+        return _FittingIterate(self.fitting, self.equations.solved(self.state))
 
 
 class _Pose(NamedTuple):
@@ -495,14 +547,14 @@ class _Equations(NamedTuple):
 
     def solved(self, state: _State) -> _State:
         """Return the state after the least step that takes all away."""
-        if max([len(self.fixed), *(len(pose.residual) for pose in self.poses)]) > _DENSE:
+        if max([len(self.fixed), *(len(pose.residual) for pose in self.poses)]) > _CLOSING.dense:
             return self._solved_sparse(state)
-        least = max(_LEAST_VALUE, _SHARE * self.error)
-        return state.onwards(np.concatenate(_least_step(self.fixed, self.by_vertices.toarray(), self.poses, least)))
+        least = max(_CLOSING.least_value, _CLOSING.share * self.error)
+        return state.onwards(np.concatenate(_shortest_step(self.fixed, self.by_vertices.toarray(), self.poses, least)))
 
     def _solved_sparse(self, state: _State) -> _State:
         """Return the same by regularised normal equations, of large sheets."""
-        regular = min(_MOST, max(_LEAST, _SHARE * self.error))
+        regular = min(_CLOSING.most, max(_CLOSING.least, _CLOSING.share * self.error))
         residual = np.concatenate([self.fixed, *(pose.residual / pose.size for pose in self.poses)])
         turning = [scipy.sparse.csr_matrix((len(self.fixed), 0)), *(pose.by_angles for pose in self.poses)]
         columns = scipy.sparse.vstack([self.by_vertices, *(pose.by_vertices for pose in self.poses)])
@@ -520,12 +572,12 @@ def _sizes(jacobian: scipy.sparse.csr_matrix, turned: Floats) -> Floats:
     largest = np.zeros(len(starts))
     some = ends > starts
     largest[some] = np.maximum.reduceat(turned[jacobian.indices], starts[some])
-    return np.asarray(np.clip(largest, _STILL, 1.0) ** 2)
+    return np.asarray(np.clip(largest, _CLOSING.still, 1.0) ** 2)
 
 
 def _near(closure: ClosureEquations, here: Floats, direction: Floats, driver: int, goal: float) -> Floats:
     """Return a pose that closes as well as it can, with the driven joint at its goal."""
-    steps = max(1, int(np.ceil(abs(goal - here[driver]) / _STEP)))
+    steps = max(1, int(np.ceil(abs(goal - here[driver]) / _MOTIONS.step)))
     for at in np.linspace(here[driver], goal, steps + 1)[1:]:
         expected = here + direction * ((at - here[driver]) / direction[driver])
         expected[driver] = at

@@ -22,6 +22,7 @@ import numpy.typing as npt
 
 from graphs.errors import UnsolvableError, numbered
 from graphs.geometry import lines_meet, unit
+from graphs.least_squares.levenberg_marquardt import LevenbergMarquardt, System, least_squares
 from graphs.loops.loop import Centre, signed_cycle
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
@@ -46,7 +47,6 @@ from synth.realisation.conditions import (
     symmetries,
 )
 from synth.realisation.drawing import drawings
-from synth.realisation.measures import damped_least_squares
 from synth.realisation.pattern import Pattern, sheet_of_places
 
 Unknowns = npt.NDArray[Any]
@@ -151,19 +151,31 @@ def _flat(vectors: Unknowns) -> Unknowns:
     return vectors.reshape(*vectors.shape[:-2], -1)
 
 
-_TURN = radians(12.0)
-_POSES = 5
-"""Most configurations that have to close, besides the reference."""
-_ROUNDS = 40
-_TIGHT = 1e-14
-_DAMPING, _LEAST, _MOST = 1e-2, 1e-16, 1e6
-_GAIN = 1e-3
-"""A step that reduces the sum of squares by less than this part is the last: the search has come to rest."""
-_UNIT = 60.0
-"""A step with up to so many unknowns is a unit of work; one with more counts in proportion."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _MotionSearch:
+    """Configurations along a motion at which loops have to close, and what a step costs."""
 
-System = Callable[[Floats], tuple[Floats, Floats]]
-"""Of unknowns float[n]: numbers to be zero, and their derivatives."""
+    turn: float
+    most: int
+    unit_of_work: float
+
+
+_MOTION = _MotionSearch(
+    turn=radians(12.0),  # of the driven joint: rates lead so far, and what is immobile does not close there
+    most=5,  # configurations besides the reference: after these more equations than any linkage has dimensions
+    unit_of_work=60.0,  # unknowns of a step that is a unit of work; one with more counts in proportion
+)
+
+_CONDITIONS = LevenbergMarquardt(
+    first=1e-2,  # a start is random, with axes about 1 from each other
+    least=1e-16,  # conditions may be dependent where they hold, so that some damping is needed to the end
+    most=1e6,  # steps are then a millionth of the gradient
+    raised=4.0,
+    lowered=(8.0,),  # twice what one rejected step takes back: random starts have few
+    required=1e-3,  # a search that gains less has come to rest, where conditions contradict each other
+    most_steps=40,  # a start that needs more is not near a member, and another one costs as much
+)
+"""Axes that meet conditions."""
 
 
 def linkage_at(graph: SCGraph, axes: Floats) -> PosedLinkage:
@@ -196,15 +208,15 @@ def axes_along_a_motion(
     rows, angles = start, np.zeros((1, joints))
     # each configuration adds equations: after so many no dimension, or a few, is left to choose
     each = closure.rows - (closure.joints - 1)
-    needed = min(_POSES, ceil((4 * closure.joints - 7) / max(each, 1)) + 1)
+    needed = min(_MOTION.most, ceil((4 * closure.joints - 7) / max(each, 1)) + 1)
     for number in range(1, needed + 1):
-        angles = np.vstack([angles, angles[-1] + rates * _TURN])
+        angles = np.vstack([angles, angles[-1] + rates * _MOTION.turn])
         solution = _solved(poses.system(number), poses.joined(rows, angles[1:]), work)
         if solution is None:
             return None
         rows, at_poses = poses.parted(solution, number)
         angles = np.vstack([np.zeros((1, joints)), at_poses])
-        rates = (angles[-1] - angles[-2]) / _TURN
+        rates = (angles[-1] - angles[-2]) / _MOTION.turn
     return rows
 
 
@@ -230,7 +242,7 @@ class _Poses:
         size = int(np.prod(self.shape))
         angles = np.zeros((number, len(self.graph.joints)))
         angles[:, self._free] = unknowns[size:].reshape(number, -1)
-        angles[:, self.driver] = _TURN * np.arange(1, number + 1)
+        angles[:, self.driver] = _MOTION.turn * np.arange(1, number + 1)
         return unknowns[:size].reshape(self.shape), angles
 
     def system(self, number: int) -> System:
@@ -241,48 +253,33 @@ class _Poses:
             rows, angles = self.parted(unknowns, number)
             linkage = linkage_at(self.graph, rows[:joints])
             closure, by_numbers = ClosureEquations(linkage), dependence_on_axes(linkage).twists
-            off, by_rows = _stacked(self.conditions, rows)
-            residuals, size = [off], rows.size
-            parts = [np.hstack([by_rows, np.zeros((len(off), number * len(free)))])]
+            residual, by_rows = _stacked(self.conditions, rows)
+            residuals, size = [residual], rows.size
+            jacobians = [np.hstack([by_rows, np.zeros((len(residual), number * len(free)))])]
             for place, at in enumerate(angles):
-                residual, jacobian = closure.at(at)
-                by = np.zeros((len(residual), size + number * len(free)))
-                by[:, : 6 * joints] = (closure.by_axes(at) @ by_numbers).toarray()
-                by[:, size + place * len(free) : size + (place + 1) * len(free)] = jacobian.toarray()[:, free]
+                residual, by_angles = closure.at(at)
+                jacobian = np.zeros((len(residual), size + number * len(free)))
+                jacobian[:, : 6 * joints] = (closure.by_axes(at) @ by_numbers).toarray()
+                jacobian[:, size + place * len(free) : size + (place + 1) * len(free)] = by_angles.toarray()[:, free]
                 residuals.append(residual)
-                parts.append(by)
-            return np.concatenate(residuals), np.vstack(parts)
+                jacobians.append(jacobian)
+            return np.concatenate(residuals), np.vstack(jacobians)
 
         return system
 
 
 def _stacked(conditions: Sequence[AxisCondition], rows: Floats) -> tuple[Floats, Floats]:
-    off = [np.asarray(condition(rows)) for condition in conditions]
-    return np.concatenate(off), np.concatenate([derivatives(condition, rows) for condition in conditions])
+    """Return the residual of all conditions, and the Jacobian."""
+    residuals = [np.asarray(condition(rows)) for condition in conditions]
+    return np.concatenate(residuals), np.concatenate([derivatives(condition, rows) for condition in conditions])
 
 
 def _solved(system: System, start: Floats, work: Allowance) -> Floats | None:
-    """Return unknowns at which all is zero, near a start; None if the search came to rest elsewhere.
-
-    Conditions may be dependent where they hold, so steps are damped (Levenberg, Marquardt).
-    """
-    unknowns, damping = start, _DAMPING
-    off, by = system(unknowns)
-    for _ in range(_ROUNDS):
-        if np.abs(off).max(initial=0.0) <= _TIGHT:
-            break
-        better = None
-        while better is None and damping <= _MOST and work.take(max(1.0, len(unknowns) / _UNIT)):
-            step = -damped_least_squares(by, off, np.sqrt(damping))
-            tried = system(unknowns + step)
-            if tried[0] @ tried[0] < (1.0 - _GAIN) * (off @ off):
-                better = tried
-            else:
-                damping *= 4.0
-        if better is None:
-            break
-        unknowns, (off, by), damping = unknowns + step, better, max(damping / 8.0, _LEAST)
-    return unknowns if np.abs(off).max(initial=0.0) <= DOUBLE.closed else None
+    """Return unknowns at which all is zero, near a start; None if the search came to rest elsewhere."""
+    each = max(1.0, len(start) / _MOTION.unit_of_work)
+    end = least_squares(system, start, _CONDITIONS, may_try=lambda: work.take(each))
+    assert end is not None
+    return end.at.unknowns if np.abs(end.at.residual).max(initial=0.0) <= DOUBLE.closed else None
 
 
 _MODES = 4

@@ -20,11 +20,12 @@ from graphs.errors import FileError, InvariantError, StoreError
 from graphs.files.formats import mechanism_of_id
 from graphs.geometry import unit
 from graphs.types import Floats
+from synth.atlas.axis_fit import AxisFit
 from synth.atlas.building import AtlasPlan, build_atlas
 from synth.atlas.in_order import differences_in_order
 from synth.atlas.motions import add_motions, like, motion_curve, planned_motions, stored_motions
 from synth.atlas.opened import Atlas, open_atlas
-from synth.atlas.signatures import Fit, MotionCurve, angles_between, arc_distances, difference, signatures_of
+from synth.atlas.signatures import MotionCurve, angles_between, arc_distances, difference, signatures_of
 from synth.guidance.orientations import write_orientations
 from synth.members.circuits import across, circuits_of, product, relative
 
@@ -406,15 +407,15 @@ def test_slopes_of_a_fit_are_differences_of_circuits_that_are_traced(part: float
     axes, pairs = six_bars(0, 4)
     whole = MotionCurve.of(smooth(np.arange(300) / 300), closed=True)
     motion = whole if part == 1.0 else MotionCurve.of(whole.at(whole.length * part * np.linspace(0.0, 1.0, 60)))
-    fit = Fit(mechanism_of_id("k1:E`hW"), axes, pairs, motion)
+    fit = AxisFit(mechanism_of_id("k1:E`hW"), axes, pairs, motion)
     misses = {}
     for column in (0, 3, 9, 12):
         turn = 1e-4 * across(axes)[:, column // 2, column % 2]
         for way in (1.0, -1.0):
             turned = axes.copy()
             turned[:, column // 2] += np.cross(way * turn, axes[:, column // 2])
-            misses[column, way] = fit.misses_of(unit(turned))
-    slopes = fit.slopes(np.arange(4))
+            misses[column, way] = fit.residual_at(unit(turned))
+    slopes = fit.jacobian_of(np.arange(4))
     for column in (0, 3, 9, 12):
         traced = (misses[column, 1.0] - misses[column, -1.0]) / 2e-4
         off = np.linalg.norm(slopes[:, :, column] - traced, axis=1)
@@ -432,7 +433,7 @@ def test_axes_that_are_a_little_off_are_fitted_to_the_motion(part: float) -> Non
         rows = elsewhere(relative(turned[first], turned[second])[member], 4)[::-1]
         motion = MotionCurve.of(rows[: int(256 * part)], closed=part == 1.0)
         begun = unit(axes[[member] * 4] + 0.02 * random.normal(size=(4, 7, 3)))
-        fit = Fit(chain, begun, [(first, second)] * 4, motion)
+        fit = AxisFit(chain, begun, [(first, second)] * 4, motion)
         before = fit.costs.copy()
         fit.run([(3, 4), (40, 2)])
         assert (fit.costs <= before).all()

@@ -12,7 +12,6 @@ from sizes import slow
 
 from synth.designing import Goal, JointAngle, LinkArc, WishedConfiguration, Wishes
 from synth.designing.designs import DesignSearch
-from synth.designing.least import nearest
 from synth.designing.search import found_from, seeded
 from synth.patterns import generate
 from tests.machines.factors import FACTORS, environment_for, reason_to_leave_out
@@ -103,31 +102,3 @@ def test_a_start_that_meets_its_wishes_stays():
     first = search.design(0)
     again = found_from(search.problem, first.numbers, seeded("again", 0))
     np.testing.assert_allclose(again.numbers, first.numbers, atol=1e-9)
-
-
-def test_the_nearest_point_of_a_surface_with_a_limit_and_bounds():
-    """The unit sphere in four dimensions, then only where x is no more than 0.3, then y within bounds too."""
-
-    def system(limit):
-        def at(x):
-            over = max(x[0] - limit, 0.0)
-            return np.array([x @ x - 1.0, over]), np.array([2 * x, [float(over > 0), 0, 0, 0]])
-
-        return at
-
-    free = (np.full(4, -np.inf), np.full(4, np.inf))
-    start, begun = np.array([0.8, 0.9, 0.1, 0.2]), np.array([0.1, 0.1, 0.7, -0.7])
-    begun /= np.linalg.norm(begun)
-    on_sphere = nearest(system(np.inf), begun, start, free)
-    assert on_sphere.settled
-    np.testing.assert_allclose(on_sphere.unknowns, start / np.linalg.norm(start), atol=1e-9)
-    limited = nearest(system(0.3), begun, start, free)
-    assert limited.settled
-    rest = start[1:] * np.sqrt(1 - 0.3**2) / np.linalg.norm(start[1:])
-    np.testing.assert_allclose(limited.unknowns, [0.3, *rest], atol=1e-9)
-    low, high = free[0].copy(), free[1].copy()
-    high[1] = 0.5
-    bounded = nearest(system(0.3), begun, start, (low, high))
-    assert bounded.settled
-    rest = start[2:] * np.sqrt(1 - 0.3**2 - 0.5**2) / np.linalg.norm(start[2:])
-    np.testing.assert_allclose(bounded.unknowns, [0.3, 0.5, *rest], atol=1e-9)

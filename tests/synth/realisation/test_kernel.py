@@ -12,7 +12,6 @@ from synth.realisation import drawing
 from synth.realisation.drawing import (
     SOURCE,
     KernelDrawing,
-    Sizes,
     barycentric_start,
     first_unknowns,
     improved,
@@ -23,7 +22,7 @@ from synth.realisation.pattern import pattern_of, simplest_drawn
 from synth.realisation.realised import realise
 
 needs_library = pytest.mark.skipif(kernel() is None, reason="there is no library: no compiler was at hand")
-SIZES = Sizes(drawing._SHARP, drawing._LENGTH, drawing._BORDER, drawing._SEEN)
+SIZES = drawing.SHAPE
 
 
 def patterns():

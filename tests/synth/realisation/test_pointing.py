@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from graphs.identity.drawings import mechanism_from_map_id
-from synth.realisation.drawing import barycentric_start, first_unknowns, off_centres
+from synth.realisation.drawing import barycentric_start, centre_residual, first_unknowns
 from synth.realisation.pattern import pattern_of
 
 RING = "m1:a--b-.a-c-.b-d-.c-d-"
@@ -16,10 +16,10 @@ def test_derivatives_are_those_of_differences_where_nothing_is_off(code):
     pattern = pattern_of(mechanism_from_map_id(code))
     unknowns = first_unknowns(pattern, *barycentric_start(pattern, np.random.default_rng(1)))
     for _ in range(30):
-        off, by = off_centres(pattern, unknowns)
+        off, by = centre_residual(pattern, unknowns)
         unknowns = unknowns - (np.linalg.pinv(by) @ off).reshape(unknowns.shape)
-    assert np.abs(off_centres(pattern, unknowns)[0]).max() < 1e-12
+    assert np.abs(centre_residual(pattern, unknowns)[0]).max() < 1e-12
     step = 1e-6 * np.random.default_rng(2).standard_normal(unknowns.shape)
-    ahead, behind = (off_centres(pattern, unknowns + sign * step)[0] for sign in (1, -1))
-    _, by = off_centres(pattern, unknowns)
+    ahead, behind = (centre_residual(pattern, unknowns + sign * step)[0] for sign in (1, -1))
+    _, by = centre_residual(pattern, unknowns)
     assert (ahead - behind) / 2e-6 == pytest.approx(by @ step.ravel() / 1e-6, abs=1e-6)

@@ -121,8 +121,8 @@ def test_derivatives_by_vertices_are_those_of_differences():
     change = residual(places.moved(step)) - residual(places.given)
     assert np.abs(change).max() > 1e-7
     assert np.abs(change - by @ step).max() < 1e-4 * np.abs(change).max()
-    off, across = places.off_planes(places.given)
-    after, _ = places.off_planes(places.moved(step))
+    off, across = places.plane_residual(places.given)
+    after, _ = places.plane_residual(places.moved(step))
     assert np.abs(np.abs(after - off) - np.abs(across @ step)).max() < 1e-4 * np.abs(after).max()
 
 
@@ -139,7 +139,7 @@ def test_meant_angles_hold_at_exact_coordinates():
     places = VertexPlaces(sheet, mechanism, linkage)
     meant = MeantAngles(places, 1e-6)
     assert len(meant) > 20
-    assert np.abs(meant.off(places.given)).max() < 1e-14
+    assert np.abs(meant.residual(places.given)).max() < 1e-14
 
 
 @pytest.mark.parametrize(
