@@ -19,7 +19,8 @@ from enumerate.machine_code.weights import ROUND
 from enumerate.runner.job import Column, Query, QueryCount, QueryJob, Row, Unit
 from enumerate.runner.running import total_of, tuples_of
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.identity.chains import subdivided, symmetries_of
+from graphs.identity.chains import subdivided
+from graphs.identity.numbering import symmetries_of
 from graphs.types import Ints, JointId, LinkId
 
 _PLACEMENTS = 2_000_000
