@@ -19,7 +19,10 @@ from graphs.identity.numbering import labels_of, symmetries_of
 from graphs.mechanism.sc import SCGraph
 from graphs.types import JointId, LinkId
 
-_LINK, _JOINT, _MARKED = 0, 1, 2
+# Colours of nodes: cells begin in their order, so it is part of the ids of chains with parallel joints.
+_LINK = 0  # links come first: their numbers are read before those of joints
+_JOINT = 1
+_MARKED = 2  # a link that corresponds to no other, as one that is fixed
 
 
 def subdivided(links: int, joints: Iterable[Sequence[int]], marked: int | None = None) -> ColouredGraph:
