@@ -1,4 +1,4 @@
-/* Ordered cells of the vertices of a graph, and their refinement: what the search of leaves.c does at each of its levels.
+/* Ordered cells of the vertices of a graph, and their refinement: what the search of leaves.c does at each level.
 
 A cell is named by its place, the number of vertices in the cells before it. Splits are kept in their order, so that all
 can be undone. */
@@ -49,7 +49,7 @@ typedef struct {
     int64_t length;
 } Mark;
 
-/* Memory ------------------------------------------------------------------------------------------------------------ */
+/* Memory ---------------------------------------------------------------------------------------- */
 
 static void *allocated(Cells *c, int64_t bytes)
 {
@@ -97,7 +97,7 @@ static void free_all(Cells *c)
     while (c->blocks.after) release(c->blocks.after + 1);
 }
 
-/* Sorting: shell sort, since most lists are short. ------------------------------------------------------------------- */
+/* Sorting: shell sort, since most lists are short. ----------------------------------------------- */
 
 static void sort_numbers(int *items, int count)
 {
@@ -119,10 +119,10 @@ static void sort_by_key(int *items, const int64_t *key, int count)
         }
 }
 
-/* Cells -------------------------------------------------------------------------------------------------------------- */
+/* Cells ------------------------------------------------------------------------------------------ */
 
 /* Let a cell wait: before all others if it is one vertex, else behind them. */
-static void wait(Cells *c, int place, int size)
+static void enqueue(Cells *c, int place, int size)
 {
     if (size == 1) {
         c->head = c->head ? c->head - 1 : c->n - 1;
@@ -184,8 +184,8 @@ static void single_out(Cells *c, int vertex)
     swap(c, vertex, last);
     c->size[place]--;
     part_off(c, place, last, last + 1);
-    if (c->size[place] == 1) wait(c, place, 1);
-    wait(c, last, 1);
+    if (c->size[place] == 1) enqueue(c, place, 1);
+    enqueue(c, last, 1);
 }
 
 /* Let the parts of a cell wait that was split: `first` is the first new one, `most` the greatest number. */
@@ -193,7 +193,7 @@ static void parts_wait(Cells *c, int place, int first, int end, int most)
 {
     if (c->waits[place]) {
         /* For bliss, a new cell still holds the vertices behind it. */
-        for (int p = first; p < end; p += c->size[p]) wait(c, p, end - p);
+        for (int p = first; p < end; p += c->size[p]) enqueue(c, p, end - p);
         return;
     }
     /* All wait but the largest, which waits only if it is one vertex: then its edges belong to the certificate. */
@@ -201,13 +201,13 @@ static void parts_wait(Cells *c, int place, int first, int end, int most)
     for (int p = first; p < end; p += c->size[p]) {
         int size = c->size[p], other = c->size[largest];
         if (size > other || (size == other && most == 1)) { /* of numbers 0 and 1, the first of equals waits */
-            wait(c, largest, other);
+            enqueue(c, largest, other);
             largest = p;
         } else {
-            wait(c, p, size);
+            enqueue(c, p, size);
         }
     }
-    if (c->size[largest] == 1) wait(c, largest, 1);
+    if (c->size[largest] == 1) enqueue(c, largest, 1);
 }
 
 /* Split a cell by the numbers of its vertices, lowest first; those that have any, `hit` of them, stand behind the
@@ -236,7 +236,7 @@ static int split(Cells *c, int place)
     return last;
 }
 
-/* Refining ------------------------------------------------------------------------------------------------------------ */
+/* Refining ---------------------------------------------------------------------------------------- */
 
 /* What a level of another path met, to be compared entry by entry: `order` is 0 as long as all are equal, -1 if what is
    met is less, 1 if it is greater, or there is nothing to compare with. */
@@ -339,14 +339,14 @@ static void start(Cells *c)
         }
         c->size[p] = q - p;
         c->cells++;
-        wait(c, p, q - p);
+        enqueue(c, p, q - p);
     }
     refine(c, NONE);
     c->length = 0;
     c->level[0] = 0;
 }
 
-/* Components ---------------------------------------------------------------------------------------------------------- */
+/* Components -------------------------------------------------------------------------------------- */
 
 /* Return the place of the cell to split next in a region, that with most neighbour cells, -1 if all are single, and
    the places of the cells of its component in `met`. The component is that of the first cell of two vertices or more;
@@ -396,7 +396,7 @@ static int all_alike(const Cells *c, int place)
     return inside == 0 || inside == c->size[place] - 1;
 }
 
-/* Graphs in -------------------------------------------------------------------------------------------------------- */
+/* Graphs in ------------------------------------------------------------------------------------ */
 
 static void make_room(Cells *c, int n, int64_t edges)
 {

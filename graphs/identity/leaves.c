@@ -1,9 +1,8 @@
-/* Canonical numbers and symmetries of coloured graphs: the search of leaves.py beside it, which says what all this means
-and returns the same, number for number, where no compiler was at hand.
+/* Canonical numbers and symmetries of coloured graphs: the search of leaves.py beside it, which says what all this
+means, and returns the same, number for number, where no compiler was at hand.
 
 Plain C, without Python's API: arrays go in and out, and nothing is kept between calls. The search keeps a stack of its
-own, so that graphs of any depth fit, and undoes splits of cells instead of copying cells. Theory: docs/theory/chains.md.
-*/
+own, so that graphs of any depth fit, and undoes splits instead of copying cells. Theory: docs/theory/chains.md. */
 
 #include "cells.h"
 
@@ -44,8 +43,8 @@ typedef struct {
     Leaf *best;
 } Step;
 
-/* A generator of the symmetries is the vertices that it moves, each with its image: `generator` says where those of each
-   begin among the `moves`. */
+/* A generator of the symmetries is the vertices that it moves, each with its image: `generator` says where those of
+   each begin among the `moves`. */
 typedef struct {
     Cells c;
     Step *steps;
@@ -56,7 +55,7 @@ typedef struct {
     int64_t move_room;
 } Search;
 
-/* Symmetries ---------------------------------------------------------------------------------------------------------- */
+/* Symmetries -------------------------------------------------------------------------------------- */
 
 static void move(Search *s, int vertex, int image)
 {
@@ -141,7 +140,7 @@ static int is_first(Search *s, Step *step, int i)
     return orbit_of(step->orbit, i) == i;
 }
 
-/* The search ---------------------------------------------------------------------------------------------------------- */
+/* The search -------------------------------------------------------------------------------------- */
 
 static Leaf *leaf_here(Search *s)
 {
@@ -379,7 +378,7 @@ static int one_path_is_enough(Search *s, int64_t automorphisms, int *regions, in
     return choices == (double)automorphisms;
 }
 
-/* Graphs in, numbers out --------------------------------------------------------------------------------------------- */
+/* Graphs in, numbers out ------------------------------------------------------------------------- */
 
 static void search_graph(Search *s, int64_t n, int64_t count, const int64_t *edges, const int32_t *colours)
 {
