@@ -18,7 +18,8 @@ from graphs.identity.leaves import ColouredGraph, Symmetries, greatest_leaf
 from graphs.types import Ints
 
 SOURCE = Path(__file__).with_name("leaves.c")
-_P, _N = c_void_p, c_int64
+_P = c_void_p
+_N = c_int64
 _FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {
     "leaves_of_graph": (c_int, (_N, _N, _P, _P, _P, _P, _P, POINTER(_P))),
     "leaves_of_rows": (c_int, (_N, _N, _N, _P, _P, _P)),
