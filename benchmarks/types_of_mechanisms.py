@@ -5,7 +5,7 @@
 writes rates to benchmarks/results/types_of_mechanisms.json. Compiled code is warm: each job runs once before it
 is timed, and medians of three runs are kept. "compiled" is listing with all attributes and codes as arrays, and
 for SCD graphs the ranks under the forced geometry; "rows" is what a store is given, ids as text and the id of
-the chain by bliss. There is no program to compare with: none that lists SC or SCD graphs is known.
+the chain. There is no program to compare with: none that lists SC or SCD graphs is known.
 """
 
 from __future__ import annotations

@@ -37,6 +37,7 @@ Joints = tuple[tuple[int, int], ...]
 Block = tuple[int, Joints]
 """Number of links, and joints between links 0, 1, ..."""
 
+# Links and freedoms of two links with a joint: the one block that is no chain, since its joint lies in no loop.
 _BRIDGE = (2, 1)
 _BRIDGE_BLOCK: Block = (2, ((0, 1),))
 

@@ -32,22 +32,23 @@ from graphs.identity.chains import chain_from_id
 from graphs.types import Bytes, Ints
 
 _ROWS = 20_000
-"""Rows of a unit, about; a contracted graph with more is split."""
+"""Rows of a unit, about; a contracted graph with more is split. A unit is what a stopped run does again, and what costs
+one transaction of the store."""
 
 _GRAPHS = 256
-"""Contracted graphs of a unit of counting."""
+"""Contracted graphs of a unit of counting: enough that sending a unit to a worker costs little beside it."""
 
 _STREAMED = 8
 """Loops from which on units make their contracted graphs themselves, to be counted on: of nine loops 7 million."""
 
 _ANCESTORS = 4
-"""Cubic graphs of such a unit, about."""
+"""Cubic graphs of such a unit, about: few, since each has hundreds of descendants or more (`_DESCENDANTS`)."""
 
 _DESCENDANTS = 100
 """Contracted graphs that come of a cubic one, about, with eight loops; more with more."""
 
 _CHOICES = 64
-"""Choices of blocks of a unit of fractionated chains."""
+"""Choices of blocks of a unit of fractionated chains: most of them have few chains each."""
 
 
 @dataclass(frozen=True, slots=True)

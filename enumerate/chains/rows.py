@@ -1,7 +1,6 @@
 """Rows of chains: ids and attributes of the chains of contracted graphs, their ground links and input joints.
 
-What is the same for all chains of a contracted graph is worked out once for the graph; the rest is compiled. bliss
-itself numbers the few chains that `enumerate.kernel.bliss_order` leaves.
+What is the same for all chains of a contracted graph is worked out once for the graph; the rest is compiled.
 
 M joints are inputs of a chain of M freedoms if nothing moves once they are locked. In a chain a joint leaves one
 of three freedoms, so it is two bars between its links, and a locked one three; a generic chain of N links is
@@ -32,9 +31,9 @@ from enumerate.contracted.binary_links import (
     orbits_of_all,
 )
 from enumerate.contracted.graphs import decode
-from enumerate.kernel.bliss_order import MOST_NODES, bliss_orders
 from enumerate.runner.job import Column, ListColumn, Row
-from graphs.identity.chains import automorphisms_of, canonical_numbers
+from graphs.identity.chains import automorphisms_of
+from graphs.identity.numbering import numbers_of_rows
 from graphs.types import Bytes, Ints
 
 SIZE_COLUMNS: dict[str, Column] = dict.fromkeys(("links", "joints", "dof", "loops"), int)
@@ -124,13 +123,7 @@ def chain_ids(links: int, joints: Ints, automorphisms: Ints | None = None) -> tu
     """
     if not len(joints):
         return [], np.zeros((0, links), np.int64)
-    if links <= MOST_NODES:
-        known = np.ones(len(joints), np.int64) if automorphisms is None else automorphisms
-        labels, left = bliss_orders(links, joints, known)
-    else:
-        labels, left = np.empty((len(joints), links), np.int64), np.arange(len(joints))
-    for row in left.tolist():
-        labels[row] = canonical_numbers(links, joints[row].tolist())
+    labels = numbers_of_rows(links, joints, automorphisms)
     text = graph6_rows(joints, labels).tobytes().decode("ascii")
     width = len(text) // len(labels)
     return [f"k1:{text[i : i + width]}" for i in range(0, len(text), width)], labels

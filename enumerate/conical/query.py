@@ -19,15 +19,17 @@ from enumerate.machine_code.weights import ROUND
 from enumerate.runner.job import Column, Query, QueryCount, QueryJob, Row, Unit
 from enumerate.runner.running import total_of, tuples_of
 from graphs.errors import InvariantError, UnsolvableError, shown
-from graphs.identity.chains import subdivided, symmetries_of
+from graphs.identity.chains import subdivided
+from graphs.identity.numbering import symmetries_of
 from graphs.types import Ints, JointId, LinkId
 
 _PLACEMENTS = 2_000_000
-"""Placements of a unit that counts, at most; symmetric ones apart."""
+"""Placements of a unit that counts, at most; symmetric ones apart. A unit is what a stopped run does again."""
 
 _LISTED = 10**11
+"""Placements that are listed at most: interpreted, at 10 000 a second, they take four months."""
 _PORTIONS = 200_000
-"""Placements that are listed at most, and into how many portions they are cut, about."""
+"""Portions into which placements are cut, about: each is known beforehand, so there must not be millions in memory."""
 
 Chain = tuple[tuple[JointId, tuple[LinkId, LinkId]], ...]
 
@@ -219,7 +221,7 @@ class ConicalCountJob(QueryCount[ConicalQuery]):
 
 
 _MOST = 100_000
-"""Symmetries beyond this number are not listed."""
+"""Symmetries beyond this number are not listed: each is held as a permutation of joints and tried on each placement."""
 
 
 def joint_symmetries(joints: Mapping[JointId, tuple[LinkId, LinkId]], ground: LinkId | None = None) -> Ints:

@@ -181,7 +181,7 @@ def count_rounds_by_burnside(rounds: Rounds, symmetries: Ints) -> int:
     return count
 
 
-_WITHOUT_END = 1 << 62
+_WITHOUT_END = 1 << 62  # more steps than any search makes
 _STEPS = 20_000_000
 """Steps of the search for one linkage: a fraction of a second. Twenty links, at random, need a tenth of them."""
 

@@ -16,7 +16,7 @@ from enumerate.kernel.compiled import compiled, doubled, slot_of
 from graphs.types import Bytes, Ints
 
 _ENOUGH = 1 << 40
-"""Room outside a set that cannot be used up any more."""
+"""Room outside a set that cannot be used up any more: above any number of units, and no sum of it runs over."""
 
 _FIRST = 3
 """Units left, those beyond the second on a joint, and the last value come before the rooms in a row."""

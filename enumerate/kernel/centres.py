@@ -15,10 +15,14 @@ from enumerate.kernel.compiled import compiled, doubled
 from enumerate.kernel.words import GOLDEN, has_several, number_in, plus, times
 from graphs.types import Ints, Words
 
-OUTER, FINITE, INFINITE, SPATIAL = 0, 1, 2, 3
-"""Labels of faces."""
+# Labels of faces: places in the letters from which codes are written (`LABEL_LETTERS`), so stores hold this order.
+OUTER = 0
+FINITE = 1
+INFINITE = 2
+SPATIAL = 3
 
 MOST_JOINTS = 64
+"""Sets of joints are bits of one word."""
 
 
 @compiled
@@ -134,7 +138,8 @@ def _apart(around: Words, number: Ints, planar: int) -> bool:
 
 
 RANK_PRIMES = (2147483647, 2147483629)
-"""The two largest primes below 2^31."""
+"""The two largest primes below 2^31: products of two residues fit a word of 64 bits. A rank may fall modulo one of them
+by chance, hence two."""
 
 FREE = -1
 """No point that other joints share."""

@@ -20,6 +20,7 @@ from graphs.types import Bytes, Words
 MOST_VERTICES = 22
 """A pair of vertices must fit one byte."""
 
+# Numbers of parallel joints are below: more than a chain of the loops that are enumerated can have between two links.
 _MOST_PARALLEL = 32
 _MIX = np.random.default_rng(20161005).integers(1, 2**63, size=(MOST_VERTICES + 1, _MOST_PARALLEL), dtype=np.uint64)
 """Random words for (colour of a neighbour, number of joints to it); any words give correct labels."""

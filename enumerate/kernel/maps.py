@@ -24,8 +24,10 @@ import numpy as np
 from enumerate.kernel.compiled import compiled, doubled
 from graphs.types import Bytes, Ints
 
-OPEN, END, JOINT = 0, 1, 2
-"""Symbols of a code: an open edge, the end of a link; joint k is ``JOINT + k``."""
+# Symbols of a code. The least code counts, so their order is part of all codes, as in `graphs.identity.drawings`.
+OPEN = 0  # an open edge
+END = 1  # the end of a link
+JOINT = 2  # joint k is JOINT + k, so it is the greatest
 
 
 class _Reading(NamedTuple):

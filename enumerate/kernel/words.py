@@ -11,6 +11,7 @@ from enumerate.machine_code.kernels import compiled_beside
 ALL = 0xFFFF_FFFF_FFFF_FFFF
 """The word with all bits, as a number of Python."""
 
+# 2^64 divided by the golden ratio, made odd (Knuth, vol. 3, 6.4): multiples of it are spread evenly over words.
 _FACTOR = 0x9E37_79B9_7F4A_7C15
 
 GOLDEN = np.uint64(_FACTOR)

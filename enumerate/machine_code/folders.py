@@ -22,11 +22,14 @@ from typing import Any, TypeAlias
 from uuid import uuid4
 
 _DAY = 86_400
+"""Seconds of a day."""
 _OLD = 30 * _DAY
+"""Seconds after which machine code that nobody used is removed: who comes back after a month waits once."""
 _MOST = 8
-"""Folders kept of one module: each edit of what it is made of begins another."""
+"""Folders kept of one module: each edit of what it is made of begins another, and two or three versions side by side,
+as of branches, are as many as somebody goes back to."""
 _DIGEST = 32
-"""Bytes of the digest that a file begins with."""
+"""Bytes of the digest that a file begins with: those of SHA-256."""
 _FOLDER = re.compile(r"([\w.]+)-[0-9a-f]{32}")
 """Name of a folder of one module. Nothing else is ever removed: a base may be anybody's folder."""
 

@@ -46,9 +46,10 @@ _NOTHING_KEPT = _Patience(30.0, 40.0)
 _LEVELS = {1: 0.0, 2: 0.005, 3: 0.03, 4: 0.15, 5: 0.8, 6: 9.0}
 """Seconds to make the contracted graphs, or maps, with so many loops, and to count chains with M = 1 on them."""
 
-CHAIN = 0.0015
-"""Seconds for the row of a chain."""
+CHAIN = 1 / 3_000
+"""Seconds for the row of a chain: lists of 11 and 12 links, less what placing takes."""
 
+# This and those below are rates of jobs that ran interpreted on one core; a factor of two changes little.
 PLACEMENT = 1 / 3_000
 """Seconds for a placement of open edges, symmetric ones counted apart."""
 

@@ -396,7 +396,8 @@ class Limits:
         return enough if self.most is None else enough & (values <= self.most)
 
 
-ANY_NUMBER, ONE_OR_MORE = Limits(0), Limits(1)
+ANY_NUMBER = Limits(0)
+ONE_OR_MORE = Limits(1)
 
 LimitsLike = Limits | tuple[int, int | None] | int
 """Limits, the least and the greatest value, or the one value."""

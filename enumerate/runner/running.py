@@ -25,16 +25,18 @@ from graphs.errors import StoreError
 G = TypeVar("G", bound=nx.Graph)
 
 _AHEAD = 4
-"""Units in the air for each worker."""
+"""Units in the air for each worker: one it works on, others it need not wait for; more would hold results in memory."""
 
 _SMALL = 5_000
-"""Weight that is not worth starting processes for."""
+"""Weight that is not worth starting processes for: so many rows take about as long as a process takes to start."""
 
 _PATIENCE = 3
-"""How often workers may die on one unit before the run gives up."""
+"""How often workers may die on one unit before the run gives up: once may be chance, or memory that others took; a unit
+that kills each of three workers would kill them all."""
 
 _LOOK = 0.1
-"""Seconds between two looks whether a unit that is waited for can still come, and is still wanted."""
+"""Seconds between two looks whether a unit that is waited for can still come, and is still wanted: nobody notices,
+and it is no load."""
 
 
 def run(

@@ -28,10 +28,11 @@ _COMPILER = ("numba.core.dispatcher", "_compile_for_args")
 """The function under which numba compiles; exceptions pass through it, but not through calls of LLVM below it."""
 
 _AGAIN = 0.02
-"""Seconds after which the handler is called again where it could not raise."""
+"""Seconds after which the handler is called again where it could not raise: not to be felt, and no load."""
 
 _PATIENCE = 0.5
-"""Seconds in which a line of our own is waited for while other Python code runs, such as an import."""
+"""Seconds in which a line of our own is waited for while other Python code runs, such as an import: most take less, and
+a person who pressed Ctrl-C waits no longer."""
 
 
 class Interrupted(KeyboardInterrupt):

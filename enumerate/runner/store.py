@@ -21,10 +21,11 @@ from graphs.errors import StoreError
 from graphs.files.atomic import check_place, remove_left
 
 _REMEMBERED = 4096
-"""Lists of a column whose JSON text is kept: many rows share theirs."""
+"""Lists of a column whose JSON text is kept: many rows share theirs, such as their assortments."""
 
 _PATIENCE_AT_END = 200
-"""Milliseconds for which readers are waited for when the store is complete: only its files depend on them."""
+"""Milliseconds for which readers are waited for when the store is complete: only its files depend on them, whether the
+log is folded in or stays beside the store."""
 
 
 class SqliteSink:

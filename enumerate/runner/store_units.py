@@ -30,9 +30,10 @@ from graphs.files.atomic import Unfinished, remove_folder
 T = TypeVar("T")
 
 FORMAT = "synthedra/store"
+# Of the tables of a store. Stores of other versions are refused: raise it with each change of what tables mean.
 VERSION = 3
 PATIENCE = 30.0
-"""Seconds for which a lock of another process is waited for."""
+"""Seconds for which a lock of another process is waited for: longer than a transaction of ours takes on a slow disk."""
 
 _DAMAGE = {
     sqlite3.SQLITE_ERROR,  # a table or column is not there

@@ -124,13 +124,13 @@ def _become_worker(parent: int, shared: Any) -> None:
 
 
 _TO_CONNECT = 10
-"""Seconds to reach a scheduler."""
+"""Seconds to reach a scheduler: a person waits, and an address with a typing error never answers."""
 
 _LOGS = ("distributed", "distributed.client")
 """Loggers of Dask with a level of their own."""
 
 _TO_LEAVE = 1
-"""Seconds to take leave of it."""
+"""Seconds to take leave of it: all results are there by then, and a scheduler that is gone does not answer."""
 
 
 class Cluster:

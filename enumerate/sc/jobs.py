@@ -51,10 +51,11 @@ SC_COLUMNS: dict[str, job.Column] = {
 
 
 UNIT_ROWS = 20_000
-"""SC graphs of a unit, about, where a job does not say otherwise."""
+"""SC graphs of a unit, about, where a job does not say otherwise: a unit is what a stopped run does again,
+and costs one transaction of the store, so neither a few nor millions."""
 
 _MAPS = 256
-"""Maps of a unit of counting."""
+"""Maps of a unit of counting: as of chains, enough that sending a unit to a worker costs little beside it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -38,9 +38,13 @@ Numbers = npt.NDArray[np.signedinteger[Any]]
 
 _MOST_UNDECIDED = 22
 """Corners that may have open edges or not: of more than so many the choices take too much room."""
+# The greatest number of 16 bits, which hold totals of open edges: so it is above each of them.
 _IMPOSSIBLE = (1 << 15) - 1
-_FIRST, _GROWTH = 16, 4
-"""Placements of a choice that are made at first, and how many more each time that none represents its orbit."""
+# Placements of a choice that are made at first: a choice has few symmetries, so among the first few there nearly
+# always is one that represents its orbit.
+_FIRST = 16
+# How many times as many are made each time that there is none: few rounds, and at most four times as many as needed.
+_GROWTH = 4
 
 
 def fewest_open_edges(code: Bytes, labels: Ints, most: int, dof: int) -> tuple[Bytes, Ints, Ints]:

@@ -28,9 +28,12 @@ from enumerate.kernel.maps import decode_map, faces_of, symmetries_of_map
 from enumerate.kernel.words import has_several
 from graphs.types import Bytes, Ints, Words
 
-CLOSED, OPENED, ANY = 0, 1, 2
-"""What a pattern says of a corner: no open edge, one or more, either."""
+# What a pattern says of a corner.
+CLOSED = 0  # no open edge
+OPENED = 1  # one or more
+ANY = 2  # either
 
+# Sets of points are bits of a word that has a sign.
 _MOST_POINTS = 63
 
 
@@ -197,7 +200,7 @@ def _links_apart(vertex: Ints, on_axis: Words, at_link: Words) -> bool:
 
 
 TOO_MANY = 1 << 60
-"""Numbers of placements from here on are not counted."""
+"""Numbers of placements from here on are not counted: sums of two of them still fit a word that has a sign."""
 
 
 @compiled

@@ -17,6 +17,7 @@ from enumerate.sc.query import SCQuery
 from graphs.errors import InvariantError, numbered
 from graphs.types import Bytes, Ints
 
+# Sides of a link: codes are as wide as it allows, and enumerations end far below it.
 _MOST_DEGREE = 60
 
 

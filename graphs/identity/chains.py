@@ -1,14 +1,11 @@
-"""Canonical ids of link-joint graphs, canonical codes and symmetries of mechanisms with centres, by bliss.
+"""Canonical ids of link-joint graphs, canonical codes and symmetries of mechanisms with centres.
 
-Two mechanisms have the same id exactly if their links and joints correspond. The id is ``k1:`` and the graph6 of
-the canonical form that bliss finds; where links share several joints, its sparse6. A changed form would be
-``k2:``. bliss drops parallel edges, so `subdivided` makes every joint a node of its own; ids depend on the
-splitting heuristic.
+Two mechanisms have the same id exactly if their links and joints correspond. The id is ``k1:`` and the graph6 of the
+canonical form that `graphs.identity.leaves` defines; where links share several joints, its sparse6. A changed form
+would be ``k2:``. The search takes simple graphs, so `subdivided` makes every joint that may be parallel a node.
 
 With centres a mechanism becomes a coloured graph of its links, its joints, and its classes of loops with one
 centre. Which loops were chosen within a class does not show. Theory: docs/theory/centre-classes.md.
-
-Where bliss is not installed, `graphs.identity.leaves` finds the same numbers, more slowly.
 """
 
 from collections.abc import Collection, Hashable, Iterable, Sequence
@@ -17,16 +14,15 @@ from typing import Any
 import networkx as nx
 
 from graphs.errors import InvariantError, shown
-from graphs.identity.leaves import ColouredGraph, Symmetries, greatest_leaf
+from graphs.identity.leaves import ColouredGraph
+from graphs.identity.numbering import labels_of, symmetries_of
 from graphs.mechanism.sc import SCGraph
 from graphs.types import JointId, LinkId
 
-try:
-    import bliss_bind
-except ImportError:
-    bliss_bind = None
-
-_LINK, _JOINT, _MARKED = 0, 1, 2
+# Colours of nodes: cells begin in their order, so it is part of the ids of chains with parallel joints.
+_LINK = 0  # links come first: their numbers are read before those of joints
+_JOINT = 1
+_MARKED = 2  # a link that corresponds to no other, as one that is fixed
 
 
 def subdivided(links: int, joints: Iterable[Sequence[int]], marked: int | None = None) -> ColouredGraph:
@@ -39,39 +35,6 @@ def subdivided(links: int, joints: Iterable[Sequence[int]], marked: int | None =
     places = range(links, links + len(pairs))
     edges = [(k, end) for k, ends in zip(places, pairs, strict=True) for end in ends]
     return ColouredGraph(len(colours), edges, colours)
-
-
-def labels_of(graph: ColouredGraph) -> list[int]:
-    """Return the canonical number of each node."""
-    if bliss_bind is None:
-        return greatest_leaf(graph).labels
-    labels: list[int] = _built(graph).canonical_form()[0]
-    return labels
-
-
-def symmetries_of(graph: ColouredGraph) -> Symmetries:
-    """Return canonical numbers and automorphisms.
-
-    >>> symmetries_of(subdivided(4, [(0, 1), (1, 2), (2, 3), (3, 0)], marked=0)).size
-    2.0
-    """
-    if bliss_bind is None:
-        return greatest_leaf(graph)
-    generators: list[list[int]] = []
-    labels, statistics = _built(graph).canonical_form(lambda moved: generators.append(list(moved)))
-    return Symmetries(labels, generators, float(statistics.get_group_size_approx()))
-
-
-def _built(graph: ColouredGraph) -> bliss_bind.Graph:
-    """Return bliss's own graph; chains are made by the million, so nodes that are alike are made at once."""
-    built = bliss_bind.Graph(0 if graph.colours else graph.nodes)
-    for colour in graph.colours:
-        built.add_vertex(colour)
-    built.set_splitting_heuristic(bliss_bind.Graph.SplittingHeuristic.shs_fm)
-    add = built.add_edge
-    for a, b in graph.edges:
-        add(a, b)
-    return built
 
 
 _PREFIX = "k1:"

@@ -29,7 +29,10 @@ from graphs.mechanism.scd import SCDGraph
 from graphs.types import JointId, LinkId
 
 _PREFIX = "m1:"
-_OPEN, _END, _JOINT = 0, 1, 2
+# Symbols of a reading. The least reading is the id, so their order is part of all ids.
+_OPEN = 0  # an open edge
+_END = 1  # the end of a link
+_JOINT = 2  # the first joint; joint k is _JOINT + k, so it is the greatest
 _LABELS = {Centre.FINITE: "f", Centre.INFINITE: "i", Centre.NONE: "s"}
 _OUTER = "o"
 

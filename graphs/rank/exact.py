@@ -304,7 +304,8 @@ def diagnose(mechanism: SCGraph, prime: int = PRIMES[0], *, forced: bool = True,
 
 
 _MOST_WHOLE = 400
-"""Joints of a mechanism whose matrix is not taken apart to find what depends on what."""
+"""Joints of a mechanism whose matrix is not taken apart to find what depends on what: whole, it takes time
+with their cube. What is found is the same."""
 
 
 def _kernels(closure: Closure, prime: int) -> tuple[int, dict[JointId, list[int]], list[list[int]]]:

@@ -21,7 +21,8 @@ from graphs.tolerances import DOUBLE
 from graphs.types import JointId
 
 PRIMES = (2**61 - 1, 2**61 - 31)
-"""The two largest primes below 2^61."""
+"""The two largest primes below 2^61: random choices are special with a chance of degree / prime, under 1e-14 for
+degrees of a few thousand, and two primes have to agree, since a rank may fall modulo one of them."""
 
 
 class Field(Protocol):
@@ -119,6 +120,8 @@ def null_vectors(rows: Sequence[Sequence[Any]], field: Field) -> list[list[Any]]
 Point = tuple[Any, Any, Any, Any]
 Line = tuple[tuple[Any, Any, Any], tuple[Any, Any, Any]]
 
+# Orders of placing points that are tried: as they come, those on busy axes first, then each begun one point on. What
+# fits in none is refused, not answered, so more attempts cost time only where there is no answer.
 _ATTEMPTS = 24
 
 

@@ -24,6 +24,7 @@ from graphs.rank.realisation import PRIMES, Field, PrimeField, null_vectors
 Place = tuple[Any, Any, Any]
 Row = dict[tuple[Hashable, int], Any]
 
+# Orders of placing vertices that are tried, each begun one vertex further; a model that fits in none is refused.
 _ATTEMPTS = 24
 
 

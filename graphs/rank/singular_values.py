@@ -23,9 +23,11 @@ the extent, which is half of it."""
 NOISE = 6.0
 """Noise stays below this many floors: at most 4.5 in thousands of disturbed crease patterns."""
 _CLEAR = 20.0
-"""From this many floors on a singular value is certainly none."""
+"""From this many floors on a singular value is certainly none: four times the most that was met as noise. What
+lies between is undecided, and said to be."""
 _LARGE = 1e-3
-"""What is larger than this part of the largest singular value is never called noise."""
+"""What is larger than this part of the largest singular value is never called noise, however rough the coordinates are:
+coordinates of two digits would make all equations redundant."""
 
 Certainty = Literal["numerical", "nearly mobile", "indeterminate"]
 

@@ -17,8 +17,8 @@ from graphs.count.report import mobility_report
 from graphs.edit.edits import counts_as_json
 from graphs.errors import InvariantError, numbered, shown
 from graphs.files.accepted import MechanismLike, mechanism_for
-from graphs.identity.chains import labels_of
 from graphs.identity.leaves import ColouredGraph
+from graphs.identity.numbering import labels_of
 from graphs.loops.loop import Centre
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.scd import SCDGraph

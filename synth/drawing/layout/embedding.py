@@ -17,7 +17,8 @@ from typing import Any, TypeAlias
 
 import networkx as nx
 
-from graphs.identity.chains import subdivided, symmetries_of
+from graphs.identity.chains import subdivided
+from graphs.identity.numbering import symmetries_of
 from graphs.types import Joints, LinkId
 
 Node: TypeAlias = tuple[Any, ...]
