@@ -44,9 +44,9 @@ if TYPE_CHECKING:
 )
 @options.choice(
     "--hinges",
-    ("screws", "pins", "living", "tape"),
-    "Join panels by butt hinges with screws in bores, by knuckles on pins, by flexible strips laid into pockets, or by "
-    "tape.",
+    ("screws", "tape"),
+    "Join panels by butt hinges with screws in bores, or by tape; --how hinge uses neither, but a flexible strip over "
+    "each gap.",
     default="screws",
 )
 @options.flag("--no-collisions", "Neither cut panels back nor check whether solids meet.")
