@@ -15,7 +15,7 @@ from synth.simulation.assembly import DENSITY, Assembly, AssemblyOptions, assemb
 from synth.simulation.mjcf import lost_as_mjcf, mjcf_bytes
 from synth.simulation.sdf import lost_as_sdf, sdf_bytes
 from synth.simulation.step import lost_as_step, step_bytes
-from synth.simulation.tables import csv_bytes, header_bytes, lost_as_table
+from synth.simulation.tables import csv_bytes, lost_as_table
 from synth.simulation.urdf import FILE, lost_as_urdf, urdf_files
 from synth.simulation.usd import lost_as_usd, usd_bytes
 
@@ -26,7 +26,6 @@ MODELS: dict[str, Format[Assembly]] = {
     "usd": Format(".usda", "USD with physics", usd_bytes, lost_as_usd),
     "step": Format(".step", "STEP, for CAD", step_bytes, lost_as_step),
     "table": Format(".csv", "table of a motion", csv_bytes, lost_as_table),
-    "header": Format(".h", "table of a motion for C", header_bytes, lost_as_table),
 }
 """Name to the format of a model for simulators, or of its motion."""
 _BESIDE: dict[str, Callable[[Assembly], Mapping[str, bytes]]] = {"urdf": urdf_files}
@@ -53,10 +52,10 @@ def write_model(
     ----------
     mechanism : anything that `synth.moving.made.configuration_of` takes
     path : str or Path
-    name : {"mjcf", "urdf", "sdf", "usd", "step", "table", "header"}
+    name : {"mjcf", "urdf", "sdf", "usd", "step", "table"}
         The format: for MuJoCo (``.xml``), ROS (``.urdf``, with the loops in a file of JSON beside it) or Gazebo
         (``.sdf``), programs that read USD
-        (``.usda``), CAD (``.step``); the motion as a table (``.csv``), or for C (``.h``).
+        (``.usda``), CAD (``.step``); the motion as a table (``.csv``).
     thickness : float, optional
         Of panels, and diameter of bars, millimetres; by default a hundredth of the extent.
     density : float, optional

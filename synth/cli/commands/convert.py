@@ -62,7 +62,7 @@ _OF_MODELS = ("density", "drive", "branch", "stiffness", "rest", "moment")
 @AT
 @options.choice(
     "--as model",
-    ("mjcf", "urdf", "sdf", "usd", "step", "table", "header"),
+    ("mjcf", "urdf", "sdf", "usd", "step", "table"),
     "Write rigid bodies and joints for a simulator, or a table of the motion.",
 )
 @options.value("--density", "D", "With --as: density of the bodies in kg/m³.  [default: 1000]", type=options.LENGTH)
@@ -117,7 +117,6 @@ def convert(
       step (.step)         CAD: exact solids, an assembly of them, hinge axes as curves
       table (.csv)         joint angles at steps of the driven joint, and the moment that it needs against weight,
                            springs and moments
-      header (.h)          the same for C, with a function that interpolates, and a bound of its error
 
     Notes list what OUT cannot hold, by kind and number. If OUT would read back as another type (its links, joints
     or centres do not correspond), nothing is written, unless --lossy is given.
