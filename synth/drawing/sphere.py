@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import UnsolvableError, numbered
+from graphs.files.outputs import check_installed
 from graphs.geometry import across, signed_area, unit
 from graphs.types import Flags, Floats
 from synth.drawing.scene.frame import COLUMN, PictureFrame, Plot, framed, page_of
@@ -419,10 +420,9 @@ def _region(holds: Callable[[Floats], Flags], columns: int) -> list[list[tuple[F
 
 def _contours(holds: Callable[[Floats], Flags], columns: int) -> list[list[Floats]]:
     """Return the outline and the holes, float[k, 2], of each part of the region in which a predicate holds."""
-    try:
-        from contourpy import FillType, contour_generator
-    except ImportError:
-        raise UnsolvableError("a map of the sphere requires contourpy; try pip install 'synthedra[draw]'") from None
+    check_installed("contourpy", "a map of the sphere")
+    from contourpy import FillType, contour_generator
+
     grid = np.linspace(-_WIDE, _WIDE, columns), np.linspace(-_HIGH, _HIGH, max(2, columns // 2))
 
     def on_map(places: Floats) -> Flags:
