@@ -29,6 +29,7 @@ from graphs.printing import Block, Printed, TableBlock
 from graphs.rank.singular_values import rank_of
 from graphs.tolerances import DOUBLE, EPSILON
 from graphs.types import Floats
+from synth.exporters import EXPORTERS
 from synth.folding.alike import folded_towards
 from synth.folding.configuration import SheetConfiguration
 from synth.folding.mending.fitting import MeantAngles, VertexPlaces
@@ -39,7 +40,7 @@ from synth.motion.motion import motion_of
 from synth.motion.singular.nearest import begun_near
 from synth.motion.singular.sampling import rates_towards
 from synth.moving.made import configuration_of
-from synth.templates.solids import SOLIDS, Solids
+from synth.templates.solids import Solids
 from synth.templates.template import GREATEST, Template
 from synth.thickening.collisions import FoldCourse, Meeting, MovingPieces, body_poses
 from synth.thickening.fittings import HINGES, Bores, bored, bores_of, drilled, parts_of
@@ -283,11 +284,11 @@ class ThickSheet(Printed):
         if Path(path).suffix == ".json":
             write(self.solids, path, force=force)
             return ()
-        check_writable(path, SOLIDS, force=force)
+        check_writable(path, EXPORTERS["solids"], force=force)
         rotations, shifts = self.panel_motions()
         panels = list(self.plates.panels)
         solids = Solids(self.plates.meshes, "thick panels", (rotations[:, panels], shifts[:, panels]))
-        return write_as(solids, path, SOLIDS, force=force)
+        return write_as(solids, path, EXPORTERS["solids"], force=force)
 
 
 def thicken(
