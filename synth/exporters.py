@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 from graphs.files.outputs import Format, Formats, formats_by_suffix
 
-__all__ = ["EXPORTERS", "Exported", "Placed"]
+__all__ = ["EXPORTERS", "Exported"]
 
 Exported = Literal[
     "pictures", "templates", "laser templates", "pictures of motions", "motions", "layer orders", "solids", "models",
