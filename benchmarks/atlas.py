@@ -27,16 +27,22 @@ from synth.atlas.opened import open_atlas
 PLACE = Path(__file__).resolve().parent / "results" / "atlas.json"
 ROWS = 500_000
 INDEXED = (
-    "links = 8 and dof = 1 and centres >= 3 and all_explicit",
+    "links = 8 AND dof = 1 AND centres >= 3 AND all_explicit",
     "links = 8",
-    "symmetry = 4 and dof = 3",
-    "centres = 5 and kind = sc",
+    "symmetry = 4 AND dof = 3",
+    "centres = 5 AND kind = 'sc'",
     "chain_id = 'k1:Cr'",
     "id = 'k1:Cr'",
     "name = 'Watt chain'",
-    "ride_alongs = 1 and links = 11 and dof = 2 and joints = 99",
+    "ride_alongs = 1 AND links = 11 AND dof = 2 AND joints = 99",
 )
-ANY = ("vertices = 99", "loop_sizes contains 99", "name like '%watt%'", "dof = 1 and layers = 99", "edge_ratio > 2")
+ANY = (
+    "vertices = 99",
+    "99 IN (SELECT value FROM json_each(loop_sizes))",
+    "name LIKE '%watt%'",
+    "dof = 1 AND layers = 99",
+    "edge_ratio > 2",
+)
 
 
 def filled(place: Path) -> None:

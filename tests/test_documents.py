@@ -159,7 +159,7 @@ def test_classes_that_rooms_offer_say_what_they_hold():
     assert not {name: names for name, names in untold.items() if names}
     # these have methods only, each with a docstring of its own, or what their base class says
     without = {name for name, cls in classes.items() if not told(cls)}
-    assert without == {"enumerate.runner.Sink", "synth.atlas.ExpressionError"}
+    assert without == {"enumerate.runner.Sink"}
 
 
 def test_few_classes_that_rooms_offer_are_without_an_example():
@@ -232,3 +232,24 @@ def test_the_version_stands_in_one_place_and_where_it_is_cited():
     cited = re.search(r"^version: (.+)$", (ROOT / "CITATION.cff").read_text(encoding="utf-8"), re.MULTILINE)
     assert cited is not None
     assert cited[1] == project["version"] == version("synthedra")
+
+
+def test_the_site_lists_the_files_of_each_theory_page():
+    sys.path.insert(0, str(ROOT / "docs"))
+    try:
+        from cross_links import files_of
+    finally:
+        sys.path.remove(str(ROOT / "docs"))
+    for page in (ROOT / "docs" / "theory").glob("*.md"):
+        if page.stem != "index":
+            assert files_of(page.stem), page
+    assert tuple(
+        next(file for file, what in files_of(page) if what and name in file)
+        for page, name in (("thick-panels", "heights"), ("layer-orders", "local"))
+    ) == ("synth/thickening/heights.py", "synth/layering/local.py")
+
+
+def test_theory_pages_carry_no_lists_of_files():
+    """The site makes them (docs/cross_links.py): those written by hand name files that have moved."""
+    for page in (ROOT / "docs" / "theory").glob("*.md"):
+        assert not re.search(r"^Functions?:|\bFiles(?: of `[\w.]+`)?: `", page.read_text(encoding="utf-8"), re.M), page

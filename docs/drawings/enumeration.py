@@ -123,7 +123,7 @@ def atlas() -> Scene:
         place = Path(folder) / "small.sqlite"
         build_atlas(place, AtlasPlan(_SIX_BAR, creases=0, orders_of=(), realised=False))
         opened = synth.open_atlas(place)
-        report = opened.show(opened.query("kind = sc and links = 6 and centres = 2").rows[0]["id"])
+        report = opened.show(opened.query("kind = 'sc' AND links = 6 AND centres = 2").rows[0]["id"])
     drawn = [one.id for one in report.neighbours if one.relation.startswith("is, without")]
     named = [one.id for one in report.neighbours if one.id in drawn and one.name]
     from_it = [

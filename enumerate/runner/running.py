@@ -5,7 +5,6 @@ holds exactly the units 0 to k - 1 whatever killed the run. Only a fixed number 
 memory does not grow with the number of rows.
 """
 
-import gc
 import time
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
@@ -21,6 +20,7 @@ from enumerate.runner.job import Job, Progress, Row, Sink, Unit, row_as_dict
 from enumerate.runner.stopping import interruptible
 from enumerate.runner.workers import Cluster, LocalWorkers, Workers, timed
 from graphs.errors import StoreError
+from graphs.garbage import set_aside
 
 G = TypeVar("G", bound=nx.Graph)
 
@@ -86,7 +86,7 @@ def run(
         try:
             units, progress = _begun(job, sink)
             begin = time.monotonic()
-            with _old_set_aside():
+            with set_aside():
                 for number, rows, seconds in _results(job, units, workers, cluster, check):
                     sink.take(number, rows, seconds)
                     progress.done += 1
@@ -100,23 +100,6 @@ def run(
             sink.abort()
             raise
     return progress
-
-
-@contextmanager
-def _old_set_aside() -> Iterator[None]:
-    """Keep what is there already out of garbage collections, unless the caller does something of the kind.
-
-    Rows come by the million and hold no circles, but their number sets collections off, and each looks through
-    the modules, the units and the machine code: half the time of a list with attributes.
-    """
-    if gc.get_freeze_count():
-        yield
-        return
-    gc.freeze()
-    try:
-        yield
-    finally:
-        gc.unfreeze()
 
 
 def _begun(job: Job, sink: Sink) -> tuple[dict[int, Unit], Progress]:

@@ -432,6 +432,6 @@ WRITERS = formats_by_suffix(
 """Suffix to the format in which mechanisms are written."""
 _ELSEWHERE = (
     "; with panels .stl .3mf .gltf (synth convert), with a motion .csv (synth convert --table), "
-    "for simulators and CAD .xml .urdf .sdf .usda .step .h (synth convert --as)"
+    "for simulators and CAD .xml .urdf .sdf .usda .step (synth convert --as)"
 )
-"""Suffixes that commands write by other tables: `synth.templates.solids.SOLIDS`, `synth.simulation.writing`."""
+"""Suffixes that commands write by another table: `synth.exporters.EXPORTERS`."""

@@ -16,7 +16,13 @@ Content = TypeVar("Content")
 Lost: TypeAlias = tuple[str, ...]
 """Parts that a file does not hold, each with its number."""
 
-_EXTRAS = {"matplotlib": "draw", "reportlab": "draw", "pyarrow": "parquet", "anywidget": "notebook"}
+_EXTRAS = {
+    "contourpy": "draw",
+    "matplotlib": "draw",
+    "reportlab": "draw",
+    "pyarrow": "parquet",
+    "anywidget": "notebook",
+}
 """Package to the extra that installs it."""
 
 

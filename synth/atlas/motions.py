@@ -213,7 +213,7 @@ def add_motions(
 
 
 def _chains(atlas: Atlas, max_links: int) -> tuple[str, ...]:
-    rows = atlas.query(f"kind = chain and dof = 1 and links <= {int(max_links)}", columns=["id"], limit=1_000_000)
+    rows = atlas.query(f"kind = 'chain' AND dof = 1 AND links <= {int(max_links)}", columns=["id"], limit=1_000_000)
     return tuple(row["id"] for row in rows)
 
 
@@ -620,7 +620,7 @@ def _named(atlas: Atlas, code: str) -> tuple[str | None, tuple[str, ...]]:
     """Return the name of a chain, and the ids of SC graphs that have it and move as its spherical linkage."""
     quoted = code.replace("'", "''")
     chain = atlas.query(f"id = '{quoted}'", columns=["name"]).rows
-    kinds = f"kind = sc and chain_id = '{quoted}' and spatial = 0 and infinite = 0"
+    kinds = f"kind = 'sc' AND chain_id = '{quoted}' AND spatial = 0 AND infinite = 0"
     types = atlas.query(kinds, columns=["id"]).rows
     return (chain[0]["name"] if chain else None), tuple(row["id"] for row in types)
 

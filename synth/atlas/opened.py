@@ -7,6 +7,7 @@ beside it, and a statement has limits of time, of rows, and of the length of a v
 
 from __future__ import annotations
 
+import re
 import sqlite3
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -24,17 +25,7 @@ from enumerate.runner.store_units import COMPLAINTS, quoted, reading
 from graphs.edit.named import known
 from graphs.errors import InvariantError, StoreError, SynthedraError, UnsolvableError, numbered, shown
 from graphs.printing import Block, Printed, TableBlock, plain
-from synth.atlas.columns import (
-    COLUMNS,
-    RELATIONS,
-    SCHEMA,
-    NamedType,
-    named_types,
-    stored_columns,
-    text_values,
-    value_of,
-)
-from synth.atlas.expression import condition_of
+from synth.atlas.columns import COLUMNS, RELATIONS, SCHEMA, NamedType, named_types, text_values, value_of
 
 if TYPE_CHECKING:
     import pandas
@@ -48,6 +39,8 @@ _REFUSED = {
 }  # fmt: skip
 """Functions that do more than compute with values, make values of any length, or take long in a step."""
 
+_STATEMENT = "statement"
+"""The rule that a statement breaks which SQLite refuses."""
 _EXPECTED = "one SELECT on types or relations"
 _STEPS = 10_000
 """Steps of SQLite's machine between two checks of the clock."""
@@ -55,6 +48,12 @@ _LONGEST_VALUE = 300_000
 """Bytes of a value, ten times those of the largest file: the slowest function then takes a second in one step."""
 _LONGEST_STATEMENT = 20_000
 _LONGEST_PATTERN = 200
+
+_QUOTED = re.compile(r"""'(?:[^']|'')*'|"(?:[^"]|"")*"|`(?:[^`]|``)*`|\[[^\]]*\]""")
+"""A text or a name in quotes, in all four ways in which SQLite reads them."""
+_CHAINED = re.compile(r"[<>]=?\s*\w+\s*[<>]")
+_UNKNOWN_COLUMN = re.compile(r"no such column: (.+)")
+_CONDITION = "an SQL expression such as links = 8 AND centres >= 3, with texts in single quotes"
 
 
 class Rows(NamedTuple):
@@ -106,12 +105,50 @@ def selected(
         if getattr(error, "sqlite_errorcode", sqlite3.SQLITE_OK) & 0xFF == sqlite3.SQLITE_INTERRUPT:
             what = f"the query takes longer than {seconds:g} s"
             raise UnsolvableError(f"{what}; try a narrower one, or a longer time limit") from None
-        raise InvariantError("statement", _said(error), _EXPECTED) from None
+        raise InvariantError(_STATEMENT, _said(error), _EXPECTED) from None
     except (*COMPLAINTS, ValueError, OverflowError) as error:
-        raise InvariantError("statement", _said(error), _EXPECTED) from None
+        raise InvariantError(_STATEMENT, _said(error), _EXPECTED) from None
     if cursor.description is None:
-        raise InvariantError("statement", "the statement selects nothing", _EXPECTED)
+        raise InvariantError(_STATEMENT, "the statement selects nothing", _EXPECTED)
     return Rows(tuple(head[0] for head in cursor.description), rows[:limit], len(rows) > limit)
+
+
+def _where(condition: str) -> str:
+    """Return the clause of a condition; InvariantError unless it is one expression.
+
+    Brackets round it keep it apart from the statement that it becomes a part of. They hold only if its own brackets
+    are balanced, and no comment or semicolon swallows what follows.
+    """
+    if not condition.strip():
+        return ""
+    bare = _QUOTED.sub("''", condition)
+    depth = 0
+    for sign in bare:
+        depth += (sign == "(") - (sign == ")")
+        if depth < 0:
+            break
+    if depth:
+        raise InvariantError("condition", "its brackets do not match", _CONDITION)
+    stray = next((sign for sign in ("--", "/*", ";") if sign in bare), None)
+    if stray is not None:
+        raise InvariantError("condition", f"{shown(stray)} is no part of an expression", _CONDITION)
+    if _CHAINED.search(bare):
+        # SQL compares the truth value of the first comparison with the third term: always true of 4 <= links <= 8
+        raise InvariantError("condition", "two comparisons in a row", "links BETWEEN 4 AND 8, or AND between them")
+    return f" WHERE ({condition})"
+
+
+@contextmanager
+def _condition_refused() -> Iterator[None]:
+    """Say of what SQLite refuses that it is a condition, and list the columns where one is unknown."""
+    try:
+        yield
+    except InvariantError as error:
+        if error.rule != _STATEMENT:
+            raise
+        unknown = _UNKNOWN_COLUMN.fullmatch(error.offender)
+        expected = _CONDITION if unknown is None else f"{known(COLUMNS, unknown[1])}; texts stand in single quotes"
+        raise InvariantError("condition", error.offender, expected) from None
 
 
 @contextmanager
@@ -382,7 +419,7 @@ class Atlas:
     >>> from synth.atlas import AtlasPlan, build_atlas
     >>> with TemporaryDirectory() as folder:
     ...     _ = build_atlas(f"{folder}/a.sqlite", AtlasPlan(4, creases=0, orders_of=(), realised=False))
-    ...     rows = Atlas(Path(folder) / "a.sqlite").query("all_explicit and vertices <= 6")
+    ...     rows = Atlas(Path(folder) / "a.sqlite").query("all_explicit AND vertices <= 6")
     >>> [(row["id"], row["vertices"]) for row in rows]
     [('m1:a-b.ac-.b-d.cd-', 5), ('m1:a--b.ac-.b-d.cd-', 6)]
     """
@@ -403,7 +440,9 @@ class Atlas:
         Parameters
         ----------
         condition : str, optional
-            In the grammar of `synth.atlas.expression`; without it, all types.
+            An SQL expression on columns; without it, all types. Lists are JSON: ``assortment = '[4,2]'``, or
+            ``5 IN (SELECT value FROM json_each(loop_sizes))``. As in SQL, a type without a value fulfils no
+            condition on it, negated or not, but ``IS NULL``.
         columns : sequence of str, optional
             By default all but the files.
         sort : str, optional
@@ -416,21 +455,18 @@ class Atlas:
         Raises
         ------
         InvariantError
-            If there is no such column, or the condition cannot be read (`ExpressionError`).
+            If there is no such column, the condition is no single expression, or SQLite refuses it.
         UnsolvableError
             If it takes longer.
         """
         selection = tuple(map(_column, columns)) or _all_columns()
-        where, values = "", ()
-        if condition.strip():
-            sql, values = condition_of(condition, stored_columns())
-            where = f" WHERE {sql}"
-        order = "rowid"
+        where, order = _where(condition), "rowid"
         if sort:
             name = _column(sort.removeprefix("-"))
             order = f'"{name}" {"DESC" if sort.startswith("-") else "ASC"} NULLS LAST, rowid'
-        statement = f"SELECT {quoted(selection)} FROM type{where} ORDER BY {order} LIMIT ?"
-        rows = self._selected(statement, (*values, limit + 1), limit, seconds)
+        statement = f"SELECT {quoted(selection)} FROM type{where} ORDER BY {order} LIMIT {int(limit) + 1}"
+        with _condition_refused():
+            rows = self._selected(statement, limit, seconds)
         return AtlasRows(selection, [self._row(selection, row) for row in rows.rows], rows.more)
 
     def sql(self, statement: str, *, limit: int = _LIMIT, seconds: float = _SECONDS) -> AtlasRows:
@@ -438,7 +474,7 @@ class Atlas:
 
         Raise InvariantError if it is no SELECT, or SQLite refuses it; UnsolvableError if it takes longer.
         """
-        rows = self._selected(statement, (), limit, seconds)
+        rows = self._selected(statement, limit, seconds)
         return AtlasRows(rows.columns, [dict(zip(rows.columns, row, strict=True)) for row in rows.rows], rows.more)
 
     def show(self, code: str) -> TypeReport:
@@ -477,12 +513,12 @@ class Atlas:
     def _row(self, names: Sequence[str], row: Sequence[Any]) -> dict[str, Any]:
         return {name: value_of(self.path, name, value) for name, value in zip(names, row, strict=True)}
 
-    def _selected(self, statement: str, values: Sequence[Any], limit: int, seconds: float) -> Rows:
+    def _selected(self, statement: str, limit: int, seconds: float) -> Rows:
         if limit < 1 or not seconds > 0:
             expected = "1 or more rows in more than 0 s"
             raise InvariantError("query", f"{numbered(limit, 'row')} in {seconds} s", expected)
         with open_guarded(self.path) as connection:
-            return selected(connection, statement, values, limit=limit, seconds=seconds)
+            return selected(connection, statement, (), limit=limit, seconds=seconds)
 
     def __repr__(self) -> str:
         return f"<Atlas: {plain(self.path, 200)}>"

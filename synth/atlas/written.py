@@ -13,13 +13,13 @@ from enumerate.runner.sinks import sink_for
 from enumerate.strings.panel_strings import chain_scd
 from graphs.errors import FileError, InvariantError, UnsolvableError, shown
 from graphs.files.native import dumps
-from graphs.files.outputs import Format, formats_by_suffix, unknown_extension, write_as
+from graphs.files.outputs import unknown_extension, write_as
 from graphs.files.patterns.fold import sheet_from_fold
 from graphs.mechanism.sheet import Sheet
 from synth.atlas.columns import COLUMNS
 from synth.atlas.opened import AtlasRows
 from synth.drawing.catalogue import CatalogueEntry, catalogue_pages, drawable_of_type, write_catalogue
-from synth.drawing.scene.writing import PICTURES
+from synth.exporters import EXPORTERS
 
 
 def sheet_of_type(values: Mapping[str, Any]) -> Sheet | None:
@@ -48,12 +48,12 @@ def write_rows(rows: AtlasRows, path: str | Path, *, force: bool = False) -> lis
     if not place.suffix:
         _check_mechanisms(rows)
         run(_Listed(rows), sink_for(place, force=force))
-    elif place.suffix.lower() in PICTURES:
+    elif place.suffix.lower() in EXPORTERS["pictures"]:
         return write_catalogue(catalogue_pages(_entries(rows)), place, force=force)
-    elif place.suffix.lower() in TABLES:
-        write_as(rows, place, TABLES, force=force)
+    elif place.suffix.lower() in EXPORTERS["tables"]:
+        write_as(rows, place, EXPORTERS["tables"], force=force)
     else:
-        raise unknown_extension(place, (*TABLES, *PICTURES), ", or a folder")
+        raise unknown_extension(place, (*EXPORTERS["tables"], *EXPORTERS["pictures"]), ", or a folder")
     return [place]
 
 
@@ -121,23 +121,14 @@ def _entries(rows: AtlasRows) -> Iterator[CatalogueEntry]:
         yield CatalogueEntry(number, drawable, row["id"], ", ".join(filter(None, caption)))
 
 
-def _table(suffix: str, name: str, needs: str = "") -> Format[AtlasRows]:
-    """Return the format of a table that a sink of the runner writes."""
-
-    def table_bytes(rows: AtlasRows) -> bytes:
-        with TemporaryDirectory() as folder:
-            place = Path(folder, f"rows{suffix}")
-            run(_Listed(rows), sink_for(place))
-            return place.read_bytes()
-
-    return Format(suffix, name, table_bytes, needs=needs)
+def table_bytes(rows: AtlasRows, suffix: str) -> bytes:
+    """Return rows as a sink of the runner writes them to a file with a suffix."""
+    with TemporaryDirectory() as folder:
+        place = Path(folder, f"rows{suffix}")
+        run(_Listed(rows), sink_for(place))
+        return place.read_bytes()
 
 
-TABLES = formats_by_suffix(
-    _table(".csv", "CSV"),
-    Format(".json", "JSON", lambda rows: f"{json.dumps(rows.to_json(), indent=1, allow_nan=False)}\n".encode()),
-    _table(".jsonl", "JSON lines"),
-    _table(".parquet", "Parquet", needs="pyarrow"),
-    _table(".tex", "LaTeX"),
-)
-"""Suffix to the format in which rows are written as a table; pictures of rows are a catalogue."""
+def json_bytes(rows: AtlasRows) -> bytes:
+    """Return rows as a list of objects."""
+    return f"{json.dumps(rows.to_json(), indent=1, allow_nan=False)}\n".encode()

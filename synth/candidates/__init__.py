@@ -1,4 +1,7 @@
-"""Conical candidates evaluated: a job for the runner, with rows of circuits, layers, ranks, senses of rotation."""
+"""Conical candidates evaluated: a job for the runner, with rows of circuits, layers, ranks, senses of rotation.
+
+Theory: docs/theory/conical-candidates.md.
+"""
 
 from graphs.lazy import offered
 

@@ -68,9 +68,9 @@ def check_picture(path: str | None, *, force: bool) -> None:
     """Refuse a picture that cannot be written, before anything is computed for it; None is no picture."""
     if path is not None:
         from graphs.files.outputs import check_writable
-        from synth.drawing.scene.writing import PICTURES
+        from synth.exporters import EXPORTERS
 
-        check_writable(path, PICTURES, force=force)
+        check_writable(path, EXPORTERS["pictures"], force=force)
 
 
 def tell_lost(lost: Sequence[str]) -> None:

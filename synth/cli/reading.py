@@ -6,10 +6,8 @@ command hands them on.
 
 from __future__ import annotations
 
-import gc
 import re
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -110,25 +108,6 @@ def read(file: str, *, warn: bool = True) -> Mechanism:
     if warn and reading is not None and reading.warning:
         click.echo(f"{plain(file, 4096)}: {plain(reading.warning, 1000)}", err=True)
     return _in_configuration(mechanism, file)
-
-
-@contextmanager
-def set_aside() -> Iterator[None]:
-    """Keep what is made here, and all that is there, out of garbage collections until the command ends.
-
-    A large sheet is some millions of objects that stay: the collector would look through all of them, again and
-    again, while they are made and later. Does nothing where objects are set aside already.
-    """
-    if gc.get_freeze_count() or not gc.isenabled():
-        yield
-        return
-    gc.disable()
-    try:
-        yield
-    finally:
-        gc.freeze()
-        gc.enable()
-        click.get_current_context().call_on_close(gc.unfreeze)
 
 
 def _in_configuration(mechanism: Mechanism, file: str) -> Mechanism:

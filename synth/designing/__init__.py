@@ -3,6 +3,8 @@
 A mechanism is given with coordinates (`dimensions`), and wishes about its motion (`wishes`, `targets`, read by
 `wish_files`). Least squares with exact derivatives (`poses`, `problem`, `search`) change its dimensions and all
 configurations at once; the verdict and a traced motion judge what was found (`tracing`, `designs`).
+
+Theory: docs/theory/design.md.
 """
 
 from graphs.lazy import offered

@@ -28,7 +28,8 @@ from synth.conformed.rates import loops_of_chain
 from synth.drawing.mechanisms.chains import OrderOnCircle
 from synth.drawing.mechanisms.pictures import draw
 from synth.drawing.scene.shapes import LARGE, Label, Layer, Point, moved, text_width
-from synth.drawing.scene.writing import PICTURES, Pages, Scene
+from synth.drawing.scene.writing import Pages, Scene
+from synth.exporters import EXPORTERS
 
 Row = Mapping[str, Any]
 """Column to value."""
@@ -416,14 +417,14 @@ def write_catalogue(
     the extension is another, or a file exists or cannot be written; UnsolvableError if the library that writes PNG
     (matplotlib) or PDF (reportlab) is not installed.
     """
-    check_writable(path, PICTURES, force=force)
+    check_writable(path, EXPORTERS["pictures"], force=force)
     place, rest = Path(path), iter(pages)
     first = next(rest, None)
     if first is None:
         return []
     second = None if place.suffix.lower() == ".pdf" else next(rest, None)
     if second is None:
-        write_as(Pages(chain([first], rest), paper), place, PICTURES, force=force)
+        write_as(Pages(chain([first], rest), paper), place, EXPORTERS["pictures"], force=force)
         return [place]
     places = []
     for number, page in enumerate(chain((first, second), rest), start=1):

@@ -5,7 +5,7 @@ The design sphere with the hoop is as in Figs. 3 to 5 of Tipparthi and Larochell
 hoop. The map is that of Hammer, which keeps areas (as Fig. 6 there).
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import groupby, pairwise
 from math import hypot
 from typing import Any
@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import UnsolvableError, numbered
+from graphs.files.outputs import check_installed
 from graphs.geometry import across, signed_area, unit
 from graphs.types import Flags, Floats
 from synth.drawing.scene.frame import COLUMN, PictureFrame, Plot, framed, page_of
@@ -398,16 +399,17 @@ def _region(holds: Callable[[Floats], Flags], columns: int) -> list[list[tuple[F
     """Return the region of the map in which a predicate holds: polygons, each an outline and then its holes.
 
     Each ring is its corners on the map, float[k, 2], and whether it is a hole. `holds` takes points of the
-    sphere, float[n, 3], and returns bool[n]; it is evaluated on a grid with half as many rows as columns. Between
-    two places of the grid that differ the border is found by bisection, so that outlines are no steps; parts
-    narrower than the grid may be missed.
+    sphere, float[n, 3], and returns bool[n]; it is evaluated on a grid with half as many rows as columns, whose
+    contours have their corners half way between two places that differ. Along these sides of the grid the border is
+    found by bisection, so that outlines are no steps; parts narrower than the grid may be missed.
     """
-    from shapely import union_all
+    from shapely import make_valid, union_all
     from shapely.geometry import Polygon as Area
 
     turn = np.linspace(0.0, 2.0 * np.pi, 361)[:-1]
     whole = Area(np.column_stack([_WIDE * np.cos(turn), _HIGH * np.sin(turn)]))
-    area = union_all([Area(piece) for piece in _pieces(holds, columns)]).intersection(whole).simplify(_ROUND)
+    polygons = [make_valid(Area(outline, holes)) for outline, *holes in _contours(holds, columns)]
+    area = union_all(polygons).intersection(whole).simplify(_ROUND)
     parts: list[Any] = list(getattr(area, "geoms", [area]))
     return [
         [(np.asarray(part.exterior.coords), False), *((np.asarray(hole.coords), True) for hole in part.interiors)]
@@ -416,48 +418,34 @@ def _region(holds: Callable[[Floats], Flags], columns: int) -> list[list[tuple[F
     ]
 
 
-def _pieces(holds: Callable[[Floats], Flags], columns: int) -> Iterator[list[tuple[float, float]]]:
-    """Yield pieces of the region: rows of whole cells, and the parts of other cells inside the border."""
-    x, y = np.linspace(-_WIDE, _WIDE, columns), np.linspace(-_HIGH, _HIGH, max(2, columns // 2))
+def _contours(holds: Callable[[Floats], Flags], columns: int) -> list[list[Floats]]:
+    """Return the outline and the holes, float[k, 2], of each part of the region in which a predicate holds."""
+    check_installed("contourpy", "a map of the sphere")
+    from contourpy import FillType, contour_generator
 
-    def on_map(across: Floats, up: Floats) -> Flags:
-        points, _ = hammer_inverse(across, up)
-        return np.asarray(holds(points.reshape(-1, 3)), dtype=bool).reshape(across.shape)
+    grid = np.linspace(-_WIDE, _WIDE, columns), np.linspace(-_HIGH, _HIGH, max(2, columns // 2))
 
-    flags = on_map(*np.meshgrid(x, y))
-    across = _crossings(flags, x, y, on_map)
-    upward = {(j, i): (b, a) for (i, j), (a, b) in _crossings(flags.T, y, x, lambda a, b: on_map(b, a)).items()}
-    corners = flags[:-1, :-1].astype(int) + flags[:-1, 1:] + flags[1:, :-1] + flags[1:, 1:]
-    for i, row in enumerate((corners == 4).astype(int)):
-        ends = np.flatnonzero(np.diff(np.concatenate([[0], row, [0]])))
-        for first, last in ends.reshape(-1, 2).tolist():
-            yield [(x[first], y[i]), (x[last], y[i]), (x[last], y[i + 1]), (x[first], y[i + 1])]
-    for i, j in np.argwhere((corners > 0) & (corners < 4)).tolist():
-        round_it = [((i, j), across, (i, j)), ((i, j + 1), upward, (i, j + 1)),
-                    ((i + 1, j + 1), across, (i + 1, j)), ((i + 1, j), upward, (i, j))]  # fmt: skip
-        piece = []
-        for corner, crossings, side in round_it:
-            if flags[corner]:
-                piece.append((x[corner[1]], y[corner[0]]))
-            if side in crossings:
-                piece.append(crossings[side])
-        yield piece
+    def on_map(places: Floats) -> Flags:
+        points, _ = hammer_inverse(places[..., 0], places[..., 1])
+        return np.asarray(holds(points.reshape(-1, 3)), dtype=bool).reshape(places.shape[:-1])
 
-
-def _crossings(
-    flags: Flags, x: Floats, y: Floats, holds: Callable[[Floats, Floats], Flags]
-) -> dict[tuple[int, int], tuple[float, float]]:
-    """Return the points at which the border crosses the sides of the grid along its rows, by row and column."""
-    rows, columns = np.nonzero(flags[:, :-1] != flags[:, 1:])
-    inside = flags[rows, columns]
-    yes, no = np.where(inside, x[columns], x[columns + 1]), np.where(inside, x[columns + 1], x[columns])
-    level = y[rows]
-    for _ in range(_BISECTIONS):
-        middle = (yes + no) / 2.0
-        there = holds(middle, level)
-        yes, no = np.where(there, middle, yes), np.where(there, no, middle)
-    places = zip(((yes + no) / 2.0).tolist(), level.tolist(), strict=True)
-    return dict(zip(zip(rows.tolist(), columns.tolist(), strict=True), places, strict=True))
+    flags = on_map(np.stack(np.meshgrid(*grid), axis=-1))
+    # Between 0, inside, and 1 the level 1/2 lies half way: in steps of the grid corners have whole and half numbers.
+    # Where two places on a diagonal are inside, the middle is at the level and counts as inside: narrow parts hold.
+    x, y = (np.arange(len(line)) for line in grid)
+    generator = contour_generator(x=x, y=y, z=(~flags).astype(float), fill_type=FillType.OuterOffset)
+    parts = []
+    for corners, ends in zip(*generator.filled(-1.0, 0.5), strict=True):
+        one, other = np.floor(corners).astype(int), np.ceil(corners).astype(int)
+        inside = flags[one[:, 1], one[:, 0]][:, None]
+        first, second = (np.column_stack([grid[0][at[:, 0]], grid[1][at[:, 1]]]) for at in (one, other))
+        yes, no = np.where(inside, first, second), np.where(inside, second, first)
+        for _ in range(_BISECTIONS):
+            middle = (yes + no) / 2.0
+            there = on_map(middle)[:, None]
+            yes, no = np.where(there, middle, yes), np.where(there, no, middle)
+        parts.append(np.split((yes + no) / 2.0, ends[1:-1]))
+    return parts
 
 
 def spread(points: Floats, reach: float, gap: float, only_x: bool = False) -> Floats:

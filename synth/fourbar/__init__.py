@@ -1,4 +1,7 @@
-"""Four-bars, spherical and planar: which lengths close, and the positions they take."""
+"""Four-bars, spherical and planar: which lengths close, and the positions they take.
+
+Theory: docs/theory/four-bars.md.
+"""
 
 from graphs.lazy import offered
 

@@ -2,6 +2,8 @@
 
 Local conditions first (`local`), then the folded image and its cells (`image`), what the order of two panels over a
 cell has to do with others (`constraints`), and the number of orders that keep all of that (`counting`).
+
+Theory: docs/theory/layer-orders.md.
 """
 
 from graphs.lazy import offered

@@ -17,7 +17,6 @@ from scipy.interpolate import CubicSpline
 
 from graphs.errors import UnsolvableError
 from graphs.geometry import rotations
-from graphs.printing import plain
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.motion.driving import MotionOptions, driven_from
@@ -165,50 +164,6 @@ def csv_bytes(assembly: Assembly) -> bytes:
         cells = [row[number] if assembly.hinges[number].slide else degrees(row[number]) for number in order]
         writer.writerow([*(cell + 0.0 for cell in cells), "" if np.isnan(torque) else torque])
     return stream.getvalue().encode()
-
-
-def header_bytes(assembly: Assembly) -> bytes:
-    """Return the table of a motion as a header of C: arrays, and a function that interpolates between rows."""
-    table = motion_table(assembly)
-    driver = assembly.hinges[table.driver]
-    first, last = table.angles[[0, -1], table.driver].tolist()
-    names = ", ".join(plain(hinge.name, 60) for hinge in assembly.hinges).replace("*/", "* /")
-    rows = ",\n".join("    {" + ", ".join(map(repr, row)) + "}" for row in (table.angles + 0.0).tolist())
-    moments = ",\n".join(f"    {0.0 if np.isnan(torque) else torque!r}" for torque in table.torques.tolist())
-    unknown = int(np.isnan(table.torques).sum())
-    notes = f"; 0 where it is not determined ({unknown} rows)" if unknown else ""
-    return f"""/* synthedra: joint angles of a mechanism of one degree of freedom.
-   The driven joint is {plain(driver.name, 60)}. Radians, of slides metres. Columns: {names}.
-   Linear interpolation is wrong by at most {table.linear:.2e}.
-   mechanism_moment: what the driver needs against weight (along -z), springs and moments at joints, newton metres
-   (of a slide newtons){notes}. */
-#ifndef MECHANISM_TABLE_H
-#define MECHANISM_TABLE_H
-#define MECHANISM_ROWS {len(table.angles)}
-#define MECHANISM_JOINTS {len(assembly.hinges)}
-#define MECHANISM_FIRST {first!r}
-#define MECHANISM_LAST {last!r}
-#define MECHANISM_ERROR {table.linear!r}
-static const double mechanism_angles[MECHANISM_ROWS][MECHANISM_JOINTS] = {{
-{rows}
-}};
-static const double mechanism_moment[MECHANISM_ROWS] = {{
-{moments}
-}};
-/* Write the joint angles at a value of the driven joint; return 0 if it is out of range, where the nearest is taken. */
-static int mechanism_at(double driver, double angles[MECHANISM_JOINTS]) {{
-    double place = (driver - MECHANISM_FIRST) / (MECHANISM_LAST - MECHANISM_FIRST) * (MECHANISM_ROWS - 1);
-    int inside = place >= 0.0 && place <= MECHANISM_ROWS - 1, row, joint;
-    if (!(place > 0.0)) place = 0.0;
-    if (place > MECHANISM_ROWS - 1) place = MECHANISM_ROWS - 1;
-    row = (int)place < MECHANISM_ROWS - 2 ? (int)place : MECHANISM_ROWS - 2;
-    for (joint = 0; joint < MECHANISM_JOINTS; joint++)
-        angles[joint] = mechanism_angles[row][joint]
-            + (place - row) * (mechanism_angles[row + 1][joint] - mechanism_angles[row][joint]);
-    return inside;
-}}
-#endif
-""".encode()
 
 
 def lost_as_table(assembly: Assembly) -> tuple[str, ...]:

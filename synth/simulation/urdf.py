@@ -33,6 +33,11 @@ _ABOUT = {
 }
 
 
+def urdf_bytes(assembly: Assembly) -> bytes:
+    """Return the file of the tree of a model alone."""
+    return urdf_files(assembly)[".urdf"]
+
+
 def urdf_files(assembly: Assembly) -> Mapping[str, bytes]:
     """Return the files of a model, by what their names end in."""
     table = _table(assembly)

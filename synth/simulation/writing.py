@@ -1,4 +1,4 @@
-"""Models for simulators written to files: a record for each format, in the table ``MODELS``."""
+"""Models for simulators written to files: a record for each format, in the table `EXPORTERS`."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -6,29 +6,14 @@ from xml.sax.saxutils import escape
 
 from graphs.errors import FileError, InvariantError, shown
 from graphs.files.atomic import check_place, write_chunks
-from graphs.files.outputs import Format
 from graphs.printing import plain
 from graphs.types import JointId
 from synth.compliance.springs import Springs
+from synth.exporters import EXPORTERS
 from synth.moving.made import Movable
 from synth.simulation.assembly import DENSITY, Assembly, AssemblyOptions, assembly_of
-from synth.simulation.mjcf import lost_as_mjcf, mjcf_bytes
-from synth.simulation.sdf import lost_as_sdf, sdf_bytes
-from synth.simulation.step import lost_as_step, step_bytes
-from synth.simulation.tables import csv_bytes, header_bytes, lost_as_table
-from synth.simulation.urdf import FILE, lost_as_urdf, urdf_files
-from synth.simulation.usd import lost_as_usd, usd_bytes
+from synth.simulation.urdf import FILE, urdf_files
 
-MODELS: dict[str, Format[Assembly]] = {
-    "mjcf": Format(".xml", "MJCF, for MuJoCo", mjcf_bytes, lost_as_mjcf),
-    "urdf": Format(".urdf", "URDF, for ROS", lambda assembly: urdf_files(assembly)[".urdf"], lost_as_urdf),
-    "sdf": Format(".sdf", "SDF, for Gazebo", sdf_bytes, lost_as_sdf),
-    "usd": Format(".usda", "USD with physics", usd_bytes, lost_as_usd),
-    "step": Format(".step", "STEP, for CAD", step_bytes, lost_as_step),
-    "table": Format(".csv", "table of a motion", csv_bytes, lost_as_table),
-    "header": Format(".h", "table of a motion for C", header_bytes, lost_as_table),
-}
-"""Name to the format of a model for simulators, or of its motion."""
 _BESIDE: dict[str, Callable[[Assembly], Mapping[str, bytes]]] = {"urdf": urdf_files}
 """Formats of several files: the files by what their names end in, in place of the extension."""
 
@@ -53,10 +38,10 @@ def write_model(
     ----------
     mechanism : anything that `synth.moving.made.configuration_of` takes
     path : str or Path
-    name : {"mjcf", "urdf", "sdf", "usd", "step", "table", "header"}
+    name : {"mjcf", "urdf", "sdf", "usd", "step", "table"}
         The format: for MuJoCo (``.xml``), ROS (``.urdf``, with the loops in a file of JSON beside it) or Gazebo
         (``.sdf``), programs that read USD
-        (``.usda``), CAD (``.step``); the motion as a table (``.csv``), or for C (``.h``).
+        (``.usda``), CAD (``.step``); the motion as a table (``.csv``).
     thickness : float, optional
         Of panels, and diameter of bars, millimetres; by default a hundredth of the extent.
     density : float, optional
@@ -97,16 +82,16 @@ def write_model(
     """
     options = AssemblyOptions(thickness, density, scale, size, drive or {}, branch, springs or Springs())
     assembly = write_assembly(mechanism, path, name, options, force=force)
-    return (*assembly.notes, *MODELS[name].lost(assembly))
+    return (*assembly.notes, *EXPORTERS["models"][name].lost(assembly))
 
 
 def write_assembly(
     mechanism: Movable, path: str | Path, name: str, options: AssemblyOptions, *, force: bool = False
 ) -> Assembly:
     """Write a mechanism as `write_model` does, and return its bodies and joints."""
-    if name not in MODELS:
-        raise InvariantError("format", f"there is no format {shown(name)}", ", ".join(MODELS))
-    written = MODELS[name]
+    if name not in EXPORTERS["models"]:
+        raise InvariantError("format", f"there is no format {shown(name)}", ", ".join(EXPORTERS["models"]))
+    written = EXPORTERS["models"][name]
     if Path(path).suffix.lower() != written.suffix:
         raise FileError(path, "", f"the extension is not that of {written.name}", written.suffix)
     check_place(Path(path), force=force)

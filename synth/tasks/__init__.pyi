@@ -21,4 +21,4 @@ from synth.tasks.structure import (
     placements_of as placements_of,
     structure_of as structure_of,
 )
-from synth.tasks.task_files import read_task as read_task, task_schema as task_schema, write_task as write_task
+from synth.tasks.task_files import read_task as read_task, task_schema as task_schema

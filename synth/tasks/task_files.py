@@ -1,4 +1,4 @@
-"""Tasks as JSON: read with the place of whatever is wrong, written, and the schema beside that of wishes.
+"""Tasks as JSON: read with the place of whatever is wrong, and the schema beside that of wishes.
 
 Guide: docs/native-json.md.
 """
@@ -11,8 +11,7 @@ from typing import Any
 
 from enumerate.runner.job import ANY_NUMBER, ONE_OR_MORE, Limits
 from graphs.errors import FileError, shown
-from graphs.files.atomic import write_text
-from graphs.files.text import Checker, json_text, load_json
+from graphs.files.text import Checker, load_json
 from graphs.joints.linkage import JointKind
 from synth.designing.wish_files import FORMAT as WISHES_FORMAT, VERSION as WISHES_VERSION, wishes_of_document
 from synth.patterns.catalogue import GENERATORS
@@ -60,40 +59,6 @@ def read_task(path: str | Path) -> Task:
     """
     path = Path(path)
     return task_of_document(load_json(path), path)
-
-
-def write_task(document: Mapping[str, Any], path: str | Path, *, force: bool = False) -> Path:
-    """Write a task, once it is checked.
-
-    Parameters
-    ----------
-    document : mapping
-        As in a file.
-    path : str or Path
-    force : bool, optional
-        Whether to overwrite a file.
-
-    Returns
-    -------
-    Path
-
-    Raises
-    ------
-    FileError
-        If the document is no task, or the file cannot be written.
-
-    Examples
-    --------
-    >>> from tempfile import TemporaryDirectory
-    >>> with TemporaryDirectory() as folder:
-    ...     path = write_task({"format": "synthedra/task", "version": 1, "links": 4}, Path(folder, "task.json"))
-    ...     read_task(path).links.most
-    4
-    """
-    path = Path(path)
-    task_of_document(document, path)
-    write_text(path, json_text(document), force=force)
-    return path
 
 
 def task_of_document(value: Any, path: Path) -> Task:

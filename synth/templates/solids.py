@@ -8,7 +8,7 @@ import numpy as np
 import shapely
 
 from graphs.errors import InvariantError, UnsolvableError, numbered
-from graphs.files.outputs import Format, Lost, check_writable, formats_by_suffix, write_as
+from graphs.files.outputs import Lost, check_writable, write_as
 from graphs.files.solids.gltf import gltf_text
 from graphs.files.solids.meshes import Mesh, obj_of_meshes, stl_bytes, three_mf_bytes
 from graphs.geometry import rigid_motion
@@ -18,6 +18,7 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import Surface
 from graphs.types import Floats
 from synth.conformed.linkages import OnSurface
+from synth.exporters import EXPORTERS
 from synth.moving.motion import FilePoses, poses_of_file
 from synth.templates.on_surface import Dimensions, LayeredLinkage, solids_on_surface
 from synth.templates.pieces import GRID, united
@@ -147,24 +148,34 @@ class Solids(NamedTuple):
     frames_left_out: int = 0
 
 
-def _gltf_bytes(solids: Solids) -> bytes:
+def gltf_of_solids(solids: Solids) -> bytes:
+    """Return solids as glTF, with their motion."""
     count = len(solids.meshes)
     motion = solids.motion or (np.tile(np.eye(3), (1, count, 1, 1)), np.zeros((1, count, 3)))
     return gltf_text(solids.meshes, *motion, title=solids.title).encode()
 
 
-def _lost(solids: Solids) -> Lost:
+def lost_as_solids(solids: Solids) -> Lost:
+    """Return what files of solids do not hold."""
     frames = solids.frames_left_out
     return ("hinges, but for the gaps", *((numbered(frames, "other frame"),) if frames else ()))
 
 
-SOLIDS = formats_by_suffix(
-    Format(".stl", "STL", lambda solids: stl_bytes(solids.meshes), _lost),
-    Format(".3mf", "3MF", lambda solids: three_mf_bytes(solids.meshes), _lost),
-    Format(".gltf", "glTF, with the motion", _gltf_bytes, _lost),
-    Format(".obj", "OBJ", lambda solids: obj_of_meshes(solids.meshes).encode(), _lost),
-)
-"""Suffix to the format in which solids are written."""
+def stl_of_solids(solids: Solids) -> bytes:
+    """Return solids as STL."""
+    return stl_bytes(solids.meshes)
+
+
+def three_mf_of_solids(solids: Solids) -> bytes:
+    """Return solids as 3MF."""
+    return three_mf_bytes(solids.meshes)
+
+
+def obj_of_solids(solids: Solids) -> bytes:
+    """Return solids as OBJ."""
+    return obj_of_meshes(solids.meshes).encode()
+
+
 THICKNESS = 1.0
 """Default thickness of panels, millimetres."""
 
@@ -231,7 +242,7 @@ def write_solids(
     ...     write_solids(square, Path(folder, "square.stl"), size=50)
     ('hinges, but for the gaps',)
     """
-    check_writable(path, SOLIDS, force=force)
+    check_writable(path, EXPORTERS["solids"], force=force)
     whole, poses, of_file = poses_of(sheet)
     if scale is None and size is None:
         size = fitted_size(sheet)
@@ -241,7 +252,7 @@ def write_solids(
         solids = Solids(plates.meshes, whole.title, plates.motions(whole, poses), of_file.left_out)
     else:
         solids = Solids(plates_in_space(plates), frames_left_out=of_file.left_out + len(poses) - 1)
-    return write_as(solids, path, SOLIDS, force=force)
+    return write_as(solids, path, EXPORTERS["solids"], force=force)
 
 
 def fitted_size(sheet: Sheet) -> float | None:
@@ -286,7 +297,7 @@ def write_shapes(solids: HingedSolids, path: str | Path, *, force: bool = False)
     if not solids.shapes:
         raise UnsolvableError("solids require panels or shapes of links, and these hinged solids have axes only")
     meshes = [Mesh(shape.name, np.array(shape.corners), np.array(shape.triangles)) for shape in solids.shapes]
-    return write_as(Solids(meshes, "hinged solids"), path, SOLIDS, force=force)
+    return write_as(Solids(meshes, "hinged solids"), path, EXPORTERS["solids"], force=force)
 
 
 def write_linkage_on_surface(
@@ -299,6 +310,6 @@ def write_linkage_on_surface(
     UnsolvableError if two joints are on one ruling line, or a link has one joint only, or is narrower than the
     gap.
     """
-    check_writable(path, SOLIDS, force=force)
+    check_writable(path, EXPORTERS["solids"], force=force)
     meshes = solids_on_surface(LayeredLinkage(linkage, surface, dimensions), gap)
-    return write_as(Solids(meshes), path, SOLIDS, force=force)
+    return write_as(Solids(meshes), path, EXPORTERS["solids"], force=force)

@@ -7,11 +7,12 @@ from math import inf, sqrt
 from pathlib import Path
 
 from graphs.files.atomic import check_place
-from graphs.files.outputs import Format, check_writable, formats_by_suffix, write_as
+from graphs.files.outputs import check_writable, write_as
 from graphs.files.patterns.dxf import DxfLayer, DxfLine, DxfWord, dxf_of
 from graphs.printing import plain
 from synth.drawing.scene.shapes import Label, Line
-from synth.drawing.scene.writing import PICTURES, Pages, Scene
+from synth.drawing.scene.writing import Pages, Scene
+from synth.exporters import EXPORTERS
 from synth.templates.laser import LASER_LAYERS, laser_scene, with_kerf
 from synth.templates.pages import Page, Paper, gauge, laid_out, layers_of, pages_of, strokes_and_texts
 from synth.templates.pieces import LOOKS
@@ -22,6 +23,11 @@ _BELOW = -8.0
 _ROW = 1.5
 """A row of pieces is so much longer than the side of a square of their boxes."""
 _LAYERS = [DxfLayer(kind, look.number) for kind, look in LOOKS.items()]
+
+
+def laser_dxf_bytes(pages: Pages) -> bytes:
+    """Return a template for laser cutters as DXF."""
+    return dxf_bytes(pages, _LASER_DXF)
 
 
 def dxf_bytes(pages: Pages, layers: Sequence[DxfLayer] = _LAYERS) -> bytes:
@@ -51,15 +57,7 @@ def _side_by_side(template: Template) -> Scene:
     return Scene(0.0, 0.0, tuple(layers), unit="mm")
 
 
-TEMPLATES = formats_by_suffix(
-    PICTURES[".pdf"], PICTURES[".svg"], Format(".dxf", "DXF R12, without pages and assembly instructions", dxf_bytes)
-)
-"""Suffix to the format in which templates are written."""
 _LASER_DXF = [DxfLayer(name, number) for name, (_, number) in LASER_LAYERS.items()]
-LASER_TEMPLATES = formats_by_suffix(
-    PICTURES[".svg"], PICTURES[".pdf"], Format(".dxf", "DXF R12", lambda pages: dxf_bytes(pages, _LASER_DXF))
-)
-"""Suffix to the format in which templates for laser cutters are written: one drawing at full size."""
 _LONGEST_TITLE = 200
 _A4 = Paper(210.0, 297.0)
 
@@ -117,11 +115,11 @@ def write_template(
     [('square.svg', '<svg'), ('square-note.svg', '<svg')]
     """
     place = Path(path)
-    check_writable(place, TEMPLATES, force=force)
+    check_writable(place, EXPORTERS["templates"], force=force)
     suffix = place.suffix.lower()
     template = with_kerf(template, kerf)
     if laser:
-        write_as(Pages([laser_scene(template)]), place, LASER_TEMPLATES, force=force)
+        write_as(Pages([laser_scene(template)]), place, EXPORTERS["laser templates"], force=force)
         return (place,)
     if suffix == ".dxf":
         files = {place: Pages([_side_by_side(template)])}
@@ -133,7 +131,7 @@ def write_template(
     for name in files:
         check_place(name, force=force)
     for name, pages in files.items():
-        write_as(pages, name, TEMPLATES, force=force)
+        write_as(pages, name, EXPORTERS["templates"], force=force)
     return tuple(files)
 
 

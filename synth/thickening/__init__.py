@@ -2,7 +2,7 @@
 
 `heights` has the conditions of vertices and the linear programme for the heights of hinges, `plates` the solids of
 panels, cut back where they meet, `collisions` their distances and the swept motion, `techniques` hinges in the plane,
-`fittings` bores, pockets and the parts list, `thickened` the answer. Theory: docs/theory/thick-panels.md.
+`fittings` bores and the parts list, `thickened` the answer. Theory: docs/theory/thick-panels.md.
 """
 
 from graphs.lazy import offered

@@ -1,7 +1,6 @@
-"""What holds panels at hinges: bores for screws, knuckles on pins, pockets for inlaid living hinges, or tape.
+"""What holds panels at hinges: bores for screws, or tape; and the parts list.
 
-Bores and pockets are taken from solids after the sweep: solids that do not meet do not meet with less material.
-Knuckles add material, so the motion is swept again with them.
+Bores are taken from solids after the sweep: solids that do not meet do not meet with less material.
 Theory: docs/theory/thick-panels.md.
 """
 
@@ -18,24 +17,16 @@ import numpy as np
 import shapely
 
 from graphs.errors import numbered
-from graphs.geometry import unit
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
 from synth.templates.pieces import Kind, Piece, TemplateLine, Text, point_of
-from synth.thickening.plates import Knuckle, Plates, Ply, ThickPlates, grid_of, polygons_of, ring_about
+from synth.thickening.plates import Plates, ThickPlates, polygons_of, ring_about
 from synth.thickening.techniques import HingeSeat, TaperedPlates
 
-HINGES = ("screws", "pins", "living", "tape")
-"""What joins panels: butt hinges with screws, knuckles on a pin, flexible strips inlaid at the axis, or tape."""
-BARREL = 0.6
-"""Diameter of knuckles as a part of the thickness; their bores are as wide as those for screws."""
+HINGES = ("screws", "tape")
+"""What joins panels: butt hinges with screws, or tape. Panels that are apart at hinges have a strip, and neither."""
 BORE, SETBACK = 0.3, 0.5
 """Diameter of bores for screws and their distance from the axis, as parts of the thickness: risers have room."""
-POCKET = 0.1
-"""Depth of a pocket for an inlaid strip, as a part of the thickness; it is a setback wide on each side."""
-
-_BORNE = (0.25, 0.75)
-"""A panel bears a part of an axis if it has material beside it between these parts of its length."""
 
 _ALIGNING = (
     "Lines of hinges have the number of their crease at a quarter; glue plies so that lines of one crease coincide."
@@ -98,109 +89,6 @@ def bored(plates: TaperedPlates, bores: Bores, thickness: float) -> TaperedPlate
     return replace(plates, bores=tuple(through))
 
 
-def pocketed(plates: ThickPlates, seats: Sequence[HingeSeat], thickness: float) -> ThickPlates:
-    """Return plates with a pocket along each hinge at the side of its axis, into which a flexible strip is laid."""
-    reach, depth = DOUBLE.meant * thickness, POCKET * thickness
-    strips: dict[int, list[tuple[float, shapely.Polygon]]] = defaultdict(list)
-    for seat in seats:
-        for start, end in seat.lines:
-            strip = shapely.LineString([start, end]).buffer(SETBACK * thickness, cap_style="flat")
-            for panel in seat.panels:
-                strips[panel].append((seat.height, strip))
-    plies: list[Ply] = []
-    for ply in plates.plies:
-        sides = [
-            shapely.union_all([strip for height, strip in strips[ply.panel] if abs(height - level) <= reach])
-            for level in (ply.low, ply.high)
-        ]
-        levels = [ply.low, ply.low + depth, ply.high - depth, ply.high]
-        layers = [sides[0], shapely.Polygon(), sides[1]]
-        outlines = [shapely.difference(ply.outline, gone) for gone in layers]
-        kept = [gone.intersects(ply.outline) and not gone.is_empty for gone in (sides[0], sides[1])]
-        low, high = levels[1] if kept[0] else ply.low, levels[2] if kept[1] else ply.high
-        plies += [replace(ply, low=ply.low, high=low, outline=outlines[0])] if kept[0] else []
-        plies.append(replace(ply, low=low, high=high))
-        plies += [replace(ply, low=high, high=ply.high, outline=outlines[2])] if kept[1] else []
-    return replace(plates, plies=tuple(plies))
-
-
-def knuckled(plates: ThickPlates, seats: Sequence[HingeSeat], thickness: float, clearance: float) -> ThickPlates:
-    """Return plates whose panels bear each hinge in turns, as knuckles on a pin, where there is room.
-
-    A part of the axis that both panels reach has three, the outer ones of the first panel; one that a single panel
-    reaches has one. Its own panel ends at its block, the other one outside the circle that the barrel needs.
-    """
-    knuckles: list[Knuckle] = []
-    taken: dict[int, list[tuple[float, float, Any]]] = defaultdict(list)
-    for seat in seats:
-        for start, end in seat.lines:
-            for knuckle, parted in _knuckles_of(plates, seat, (start, end), thickness, clearance):
-                knuckles.append(knuckle)
-                for panel, around in parted.items():
-                    taken[panel].append((seat.height - around[0], seat.height + around[0], around[1]))
-    reach = DOUBLE.meant * thickness
-    plies = []
-    for ply in plates.plies:
-        gone = [part for low, high, part in taken[ply.panel] if low < ply.high - reach and high > ply.low + reach]
-        grid = grid_of(ply.outline)
-        rest = shapely.difference(ply.outline, shapely.union_all(gone), grid_size=grid) if gone else ply.outline
-        plies.append(replace(ply, outline=rest))
-    return replace(plates, plies=tuple(plies), knuckles=tuple(knuckles))
-
-
-def _knuckles_of(
-    plates: ThickPlates, seat: HingeSeat, line: tuple[Floats, Floats], thickness: float, clearance: float
-) -> list[tuple[Knuckle, dict[int, tuple[float, Any]]]]:
-    """Return the knuckles on a part of an axis, with what each takes from both panels: height and outline."""
-    radius, gap, reach = BARREL * thickness / 2.0, 1.5 * clearance, DOUBLE.meant * thickness
-    start, along = line[0], unit(line[1] - line[0])
-    length = float(np.linalg.norm(line[1] - line[0]))
-    normal = np.array([-along[1], along[0]])
-    bearing = {}
-    for panel in seat.panels:
-        own = [ply for ply in plates.plies if ply.panel == panel]
-        plies = [ply for ply in own if ply.low - reach <= seat.height <= ply.high + reach]
-        for side in (1.0, -1.0):
-            beside = [start + part * length * along + side * radius * normal for part in _BORNE]
-            at = [ply for ply in plies if ply.outline.covers(shapely.LineString(beside))]
-            if at:
-                bearing[panel] = (side, min(ply.low for ply in at), max(ply.high for ply in at))
-    count = 2 * len(bearing) - 1
-    # Knuckles of creases that meet at a vertex keep off each other there.
-    corner = max(0.1 * length, thickness)
-    ends = [
-        corner if count == 3 or place is last else gap / 2.0
-        for place, last in zip(line, (seat.lines[0][0], seat.lines[-1][1]), strict=True)
-    ]
-    each = (length - sum(ends)) / max(count, 1)
-    if not bearing or each < 2.0 * radius + gap:
-        return []
-    knuckles = []
-    for number in range(count):
-        panel = list(bearing)[number % 2]
-        side, low, high = bearing[panel]
-        first, last = ends[0] + number * each + gap / 2.0, ends[0] + (number + 1) * each - gap / 2.0
-        inward = side * normal
-        # To the right of the inward direction as seen from above, the axis goes along or against the line.
-        ahead = float(inward[1] * along[0] - inward[0] * along[1]) > 0.0
-        foot = start + (first if ahead else last) * along
-        knuckle = Knuckle(
-            seat.joint, panel, np.array([*foot, seat.height]), np.array([*inward, 0.0]), last - first, radius,
-            BORE * thickness / 2.0, low - seat.height, high - seat.height,
-        )  # fmt: skip
-        other = next(one for one in seat.panels if one != panel)
-        base, top = start + first * along, start + last * along
-        block = _strip(base, top, radius * inward)
-        clear = _strip(base - gap * along, top + gap * along, -(radius + gap) * inward)
-        knuckles.append((knuckle, {panel: (radius, block), other: (radius + gap, clear)}))
-    return knuckles
-
-
-def _strip(start: Floats, end: Floats, width: Floats) -> Any:
-    """Return a rectangle beside a segment, and half as much on the other side, so that no sliver is left there."""
-    return shapely.Polygon([start - 0.5 * width, end - 0.5 * width, end + width, start + width])
-
-
 def parts_of(
     plates: Plates,
     seats: Sequence[HingeSeat],
@@ -233,7 +121,7 @@ def parts_of(
             solid = isinstance(plates, ThickPlates)
             work = f"glue {len(names)} plies on each other" if solid else "one board, sides sawn between outlines"
         steps.append(f"Panel {panel}: {work}, {'; '.join(names)}.")
-    return pieces, (*steps, *(_of_crease(seat, thickness, hinges, bores, clearance, plates) for seat in seats))
+    return pieces, (*steps, *(_of_crease(seat, thickness, hinges, bores, clearance) for seat in seats))
 
 
 def _piece(
@@ -260,9 +148,8 @@ def _piece(
     return Piece(tuple(strokes), tuple(texts), polygon)
 
 
-def _of_crease(seat: HingeSeat, thickness: float, hinges: str, bores: Bores, clearance: float, plates: Plates) -> str:
+def _of_crease(seat: HingeSeat, thickness: float, hinges: str, bores: Bores, clearance: float) -> str:
     """Return the line of the parts list on a hinge."""
-    knuckles = [one for one in plates.knuckles if one.joint == seat.joint] if isinstance(plates, ThickPlates) else []
     folded, count = "valley" if seat.valley else "mountain", len(bores.get(seat.joint, ()))
     text = f"Crease {seat.joint}, {folded}, panels {seat.panels[0]} and {seat.panels[1]}: "
     text += f"axis at {_written(seat.height)}, {seat.length:.4g} long"
@@ -270,19 +157,13 @@ def _of_crease(seat: HingeSeat, thickness: float, hinges: str, bores: Bores, cle
         text += f", sides bevelled by {degrees(seat.bevel):.4g} degrees from upright"
     if seat.gap:
         text += f", a strip over a gap of {seat.gap:.4g}"
-    elif hinges == "living" and isinstance(plates, ThickPlates):
-        text += f", a strip {2.0 * SETBACK * thickness:.4g} wide and {POCKET * thickness:.4g} thick laid in"
-    elif knuckles:
-        pin = BORE * thickness - clearance
-        lengths = ", ".join(f"panel {one.panel} {one.length:.4g}" for one in knuckles)
-        text += f", a pin of at most {pin:.3g} through knuckles of {BARREL * thickness:.3g}: {lengths} long"
     elif hinges == "screws" and count:
         screw = BORE * thickness - clearance
         away = (SETBACK + tan(seat.bevel) / 2.0) * thickness
         text += f", {numbered(count, 'hole')} of {BORE * thickness:.3g} for screws of at most {screw:.3g}"
         text += f", {away:.4g} from the axis"
     else:
-        text += f", tape: no room for {hinges}" if hinges in ("screws", "pins") else ", tape"
+        text += ", tape: no room for screws" if hinges == "screws" else ", tape"
     return text + "."
 
 

@@ -34,7 +34,7 @@ from synth.thickening.collisions import ConvexPieces, MovingPieces, pieces_of, s
 from synth.thickening.heights import HingeHeights
 
 _SIDES = 12
-"""Sides of a bore or a barrel."""
+"""Sides of a bore."""
 _STEP = radians(1.5)
 """Between places of the motion at which plies are compared no hinge turns by more; the clearance covers the rest."""
 
@@ -66,75 +66,11 @@ class Ply:
         return float(self.outline.area * (self.high - self.low))
 
 
-@dataclass(frozen=True)
-class Knuckle:
-    """A barrel about the axis of a hinge, bored for a pin, and the block that joins it to its panel; millimetres.
-
-    Attributes
-    ----------
-    joint, panel : int
-    start : float[3]
-        On the axis, where the knuckle begins.
-    inward : float[3]
-        The unit direction from the axis into the panel, level.
-    length : float
-        Along the axis, to the right of the inward direction as seen from above.
-    radius, bore : float
-        Of the barrel, a regular polygon in this circle, and of the circle in its bore.
-    low, high : float
-        Heights of the faces of the block over the axis; it is as wide as the radius.
-    """
-
-    joint: int
-    panel: int
-    start: Floats
-    inward: Floats
-    length: float
-    radius: float
-    bore: float
-    low: float
-    high: float
-
-    @property
-    def volume(self) -> float:
-        """Cubic millimetres."""
-        return float(self._section().area * self.length)
-
-    def mesh(self, name: str) -> Mesh:
-        """Return the solid."""
-        plate = pierced_plate(self._section(), self.length, name)
-        return Mesh(name, self._placed(plate.corners + np.array([0.0, 0.0, self.length / 2.0])), plate.triangles)
-
-    def convex_parts(self) -> list[Floats]:
-        """Return the corners of the barrel and of the block, without the bore."""
-        barrel, block = self._outlines()
-        rings = [np.array(outline.exterior.coords)[:-1] for outline in (barrel, block)]
-        ends = np.array([0.0, self.length])
-        return [self._placed(np.column_stack([np.tile(ring, (2, 1)), np.repeat(ends, len(ring))])) for ring in rings]
-
-    def _outlines(self) -> tuple[Any, Any]:
-        barrel = shapely.Polygon(ring_in((0.0, 0.0), self.radius))
-        return barrel, shapely.box(0.0, self.low, self.radius, self.high)
-
-    def _section(self) -> Any:
-        bore = shapely.Polygon(ring_about((0.0, 0.0), self.bore))
-        return shapely.difference(shapely.union_all(self._outlines()), bore)
-
-    def _placed(self, corners: Floats) -> Floats:
-        """Return points, float[n, 3], by how far they are inward, up and along the axis."""
-        x, y, _ = self.inward.tolist()
-        return np.asarray(self.start + corners @ np.array([self.inward, [0.0, 0.0, 1.0], [y, -x, 0.0]]))
-
-
-def ring_in(centre: Sequence[float] | Floats, radius: float) -> list[tuple[float, float]]:
-    """Return the corners of a regular polygon on a circle."""
-    turns = [2.0 * pi * (side + 0.5) / _SIDES for side in range(_SIDES)]
-    return [(float(centre[0] + radius * cos(turn)), float(centre[1] + radius * sin(turn))) for turn in turns]
-
-
 def ring_about(centre: Sequence[float] | Floats, radius: float) -> list[tuple[float, float]]:
     """Return the corners of a regular polygon round a circle."""
-    return ring_in(centre, radius / cos(pi / _SIDES))
+    turns = [2.0 * pi * (side + 0.5) / _SIDES for side in range(_SIDES)]
+    corner = radius / cos(pi / _SIDES)
+    return [(float(centre[0] + corner * cos(turn)), float(centre[1] + corner * sin(turn))) for turn in turns]
 
 
 class Plates(ABC):
@@ -188,8 +124,6 @@ class ThickPlates(Plates):
         Those of a panel do not overlap.
     cut : mapping of panel to float
         The volume that was cut off panels so that they do not meet, cubic millimetres.
-    knuckles : tuple of Knuckle
-        On pins; parts after the plies.
 
     Examples
     --------
@@ -201,27 +135,21 @@ class ThickPlates(Plates):
 
     plies: tuple[Ply, ...]
     cut: Mapping[int, float]
-    knuckles: tuple[Knuckle, ...] = ()
 
     @cached_property
     def meshes(self) -> tuple[Mesh, ...]:
         """The solids, millimetres."""
-        plies = [_prism(part, ply, name) for part, ply, name in self._parts()]
-        barrels = [
-            one.mesh(f"panel {one.panel} knuckle {number} of crease {one.joint}")
-            for number, one in enumerate(self.knuckles)
-        ]
-        return (*plies, *barrels)
+        return tuple(_prism(part, ply, name) for part, ply, name in self._parts())
 
     @cached_property
     def panels(self) -> tuple[int, ...]:
         """The panel of each mesh."""
-        return (*(ply.panel for _, ply, _ in self._parts()), *(one.panel for one in self.knuckles))
+        return tuple(ply.panel for _, ply, _ in self._parts())
 
     @cached_property
     def volume(self) -> float:
         """Volume of all panels in cubic millimetres."""
-        return sum(ply.volume for ply in self.plies) + sum(one.volume for one in self.knuckles)
+        return sum(ply.volume for ply in self.plies)
 
     @cached_property
     def thinnest(self) -> float:
@@ -240,17 +168,12 @@ class ThickPlates(Plates):
         )
 
     def pieces(self) -> tuple[ConvexPieces, Ints]:
-        """Return plies and knuckles as convex pieces, and the number of the part that each is of, int[P]."""
+        """Return plies as convex pieces, and the number of the ply that each is of, int[P]."""
         solids, bodies, of_ply = [], [], []
         for number, ply in enumerate(self.plies):
             for ring in convex_rings(ply.outline):
                 solids.append(np.column_stack([np.tile(ring, (2, 1)), np.repeat([ply.low, ply.high], len(ring))]))
                 bodies.append(ply.panel)
-                of_ply.append(number)
-        for number, knuckle in enumerate(self.knuckles, start=len(self.plies)):
-            for corners in knuckle.convex_parts():
-                solids.append(corners)
-                bodies.append(knuckle.panel)
                 of_ply.append(number)
         return pieces_of(solids, bodies), np.array(of_ply, dtype=np.int64)
 
@@ -268,7 +191,7 @@ class ThickPlates(Plates):
 
 def thick_plates(
     sheet: Sheet, mechanism: SheetMechanism, heights: HingeHeights, thickness: float, scale: float,
-    *, knuckles: bool = False,
+    *, in_turns: bool = False,
 ) -> ThickPlates:  # fmt: skip
     """Return the solids of a flat sheet; risers are one thickness wide.
 
@@ -283,7 +206,7 @@ def thick_plates(
         Millimetres.
     scale : float
         Millimetres per unit of the coordinates.
-    knuckles : bool, optional
+    in_turns : bool, optional
         The longer of two risers at a hinge takes the middle third of the crease, the other one the outer thirds.
 
     Raises
@@ -324,7 +247,7 @@ def thick_plates(
             for a, b in mechanism.pieces[int(str(joint))]:
                 line = shapely.LineString(corners[[a, b]])
                 part = shapely.intersection(line.buffer(thickness, cap_style="flat"), outline)
-                if knuckles:
+                if in_turns:
                     middle = substring(line, 1.0 / 3.0, 2.0 / 3.0, normalized=True)
                     taken = middle.buffer(2.0 * thickness, cap_style="flat")
                     part = (shapely.intersection if panel == longest else shapely.difference)(part, taken)
@@ -380,18 +303,13 @@ def cut_back(
     """Return plates cut back where plies of panels come nearer than a clearance, in millimetres, on a motion.
 
     Pieces of hinged panels that lie in wedges about the hinge are left out. Of two plies that one is cut that loses
-    less volume; knuckles are not cut. What is cut off from the rest of a panel goes. Places are looked at between
-    which no hinge turns by more than a step, in radians. Risers are kept from slabs if that is wanted.
+    less volume. What is cut off from the rest of a panel goes. Places are looked at between which no hinge turns by
+    more than a step, in radians. Risers are kept from slabs if that is wanted.
     """
     removed: dict[int, list[Any]] = defaultdict(list)
     for (one, other), (places, turns, shifts) in _meetings(moving, clearance, step).items():
-        if min(of_ply[one], of_ply[other]) >= len(plates.plies):
-            continue
         loss: list[tuple[float, int, Any]] = []
         for rest, comes, turn, shift in ((one, other, turns, shifts), (other, one, *_inverse(turns, shifts))):
-            if of_ply[rest] >= len(plates.plies):
-                loss.append((np.inf, 0, None))
-                continue
             ply = plates.plies[of_ply[rest]]
             corners = moving.pieces.corners[comes] @ turn.swapaxes(1, 2) + shift[:, None]
             trace = _trace(corners, places, ply.low - clearance, ply.high + clearance)
@@ -399,8 +317,7 @@ def cut_back(
             loss.append(
                 (float(shapely.intersection(trace, ply.outline).area) * (ply.high - ply.low), of_ply[rest], trace)
             )
-        parts = [plates.plies[of_ply[piece]] for piece in (one, other) if of_ply[piece] < len(plates.plies)]
-        risers = [part.riser for part in parts] if len(parts) > 1 else [False, False]
+        risers = [plates.plies[of_ply[piece]].riser for piece in (one, other)]
         if keep_risers and risers[0] != risers[1]:
             loss[risers[0]], loss[not risers[0]] = (0.0, *loss[risers[0]][1:]), (np.inf, *loss[not risers[0]][1:])
         least = loss[0] if loss[0][0] <= (1.0 + MARGIN) * loss[1][0] else loss[1]
@@ -453,7 +370,7 @@ def hinge_lines(
 ) -> dict[int, list[tuple[Floats, Floats]]]:  # fmt: skip
     """Return the parts of the axis of each hinge at which both its panels have material, by their ends.
 
-    Where panels bear a hinge one after the other, as knuckles on a pin, it is all of these parts.
+    Where panels bear a hinge in turns, as stand-offs do, it is all of these parts.
 
     `ends` are those of the pieces of each crease, float[2, 2] in the plane, heights of hinges in millimetres.
     """

@@ -343,7 +343,7 @@ def offset_plates(
     undersides = _levels(at, 1.0 + clearance / thickness)
     joints = [int(str(joint)) for joint in at.mechanism.sc.joints]
     heights = HingeHeights(dict.fromkeys(joints, 0.0), tuple(undersides), (), 0.0)
-    return thick_plates(at.sheet, at.mechanism, heights, thickness, scale, knuckles=True), heights
+    return thick_plates(at.sheet, at.mechanism, heights, thickness, scale, in_turns=True), heights
 
 
 def _levels(at: SheetConfiguration, apart: float) -> list[float]:

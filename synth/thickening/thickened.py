@@ -30,6 +30,7 @@ from graphs.printing import Block, Printed, TableBlock
 from graphs.rank.singular_values import rank_of
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
+from synth.exporters import EXPORTERS
 from synth.folding.alike import folded_towards
 from synth.folding.configuration import SheetConfiguration
 from synth.folding.mending.fitting import MeantAngles, VertexPlaces
@@ -41,10 +42,10 @@ from synth.motion.singular.nearest import begun_near
 from synth.motion.singular.sampling import rates_towards
 from synth.motion.tangent import TangentSpace
 from synth.moving.made import configuration_of
-from synth.templates.solids import SOLIDS, Solids
+from synth.templates.solids import Solids
 from synth.templates.template import GREATEST, Template
 from synth.thickening.collisions import FoldCourse, Meeting, MovingPieces, body_poses
-from synth.thickening.fittings import HINGES, Bores, bored, bores_of, drilled, knuckled, parts_of, pocketed
+from synth.thickening.fittings import HINGES, Bores, bored, bores_of, drilled, parts_of
 from synth.thickening.heights import HingeHeights, hinge_heights, needs_motion, thick_vertices
 from synth.thickening.plates import Plates, ThickPlates, cut_back, hinge_lines, thick_plates
 from synth.thickening.techniques import (
@@ -144,7 +145,7 @@ class ThickSheet(Printed):
     comparison : tuple of TechniqueFigures
         Of all techniques, if the best was wanted.
     hinges : str
-        What joins panels: ``screws``, ``pins``, ``living`` or ``tape``.
+        What joins panels: ``screws`` or ``tape``; ``strip`` where ``how`` is ``hinge``.
     bores : mapping of joint to list of (int, float[2])
         Panel and centre of each bore for a screw, millimetres.
     clearance : float
@@ -247,10 +248,6 @@ class ThickSheet(Printed):
                 for joint, holes in self.bores.items()
                 for panel, centre in holes
             ],
-            "knuckles": [
-                {"joint": one.joint, "panel": one.panel, "start": one.start.tolist(), "length": one.length}
-                for one in (self.plates.knuckles if isinstance(self.plates, ThickPlates) else ())
-            ],
             "volume": self.plates.volume,
             "cut": [{"panel": panel, "volume": volume} for panel, volume in sorted(self.plates.cut.items())],
             "collisions": None
@@ -292,11 +289,11 @@ class ThickSheet(Printed):
         if Path(path).suffix == ".json":
             write(self.solids, path, force=force)
             return ()
-        check_writable(path, SOLIDS, force=force)
+        check_writable(path, EXPORTERS["solids"], force=force)
         rotations, shifts = self.panel_motions()
         panels = list(self.plates.panels)
         solids = Solids(self.plates.meshes, "thick panels", (rotations[:, panels], shifts[:, panels]))
-        return write_as(solids, path, SOLIDS, force=force)
+        return write_as(solids, path, EXPORTERS["solids"], force=force)
 
 
 def thicken(
@@ -333,9 +330,8 @@ def thicken(
         Cut panels back where they would meet, and find up to which fold angle none meet.
     hinges : str, optional
         What joins panels: ``screws`` in bores through the plies that reach the axis, or through both sides of
-        tapered panels, wider than the screws by the clearance; ``pins`` through knuckles of both panels in turns;
-        ``living``, flexible strips laid into pockets at the side of the axis; ``tape``, which takes no material.
-        Pins and pockets are not for tapered panels, whose axes are inside; hinge strips have none of these.
+        tapered panels, wider than the screws by the clearance; or ``tape``, which takes no material. Where ``how`` is
+        ``hinge`` a flexible strip over each gap joins panels instead.
 
     Returns
     -------
@@ -457,17 +453,11 @@ def _thickened(at: SheetConfiguration, how: str, wishes: _Wishes) -> ThickSheet:
         plates, found = _swept(plates, solids, course, clearance, lines, keep_risers=how == "offset")
     kept = lines.lines(plates) if isinstance(plates, ThickPlates) and how != "hinge" else lines.whole()
     valleys = frozenset(joint for joint in joints if at.sheet.assignments[joint] == "V")
-    sheet = ThickSheet(
+    return _fitted(ThickSheet(
         solids, heights, plates, thickness, verdict, course.frames, keeps, residual, kept, valleys, how, found,
-        hinges=wishes.hinges, clearance=clearance,
+        hinges="strip" if how == "hinge" else wishes.hinges, clearance=clearance,
         freedoms=_freedoms(thick.closure, course) if heights.of_motion else None,
-    )  # fmt: skip
-    if wishes.hinges == "pins" and isinstance(plates, ThickPlates) and how != "hinge":
-        plates = knuckled(plates, sheet.seats(), thickness, clearance)
-        if wishes.collisions:  # knuckles are new material
-            plates, found = _swept(plates, solids, course, clearance, lines, keep_risers=how == "offset")
-        sheet = replace(sheet, plates=plates, collisions=found)
-    return _fitted(sheet)
+    ))  # fmt: skip
 
 
 def _exact(at: SheetConfiguration) -> SheetConfiguration:
@@ -530,16 +520,13 @@ def _spatial_heights(at: SheetConfiguration, greatest: float) -> tuple[HingeHeig
 
 
 def _fitted(thick: ThickSheet) -> ThickSheet:
-    """Return a thick sheet with the bores or pockets of its hinges, and its solids as shapes of links."""
+    """Return a thick sheet with the bores of its hinges, and its solids as shapes of links."""
     seats, plates = thick.seats(), thick.plates
     bores = bores_of(plates, seats, thick.thickness) if thick.hinges == "screws" else {}
     if isinstance(plates, TaperedPlates):
         plates = bored(plates, bores, thick.thickness)
-    elif isinstance(plates, ThickPlates) and thick.how != "hinge":
-        if thick.hinges == "screws":
-            plates = drilled(plates, seats, bores, thick.thickness)
-        elif thick.hinges == "living":
-            plates = pocketed(plates, seats, thick.thickness)
+    elif isinstance(plates, ThickPlates):
+        plates = drilled(plates, seats, bores, thick.thickness) if bores else plates
     solids = replace(thick.solids, shapes=_shapes(thick.solids, plates))
     return replace(thick, plates=plates, bores=bores, solids=solids)
 

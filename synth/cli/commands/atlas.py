@@ -51,7 +51,7 @@ def atlas_group() -> None:
     \b
     Examples:
       synth atlas build -o atlas.sqlite --max-links 8
-      synth atlas query atlas.sqlite "links = 8 and dof = 1 and centres >= 3 and all_explicit"
+      synth atlas query atlas.sqlite "links = 8 AND dof = 1 AND centres >= 3 AND all_explicit"
       synth atlas show atlas.sqlite "Watt chain"
       synth atlas find atlas.sqlite data/wiener/fortune-teller.json
       synth atlas motions atlas.sqlite --members 1000
@@ -120,19 +120,21 @@ def query(
     atlas: str, condition: str, statement: str | None, columns: str | None, output: str | None, force: bool,
     as_json: bool, sort: str, limit: int, seconds: float, own: tuple[tuple[str, Callable[[Any], Any]], ...],
 ) -> None:  # fmt: skip
-    """List the types that fulfil a condition.
+    """List the types that fulfil a condition, an SQL expression on columns.
+
+    Texts stand in single quotes, lists are JSON. As in SQL, a type without a value fulfils only IS NULL.
 
     \b
     Examples of conditions:
-      links = 8 and dof = 1 and centres >= 3 and all_explicit
-      kind = scd and 4 <= links <= 6 and fold_deg > 170
-      assortment = (4, 2) or name like '%watt%'
-      loop_sizes contains 5 and not (symmetry = 1)
-      kind in ('sc', 'scd') and ride_alongs is known
+      links = 8 AND dof = 1 AND centres >= 3 AND all_explicit
+      kind = 'scd' AND links BETWEEN 4 AND 6 AND fold_deg > 170
+      assortment = '[4,2]' OR name LIKE '%watt%'
+      5 IN (SELECT value FROM json_each(loop_sizes)) AND NOT symmetry = 1
+      kind IN ('sc', 'scd') AND ride_alongs IS NOT NULL
 
     \b
     A column of your own, written for LaTeX:
-      synth atlas query ATLAS.sqlite "kind = chain" --columns id,kind,name --column edges=mine:edges -o chains.tex
+      synth atlas query ATLAS.sqlite "kind = 'chain'" --columns id,kind,name --column edges=mine:edges -o chains.tex
     """
     if columns == "help":
         meanings = [(name, " ".join(column.kinds), column.says) for name, column in synth.atlas.COLUMNS.items()]

@@ -12,12 +12,14 @@ from graphs.errors import UnsolvableError
 from synth.cli import options
 from synth.cli.output import about, check_output, plain, print_json, print_result, tell_lost
 from synth.cli.reading import AT, DRAWN, MECHANISM, read
+from synth.exporters import EXPORTERS
 
 if TYPE_CHECKING:
     from graphs.convert import Mechanism
     from graphs.mechanism import SurfaceLinkage
 
-_SOLIDS = (".stl", ".3mf", ".gltf")
+_SOLIDS = tuple(suffix for suffix in EXPORTERS["solids"] if suffix != ".obj")
+"""Suffixes of solids alone: OBJ holds sheets too."""
 
 
 _OF_SOLIDS = {
@@ -66,9 +68,7 @@ _OF_MODELS = ("density", "drive", "branch", "stiffness", "rest", "moment")
 @options.NUMBER_OF_SURFACE
 @AT
 @options.choice(
-    "--as model",
-    ("mjcf", "urdf", "sdf", "usd", "step", "table", "header"),
-    "Write rigid bodies and joints for a simulator, or a table of the motion.",
+    "--as model", tuple(EXPORTERS["models"]), "Write rigid bodies and joints for a simulator, or a table of the motion."
 )
 @options.value("--density", "D", "With --as: density of the bodies in kg/m³.  [default: 1000]", type=options.LENGTH)
 @options.repeated(
@@ -122,7 +122,6 @@ def convert(
       step (.step)         CAD: exact solids, an assembly of them, hinge axes as curves
       table (.csv)         joint angles at steps of the driven joint, and the moment that it needs against weight,
                            springs and moments
-      header (.h)          the same for C, with a function that interpolates, and a bound of its error
 
     Notes list what OUT cannot hold, by kind and number. If OUT would read back as another type (its links, joints
     or centres do not correspond), nothing is written, unless --lossy is given.
@@ -218,7 +217,7 @@ def _write_model(
     from graphs.mechanism.solids import HingedSolids
     from synth.moving import configuration_of
     from synth.simulation.assembly import DENSITY, AssemblyOptions, in_unit_of
-    from synth.simulation.writing import MODELS, write_assembly
+    from synth.simulation.writing import write_assembly
 
     if "number" in values or "gap" in values:
         raise click.UsageError("--cone and --gap: not with --as")
@@ -235,7 +234,7 @@ def _write_model(
         ),
     )  # fmt: skip
     assembly = write_assembly(at, target, model, in_unit_of(mechanism, how), force=force)
-    return MODELS[model].lost(assembly), assembly.notes
+    return EXPORTERS["models"][model].lost(assembly), assembly.notes
 
 
 def _has_shapes(mechanism: Mechanism) -> bool:

@@ -298,13 +298,13 @@ def template(
       synth template types.sqlite --row 7 --size 150 -o seventh.svg
     """
     from synth.drawing.mechanisms.chains import OrderOnCircle
-    from synth.templates.writing import TEMPLATES
+    from synth.exporters import EXPORTERS
 
     try:
         paper = synth.templates.paper_named(page)
     except InvariantError as error:
         raise click.BadParameter(str(error), param_hint="--page") from None
-    check_writable(output, TEMPLATES, force=force)
+    check_writable(output, EXPORTERS["templates"], force=force)
     bare = laser or output.lower().endswith(".dxf")
     source = read_named(file, row, mode)
     source = replace(source, mechanism=precise_sheet(source.mechanism))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import re
 import sys
 from typing import TYPE_CHECKING, Any
@@ -11,6 +10,7 @@ import click
 
 import synth.verdict
 from graphs.errors import FileError, numbered
+from graphs.garbage import set_aside
 from synth.cli import options
 from synth.cli.output import about, console, plain, print_json, table
 from synth.cli.reading import DRAWN, PRECISION, entries, precise
@@ -69,16 +69,13 @@ def mobility(
     judge = synth.verdict.mobility_of_type if no_pose else synth.mobility
     failures: list[str] = []
     answers: list[tuple[str, synth.verdict.JudgedMobility]] = []
-    gc.disable()  # its passes over all that was read take as long as the rest
-    try:
+    with set_aside(until=click.get_current_context().call_on_close):
         for entry in entries(files, failures):
             try:
                 with about(entry.label):
                     answers.append((entry.label, judge(precise(entry.mechanism), **counting)))
             except FileError as error:
                 failures.append(str(error))
-    finally:
-        gc.enable()
     if as_json:
         print_json([{"file": label, **answer.to_json()} for label, answer in answers])
     elif len(answers) == 1 and not failures:

@@ -13,9 +13,10 @@ import click
 import synth.compliance
 import synth.moving
 from graphs.errors import UnsolvableError
+from graphs.garbage import set_aside
 from synth.cli import options
 from synth.cli.output import about, console, plain, print_json, print_result, progress_line, table, tell_written
-from synth.cli.reading import AT, MECHANISM, PRECISION, precise, read, set_aside
+from synth.cli.reading import AT, MECHANISM, PRECISION, precise, read
 
 if TYPE_CHECKING:
     from graphs.convert import Mechanism
@@ -101,7 +102,7 @@ def fold(
         raise click.UsageError("--drive, --along and --all exclude each other; try one of them")
     if output is not None:
         check_motion_file(output, force=force)
-    with set_aside():
+    with set_aside(until=click.get_current_context().call_on_close):
         mechanism = read(file, warn=False)
         with about(file):
             at = synth.moving.configuration_of(precise(mechanism))

@@ -9,17 +9,15 @@ from typing import TYPE_CHECKING, Any
 import click
 
 import synth.tasks
-from graphs.errors import InvariantError
-from graphs.printing import plain
 from synth.cli import options
-from synth.cli.output import about, check_output, print_result, progress_line, tell_written
+from synth.cli.output import about, check_output, print_result, progress_line
 
 if TYPE_CHECKING:
     from synth.tasks import RankedTypes
 
 
 @click.command()
-@click.argument("words", metavar="[new] TASK", type=options.FILE_NAME, nargs=-1, required=True)
+@click.argument("task", metavar="TASK", type=options.FILE_NAME)
 @options.flag("--structure-only", "List the types and placements that can do it by structure, and design none.")
 @options.number(
     "--starts", "N", "Searches for each type and placement in the first round; each round doubles them.", 1,
@@ -38,37 +36,27 @@ if TYPE_CHECKING:
 @options.FORCE
 @options.JSON
 def task(
-    words: tuple[str, ...], structure_only: bool, starts: int, rounds: int, seed: int, weigh: tuple[str, ...],
+    task: str, structure_only: bool, starts: int, rounds: int, seed: int, weigh: tuple[str, ...],
     store: str | None, resume: bool, workers: int | None, scheduler: str | None, output: str | None,
     pages: bool, report: str | None, force: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Find all types that can do a task, with dimensions, ranked.
 
-    TASK is a JSON file (docs/native-json.md): roles of bodies, requirements on the type, and wishes about their motion.
-    All types of the sizes are listed, with the families that move although a generic realisation is rigid; those that
-    cannot do it are counted by reasons. Roles are placed in all ways up to symmetries of the type. Each placement is
-    designed from random members of the type; after each round the better half goes on with twice as many starts. A
-    design counts only if it meets its wishes to 1e-6, its loops close, the verdict says that it moves, and its driven
-    joint passes the configurations in order without turning back. The word new before TASK asks questions, and writes
-    the task to TASK.
+    TASK is a JSON file (docs/native-json.md; examples in data/tasks): roles of bodies, requirements on the type,
+    and wishes about their motion. All types of the sizes are listed, with the families that move although a generic
+    realisation is rigid; those that cannot do it are counted by reasons. Roles are placed in all ways up to
+    symmetries of the type. Each placement is designed from random members of the type; after each round the better
+    half goes on with twice as many starts. A design counts only if it meets its wishes to 1e-6, its loops close,
+    the verdict says that it moves, and its driven joint passes the configurations in order without turning back.
 
     \b
     Examples:
-      synth task new lid.json
       synth task lid.json --structure-only
       synth task lid.json --store lid --report lid.html -o designs --pages
       synth task lid.json --store lid --resume --weigh 2=0.1
 
     Exit status 1: no design.
     """
-    task = words[-1]
-    if len(words) > 1:
-        if words[:-1] != ("new",):
-            raise click.UsageError(f"expected TASK, or new TASK, got {plain(' '.join(words))}")
-        check_output(task, force=force)
-        synth.tasks.write_task(_document_of_questions(), task, force=force)
-        tell_written(task)
-        return
     if structure_only:
         with about(task):
             print_result(synth.tasks.task(task, structure_only=True), {"file": task}, as_json=as_json)
@@ -117,43 +105,3 @@ def _answer(task: str, settings: dict[str, Any]) -> RankedTypes:
             "stopped; go on with --resume" if settings["store"] is not None else "stopped; nothing was kept", err=True
         )
         sys.exit(stop.status)
-
-
-def _document_of_questions() -> dict[str, Any]:
-    """Ask what a task needs; return its document."""
-    document: dict[str, Any] = {"format": "synthedra/task", "version": 1}
-    document["title"] = click.prompt("What is it", default="a task", err=True)
-    roles = ["base", "output"]
-    if click.confirm("Is a body driven (the input)?", default=False, err=True):
-        roles.insert(1, "input")
-    document["roles"] = roles
-    document["degrees_of_freedom"] = click.prompt("Degrees of freedom", type=click.IntRange(1), default=1, err=True)
-    least = click.prompt("Fewest links", type=click.IntRange(1), default=4, err=True)
-    document["links"] = [least, click.prompt("Most links", type=click.IntRange(least), default=max(least, 6), err=True)]
-    forms, systems = click.Choice(synth.tasks.FORMS), click.Choice(synth.tasks.SYSTEMS)
-    document["form"] = click.prompt("Where it lies", type=forms, default="space", err=True)
-    document["system"] = click.prompt("Kind of system", type=systems, default="any", err=True)
-    if document["form"] == "sheet" and click.confirm(
-        "Must all centres be explicit, vertices of the links (none remote, left open)?", default=False, err=True
-    ):
-        document["implicit_centres"] = 0
-    wishes: list[dict[str, Any]] = []
-    names: list[str] = []
-    click.echo("Rotations of the output from its first pose, each a quaternion W,X,Y,Z; an empty line ends.", err=True)
-    while word := click.prompt(f"Pose {len(names) + 2}", default="", show_default=False, err=True):
-        numbers = _quaternion(word)
-        names.append(f"pose {len(names) + 2}")
-        wishes.append({"kind": "orientation", "at": names[-1], "link": "output", "quaternion": numbers})
-    if wishes:
-        document["wishes"] = {"configurations": [{"name": name} for name in names], "wishes": wishes}
-    return document
-
-
-def _quaternion(word: str) -> list[float]:
-    try:
-        numbers = [float(part) for part in word.split(",")]
-    except ValueError:
-        numbers = []
-    if len(numbers) != 4 or not any(numbers):
-        raise InvariantError("pose", f"the quaternion {word}", "four numbers W,X,Y,Z that are not all 0")
-    return numbers

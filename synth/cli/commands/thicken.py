@@ -44,9 +44,9 @@ if TYPE_CHECKING:
 )
 @options.choice(
     "--hinges",
-    ("screws", "pins", "living", "tape"),
-    "Join panels by butt hinges with screws in bores, by knuckles on pins, by flexible strips laid into pockets, or by "
-    "tape.",
+    ("screws", "tape"),
+    "Join panels by butt hinges with screws in bores, or by tape; --how hinge uses neither, but a flexible strip over "
+    "each gap.",
     default="screws",
 )
 @options.flag("--no-collisions", "Neither cut panels back nor check whether solids meet.")
@@ -127,8 +127,9 @@ def _scale(sheet: Sheet, scale: float | None, size: float | None) -> float:
 
 def _written(thick: ThickSheet, output: str, *, force: bool) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Write what the extension says; return the files, and what they do not hold."""
-    from synth.templates.writing import TEMPLATES, write_template
+    from synth.exporters import EXPORTERS
+    from synth.templates.writing import write_template
 
-    if Path(output).suffix.lower() in TEMPLATES:
+    if Path(output).suffix.lower() in EXPORTERS["templates"]:
         return tuple(map(str, write_template(thick.template(), output, force=force))), ()
     return (output,), thick.write(output, force=force)

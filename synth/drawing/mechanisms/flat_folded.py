@@ -8,12 +8,13 @@ import numpy as np
 import shapely
 
 from graphs.errors import UnsolvableError, numbered
-from graphs.files.outputs import Format, check_writable, formats_by_suffix, write_as
+from graphs.files.outputs import check_writable, write_as
 from graphs.types import Floats
 from synth.drawing.mechanisms.creases import DrawnPattern, Overlay, crease_scene
 from synth.drawing.scene.frame import PLAIN, PictureFrame, PictureOptions, captions_of, framed, page_of
 from synth.drawing.scene.shapes import FINE, NORMAL, SMALL, STRONG, Disc, Label, Layer, Line, Polygon, Shape, moved
-from synth.drawing.scene.writing import PICTURES, Pages, Scene
+from synth.drawing.scene.writing import Pages, Scene
+from synth.exporters import EXPORTERS
 from synth.layering.face_orders import folded_fold_text
 from synth.layering.image import OUTSIDE
 from synth.layering.orders import FlatFolding, LayerOrder
@@ -140,25 +141,19 @@ class _WrittenOrder:
     order: LayerOrder
 
 
-def _picture_as(picture: Format[Pages]) -> Format[_WrittenOrder]:
-    """Return the format of a picture for a layer order."""
-
-    def to_bytes(written: _WrittenOrder) -> bytes:
-        return picture.to_bytes(Pages([flat_folded_scene(written.order, PLAIN)], "light"))
-
-    return Format(picture.suffix, picture.name, to_bytes, needs=picture.needs)
+def order_bytes(written: _WrittenOrder) -> bytes:
+    """Return a layer order as FOLD, with ``faceOrders`` in a folded frame."""
+    return folded_fold_text(written.answer, written.order).encode()
 
 
-_ORDERS = formats_by_suffix(
-    Format(".fold", "FOLD", lambda written: folded_fold_text(written.answer, written.order).encode()),
-    *(_picture_as(picture) for picture in PICTURES.values()),
-)
-"""Suffix to the format in which a layer order is written."""
+def order_pages(written: _WrittenOrder) -> Pages:
+    """Return a layer order as it is seen, on one page."""
+    return Pages([flat_folded_scene(written.order, PLAIN)], "light")
 
 
 def check_order_path(path: str | Path, *, force: bool = False) -> None:
     """Refuse a path that no layer order can be written to: `FileError`, `UnsolvableError`."""
-    check_writable(path, _ORDERS, force=force)
+    check_writable(path, EXPORTERS["layer orders"], force=force)
 
 
 def write_order(answer: FlatFolding, order: LayerOrder, path: str | Path, *, force: bool = False) -> None:
@@ -187,4 +182,4 @@ def write_order(answer: FlatFolding, order: LayerOrder, path: str | Path, *, for
     >>> with TemporaryDirectory() as folder:
     ...     write_order(answer, answer.order(1), Path(folder) / "layered.fold")
     """
-    write_as(_WrittenOrder(answer, order), path, _ORDERS, force=force)
+    write_as(_WrittenOrder(answer, order), path, EXPORTERS["layer orders"], force=force)

@@ -23,9 +23,10 @@ import numpy as np
 import numpy.typing as npt
 
 from graphs.errors import InvariantError, shown
-from graphs.files.outputs import Format, formats_by_suffix, write_as
+from graphs.files.outputs import write_as
 from graphs.printing import LONGEST_CELL, plain
 from synth.drawing.scene.shapes import Disc, Label, Layer, Line, Point, Polygon, Shape, colour_of, scaled
+from synth.exporters import EXPORTERS
 
 _FONT = "Helvetica, Arial, 'DejaVu Sans', sans-serif"
 _BASELINE = 0.35
@@ -110,7 +111,7 @@ class Scene:
         ...     print(Path(folder, "four-bar.svg").read_text()[:4])
         <svg
         """
-        write_as(Pages([self], paper), path, PICTURES, force=force)
+        write_as(Pages([self], paper), path, EXPORTERS["pictures"], force=force)
 
 
 def in_points(scene: Scene) -> Scene:
@@ -439,7 +440,8 @@ class Pages(NamedTuple):
     paper: str = "light"
 
 
-def _png_bytes(pages: Pages) -> bytes:
+def png_bytes(pages: Pages) -> bytes:
+    """Return the one scene of some pages as PNG."""
     from PIL import Image  # comes with matplotlib
 
     (scene,) = pages.scenes
@@ -449,14 +451,12 @@ def _png_bytes(pages: Pages) -> bytes:
     return stream.getvalue()
 
 
-def _svg_bytes(pages: Pages) -> bytes:
+def svg_bytes(pages: Pages) -> bytes:
+    """Return the one scene of some pages as SVG."""
     (scene,) = pages.scenes
     return svg_text(scene, paper=pages.paper).encode("utf-8")
 
 
-PICTURES = formats_by_suffix(
-    Format(".png", "PNG", _png_bytes, needs="matplotlib.font_manager"),
-    Format(".svg", "SVG", _svg_bytes),
-    Format(".pdf", "PDF", lambda pages: pdf_bytes(pages.scenes, paper=pages.paper), needs="reportlab"),
-)
-"""Suffix to the format in which scenes are written."""
+def pdf_of_pages(pages: Pages) -> bytes:
+    """Return scenes as PDF, a page each."""
+    return pdf_bytes(pages.scenes, paper=pages.paper)

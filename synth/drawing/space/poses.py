@@ -13,7 +13,7 @@ import numpy as np
 
 from graphs.errors import UnsolvableError
 from graphs.files.atomic import check_place
-from graphs.files.outputs import Format, check_writable, formats_by_suffix, listed, write_as
+from graphs.files.outputs import check_writable, listed, write_as
 from graphs.files.patterns.fold import fold_text_of_poses
 from graphs.files.patterns.obj import obj_text
 from graphs.joints.linkage import JointedLinkage
@@ -22,7 +22,7 @@ from graphs.mechanism.solids import HingedSolids
 from graphs.types import Floats
 from synth.drawing.scene.frame import PictureFrame, framed, page_of
 from synth.drawing.scene.shapes import SMALL, Label, Layer, moved, text_width
-from synth.drawing.scene.writing import PICTURES, Pages, Scene, pixels
+from synth.drawing.scene.writing import Pages, Scene, pixels
 from synth.drawing.space.panels import (
     SpatialPanels,
     bodies_of,
@@ -33,6 +33,7 @@ from synth.drawing.space.panels import (
     view_of_motion,
 )
 from synth.drawing.space.solids import faces_of_shapes
+from synth.exporters import EXPORTERS
 from synth.folding.configuration import SheetConfiguration
 from synth.motion.motion import Motion
 
@@ -115,7 +116,7 @@ class Poses(NamedTuple):
     sheets: Sequence[Sheet] = ()
 
 
-def _gif_bytes(poses: Poses) -> bytes:
+def gif_bytes(poses: Poses) -> bytes:
     """Return a moving picture: there and back, again and again."""
     from PIL import Image
 
@@ -129,29 +130,20 @@ def _gif_bytes(poses: Poses) -> bytes:
     return stream.getvalue()
 
 
-def _fold_bytes(poses: Poses) -> bytes:
+def fold_bytes(poses: Poses) -> bytes:
+    """Return poses as FOLD, a frame each."""
     assert isinstance(poses.panels, Sheet)
     return fold_text_of_poses(poses.panels, poses.sheets).encode("utf-8")
 
 
-def _strip_as(picture: Format[Pages]) -> Format[Poses]:
-    def strip_bytes(poses: Poses) -> bytes:
-        return picture.to_bytes(Pages([strip_of_poses(poses.panels, poses.places)]))
-
-    return Format(picture.suffix, picture.name, strip_bytes, needs=picture.needs)
+def obj_bytes(poses: Poses) -> bytes:
+    """Return the first pose as OBJ."""
+    return obj_text(poses.sheets[0]).encode("utf-8")
 
 
-_PICTURES_OF_POSES = formats_by_suffix(
-    Format(".gif", "GIF", _gif_bytes, needs="matplotlib.font_manager"),
-    _strip_as(PICTURES[".png"]),
-    _strip_as(PICTURES[".svg"]),
-)
-MOTIONS = {
-    ".fold": Format(".fold", "FOLD", _fold_bytes),
-    ".obj": Format(".obj", "OBJ, a file for each pose", lambda poses: obj_text(poses.sheets[0]).encode("utf-8")),
-    **_PICTURES_OF_POSES,
-}
-"""Suffix to the format in which motions are written; solids are only drawn."""
+def strip_pages(poses: Poses) -> Pages:
+    """Return poses as a strip, on one page."""
+    return Pages([strip_of_poses(poses.panels, poses.places)])
 
 
 def save_moving_poses(panels: Sheet | SpatialPanels, places: Floats, path: str | Path, *, force: bool = False) -> None:
@@ -184,14 +176,14 @@ def save_moving_poses(panels: Sheet | SpatialPanels, places: Floats, path: str |
     ...     print(path.read_bytes()[:6])
     b'GIF89a'
     """
-    write_as(Poses(panels, places), path, _PICTURES_OF_POSES, force=force)
+    write_as(Poses(panels, places), path, EXPORTERS["pictures of motions"], force=force)
 
 
 def check_motion_file(path: str | Path, *, force: bool = False) -> None:
     """Refuse a path that a motion cannot be written to, as `graphs.files.outputs.check_writable` does."""
     path = Path(path)
     first = _of_series(path, 0) if path.suffix.lower() == ".obj" else path
-    check_writable(first, MOTIONS, force=force)
+    check_writable(first, EXPORTERS["motions"], force=force)
 
 
 def write_motion(motion: Motion, path: str | Path, *, force: bool = False) -> list[Path]:
@@ -237,7 +229,7 @@ def write_motion(motion: Motion, path: str | Path, *, force: bool = False) -> li
     path = Path(path)
     check_motion_file(path, force=force)
     at = motion.configuration
-    is_picture = path.suffix.lower() in _PICTURES_OF_POSES
+    is_picture = path.suffix.lower() in EXPORTERS["pictures of motions"]
     if isinstance(at, SheetConfiguration):
         sheets = () if is_picture else motion.sheets()
         poses = Poses(at.sheet, motion.places, sheets)
@@ -249,16 +241,16 @@ def write_motion(motion: Motion, path: str | Path, *, force: bool = False) -> li
             poses = Poses(bodies_of(motion.linkage)[0], places_of_hinges(motion.linkage, motion.path.angles))
     else:
         are_solids = isinstance(at.given, HingedSolids | JointedLinkage)
-        solids = f"solids are drawn as {listed(_PICTURES_OF_POSES)}; " if are_solids else ""
+        solids = f"solids are drawn as {listed(EXPORTERS['pictures of motions'])}; " if are_solids else ""
         raise UnsolvableError(f"there are no panels to write: {solids}--json gives the joint angles of each frame")
     if path.suffix.lower() != ".obj":
-        write_as(poses, path, MOTIONS, force=force)
+        write_as(poses, path, EXPORTERS["motions"], force=force)
         return [path]
     series = [_of_series(path, number) for number in range(len(poses.sheets))]
     for place in series:
         check_place(place, force=force)
     for place, sheet in zip(series, poses.sheets, strict=True):
-        write_as(poses._replace(sheets=[sheet]), place, MOTIONS, force=force)
+        write_as(poses._replace(sheets=[sheet]), place, EXPORTERS["motions"], force=force)
     return series
 
 

@@ -36,7 +36,7 @@ TINY = AtlasPlan(4, creases=2, orders_of=(), realised=False)
 
 def test_what_it_holds_is_what_enumerations_list(small_atlas: Atlas) -> None:
     assert small_atlas.about()["types"] == {"chain": 3, "order": 204, "sc": 5, "scd": 34, "string": 20}
-    rows = {row["id"]: row for row in small_atlas.query("kind = sc")}
+    rows = {row["id"]: row for row in small_atlas.query("kind = 'sc'")}
     listed = [row for links in (4, 6) for row in sc_rows(links, 1)]
     assert set(rows) == {row["code"] for row in listed}
     for row in listed:
@@ -59,9 +59,9 @@ def test_kinds_have_values_where_columns_say(small_atlas: Atlas) -> None:
 
 
 def test_queries(small_atlas: Atlas) -> None:
-    rows = small_atlas.query("links = 6 and dof = 1 and centres >= 2 and all_explicit")
+    rows = small_atlas.query("links = 6 AND dof = 1 AND centres >= 2 AND all_explicit")
     assert {(row["links"], row["all_explicit"]) for row in rows} == {(6, True)}
-    assert len(rows) == sum(row["implicit"] == 0 and row["centres"] >= 2 for row in small_atlas.query("kind = scd"))
+    assert len(rows) == sum(row["implicit"] == 0 and row["centres"] >= 2 for row in small_atlas.query("kind = 'scd'"))
     falling = [row["joints"] for row in small_atlas.query(sort="-joints", columns=["joints"], limit=50)]
     assert falling == sorted(falling, reverse=True)
     first = small_atlas.query(limit=3)
@@ -314,7 +314,7 @@ def test_rows_of_an_atlas_are_realised_and_drawn(tmp_path: Path) -> None:
 
 
 def test_types_with_coordinates(real_atlas: Atlas, tmp_path: Path) -> None:
-    rows = real_atlas.query("kind = scd", columns=["id", "realised", "flat", "all_explicit", "fold_deg", "fold_file"])
+    rows = real_atlas.query("kind = 'scd'", columns=["id", "realised", "flat", "all_explicit", "fold_deg", "fold_file"])
     assert len(rows) == 7
     for number, row in enumerate(rows):
         assert row["realised"]
@@ -380,7 +380,7 @@ def test_named_types_have_ids_of_their_mechanisms() -> None:
 def test_rows_are_written(small_atlas: Atlas, tmp_path: Path, name: str) -> None:
     if name.endswith("parquet"):
         pytest.importorskip("pyarrow")
-    rows = small_atlas.query("links = 4 and kind != order or kind = string")
+    rows = small_atlas.query("links = 4 AND kind != 'order' OR kind = 'string'")
     assert write_rows(rows, tmp_path / name) == [tmp_path / name] or name == "q.svg"
     if name == "mechanisms":
         assert len(list((tmp_path / name).iterdir())) == len(rows)
@@ -403,7 +403,7 @@ def test_plans_say_what_is_wrong() -> None:
 
 def test_rows_as_a_data_frame(small_atlas: Atlas) -> None:
     pytest.importorskip("pandas")
-    frame = small_atlas.query("kind = chain", columns=["id", "links"]).to_frame()
+    frame = small_atlas.query("kind = 'chain'", columns=["id", "links"]).to_frame()
     assert list(frame.columns) == ["id", "links"]
     assert frame["links"].tolist() == [4, 6, 6]
 

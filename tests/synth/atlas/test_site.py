@@ -97,7 +97,7 @@ def test_what_is_there_is_not_replaced_and_nothing_half_written_stays(
 
 @pytest.mark.usefixtures("built")
 def test_a_condition_chooses_types(real_atlas: Atlas) -> None:
-    site, _ = site_of(real_atlas, "kind = sc")
+    site, _ = site_of(real_atlas, "kind = 'sc'")
     assert site.ids == ("m1:ab.ac.bd.cd",)
     with pytest.raises(UnsolvableError, match="no types for a site"):
         site_of(real_atlas, "links > 99")

@@ -17,14 +17,14 @@ def atlas(tmp_path_factory):
 
 
 def test_query(atlas):
-    assert "four-bar chain" in run("atlas", "query", atlas, "kind = chain").output
-    rows = json.loads(run("atlas", "query", atlas, "all_explicit and fold_deg > 170", "--json").output)
+    assert "four-bar chain" in run("atlas", "query", atlas, "kind = 'chain'").output
+    rows = json.loads(run("atlas", "query", atlas, "all_explicit AND fold_deg > 170", "--json").output)
     assert rows
     assert all(row["all_explicit"] is True for row in rows)
     assert run("atlas", "query", atlas, "links > 100").output.strip() == "no types"
     [row] = json.loads(run("atlas", "query", atlas, "--sql", "SELECT count(*) AS n FROM types", "--json").output)
     assert row["n"] == 12
-    assert "[linsk]" in run("atlas", "query", atlas, "linsk = 4", code=2).output
+    assert "the nearest is 'links'" in run("atlas", "query", atlas, "linsk = 4", code=2).output
     assert "not authorized" in run("atlas", "query", atlas, "--sql", "DELETE FROM type", code=2).output
     assert "more than 2 rows" in run("atlas", "query", atlas, "--limit", 2).output
     assert "meaning" in run("atlas", "query", atlas, "--columns", "help").output
@@ -34,13 +34,13 @@ def test_query_writes(atlas, tmp_path):
     run("atlas", "query", atlas, "--columns", "id,links", "-o", tmp_path / "rows.csv")
     assert (tmp_path / "rows.csv").read_text().splitlines()[1] == "k1:Cr,4"
     assert "exists already" in run("atlas", "query", atlas, "-o", tmp_path / "rows.csv", code=2).output
-    run("atlas", "query", atlas, "kind = scd", "-o", tmp_path / "types")
+    run("atlas", "query", atlas, "kind = 'scd'", "-o", tmp_path / "types")
     assert len(list((tmp_path / "types").iterdir())) == 7
 
 
 def test_show_and_find(atlas, tmp_path, data):
     assert "Reuleaux" in run("atlas", "show", atlas, "k1:Cr").output
-    row = json.loads(run("atlas", "query", atlas, "kind = scd and all_explicit", "--json").output)[0]
+    row = json.loads(run("atlas", "query", atlas, "kind = 'scd' AND all_explicit", "--json").output)[0]
     run("atlas", "show", atlas, row["id"], "-o", tmp_path / "type.fold")
     [found] = json.loads(run("atlas", "find", atlas, tmp_path / "type.fold", "--json").output)
     assert found["drawing"] == row["id"]
@@ -75,7 +75,7 @@ def test_columns_of_ones_own(atlas, tmp_path, monkeypatch):
         "def fails(mechanism):\n    return 1 // 0\n"
         "def wrong(mechanism):\n    return [1]\n"
     )
-    words = ("atlas", "query", atlas, "kind in ('chain', 'sc')", "--columns", "id,kind,joints")
+    words = ("atlas", "query", atlas, "kind IN ('chain', 'sc')", "--columns", "id,kind,joints")
     rows = json.loads(run(*words, "--column", "edges=my_columns:edges", "--json").output)
     assert rows
     assert all(row["edges"] == row["joints"] for row in rows)

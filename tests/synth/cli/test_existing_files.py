@@ -4,13 +4,14 @@ import json
 import re
 import shlex
 import sqlite3
-from importlib import import_module
 
 import click
 import pytest
 from commands import run
 
+from graphs.files.formats import READERS, WRITERS
 from synth.cli.main import main
+from synth.exporters import EXPORTERS
 
 COMMANDS = {
     "convert": ("convert {data}/wiener/watt.json", "a.edges"),
@@ -149,21 +150,21 @@ def test_a_pattern_of_another_type_is_refused_unless_lossy(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("command", "place", "table"),
+    ("command", "table"),
     [
-        ("convert", "graphs.files.formats", "READERS"),
-        ("convert", "graphs.files.formats", "WRITERS"),
-        ("convert", "synth.templates.solids", "SOLIDS"),
-        ("draw", "synth.drawing.scene.writing", "PICTURES"),
-        ("order", "synth.drawing.scene.writing", "PICTURES"),
-        ("dyads", "synth.drawing.scene.writing", "PICTURES"),
-        ("cone map", "synth.drawing.scene.writing", "PICTURES"),
-        ("template", "synth.templates.writing", "TEMPLATES"),
-        ("fold", "synth.drawing.space.poses", "MOTIONS"),
-        ("atlas query", "synth.drawing.scene.writing", "PICTURES"),
-        ("atlas query", "synth.atlas.written", "TABLES"),
+        ("convert", READERS),
+        ("convert", WRITERS),
+        ("convert", EXPORTERS["solids"]),
+        ("draw", EXPORTERS["pictures"]),
+        ("order", EXPORTERS["pictures"]),
+        ("dyads", EXPORTERS["pictures"]),
+        ("cone map", EXPORTERS["pictures"]),
+        ("template", EXPORTERS["templates"]),
+        ("fold", EXPORTERS["motions"]),
+        ("atlas query", EXPORTERS["pictures"]),
+        ("atlas query", EXPORTERS["tables"]),
     ],
 )
-def test_the_help_of_a_command_lists_all_formats(command, place, table):
+def test_the_help_of_a_command_lists_all_formats(command, table):
     words = set(re.findall(r"\.\w+", run(*command.split(), "--help").stdout))
-    assert set(getattr(import_module(place), table)) <= words
+    assert set(table) <= words

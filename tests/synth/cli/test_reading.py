@@ -8,8 +8,8 @@ import pytest
 from click.testing import CliRunner
 
 from graphs.files.formats import read
+from graphs.garbage import set_aside
 from synth.cli.main import main
-from synth.cli.reading import set_aside
 
 SVG = (
     '<svg xmlns="http://www.w3.org/2000/svg"><rect width="10" height="10" stroke="black"/><g id="folds">'
@@ -113,16 +113,16 @@ def nothing_set_aside():
 
 @pytest.mark.usefixtures("nothing_set_aside")
 def test_what_is_read_is_set_aside_until_the_command_ends(data):
-    with click.Context(main):
-        with set_aside():
+    with click.Context(main) as context:
+        with set_aside(context.call_on_close):
             assert not gc.isenabled()
         assert gc.isenabled()
         aside = gc.get_freeze_count()
-        with set_aside():  # once is enough
+        with set_aside(context.call_on_close):  # once is enough
             assert gc.isenabled()
         assert 0 < gc.get_freeze_count() <= aside
     assert gc.get_freeze_count() == 0
-    with click.Context(main), pytest.raises(KeyError), set_aside():
+    with click.Context(main) as context, pytest.raises(KeyError), set_aside(context.call_on_close):
         raise KeyError
     assert (gc.isenabled(), gc.get_freeze_count()) == (True, 0)
     assert run("fold", data / "patterns" / "four-bar-vertex.fold", "--frames", 1).exit_code == 0

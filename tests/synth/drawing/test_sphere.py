@@ -170,3 +170,10 @@ def test_svg_of_orientations_needs_no_matplotlib(monkeypatch, tmp_path):
     assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
     told = run("order", "--orientations", TASK, axis, "--direction", "cw", "-o", tmp_path / "a.png", code=2).stderr
     assert "PNG requires matplotlib; try pip install 'synthedra[draw]'" in told
+
+
+def test_a_map_without_contourpy_is_refused_in_one_line(monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "contourpy", None)
+    told = run("draw", TASK, "-o", tmp_path / "a.svg", code=2).stderr
+    assert "a map of the sphere requires contourpy; try pip install 'synthedra[draw]'" in told
+    assert told.count("\n") == 1

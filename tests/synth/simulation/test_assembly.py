@@ -14,11 +14,11 @@ import synth
 from graphs.errors import FileError, InvariantError, SynthedraError, UnsolvableError
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
+from synth.exporters import EXPORTERS
 from synth.moving.made import configuration_of
 from synth.simulation.assembly import AssemblyOptions, assembly_of, driven_inertia, spanning_tree
 from synth.simulation.bodies import Bar, MassProperties, Plate
 from synth.simulation.mjcf import convex_parts
-from synth.simulation.writing import MODELS
 from synth.templates.unfolding import Plane
 
 L_SHAPE = np.array([(0, 0, 0), (3, 0, 1), (3, 1, 1), (1, 1, 1 / 3), (1, 2, 1 / 3), (0, 2, 0)], dtype=float)
@@ -134,7 +134,9 @@ def test_a_file_is_one_document(tmp_path):
 @pytest.mark.parametrize("name", ["mjcf", "urdf", "sdf", "usd", "step"])
 def test_springs_and_moments_that_a_format_does_not_hold(name, tmp_path):
     bennett, springs = synth.generate("bennett").mechanism, synth.Springs({1: 1.0}, moments={1: 2.0, 3: 0.5})
-    lost = " ".join(synth.write_model(bennett, tmp_path / f"a{MODELS[name].suffix}", name, springs=springs))
+    lost = " ".join(
+        synth.write_model(bennett, tmp_path / f"a{EXPORTERS['models'][name].suffix}", name, springs=springs)
+    )
     assert ("1 spring" in lost) == (name not in ("mjcf", "sdf"))
     assert ("2 moments" in lost) == (name != "mjcf")
 
@@ -178,6 +180,7 @@ def test_what_is_refused(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+MODELS = EXPORTERS["models"]
 SOLIDS = {"format": "synthedra/solids", "version": 1, "loops": []}
 NOTHING = {
     "no links": SOLIDS | {"links": 0, "joints": [], "axes": []},
@@ -199,7 +202,7 @@ PANELS = {
 
 def refused(file, name, *words):
     """The one line with which a command refuses a file; nothing is written."""
-    out = file.parent / f"out{MODELS[name].suffix}"
+    out = file.parent / f"out{EXPORTERS['models'][name].suffix}"
     result = run("convert", file, out, "--as", name, *words, code=2)
     assert not list(file.parent.glob("out*"))
     assert result.stdout == ""
@@ -279,7 +282,7 @@ def test_a_panel_alone(tmp_path):
     square = {"vertices_coords": [[0, 0], [1, 0], [1, 1], [0, 1]], "faces_vertices": [[0, 1, 2, 3]]}
     (tmp_path / "a.fold").write_text(json.dumps(square))
     for name, written in MODELS.items():
-        if name not in ("table", "header"):
+        if name != "table":
             notes = synth.write_model(tmp_path / "a.fold", tmp_path / f"a{written.suffix}", name)
             assert notes[0] == "no joints: nothing moves"
             assert not any("joint" in note or "motion" in note for note in notes[1:])

@@ -1,10 +1,7 @@
-"""Tables of motions: angles by closed forms, moments by differences of energy, C by a compiler."""
+"""Tables of motions: angles by closed forms, moments by differences of energy."""
 
 import csv
-import ctypes
 import json
-import shutil
-import subprocess
 import xml.etree.ElementTree as ET
 from math import radians
 
@@ -73,23 +70,6 @@ def test_a_table_as_csv(tmp_path):
         assert np.allclose([radians(float(cell)) for cell in row[:-1]], angles, atol=1e-10)
 
 
-@pytest.mark.skipif(shutil.which("cc") is None, reason="no compiler is here")
-def test_a_table_for_c(tmp_path):
-    synth.write_model(planar_four_bar(), tmp_path / "a.h", "header", drive={"O": 2 * np.pi})
-    source = '#include "a.h"\nint at(double x, double *y) { return mechanism_at(x, y); }\ndouble off(void) { return MECHANISM_ERROR; }\n'
-    (tmp_path / "a.c").write_text(source)
-    command = ["cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-Wno-unused", "-shared", "-fPIC"]
-    subprocess.run([*command, "-o", tmp_path / "a.so", tmp_path / "a.c"], check=True)
-    library = ctypes.CDLL(str(tmp_path / "a.so"))
-    library.off.restype = ctypes.c_double
-    angles = (ctypes.c_double * 4)()
-    for row in synth.move(planar_four_bar(), drive={"O": 2 * np.pi}, frames=101).path.angles:
-        assert library.at(ctypes.c_double(row[0]), angles) == 1
-        assert np.abs(np.array(angles) - row).max() <= library.off()
-    assert library.at(ctypes.c_double(7.0), angles) == 0
-    assert angles[0] == pytest.approx(2 * np.pi)
-
-
 def test_a_load_at_the_rocker(tmp_path, data):
     """A moment at the rocker, and what the crank needs: in the ratio of their rates, by closed form."""
     springs = synth.Springs(moments={"D": 2.0})
@@ -140,11 +120,8 @@ def test_a_driver_that_turns_back(tmp_path):
 def test_a_driver_that_is_held(tmp_path):
     """A range of nothing: no table, and a servo without one."""
     bennett = synth.generate("bennett").mechanism
-    for suffix, name in ((".csv", "table"), (".h", "header")):
-        with pytest.raises(
-            UnsolvableError, match="a table requires a range, and the driven joint ends where it begins"
-        ):
-            synth.write_model(bennett, tmp_path / f"a{suffix}", name, drive={0: 0.0})
+    with pytest.raises(UnsolvableError, match="a table requires a range, and the driven joint ends where it begins"):
+        synth.write_model(bennett, tmp_path / "a.csv", "table", drive={0: 0.0})
     synth.write_model(bennett, tmp_path / "a.xml", "mjcf", drive={0: 0.0})
     (servo,) = ET.parse(tmp_path / "a.xml").getroot().iter("position")
     assert servo.get("joint") == "joint_0"

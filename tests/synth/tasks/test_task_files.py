@@ -1,15 +1,13 @@
-"""Files of tasks: the schema, the reader, one plain line for whatever is wrong, and the questions."""
+"""Files of tasks: the schema, the reader, one plain line for whatever is wrong."""
 
 import json
 from pathlib import Path
 
 import jsonschema
 import pytest
-from click.testing import CliRunner
 
 from graphs.errors import FileError
-from synth.cli.main import main
-from synth.tasks import read_task, task_schema, write_task
+from synth.tasks import read_task, task_schema
 
 ROOT = Path(__file__).resolve().parents[3]
 SCHEMA = json.loads((ROOT / "graphs" / "schema" / "task.schema.json").read_text(encoding="utf-8"))
@@ -87,33 +85,3 @@ def test_whatever_is_wrong_is_said_with_its_place(keys, line, tmp_path):
         read_task(written(tmp_path, {**HEAD, **keys}))
     assert line in str(caught.value)
     assert "\n" not in str(caught.value)
-
-
-def test_a_task_is_checked_before_it_is_written(tmp_path):
-    with pytest.raises(FileError, match="unknown key"):
-        write_task({**HEAD, "x": 1}, tmp_path / "task.json")
-    assert not list(tmp_path.iterdir())
-
-
-def test_a_sheet_is_asked_whether_its_centres_are_explicit(tmp_path):
-    place = tmp_path / "sheet.json"
-    result = CliRunner().invoke(main, ["task", "new", str(place)], input="a sheet\nn\n1\n4\n6\nsheet\nany\ny\n\n")
-    assert result.exit_code == 0, result.output
-    task = read_task(place)
-    assert (task.form, task.implicit_centres.most, task.explicit_centres.most) == ("sheet", 0, None)
-
-
-def test_questions_write_a_task(tmp_path):
-    place = tmp_path / "lid.json"
-    answers = "a lid\nn\n1\n4\n4\nspace\nspherical\n0.7,0.7,0,0\n\n"
-    result = CliRunner().invoke(main, ["task", "new", str(place)], input=answers)
-    assert result.exit_code == 0, result.output
-    jsonschema.validate(json.loads(place.read_text()), SCHEMA)
-    task = read_task(place)
-    assert (task.title, task.links.most, task.system) == ("a lid", 4, "spherical")
-    assert task.wishes["wishes"][0]["quaternion"] == [0.7, 0.7, 0.0, 0.0]
-    again = CliRunner().invoke(main, ["task", "new", str(place)], input=answers)
-    assert again.exit_code == 2
-    strange = CliRunner().invoke(main, ["task", "old", str(place)])
-    assert strange.exit_code == 2
-    assert "expected TASK, or new TASK, got old" in strange.output

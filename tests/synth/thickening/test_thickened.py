@@ -16,16 +16,7 @@ from synth.moving.made import configuration_of
 from synth.viewer.shown import shown_of
 
 
-@pytest.mark.parametrize(
-    ("name", "hinges"),
-    [
-        ("miura", "screws"),
-        ("miura", "pins"),
-        ("square-twist", "living"),
-        ("square-twist", "tape"),
-        ("yoshimura", "pins"),
-    ],
-)
+@pytest.mark.parametrize(("name", "hinges"), [("miura", "screws"), ("square-twist", "tape"), ("yoshimura", "screws")])
 def test_solids_say_to_which_side_they_fold_whatever_joins_them(name, hinges):
     thick = synth.thicken(synth.generate(name).mechanism, thickness=0.05, collisions=False, hinges=hinges)
     assert thick.solids.senses() == {joint: 1 if joint in thick.valleys else -1 for joint in thick.solids.chain.joints}

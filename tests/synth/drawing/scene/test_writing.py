@@ -44,9 +44,9 @@ import tempfile
 tempfile._candidate_tempdir_list = lambda: [{str(closed / "tmp")!r}]
 from graphs.errors import UnsolvableError
 from graphs.files.outputs import check_writable
-from synth.drawing.scene.writing import PICTURES
+from synth.exporters import EXPORTERS
 try:
-    check_writable("a.png", PICTURES)
+    check_writable("a.png", EXPORTERS["pictures"])
 except UnsolvableError as error:
     print(error)
 """
