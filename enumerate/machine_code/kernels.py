@@ -16,10 +16,13 @@ import os
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import wraps
 from importlib.util import find_spec
 from threading import Lock
 from types import FunctionType
 from typing import Any, TypeVar, cast
+
+import numpy as np
 
 from enumerate.machine_code.folders import interpreting_all
 
@@ -33,6 +36,10 @@ def _choice() -> str:
 def can_compile() -> bool:
     """Return whether numba is installed: it belongs to the extra ``enumerate``."""
     return find_spec("numba") is not None
+
+
+_NEVER_INTERPRETED = frozenset({"synth.assembly.kernel"})
+"""Modules whose kernels begin with machine code if they can: interpreted they are too slow for any answer."""
 
 
 @dataclass
@@ -67,12 +74,29 @@ def compiled_beside(interpreted: F) -> Callable[[F], F]:
 
 
 def _kernel(interpreted: F, function: F) -> F:
+    if interpreted.__module__ in _NEVER_INTERPRETED:
+        interpreted = _beginning_machine_code(interpreted)
     with _kernels.lock:
         _kernels.interpreted.append((cast(FunctionType, interpreted), cast(FunctionType, function)))
         if not _kernels.used:
             return interpreted
         _kernels.machine_code.append(_dispatcher(function))
         return cast(F, _kernels.machine_code[-1])
+
+
+def _beginning_machine_code(function: F) -> F:
+    """Return a function that puts machine code in the place of all kernels, and calls what is then in its own."""
+
+    @wraps(function)
+    def first_call(*arguments: Any) -> Any:
+        use_machine_code()
+        kernel = getattr(sys.modules[function.__module__], function.__name__)
+        if kernel is not first_call:
+            return kernel(*arguments)
+        with np.errstate(all="ignore"):  # as machine code does: complex sines may run over
+            return function(*arguments)
+
+    return cast(F, first_call)
 
 
 def _dispatcher(function: Callable[..., object]) -> Any:

@@ -1,6 +1,6 @@
 /* Closure equations with complex unknowns, and solutions followed along parameters.
 
-The same as the Python file beside it (kernel.py), which takes all paths at once where no compiler of C was at hand. Plain
+The same as the Python file beside it (kernel.py), which is compiled by numba where no compiler of C was at hand. Plain
 C, without Python's API: arrays go in and out, and nothing is kept. Theory: docs/theory/positions.md. */
 
 #include <complex.h>

@@ -1,27 +1,26 @@
-"""Closure equations with complex unknowns, and solutions followed along parameters, of all paths at once.
+"""Compiled: closure equations with complex unknowns, and solutions followed along parameters.
 
 A loop closes if the product of the quaternions of its joints is 1 or -1: its vector part is zero. About a finite
 centre these are the quaternions of rotations; a plane is a sphere without curvature. Theory:
-docs/theory/positions.md. `kernel.c` does the same path by path.
+docs/theory/positions.md.
 """
 
 import numpy as np
 import numpy.typing as npt
 
+from enumerate.kernel.compiled import compiled
 from graphs.tolerances import DOUBLE
-from graphs.types import Flags, Floats, Ints
 
 Complexes = npt.NDArray[np.complex128]
-Type = tuple[Ints, Floats, Ints, Ints]
+Places = npt.NDArray[np.int64]
+Signs = npt.NDArray[np.float64]
+Type = tuple[Places, Signs, Places, Places]
 """The axes of each loop, int[L, K], filled up with -1; whether the loop passes them forwards (1) or backwards
 (-1); the joint of each axis, and how its parameters give it, int[A, 2]; the place of each joint among the
 unknowns, or of a driven one -1 - (its place among the driven)."""
 
 DIRECTION, POINT, SLIDE = 0, 1, 2
 """How two parameters give an axis: tilt and turn of a direction, a point of the plane, the heading of a slide."""
-
-Curves = tuple[Complexes, Complexes, Complexes]
-"""Start, end and bend of the parameters of each path, complex[P, K]."""
 
 STOPPED, ARRIVED, FAR = 0, 1, 2
 """What became of a path: it could not go on, is at its end, or went to infinity."""
@@ -36,171 +35,211 @@ _FAR, _FAR_ALONG = 30.0, 1e4
 _MOST = 5000
 
 
+@compiled
 def placed_axes(kind: Type, parameters: Complexes, unknowns: Complexes) -> tuple[Complexes, Complexes]:
-    """Return all axes, complex[P, A, 3], and the quaternions of the joints' rotations about them, complex[P, A, 4]."""
-    _, _, axes_of, column = kind
+    """Return all axes, complex[A, 3], and the quaternions of the joints' rotations about them, complex[A, 4]."""
+    axes_of, column = kind[2], kind[3]
     count = len(axes_of)
-    direction, slide = axes_of[:, 1] == DIRECTION, axes_of[:, 1] == SLIDE
-    # The driven come last, in reverse, so that place -1 is the first of them.
-    values = np.concatenate([unknowns, parameters[:, : 2 * count - 1 : -1]], axis=1)[:, column[axes_of[:, 0]]]
-    first, second = parameters[:, 0 : 2 * count : 2], parameters[:, 1 : 2 * count : 2]
-    tilt, height = np.sin(first), np.cos(first)
-    axes = np.stack(
-        [
-            np.where(direction, tilt * np.cos(second), np.where(slide, -tilt, first)),
-            np.where(direction, tilt * np.sin(second), np.where(slide, height, second)),
-            np.where(direction, height, np.where(slide, 0.0, 1.0)),
-        ],
-        axis=-1,
-    )
-    # a slide is a rotation by a small angle about an axis that is far away
-    sine, cosine = np.where(slide, 0.5 * values, np.sin(0.5 * values)), np.where(slide, 1.0, np.cos(0.5 * values))
-    return axes, np.concatenate([cosine[..., None], sine[..., None] * axes], axis=-1)
+    quaternions = np.empty((count, 4), np.complex128)
+    axes = np.empty((count, 3), np.complex128)
+    for i in range(count):
+        place = column[axes_of[i, 0]]
+        value = unknowns[place] if place >= 0 else parameters[2 * count - 1 - place]
+        first, second = parameters[2 * i], parameters[2 * i + 1]
+        sine, quaternions[i, 0] = np.sin(0.5 * value), np.cos(0.5 * value)
+        if axes_of[i, 1] == DIRECTION:
+            axes[i, 0], axes[i, 1] = np.sin(first) * np.cos(second), np.sin(first) * np.sin(second)
+            axes[i, 2] = np.cos(first)
+        elif axes_of[i, 1] == POINT:
+            axes[i, 0], axes[i, 1], axes[i, 2] = first, second, 1.0
+        else:  # a slide is a rotation by a small angle about an axis that is far away
+            axes[i, 0], axes[i, 1], axes[i, 2] = -np.sin(first), np.cos(first), 0.0
+            sine, quaternions[i, 0] = 0.5 * value, 1.0
+        quaternions[i, 1:] = sine * axes[i]
+    return axes, quaternions
 
 
-_FACTORS = np.array([[0, 1, 2, 3], [1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]])
-"""Which part of a quaternion stands where in the matrix, [4, 4], that multiplies others by it from the right."""
-
-
-def turned(kind: Type, quaternions: Complexes) -> Complexes:
-    """Return the products of quaternions before and after each axis of each loop, complex[P, L, K + 1, 4]."""
-    loops, signs, _, _ = kind
-    sign, c = signs[..., None], _curved(kind)
-    one = np.ones_like(c)
-    own = np.array([[one, one, one, one], [-c, one, -one, c], [-c, one, one, -c], [-one, -one, one, one]])
-    turns = quaternions[:, loops] * np.concatenate([np.ones_like(sign), sign, sign, sign], axis=-1)
-    turns[:, loops < 0] = np.array([1.0, 0.0, 0.0, 0.0])  # loops are filled up with -1
-    steps = turns[..., _FACTORS] * own.transpose(2, 0, 1)[:, None]
-    products = np.zeros((len(turns), len(loops), loops.shape[1] + 1, 1, 4), complex)
-    products[:, :, 0, 0, 0] = 1.0
-    for passage in range(loops.shape[1]):
-        products[:, :, passage + 1] = products[:, :, passage] @ steps[:, :, passage]
-    return products[..., 0, :]
-
-
-def residuals(kind: Type, parameters: Complexes, unknowns: Complexes) -> Complexes:
-    """Return closure residuals, complex[P, 3 L]."""
-    _, quaternions = placed_axes(kind, parameters, unknowns)
-    return turned(kind, quaternions)[:, :, -1, 1:].reshape(len(unknowns), -1)
-
-
-def evaluated(kind: Type, parameters: Complexes, unknowns: Complexes) -> tuple[Complexes, Complexes]:
-    """Return closure residuals, complex[P, 3 L], and their derivatives by the unknowns, complex[P, 3 L, U]."""
+@compiled
+def evaluated(kind: Type, parameters: Complexes, unknowns: Complexes, residual: Complexes, jacobian: Complexes) -> None:
+    """Write the closure residual, complex[3 L], and its derivatives by the unknowns, complex[3 L, U]."""
     loops, signs, axes_of, column = kind
     axes, quaternions = placed_axes(kind, parameters, unknowns)
-    products = turned(kind, quaternions)
-    flat = np.ones((len(loops), 1, 3))
-    flat[:, 0, 2] = _curved(kind)
-    before, whole, own = products[:, :, :-1], products[:, :, -1:], axes[:, loops]
-    # the axis where the joints before it have taken it, then seen from the end of the loop
-    aside = _across(before, own, flat)
-    columns = 0.5 * signs[..., None] * (own + 2.0 * (before[..., :1] * aside + _across(before, aside, flat)))
-    columns = whole[..., :1] * columns - _across(whole, columns, flat)
-    places = column[axes_of[loops, 0]]
-    loop, passage = np.nonzero((loops >= 0) & (places >= 0))
-    jacobian = np.zeros((len(unknowns), len(loops), unknowns.shape[1], 3), complex)
-    jacobian[:, loop, places[loop, passage]] = columns[:, loop, passage]
-    size = (len(unknowns), 3 * len(loops))
-    return whole[:, :, 0, 1:].reshape(size), jacobian.swapaxes(2, 3).reshape(*size, unknowns.shape[1])
-
-
-def _curved(kind: Type) -> Floats:
-    """Return 1 for each loop about a finite centre, and 0 in a plane, float[L].
-
-    There x and y are measured in a very large radius: products of two of them vanish.
-    """
-    return np.where(kind[2][kind[0][:, 0], 1] == DIRECTION, 1.0, 0.0)
-
-
-def _across(quaternions: Complexes, vectors: Complexes, flat: Floats) -> Complexes:
-    """Return the cross products of the vector parts of quaternions, complex[..., 4], with vectors, complex[..., 3]."""
-    x, y, z = (quaternions[..., part] for part in (1, 2, 3))
-    a, b, c = (vectors[..., part] for part in (0, 1, 2))
-    return np.asarray(np.stack([y * c - z * b, z * a - x * c, x * b - y * a], axis=-1) * flat)
-
-
-def solved(matrices: Complexes, right: Complexes) -> Complexes:
-    """Return the solutions of square systems, complex[P, U]; not numbers where a matrix is singular."""
-    good = np.flatnonzero(np.isfinite(matrices).all(axis=(1, 2)))
-    good = good[np.linalg.slogdet(matrices[good])[0] != 0.0]
-    found = np.full(right.shape, np.nan, complex)
-    found[good] = np.linalg.solve(matrices[good], right[good, :, None])[..., 0]
-    return found
-
-
-def corrected(kind: Type, parameters: Complexes, unknowns: Complexes, steps: int) -> tuple[Floats, Floats]:
-    """Correct unknowns in place; return the lengths of the first steps and the closure residuals, float[P].
-
-    Both are infinite where a step is not determined; there the unknowns stay as they were before it.
-    """
-    first, good = np.zeros(len(unknowns)), np.ones(len(unknowns), dtype=bool)
-    for step in range(steps):
-        residual, jacobian = evaluated(kind, parameters, unknowns)
-        change = solved(jacobian, residual)
-        good &= np.isfinite(change).all(axis=1)
-        unknowns[good] -= change[good]
-        if step == 0:
-            first = np.abs(change).max(axis=1, initial=0.0)
-    error = np.abs(residuals(kind, parameters, unknowns)).max(axis=1, initial=0.0)
-    return np.where(good, first, np.inf), np.where(good, error, np.inf)
-
-
-def parameters_at(curves: Curves, s: Floats) -> Complexes:
-    """Return the parameters at a place of each curve."""
-    (start, end, bend), at = curves, s[:, None]
-    return np.asarray(start + at * (end - start) + at * (1.0 - at) * bend)
-
-
-def tangent(kind: Type, curves: Curves, s: Floats, unknowns: Complexes) -> Complexes:
-    """Return the derivatives of the unknowns along curves; not numbers where these are not determined."""
-    beside = residuals(kind, parameters_at(curves, s + _NUDGE), unknowns)
-    here, jacobian = evaluated(kind, parameters_at(curves, s), unknowns)
-    return solved(jacobian, (here - beside) / _NUDGE)
-
-
-def gone_far(kind: Type, unknowns: Complexes) -> Flags:
-    """Return of which paths an angle or a slide has gone to infinity."""
-    _, _, axes_of, column = kind
-    places = column[axes_of[:, 0]]
-    values, slide = unknowns[:, places[places >= 0]], axes_of[places >= 0, 1] == SLIDE
-    return np.asarray(np.where(slide, np.abs(values) > _FAR_ALONG, np.abs(values.imag) > _FAR).any(axis=1))
-
-
-def followed_all(kind: Type, curves: Curves, values: Complexes, small: float) -> Ints:
-    """Follow solutions along curves, each along its own, in place; return STOPPED, ARRIVED or FAR: int[P].
-
-    Each path has its own step, which is halved where the first correction is not ``small``, radians.
-    """
-    ends = np.full(len(values), STOPPED)
-    done, step, left = np.zeros(len(values)), np.full(len(values), _FIRST), np.arange(len(values))
-    with np.errstate(all="ignore"):  # a path that cannot go on has what is no number
-        for _ in range(_MOST):
-            if not len(left):
+    jacobian[:] = 0.0
+    for loop in range(len(loops)):
+        # in a plane x and y are measured in a very large radius: products of two of them vanish
+        curved = 1.0 if axes_of[loops[loop, 0], 1] == DIRECTION else 0.0
+        w, x, y, z = 1.0 + 0.0j, 0.0j, 0.0j, 0.0j
+        for i in range(loops.shape[1]):
+            j = loops[loop, i]
+            if j < 0:
                 break
-            here, s = values[left], done[left]
-            curve = (curves[0][left], curves[1][left], curves[2][left])
-            length = np.minimum(step[left], 1.0 - s)
-            # predictor: Runge and Kutta's method of fourth order on the tangents
-            rates = [tangent(kind, curve, s, here)]
-            for part in (0.5 * length, 0.5 * length, length):
-                rates.append(tangent(kind, curve, s + part, here + part[:, None] * rates[-1]))
-            tried = here + length[:, None] / 6.0 * (rates[0] + 2.0 * rates[1] + 2.0 * rates[2] + rates[3])
-            lands = length >= 1.0 - s
-            onwards = np.where(lands, 1.0, s + length)
+            sign = signs[loop, i]
+            place = column[axes_of[j, 0]]
+            if place >= 0:  # the axis where the joints before it have taken it
+                a, b, c = axes[j, 0], axes[j, 1], axes[j, 2]
+                u, v, t = y * c - z * b, z * a - x * c, curved * (x * b - y * a)
+                jacobian[3 * loop, place] = 0.5 * sign * (a + 2.0 * (w * u + y * t - z * v))
+                jacobian[3 * loop + 1, place] = 0.5 * sign * (b + 2.0 * (w * v + z * u - x * t))
+                jacobian[3 * loop + 2, place] = 0.5 * sign * (c + 2.0 * (w * t + curved * (x * v - y * u)))
+            p, q = quaternions[j, 0], sign * quaternions[j, 1]
+            r, s = sign * quaternions[j, 2], sign * quaternions[j, 3]
+            w, x, y, z = (
+                w * p - curved * (x * q + y * r) - z * s,
+                w * q + x * p + y * s - z * r,
+                w * r - x * s + y * p + z * q,
+                w * s + curved * (x * r - y * q) + z * p,
+            )
+        residual[3 * loop], residual[3 * loop + 1], residual[3 * loop + 2] = x, y, z
+        for i in range(loops.shape[1]):
+            j = loops[loop, i]
+            if j < 0:
+                break
+            place = column[axes_of[j, 0]]
+            if place >= 0:
+                a, b, c = jacobian[3 * loop, place], jacobian[3 * loop + 1, place], jacobian[3 * loop + 2, place]
+                jacobian[3 * loop, place] = w * a + b * z - c * y
+                jacobian[3 * loop + 1, place] = w * b + c * x - a * z
+                jacobian[3 * loop + 2, place] = w * c + curved * (a * y - b * x)
+
+
+@compiled
+def solved(matrix: Complexes, right: Complexes) -> bool:
+    """Solve a square system, pivots chosen by column; the solution takes the place of the right side."""
+    n = len(right)
+    for k in range(n):
+        best, size = k, 0.0
+        for i in range(k, n):
+            if abs(matrix[i, k]) > size:
+                best, size = i, abs(matrix[i, k])
+        if size == 0.0 or not np.isfinite(size):
+            return False
+        if best != k:
+            for j in range(k, n):
+                matrix[k, j], matrix[best, j] = matrix[best, j], matrix[k, j]
+            right[k], right[best] = right[best], right[k]
+        for i in range(k + 1, n):
+            part = matrix[i, k] / matrix[k, k]
+            for j in range(k + 1, n):
+                matrix[i, j] -= part * matrix[k, j]
+            right[i] -= part * right[k]
+    for k in range(n - 1, -1, -1):
+        for j in range(k + 1, n):
+            right[k] -= matrix[k, j] * right[j]
+        right[k] /= matrix[k, k]
+    return True
+
+
+@compiled
+def corrected(kind: Type, parameters: Complexes, unknowns: Complexes, steps: int) -> tuple[float, float]:
+    """Correct unknowns in place; return the length of the first step and the closure residual."""
+    n = len(unknowns)
+    residual, jacobian = np.empty(n, np.complex128), np.empty((n, n), np.complex128)
+    first = 0.0
+    for step in range(steps):
+        evaluated(kind, parameters, unknowns, residual, jacobian)
+        if not solved(jacobian, residual):
+            return np.inf, np.inf
+        length = 0.0
+        for i in range(n):
+            unknowns[i] -= residual[i]
+            length = max(length, abs(residual[i]))
+        if step == 0:
+            first = length
+        if not np.isfinite(length):
+            return np.inf, np.inf
+    evaluated(kind, parameters, unknowns, residual, jacobian)
+    error = 0.0
+    for i in range(n):
+        error = max(error, abs(residual[i]))
+    return first, error
+
+
+@compiled
+def parameters_at(curve: tuple[Complexes, Complexes, Complexes], s: float) -> Complexes:
+    """Return the parameters at a place of a curve of start, end and bend."""
+    start, end, bend = curve
+    return start + s * (end - start) + s * (1.0 - s) * bend
+
+
+@compiled
+def tangent(
+    kind: Type, curve: tuple[Complexes, Complexes, Complexes], s: float, unknowns: Complexes, rates: Complexes
+) -> bool:
+    """Write the derivatives of the unknowns along a curve; False if these are not determined."""
+    n = len(unknowns)
+    beside, jacobian = np.empty(n, np.complex128), np.empty((n, n), np.complex128)
+    evaluated(kind, parameters_at(curve, s + _NUDGE), unknowns, beside, jacobian)
+    evaluated(kind, parameters_at(curve, s), unknowns, rates, jacobian)
+    for i in range(n):
+        rates[i] = (rates[i] - beside[i]) / _NUDGE
+    return solved(jacobian, rates)
+
+
+@compiled
+def gone_far(kind: Type, unknowns: Complexes) -> bool:
+    """Return whether an angle or a slide has gone to infinity."""
+    _, _, axes_of, column = kind
+    for axis in range(len(axes_of)):
+        place = column[axes_of[axis, 0]]
+        if place >= 0:
+            if axes_of[axis, 1] == SLIDE and abs(unknowns[place]) > _FAR_ALONG:
+                return True
+            if axes_of[axis, 1] != SLIDE and abs(unknowns[place].imag) > _FAR:
+                return True
+    return False
+
+
+@compiled
+def followed(kind: Type, curve: tuple[Complexes, Complexes, Complexes], unknowns: Complexes, small: float) -> int:
+    """Follow a solution along a curve, in place; return STOPPED, ARRIVED or FAR.
+
+    A step is halved where the first correction is not ``small``, radians.
+    """
+    n = len(unknowns)
+    rates, tried = np.empty((4, n), np.complex128), np.empty(n, np.complex128)
+    s, step = 0.0, _FIRST
+    for _ in range(_MOST):
+        length = min(step, 1.0 - s)
+        # predictor: Runge and Kutta's method of fourth order on the tangents
+        good = tangent(kind, curve, s, unknowns, rates[0])
+        for stage in range(1, 4):
+            part = length if stage == 3 else 0.5 * length
+            tried[:] = unknowns + part * rates[stage - 1]
+            good = good and tangent(kind, curve, s + part, tried, rates[stage])
+        if good:
+            change = rates[0] + 2.0 * rates[1] + 2.0 * rates[2] + rates[3]
+            tried[:] = unknowns + length / 6.0 * change
+            onwards = 1.0 if length >= 1.0 - s else s + length
             # corrector: a first correction that is not small may lead to another path
             first, error = corrected(kind, parameters_at(curve, onwards), tried, _CORRECTIONS)
-            good = (first <= small) & (error <= CLOSED)
-            values[left[good]] = tried[good]
-            far = good & gone_far(kind, tried)
-            ends[left[good & lands]] = ARRIVED
-            ends[left[far]] = FAR
-            done[left] = np.where(good, onwards, s)
-            step[left] = np.where(good, np.minimum(1.7 * length, _LARGEST), 0.5 * length)
-            left = left[~far & ~(good & lands) & (good | (step[left] >= _LEAST))]
+            if first <= small and error <= CLOSED:
+                unknowns[:] = tried
+                if gone_far(kind, unknowns):
+                    return FAR
+                if onwards == 1.0:
+                    return ARRIVED
+                s, step = onwards, min(1.7 * length, _LARGEST)
+                continue
+        step = 0.5 * length
+        if step < _LEAST:
+            return STOPPED
+    return STOPPED
+
+
+@compiled
+def followed_all(kind: Type, curves: tuple[Complexes, Complexes, Complexes], values: Complexes, small: float) -> Places:
+    """Follow solutions along curves, each along its own, in place; return STOPPED, ARRIVED or FAR: int[P]."""
+    ends = np.empty(len(values), np.int64)
+    for path in range(len(values)):
+        curve = (curves[0][path], curves[1][path], curves[2][path])
+        ends[path] = followed(kind, curve, values[path], small)
     return ends
 
 
-def corrected_all(kind: Type, parameters: Complexes, values: Complexes, steps: int) -> Floats:
+@compiled
+def corrected_all(kind: Type, parameters: Complexes, values: Complexes, steps: int) -> Signs:
     """Correct solutions, in place; return their closure residuals: float[P]."""
-    with np.errstate(all="ignore"):
-        return corrected(kind, parameters, values, steps)[1]
+    errors = np.empty(len(values))
+    for path in range(len(values)):
+        errors[path] = corrected(kind, parameters[path], values[path], steps)[1]
+    return errors

@@ -1,6 +1,6 @@
 """Closure equations of complex unknowns, and solutions followed: by kernel.c, or by kernel.py where it was not built.
 
-Both do the same, the latter for all paths at once.
+Both do the same; numba, which compiles the latter, is imported only then.
 """
 
 import ctypes
@@ -60,8 +60,7 @@ def evaluated(kind: Type, parameters: Complexes, unknowns: Complexes, residual: 
     """Write the closure residual, complex[3 L], and its derivatives by the unknowns, complex[3 L, U]."""
     found = _library()
     if found is None:
-        found_residual, found_jacobian = kernel.evaluated(kind, parameters[None], unknowns[None])
-        residual[:], jacobian[:] = found_residual[0], found_jacobian[0]
+        kernel.evaluated(kind, parameters, unknowns, residual, jacobian)
         return
     given = [np.ascontiguousarray(array, dtype=complex) for array in (parameters, unknowns)]
     _called(found.all_evaluated, kind, len(parameters), *given, residual, jacobian)

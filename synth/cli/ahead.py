@@ -10,6 +10,7 @@ from multiprocessing import active_children
 from pathlib import Path
 from time import monotonic
 
+import synth
 from enumerate.machine_code.folders import MISSING, writable_base
 from enumerate.machine_code.kernels import can_compile, compiled_here, use_machine_code
 from graphs.errors import numbered
@@ -42,7 +43,7 @@ def compile_ahead() -> int:
     with ProcessPoolExecutor(cores()) as pool:
         try:
             with _deaf_to_interrupts():  # the processes that are started here inherit it
-                counted = [pool.submit(_run, command) for command in _SMALL]
+                counted = [*(pool.submit(_run, command) for command in _SMALL), pool.submit(_positions)]
             return sum(new.result() for new in counted)
         except KeyboardInterrupt:
             for worker in active_children():
@@ -66,6 +67,15 @@ def _run(command: str) -> int:
     workers = ["--workers", "1"] if command.startswith("enumerate") else []
     with Path(os.devnull).open("w", encoding="utf-8") as nowhere, redirect_stdout(nowhere):
         main([*command.split(), *workers], standalone_mode=False)
+    return compiled_here() - before
+
+
+def _positions() -> int:
+    """Compile the search for assembly modes, for which commands need a file."""
+    from synth.patterns.hinged_rings import spherical_ring
+
+    before = compiled_here()
+    synth.positions(spherical_ring([1.0, 1.2, 0.9, 1.4]), drive={0: 0.1}, circuits=False)
     return compiled_here() - before
 
 

@@ -1,4 +1,4 @@
-"""The library of C against numpy; positions that are kept between runs."""
+"""The library of C against the kernels that numba compiles; positions that are kept between runs."""
 
 import numpy as np
 import pytest
