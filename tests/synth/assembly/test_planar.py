@@ -12,7 +12,9 @@ from graphs.loops.loop import Loop
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.solids import HingedSolids
 from synth.assembly import positions
-from synth.assembly.family import family_of, general_positions, solutions
+from synth.assembly.ends import solutions
+from synth.assembly.family import family_of
+from synth.assembly.general import general_positions
 from synth.motion.closure import ClosureEquations
 from synth.motion.linkage import linkage_of_axes
 from synth.moving.made import configuration_of
@@ -119,7 +121,7 @@ def check_six_bars(graph, driver, number, cases, starts):
         linkage = configuration_of(planar(graph, random.normal(size=(7, 2)))).linkage
         _, axes = family_of(linkage, [driver])
         turn = random.uniform(-0.3, 0.3)
-        ends = solutions(family, general, np.append(axes, turn), seed=case)
+        ends = solutions(family, general, family.member(axes, np.array([turn])), seed=case)
         assert (len(ends.values), ends.far, ends.singular, ends.lost) == (number, 0, 0, 0)
         real = ends.values[np.abs(ends.values.imag).max(axis=1) < 1e-7].real
         assert len(real) % 2 == 0
