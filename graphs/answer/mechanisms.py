@@ -11,13 +11,14 @@ from typing import Any, Literal
 import networkx as nx
 import numpy as np
 
-from graphs.answer.jointed import chain_with_planar_loops, mobility_of_jointed
+from graphs.answer.jointed import chain_with_centres, mobility_of_jointed
 from graphs.answer.report import CENTRES_ASSUMED, MobilityAnswer, notes_of_pose
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
 from graphs.convert.table import Mechanism, graph_of
 from graphs.count.report import mobility_report
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, numbered, shown
 from graphs.joints.linkage import JointedLinkage
+from graphs.loops.loop import Centre
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.precision import Precision, extent_of, precision_of
 from graphs.mechanism.sc import SCGraph
@@ -181,12 +182,9 @@ def mobility(
             why = "revolute joints that replace others share points and directions, generic ones do not"
             answer = answer.with_notes(warnings=[f"no exact rank: {why}"])
         return replace(answer, pose=None) if pose is False else answer
-    sc = chain_with_planar_loops(mechanism) if isinstance(mechanism, HingedSolids) else graph_of(mechanism)
+    sc = chain_with_centres(mechanism) if isinstance(mechanism, HingedSolids) else graph_of(mechanism)
     answer = MobilityAnswer.of(mobility_report(sc))
-    planar = len(sc.centred_loops) - len(graph_of(mechanism).centred_loops)
-    if planar:
-        counted = numbered(planar, "loop whose axes are parallel counts", "loops whose axes are parallel count")
-        answer = answer.with_notes(warnings=[f"{counted} as planar"])
+    answer = answer.with_notes(warnings=_centres_by_axes(graph_of(mechanism), sc))
     if isinstance(mechanism, HingedSolids):
         answer = answer.with_notes(warnings=mechanism.notes)
     if sc.centres_assumed:
@@ -201,6 +199,17 @@ def mobility(
         here = pose_mobility_of_axes(mechanism.chain, mechanism.axes)
         return replace(answer, pose=here).with_notes(warnings=notes_of_pose(here))
     return answer
+
+
+def _centres_by_axes(chain: SCGraph, centred: SCGraph) -> list[str]:
+    """Say how many loops of a chain got a centre by their axes."""
+    warnings = []
+    for centre, are, kind in ((Centre.INFINITE, "are parallel", "planar"), (Centre.FINITE, "meet", "spherical")):
+        before, after = (sum(loop.centre is centre for loop in graph.loops) for graph in (chain, centred))
+        if after > before:
+            counted = numbered(after - before, f"loop whose axes {are} counts", f"loops whose axes {are} count")
+            warnings.append(f"{counted} as {kind}")
+    return warnings
 
 
 def _conformed(answer: MobilityAnswer, linkage: SurfaceLinkage) -> MobilityAnswer:
