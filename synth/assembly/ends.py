@@ -45,7 +45,7 @@ class Solutions(NamedTuple):
 def solutions_of_many(family: Family, general: GeneralPositions, members: Complexes, seed: int = 0) -> list[Solutions]:
     """Return the solutions of each of many members, complex[N, parameters]: as `solutions` does, by the same curves.
 
-    All are followed at once; where a path of a member was lost, that one is solved again by itself.
+    All are followed at once; where a path of a member was lost or ended at a singular place, that one is solved again.
     """
     count = len(general.values)
     bend = _bend(family, np.random.default_rng(seed))
@@ -58,7 +58,7 @@ def solutions_of_many(family: Family, general: GeneralPositions, members: Comple
         own = slice(number * count, (number + 1) * count)
         paths = TrackedPaths(followed.values[own], followed.arrived[own], followed.far[own])
         ends = _ends(family, member, paths)
-        every.append(solutions(family, general, member, seed) if ends.lost else ends)
+        every.append(solutions(family, general, member, seed) if ends.lost or ends.singular else ends)
     return every
 
 
@@ -89,9 +89,9 @@ def solutions(family: Family, general: GeneralPositions, member: Complexes, seed
         start, end, bent = (np.tile(parameters, (count, 1)) for parameters in curve)
         paths = family.followed((start, end, bent), general.values, small)
         ends = _ends(family, member, paths)
-        if best is None or ends.lost < best[0].lost:
+        if best is None or (ends.lost, ends.singular) < (best[0].lost, best[0].singular):
             best = ends, paths, curve
-        if not ends.lost:
+        if not ends.lost and not ends.singular:
             break
     assert best is not None
     ends, paths, curve = best

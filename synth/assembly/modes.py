@@ -16,6 +16,7 @@ from graphs.errors import InvariantError, SynthedraError, check_argument, number
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.tolerances import DOUBLE, canonical_order
 from graphs.types import Flags, Floats, Ints, JointId, LinkId
+from synth.assembly.cutting import with_own_joints
 from synth.assembly.ends import Solutions, solutions_of_many
 from synth.assembly.family import Family, family_of
 from synth.assembly.general import GeneralPositions, kept_positions
@@ -383,7 +384,8 @@ def positions(
     if several and circuits:
         raise InvariantError("circuits", "circuits of many inputs", "one input")
     loose = loosened(linkage, list(drive), at.tolerances)
-    family, axes = family_of(loose.linkage, list(drive), at.tolerances)
+    opened = with_own_joints(loose.linkage, at.tolerances)
+    family, axes = family_of(opened, list(drive), at.tolerances)
     names = list(linkage.graph.joints)
     places = [names.index(joint) for joint in drive]
     units = _units(linkage)
