@@ -98,6 +98,24 @@ def solutions(family: Family, general: GeneralPositions, member: Complexes, seed
     return _ends(family, member, _followed_again(family, general, curve, paths)) if ends.lost else ends
 
 
+def with_given(family: Family, member: Complexes, ends: Solutions) -> Solutions:
+    """Return solutions with the configuration that was read, where it is at these inputs and no path ended there.
+
+    On a curve of solutions, where a linkage moves with its inputs held, paths end at places that chance chooses.
+    """
+    given = np.zeros(family.unknowns, dtype=complex)
+    if np.abs(family.at(member, given)[0]).max() > CLOSED or same(ends.values, given, family.turning).any():
+        return ends
+    regular = _is_regular(family, member, given)
+    return Solutions(
+        np.concatenate([ends.values, given[None]]),
+        np.append(ends.regular, regular),
+        ends.far,
+        ends.singular - int(not regular and ends.singular > 0),
+        ends.lost - int(regular and ends.lost > 0),
+    )
+
+
 def _followed_again(
     family: Family, general: GeneralPositions, curve: tuple[Complexes, Complexes, Complexes], paths: TrackedPaths
 ) -> TrackedPaths:

@@ -17,7 +17,7 @@ from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.tolerances import DOUBLE, canonical_order
 from graphs.types import Flags, Floats, Ints, JointId, LinkId
 from synth.assembly.cutting import with_own_joints
-from synth.assembly.ends import Solutions, solutions_of_many
+from synth.assembly.ends import Solutions, solutions_of_many, with_given
 from synth.assembly.family import Family, family_of
 from synth.assembly.general import GeneralPositions, kept_positions
 from synth.assembly.kernel import Complexes
@@ -392,12 +392,12 @@ def positions(
     turned = inputs / units[places] - linkage.angles[places]
     members = np.array([family.member(axes, row) for row in turned])
     general = kept_positions(family, seed)
-    ends = solutions_of_many(family, general, members, seed)
+    ends = _ends(family, general, members, seed)
     proofs = [_is_proved(loose, family, general, *one) for one in zip(members, ends, strict=True)]
     if not all(proofs) and not general.traced:
         found, general = len(general.values), kept_positions(family, seed, trace=True)
         if len(general.values) != found:
-            ends = solutions_of_many(family, general, members, seed)
+            ends = _ends(family, general, members, seed)
     evidence = tuple(map(_evidence, [general] * len(ends), ends, proofs))
     straight = max(DOUBLE.same_configuration, at.tolerances.zero)
     modes = [_real(loose, family, *one, units, straight) for one in zip(members, ends, strict=True)]
@@ -422,13 +422,18 @@ def positions(
     return _with_circuits(answer) if circuits is not False and len(drive) == 1 else answer
 
 
+def _ends(family: Family, general: GeneralPositions, members: Complexes, seed: int) -> list[Solutions]:
+    followed = solutions_of_many(family, general, members, seed)
+    return [with_given(family, *one) for one in zip(members, followed, strict=True)]
+
+
 def _is_proved(loose: Loosened, family: Family, general: GeneralPositions, member: Complexes, ends: Solutions) -> bool:
     """Whether there are as many certified positions as are possible.
 
     Then there are no others, not even where the linkage moves: solutions of all members together are irreducible, so
     that near such a place general members would have one more. That redundant bars fit no computation proves.
     """
-    if loose.bars or general.bound is None or len(ends.values) < general.bound:
+    if loose.bars or general.bound is None or len(ends.values) != general.bound:
         return False
     return bool(ends.regular.all()) and bool(certified(family, member, ends.values).all())
 
