@@ -116,7 +116,9 @@ def _is_certified(equations: _Equations, given: list[Any], solution: Complexes) 
     middle = equations.numbers(solution)
     try:
         for _ in range(_NEWTON):
-            middle = _newton(equations, given, middle)[0]
+            middle, length = _newton(equations, given, middle)
+            if length < _RADIUS:  # the next step, which would be as its square, is far smaller than the box
+                break
         if np.abs(solution.imag).max(initial=0.0) == 0.0:
             middle = [acb(value.real) for value in middle]
         around = f"0 +/- {_RADIUS}"
