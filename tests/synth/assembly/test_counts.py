@@ -84,8 +84,7 @@ def test_trusses(name):
     linkage = planar(SCGraph(len(links), joints), random)
     found = positions(linkage, drive={})
     assert (found.general, len(found.positions) + found.imaginary, found.evidence) == (*[in_the_plane] * 2, "proved")
-    # no linkage is its own mirror image, so conjugates come in pairs but for the real ones: with an even number of all
-    # solutions that of the real ones is even
+    # solutions that are not real come in pairs of conjugates: of an even number an even number is real
     assert len(found.positions) % 2 == 0
     if len(links) == 5:
         assert len(positions_of(linkage, {}, random)) == in_the_plane
