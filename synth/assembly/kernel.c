@@ -19,7 +19,7 @@ typedef double complex number;
 enum { DIRECTION = 0, POINT = 1, SLIDE = 2 };        /* how two parameters give an axis */
 enum { STOPPED = 0, ARRIVED = 1, FAR = 2 };              /* what became of a path */
 
-static const double FIRST = 0.05, LARGEST = 0.25, LEAST = 1e-8, NUDGE = 1e-6, VERY_FAR = 30.0, FAR_ALONG = 1e4;
+static const double FIRST = 0.05, LARGEST = 0.25, LEAST = 1e-12, NUDGE = 1e-6, VERY_FAR = 30.0, FAR_ALONG = 1e4;
 enum { CORRECTIONS = 3, MOST = 5000 };
 
 /* The loops of a type as kernel.py has them, int[loops, longest], filled up with -1; signs likewise; of each axis its

@@ -30,7 +30,7 @@ DIRECTION, POINT, SLIDE = 0, 1, 2
 STOPPED, ARRIVED, FAR = 0, 1, 2
 """What became of a path: it could not go on, is at its end, or went to infinity."""
 
-_FIRST, _LARGEST, _LEAST = 0.05, 0.25, 1e-8
+_FIRST, _LARGEST, _LEAST = 0.05, 0.25, 1e-12
 _NUDGE = 1e-6
 _CORRECTIONS = 3
 CLOSED = 100.0 * DOUBLE.closed
