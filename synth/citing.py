@@ -32,6 +32,22 @@ ENTRIES = {
         "title": "The Numerical Solution of Systems of Polynomials Arising in Engineering and Science",
         "publisher": "World Scientific", "year": "2005",
     }),
+    "sommese2002": ("article", {
+        "author": "Sommese, Andrew J. and Verschelde, Jan and Wampler, Charles W.",
+        "title": "Symmetric functions applied to decomposing solution sets of polynomial systems",
+        "journal": "SIAM Journal on Numerical Analysis", "volume": "40", "year": "2002",
+    }),
+    "capco2018": ("article", {
+        "author": "Capco, Jose and Gallet, Matteo and Grasegger, Georg and Koutschan, Christoph and Lubbes, Niels "
+        "and Schicho, Josef",
+        "title": "The number of realizations of a Laman graph",
+        "journal": "SIAM Journal on Applied Algebra and Geometry", "volume": "2", "year": "2018",
+    }),
+    "gallet2020": ("article", {
+        "author": "Gallet, Matteo and Grasegger, Georg and Schicho, Josef",
+        "title": "Counting realizations of Laman graphs on the sphere",
+        "journal": "Electronic Journal of Combinatorics", "volume": "27", "year": "2020",
+    }),
     "mccarthy": ("book", {"author": "McCarthy, J. Michael", "title": "Geometric Design of Linkages",
                           "series": "Interdisciplinary Applied Mathematics", "volume": "11",
                           "publisher": "Springer"}),
@@ -84,7 +100,7 @@ CITED: dict[str, tuple[str, ...]] = {
     "look": (*_MOBILITY, *_LAYERS),
     "mobility": (*_MOBILITY, *_LAYERS),
     "layers": _LAYERS,
-    "positions": ("sommese2005", "wampler2007"),
+    "positions": ("sommese2005", "sommese2002", "capco2018", "gallet2020", "wampler2007"),
     "explain": _MOBILITY,
     "states": ("wiener2016",),
     "limits": ("wiener2016",),

@@ -18,6 +18,7 @@ from graphs.count.report import EquationResult, MobilityReport, mobility_report
 from graphs.errors import numbered, shown
 from graphs.geometry import frame_about, unit
 from graphs.joints.as_points import points_of, rods_between_balls
+from graphs.joints.centres import centred_by_axes
 from graphs.joints.linkage import JointedLinkage, JointKind, JointPlace, Leg, legs
 from graphs.joints.placing import placed
 from graphs.joints.revolutes import revolutes_of
@@ -248,10 +249,10 @@ def with_planar_loops(linkage: JointedLinkage) -> JointedLinkage:
     return JointedLinkage(whole, linkage.kinds, linkage.places)
 
 
-def chain_with_planar_loops(solids: HingedSolids) -> SCGraph:
-    """Return the chain of hinged solids; loops without a centre whose axes are parallel get an infinite one."""
-    places = {joint: JointPlace(point, (direction,)) for joint, (point, direction) in solids.axes.items()}
-    return with_planar_loops(JointedLinkage(solids.chain, {}, places)).chain
+def chain_with_centres(solids: HingedSolids) -> SCGraph:
+    """Return the chain of hinged solids; loops without a centre whose axes meet or are parallel get it."""
+    points, directions = (np.array([axis[part] for axis in solids.axes.values()]) for part in (0, 1))
+    return centred_by_axes(solids.chain, solids.axes, precision_of_axes(points, directions).size)
 
 
 def _is_planar(linkage: JointedLinkage, joints: Sequence[JointId], parallel: float) -> bool:

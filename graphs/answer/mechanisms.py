@@ -11,7 +11,7 @@ from typing import Any, Literal
 import networkx as nx
 import numpy as np
 
-from graphs.answer.jointed import chain_with_planar_loops, mobility_of_jointed
+from graphs.answer.jointed import chain_with_centres, mobility_of_jointed
 from graphs.answer.remote import notes_on_centres
 from graphs.answer.report import RODS_ALONE, MobilityAnswer, notes_of_pose
 from graphs.convert.duality import SheetMechanism, mechanism_of_sheet
@@ -203,10 +203,8 @@ def mobility(
         return replace(answer, pose=None) if pose is False else answer
     sc = _counted_graph(mechanism)
     answer = MobilityAnswer.of(mobility_report(sc))
-    planar = len(sc.centred_loops) - len(graph_of(mechanism).centred_loops)
-    if planar and isinstance(mechanism, HingedSolids):
-        counted = numbered(planar, "loop whose axes are parallel counts", "loops whose axes are parallel count")
-        answer = answer.with_notes(warnings=[f"{counted} as planar"])
+    if isinstance(mechanism, HingedSolids):
+        answer = answer.with_notes(warnings=_centres_by_axes(graph_of(mechanism), sc))
     if isinstance(mechanism, HingedSolids):
         answer = answer.with_notes(warnings=mechanism.notes)
     if sc.centres_assumed:
@@ -226,7 +224,7 @@ def mobility(
 def _counted_graph(mechanism: Mechanism | nx.Graph) -> SCGraph:
     """Return the SC graph of a mechanism with the centres that its axes have for certain."""
     if isinstance(mechanism, HingedSolids):
-        return chain_with_planar_loops(mechanism)
+        return chain_with_centres(mechanism)
     return _on_one_centre(mechanism) if isinstance(mechanism, SurfaceLinkage) else graph_of(mechanism)
 
 
@@ -239,6 +237,17 @@ def _on_one_centre(linkage: SurfaceLinkage) -> SCGraph:
         return chain
     name = "apex" if centre is Centre.FINITE else "the direction of all axes"
     return chain.with_loops([Loop(loop.joints, centre, loop.name, name) for loop in cycles])
+
+
+def _centres_by_axes(chain: SCGraph, centred: SCGraph) -> list[str]:
+    """Say how many loops of a chain got a centre by their axes."""
+    warnings = []
+    for centre, are, kind in ((Centre.INFINITE, "are parallel", "planar"), (Centre.FINITE, "meet", "spherical")):
+        before, after = (sum(loop.centre is centre for loop in graph.loops) for graph in (chain, centred))
+        if after > before:
+            counted = numbered(after - before, f"loop whose axes {are} counts", f"loops whose axes {are} count")
+            warnings.append(f"{counted} as {kind}")
+    return warnings
 
 
 def _conformed(answer: MobilityAnswer, linkage: SurfaceLinkage) -> MobilityAnswer:

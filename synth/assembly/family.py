@@ -1,38 +1,35 @@
-"""Families of linkages with complex axes and inputs: all positions of a general member, followed to any other.
+"""Families of linkages with complex axes and inputs, whose loops close to any quaternion.
 
 Joint angles, axes and inputs may be complex: then the number of positions is the same for all members but special
 ones, and positions can be followed from one member to another. An axis through a finite centre has two angles, one
 across a plane its point there, so that everything is an entire function and no root has to choose a sign.
 
-The positions of a general member are kept between runs, since they are the same for all members of the type. What is
-kept says itself what it is: its name is a digest of the type and the seed, its folder is named by a digest of the
-files that find it. Where no folder can be written positions are found anew in each process. Theory:
-docs/theory/positions.md.
+What each loop has to close to is a parameter too, 1 in linkages that are assembled as they were read: a member is cut
+open once in each loop, and joined again with a rotation between. So every joint angle and every axis is a solution of
+some member: solutions and members together are one irreducible variety, on which curves lead from each solution of a
+member to each other. (Members whose loops all close where the joint angles are 0 have that solution for ever, and no
+curve of them leads to another one.) Theory: docs/theory/positions.md.
 """
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
-from hashlib import sha256
 from math import atan2, hypot
-from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
+import networkx as nx
 import numpy as np
+import numpy.typing as npt
 
-from enumerate.machine_code.folders import keep, kept
-from graphs.errors import InvariantError, NumericalError, UnsolvableError, numbered, shown
-from graphs.geometry import frame_about, lines_meet
+from graphs.errors import InvariantError, UnsolvableError, numbered, shown
+from graphs.geometry import frame_about
 from graphs.loops.loop import Centre
-from graphs.rank.singular_values import rank_of
-from graphs.tolerances import DOUBLE, EPSILON
+from graphs.tolerances import DOUBLE, Tolerances
 from graphs.types import Flags, Floats, Ints, JointId
-from synth.assembly.kernel import ARRIVED, CLOSED, DIRECTION, FAR, POINT, SLIDE, Complexes, Type
+from synth.assembly.kernel import ARRIVED, DIRECTION, FAR, POINT, SLIDE, Complexes, Line, Type
 from synth.assembly.tracking import corrected_all, evaluated, followed_all
-from synth.motion.linkage import PosedLinkage, PosedLoop
+from synth.motion.linkage import PosedLinkage, PosedLoop, centre_of
 
 Curves = tuple[Complexes, Complexes, Complexes]
 SMALL = 3e-3
@@ -43,8 +40,10 @@ SMALL = 3e-3
 class Family:
     """Linkages of one type with driven joints; loops, signs, axes and column are those of `kernel.Type`.
 
-    Parameters of a member: two numbers for each axis, and the angle or length of each driven joint. `joints` are
-    all that are in loops.
+    Parameters of a member: two numbers for each axis, the angle or length of each driven joint, and the quaternion
+    that each loop has to close to. `joints` are all that are in loops, `links`, int[J, 2], the numbers of the links
+    that they join. Axes of one link that coincide stay so in the family: `alike`, int[A, 2], is the first of them
+    and 1, or -1 where it points the other way.
     """
 
     loops: Ints
@@ -52,6 +51,38 @@ class Family:
     axes: Ints
     joints: tuple[JointId, ...]
     column: Ints
+    links: Ints
+    alike: Ints
+
+    @property
+    def driven(self) -> int:
+        """Number of driven joints."""
+        return len(self.joints) - self.unknowns
+
+    def member(self, axes: npt.NDArray[Any], inputs: npt.NDArray[Any], cuts: Complexes | None = None) -> Complexes:
+        """Return the parameters of a member: axes[2 A], inputs[D], and what loops close to, by default 1."""
+        if cuts is None:
+            cuts = np.tile(np.array([1.0, 0.0, 0.0, 0.0], dtype=complex), (len(self.loops), 1))
+        return np.concatenate([axes, inputs, cuts.ravel()]).astype(complex)
+
+    def coincident(self, pairs: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """Return parameters of axes, complex[A, 2], with those that coincide alike: complex[2 A]."""
+        first, opposite = pairs[self.alike[:, 0]], self.alike[:, 1] < 0
+        first[opposite] = np.pi + first[opposite] * np.array([-1.0, 1.0])
+        return np.asarray(first.ravel())
+
+    def closed_to(self, parameters: Complexes, values: Complexes) -> Complexes:
+        """Return the quaternion that each loop closes to with unknowns complex[U]: complex[L, 4]."""
+        # the residual is the vector part of the product times a conjugate: of 1 that of the product, of i less its
+        # real part in the first place
+        plain = parameters.copy()
+        parts = []
+        for unit_of in range(2):
+            cuts = np.zeros((len(self.loops), 4), dtype=complex)
+            cuts[:, unit_of] = 1.0
+            plain[-cuts.size :] = cuts.ravel()
+            parts.append(self.at(plain, values)[0].reshape(-1, 3))
+        return np.concatenate([-parts[1][:, :1], parts[0]], axis=1)
 
     @property
     def unknowns(self) -> int:
@@ -66,14 +97,17 @@ class Family:
         turning[slides[slides >= 0]] = False
         return turning
 
-    def followed(self, curves: Curves, values: Complexes, small: float = SMALL) -> TrackedPaths:
+    def followed(
+        self, curves: Curves, values: Complexes, small: float = SMALL, line: Line | None = None
+    ) -> TrackedPaths:
         """Follow solutions, complex[P, U], from members of the family to others.
 
         Curves are start, end and bend of the parameters, complex[P, parameters]: at s, start + s (end - start) + s
-        (1 - s) bend. The smaller the allowed corrections (`small`, radians), the surer each path stays its own.
+        (1 - s) bend. The smaller the allowed corrections (`small`, radians), the surer each path stays its own. On a
+        line of members, curves are of the hyperplanes that meet the curve of their solutions (`kernel.Line`).
         """
         solutions = np.array(values, dtype=complex, order="C")
-        ends = followed_all(self._type, curves, solutions, small)
+        ends = followed_all(self._type, curves, solutions, small, line)
         return TrackedPaths(solutions, ends == ARRIVED, ends == FAR)
 
     def corrected(self, parameters: Complexes, values: Complexes, steps: int) -> tuple[Complexes, Floats]:
@@ -101,12 +135,15 @@ class TrackedPaths(NamedTuple):
     far: Flags
 
 
-def family_of(linkage: PosedLinkage, driven: Sequence[JointId]) -> tuple[Family, Floats]:
+def family_of(
+    linkage: PosedLinkage, driven: Sequence[JointId], tolerances: Tolerances = DOUBLE
+) -> tuple[Family, Floats]:
     """Return the family of a linkage with driven joints, and the parameters of this member's axes: float[2 A].
 
-    Joints in no loop are left out. Raise `UnsolvableError` if a loop is neither spherical nor planar, or if so
-    many driven joints do not determine the others by count, `InvariantError` if a driven joint is in no loop, or
-    named twice. Without loops there is nothing to solve, which is an `UnsolvableError` too.
+    Joints in no loop are left out. Axes meet or are parallel within the tolerances. Raise `UnsolvableError` if a loop
+    is neither spherical nor planar, or if so many driven joints do not determine the others by count, `InvariantError`
+    if a driven joint is in no loop, or named twice. Without loops there is nothing to solve, which is an
+    `UnsolvableError` too.
     """
     if not linkage.loops:
         raise UnsolvableError("positions requires a closed loop; here each joint moves by itself")
@@ -114,7 +151,7 @@ def family_of(linkage: PosedLinkage, driven: Sequence[JointId]) -> tuple[Family,
     numbers_in_loops = sorted({joint for loop in linkage.loops for joint in loop.joints})
     joints = tuple(names[joint] for joint in numbers_in_loops)
     _check_driven(joints, driven, len(joints) - 3 * len(linkage.loops))
-    axes = _Axes(linkage)
+    axes = _Axes(linkage, tolerances)
     longest = max((len(loop.joints) for loop in linkage.loops), default=0)
     loops = np.full((len(linkage.loops), longest), -1, dtype=np.int64)
     signs = np.zeros(loops.shape)
@@ -128,7 +165,34 @@ def family_of(linkage: PosedLinkage, driven: Sequence[JointId]) -> tuple[Family,
     column[np.setdiff1d(np.arange(len(joints)), known)] = np.arange(len(joints) - len(known))
     place = {joint: number for number, joint in enumerate(numbers_in_loops)}
     kinds = np.array([(place[joint], kind) for joint, kind in axes.kinds], dtype=np.int64).reshape(-1, 2)
-    return Family(loops, signs, kinds, joints, column), np.array(axes.parameters, dtype=float).ravel()
+    number_of = {link: number for number, link in enumerate(linkage.graph.nodes)}
+    links = np.array([[number_of[link] for link in linkage.graph.joints[joint]] for joint in joints], dtype=np.int64)
+    # joints with one axis are read with equal coordinates, whatever the precision of these
+    alike = _alike(kinds, links, np.array(axes.lines), DOUBLE.same_point)
+    family = Family(loops, signs, kinds, joints, column, links, alike)
+    return family, family.coincident(np.array(axes.parameters, dtype=float))
+
+
+def _alike(kinds: Ints, links: Ints, lines: Floats, same: float) -> Ints:
+    """Return of each axis the first that coincides with it in its links, and links of these, and how it points.
+
+    Lines, float[A, 3], are directions of axes through a centre, and points in a numbered plane. Slides stay apart.
+    """
+    joined = nx.Graph()
+    joined.add_nodes_from(range(len(kinds)))
+    for one in range(len(kinds)):
+        near = np.flatnonzero((kinds[:one, 1] == kinds[one, 1]) & (kinds[one, 1] != SLIDE))
+        near = near[(links[kinds[near, 0]][:, :, None] == links[kinds[one, 0]]).any(axis=(1, 2))]
+        sense = 1.0 if kinds[one, 1] == POINT else np.sign(lines[near] @ lines[one])[:, None]
+        off = np.abs(lines[near] - sense * lines[one]).max(axis=1, initial=0.0)
+        joined.add_edges_from((one, int(other)) for other in near[off <= same])
+    alike = np.stack([np.arange(len(kinds)), np.ones(len(kinds), dtype=np.int64)], axis=1)
+    for part in nx.connected_components(joined):
+        first = min(part)
+        for one in part:
+            opposite = kinds[one, 1] == DIRECTION and lines[one] @ lines[first] < 0.0
+            alike[one] = first, -1 if opposite else 1
+    return alike
 
 
 def _check_driven(joints: Sequence[JointId], driven: Sequence[JointId], freedoms: int) -> None:
@@ -147,18 +211,20 @@ def _check_driven(joints: Sequence[JointId], driven: Sequence[JointId], freedoms
 class _Axes:
     """The axes of a member, each with two parameters: one for each joint in each plane or sphere that it is in."""
 
-    def __init__(self, linkage: PosedLinkage) -> None:
+    def __init__(self, linkage: PosedLinkage, tolerances: Tolerances) -> None:
         self._linkage = linkage
+        self._tolerances = tolerances
         self._slides = set(linkage.slides)
         self._normals: list[Floats] = []
         self._numbers: dict[tuple[int, int], int] = {}
         self.kinds: list[tuple[int, int]] = []
         self.parameters: list[tuple[float, float]] = []
+        self.lines: list[tuple[float, float, float]] = []
 
     def of_loop(self, loop: PosedLoop) -> tuple[list[int], list[int]]:
         """Return the axis of each joint of a loop, and -1 where it points against the normal of the plane."""
         directions = self._linkage.directions
-        centre = self._centre(loop)
+        centre = centre_of(self._linkage, loop, self._tolerances)
         if centre is Centre.FINITE:
             numbers = []
             for joint in loop.joints:
@@ -186,25 +252,10 @@ class _Axes:
                 senses.append(1 if directions[joint] @ frame[2] > 0.0 else -1)
         return numbers, senses
 
-    def _centre(self, loop: PosedLoop) -> Centre:
-        """Return the centre of a loop, found from its axes where it is not declared."""
-        if loop.centre is not Centre.NONE:
-            return loop.centre
-        turning = [joint for joint in loop.joints if joint not in self._slides]
-        sliding = [joint for joint in loop.joints if joint in self._slides]
-        axes, along = self._linkage.directions[turning], self._linkage.directions[sliding]
-        if len(axes):  # parallel axes, and slides across them
-            off = max(np.abs(np.cross(axes, axes[0])).max(), np.abs(along @ axes[0]).max(initial=0.0))
-            if off <= DOUBLE.meant:
-                return Centre.INFINITE
-        if not sliding and float(lines_meet(self._linkage.points[turning], axes).off.max()) <= DOUBLE.meant:
-            return Centre.FINITE
-        return Centre.NONE
-
     def _plane(self, axes: Floats) -> tuple[int, Floats]:
         """Return the number of the plane across some axes, and its frame: one for all parallel planes."""
         for number, normal in enumerate(self._normals):
-            if np.abs(np.cross(normal, axes[0])).max() <= DOUBLE.meant:
+            if np.abs(np.cross(normal, axes[0])).max() <= self._tolerances.meant:
                 return number, frame_about(normal)
         self._normals.append(axes[0])
         return len(self._normals) - 1, frame_about(axes[0])
@@ -214,57 +265,9 @@ class _Axes:
         if number == len(self.kinds):
             self.kinds.append((joint, kind))
             self.parameters.append(parameters)
+            x, y, z = self._linkage.directions[joint].tolist()
+            self.lines.append((x, y, z) if kind == DIRECTION else (*parameters, float(plane)))
         return number
-
-
-_STARTS, _STEPS = 64, 25
-_QUIET = 20
-"""Curves in a row that bring nothing new, before the positions are taken for all: see `general_positions`."""
-_MOST_CURVES = 120
-_WIDE = 0.7
-"""Imaginary parts of the angles of a general member's axes, at most, radians."""
-
-
-class GeneralPositions(NamedTuple):
-    """All positions (complex[N, U]) of a general member, and how many closed curves were walked to find them."""
-
-    parameters: Complexes
-    values: Complexes
-    curves: int
-
-
-def general_positions(family: Family, seed: int = 0) -> GeneralPositions:
-    """Return all positions of a random member of a family; another seed is another member, and other curves.
-
-    Raises `UnsolvableError` if the driven joints do not determine the others, `NumericalError` if the curves go on
-    to bring new positions.
-    """
-    # A curve of members that comes back to where it began takes each position to a position, perhaps a new one.
-    # Curves are walked until many in a row bring nothing new. If positions are missing, a curve takes all known ones
-    # to known ones with a chance of one half at most: the permutations that do are a proper subgroup of all. (Half of
-    # them do where one loop has two modes whatever the others have, so that 6 curves in a row were too few.)
-    random = np.random.default_rng(seed)
-    number, inputs = len(family.axes), len(family.joints) - family.unknowns
-    here = np.concatenate([_random_axes(random, number), np.zeros(inputs, dtype=complex)])
-    known = np.zeros((1, family.unknowns), dtype=complex)  # all joint angles are 0 where the axes were read
-    parts = as_real(family.at(here, known[0])[1])
-    if rank_of(parts) < min(parts.shape):
-        raise UnsolvableError("the driven joints do not determine the others: drive joints that do")
-    starts = _random(random, (_STARTS, family.unknowns), np.pi, 1.5)
-    values, error = family.corrected(np.tile(here, (_STARTS, 1)), starts, _STEPS)
-    known = apart(np.concatenate([known, values[error <= CLOSED]]), family.turning)
-    quiet = 0
-    for curves in range(1, _MOST_CURVES + 1):
-        turn = np.concatenate([_random_axes(random, number), _random(random, inputs, np.pi, np.pi)])
-        # there and back on different curves: the closed curve permutes positions
-        there = _carried(family, (here, turn), known, random)
-        back = _carried(family, (turn, here), there, random)
-        more = apart(np.concatenate([known, back]), family.turning)
-        quiet = quiet + 1 if len(more) == len(known) else 0
-        known = more
-        if quiet == _QUIET:
-            return GeneralPositions(here, known, curves)
-    raise NumericalError(f"after {_MOST_CURVES} curves new positions still appear, {len(known)} so far")
 
 
 def apart(values: Complexes, turning: Flags) -> Complexes:
@@ -286,185 +289,3 @@ def same(values: Complexes, solution: Complexes, turning: Flags) -> Flags:
 def as_real(matrix: Complexes) -> Floats:
     """Return a complex matrix as a real one of twice its size, and twice its rank."""
     return np.block([[matrix.real, -matrix.imag], [matrix.imag, matrix.real]])
-
-
-def _carried(
-    family: Family, ends: tuple[Complexes, Complexes], values: Complexes, random: np.random.Generator
-) -> Complexes:
-    """Return solutions carried from one member to another along a random curve."""
-    bend = _random(random, len(ends[0]), 1.0, 1.0)
-    first, last, bent = (np.tile(parameters, (len(values), 1)) for parameters in (*ends, bend))
-    paths = family.followed((first, last, bent), values)
-    return paths.values[paths.arrived]
-
-
-def _random_axes(random: np.random.Generator, number: int) -> Complexes:
-    """Return complex angles of axes."""
-    tilts, turns = random.uniform(0.4, np.pi - 0.4, number), random.uniform(-np.pi, np.pi, number)
-    pairs = np.stack([tilts, turns], axis=1) + 1j * random.uniform(-_WIDE, _WIDE, (number, 2))
-    return np.asarray(pairs.ravel())
-
-
-def _random(random: np.random.Generator, shape: int | tuple[int, int], real: float, imaginary: float) -> Complexes:
-    return np.asarray(random.uniform(-real, real, shape) + 1j * random.uniform(-imaginary, imaginary, shape))
-
-
-_FILES = ("family.py", "kernel.py", "kernel.c")
-_MOST = 64
-"""Types that a process remembers."""
-_remembered: dict[str, GeneralPositions] = {}
-
-
-def kept_positions(family: Family, seed: int = 0) -> GeneralPositions:
-    """Return all positions of a general member of a family: those that are kept, or `general_positions`."""
-    name = _name(family, seed)
-    general = _remembered.get(name)
-    if general is None:
-        text = kept(_folder(), name)
-        general = _read(text) if text is not None else general_positions(family, seed)
-        if text is None:
-            keep(_folder(), name, _written(general))
-        while len(_remembered) >= _MOST:
-            _remembered.pop(next(iter(_remembered)), None)
-        _remembered[name] = general
-    return general
-
-
-def _name(family: Family, seed: int) -> str:
-    arrays = (family.loops, family.signs, family.axes, family.column)
-    of_type = [(array.shape, array.tolist()) for array in arrays]
-    return f"{sha256(repr((of_type, seed)).encode()).hexdigest()[:32]}.npz"
-
-
-@cache
-def _folder() -> str:
-    texts = b"".join(Path(__file__).with_name(name).read_bytes() for name in _FILES)
-    return f"{__name__}-{sha256(texts + np.__version__.encode()).hexdigest()[:32]}"
-
-
-def _written(general: GeneralPositions) -> bytes:
-    text = io.BytesIO()
-    np.savez(text, parameters=general.parameters, values=general.values, curves=np.array(general.curves))
-    return text.getvalue()
-
-
-def _read(text: bytes) -> GeneralPositions:
-    with np.load(io.BytesIO(text), allow_pickle=False) as arrays:
-        return GeneralPositions(arrays["parameters"], arrays["values"], int(arrays["curves"]))
-
-
-_POLISHED = 4
-_TOWARDS_SINGULAR, _LEVENBERG = 30, 1e-3
-"""Steps of Newton's method towards a singular position, regularised by a share of what does not close."""
-_NEAR_END = 1e-2
-"""A path that could not go on ended so near to a singular position, radians and units of the extent."""
-_SURER = (SMALL, SMALL / 30, SMALL / 1000)
-"""Corrections that are allowed along paths: less, where one was lost, or two came to one place."""
-
-
-class Solutions(NamedTuple):
-    """The ends of the paths from the positions of a general member to one member.
-
-    `values`, complex[N, U], are the unknowns of the positions, real or not, each once; `regular`, bool[N], says
-    where the closure equations are independent, so that the position is rigid at its inputs. Of the paths, `far`
-    went to infinity, `singular` ended where closure equations depend on each other (the linkage moves though its
-    inputs are held, or positions come together), `lost` ended at unknown places.
-    """
-
-    values: Complexes
-    regular: Flags
-    far: int
-    singular: int
-    lost: int
-
-
-def solutions_of_many(family: Family, general: GeneralPositions, members: Floats, seed: int = 0) -> list[Solutions]:
-    """Return the solutions of each of many members, float[N, parameters]: as `solutions` does, by the same curves.
-
-    All are followed at once; where a path of a member was lost, that one is solved again by itself.
-    """
-    count = len(general.values)
-    bend = _bend(np.random.default_rng(seed), members.shape[1])
-    start, bent = (np.tile(each, (count * len(members), 1)) for each in (general.parameters, bend))
-    followed = family.followed(
-        (start, np.repeat(members, count, axis=0).astype(complex), bent),
-        np.tile(general.values, (len(members), 1)),
-        _SURER[0],
-    )
-    every = []
-    for number, member in enumerate(members):
-        own = slice(number * count, (number + 1) * count)
-        end = np.tile(member.astype(complex), (count, 1))
-        paths = TrackedPaths(followed.values[own], followed.arrived[own], followed.far[own])
-        ends = _ends(family, end, paths)
-        every.append(solutions(family, general, member, seed) if ends.lost else ends)
-    return every
-
-
-def _bend(random: np.random.Generator, parameters: int) -> Complexes:
-    """Return by what the way to a member is bent."""
-    return np.asarray(random.uniform(-1.0, 1.0, parameters) + 1j * random.uniform(-1.0, 1.0, parameters))
-
-
-def solutions(family: Family, general: GeneralPositions, member: Floats, seed: int = 0) -> Solutions:
-    """Return all positions of one member, real or not, by following those of a general one.
-
-    The path of members is bent at random into complex parameters, so that it meets no special member on the way.
-    """
-    random = np.random.default_rng(seed)
-    count = len(general.values)
-    best = None
-    for small in _SURER:
-        bend = _bend(random, len(member))
-        curve = (general.parameters, member.astype(complex), bend)
-        start, end, bent = (np.tile(parameters, (count, 1)) for parameters in curve)
-        followed = family.followed((start, end, bent), general.values, small)
-        ends = _ends(family, end, followed)
-        if best is None or ends.lost < best.lost:
-            best = ends
-        if not ends.lost:
-            break
-    assert best is not None
-    return best
-
-
-def _ends(family: Family, member: Complexes, followed: TrackedPaths) -> Solutions:
-    """Return where paths ended."""
-    polished, parameters = _polished(family, member, followed), member[0]
-    values = apart(polished, family.turning)
-    regular = np.array([_is_regular(family, parameters, solution) for solution in values], dtype=bool)
-    # several paths may end in one singular position; paths that stopped near one count as singular too
-    paths = np.array([int(same(polished, solution, family.turning).sum()) for solution in values], dtype=int)
-    stopped = followed.values[~(followed.arrived | followed.far)]
-    singular = int((paths - 1)[~regular].sum()) + sum(_is_singular(family, parameters, end) for end in stopped)
-    far = int(followed.far.sum())
-    return Solutions(values, regular, far, singular, len(member) - far - len(values) - singular)
-
-
-def _is_regular(family: Family, parameters: Complexes, values: Complexes, zero: float = DOUBLE.zero) -> bool:
-    """Return whether the closure equations are independent of each other."""
-    parts = as_real(family.at(parameters, values)[1])
-    return bool(rank_of(parts, zero) == min(parts.shape))
-
-
-def _is_singular(family: Family, parameters: Complexes, start: Complexes) -> bool:
-    """Return whether a singular position is near, where a path could not go on."""
-    values = start.copy()
-    for _ in range(_TOWARDS_SINGULAR):
-        residual, derivatives = family.at(parameters, values)
-        gram = derivatives @ derivatives.conj().T
-        regular = max(_LEVENBERG * float(np.abs(residual).max()), EPSILON * float(np.abs(gram).max()))
-        values = values - derivatives.conj().T @ np.linalg.solve(gram + regular * np.eye(len(gram)), residual)
-    residual, _ = family.at(parameters, values)
-    near = float(np.abs(values - start).max()) <= _NEAR_END
-    closed = bool(np.abs(residual).max() <= CLOSED)
-    return near and closed and not _is_regular(family, parameters, values, DOUBLE.singular)
-
-
-def _polished(family: Family, parameters: Complexes, paths: TrackedPaths) -> Complexes:
-    """Return where paths arrived, real ones with angles that are so to the last digit."""
-    values = paths.values[paths.arrived]
-    real = np.abs(values.imag).max(axis=1, initial=0.0) <= DOUBLE.same_configuration
-    near = np.where(real[:, None], values.real, values)
-    sharp, errors = family.corrected(parameters[paths.arrived], near, _POLISHED)
-    return np.where((errors <= CLOSED)[:, None], sharp, values)

@@ -19,29 +19,33 @@ typedef double complex number;
 enum { DIRECTION = 0, POINT = 1, SLIDE = 2 };        /* how two parameters give an axis */
 enum { STOPPED = 0, ARRIVED = 1, FAR = 2 };              /* what became of a path */
 
-static const double FIRST = 0.05, LARGEST = 0.25, LEAST = 1e-8, NUDGE = 1e-6, VERY_FAR = 30.0, FAR_ALONG = 1e4;
+static const double FIRST = 0.05, LARGEST = 0.25, LEAST = 1e-12, NUDGE = 1e-6, VERY_FAR = 30.0, FAR_ALONG = 1e4;
 enum { CORRECTIONS = 3, MOST = 5000 };
 
 /* The loops of a type as kernel.py has them, int[loops, longest], filled up with -1; signs likewise; of each axis its
-   joint and how it is given; the place of each joint among the unknowns, or -1 - that among the driven. */
+   joint and how it is given; the place of each joint among the unknowns, or -1 - that among the driven. On a line of
+   members, base + s direction, s is one more unknown, and one more equation says where a hyperplane meets the curve of
+   their solutions; else base is NULL. */
 typedef struct {
-    int64_t loops, longest, axes, unknowns, parameters;
+    int64_t loops, longest, axes, joints, members;
     const int64_t *loop, *kind, *column;
     const double *sign;
+    const number *base, *direction;
+    int64_t unknowns, parameters;
 } Type;
 
 typedef struct {
-    number *axis, *quaternion, *residual, *jacobian, *rates, *tried, *given, *all;
+    number *axis, *quaternion, *residual, *jacobian, *rates, *tried, *given, *member, *inner, *all;
 } Work;
 
 static int work_new(const Type *t, Work *w)
 {
     int64_t n = t->unknowns, a = t->axes;
-    w->all = malloc((7 * a + 7 * n + n * n + t->parameters + 1) * sizeof *w->all);
+    w->all = malloc((7 * a + 8 * n + 2 * n * n + t->parameters + t->members + 1) * sizeof *w->all);
     if (!w->all) return 0;
     w->axis = w->all, w->quaternion = w->axis + 3 * a, w->residual = w->quaternion + 4 * a;
     w->rates = w->residual + n, w->tried = w->rates + 4 * n, w->jacobian = w->tried + 2 * n;
-    w->given = w->jacobian + n * n;
+    w->given = w->jacobian + n * n, w->member = w->given + t->parameters, w->inner = w->member + t->members;
     return 1;
 }
 
@@ -100,11 +104,12 @@ static void placed_axes(const Type *t, const number *given, const number *unknow
     }
 }
 
-/* The closure residual, [3 loops], and its derivatives by the unknowns, [3 loops, unknowns], unless these are NULL. */
-static void evaluated(const Type *t, const number *given, const number *unknowns, number *residual, number *jacobian,
-                      Work *w)
+/* The closure residual, [3 loops], and its derivatives by the unknowns, [3 loops, joints], unless these are NULL. */
+static void loops_evaluated(const Type *t, const number *given, const number *unknowns, number *residual,
+                            number *jacobian, Work *w)
 {
-    int64_t n = t->unknowns;
+    int64_t n = t->joints;
+    const number *cuts = given + t->members - 4 * t->loops; /* the quaternion that each loop has to close to */
     placed_axes(t, given, unknowns, w);
     if (jacobian) memset(jacobian, 0, 3 * t->loops * n * sizeof *jacobian);
     for (int64_t l = 0; l < t->loops; l++) {
@@ -132,6 +137,12 @@ static void evaluated(const Type *t, const number *given, const number *unknowns
             z = times(W, s) + curved * (times(x, r) - times(y, q)) + times(z, p);
             W = next, x = X, y = Y;
         }
+        number p = cuts[4 * l], q = -cuts[4 * l + 1], r = -cuts[4 * l + 2], v = -cuts[4 * l + 3];
+        number next = times(W, p) - curved * (times(x, q) + times(y, r)) - times(z, v);
+        number X = times(W, q) + times(x, p) + times(y, v) - times(z, r);
+        number Y = times(W, r) - times(x, v) + times(y, p) + times(z, q);
+        z = times(W, v) + curved * (times(x, r) - times(y, q)) + times(z, p);
+        W = next, x = X, y = Y;
         residual[3 * l] = x, residual[3 * l + 1] = y, residual[3 * l + 2] = z;
         for (int64_t i = 0; row && i < t->longest && loop[i] >= 0; i++) {
             int64_t place = t->column[t->kind[2 * loop[i]]];
@@ -142,6 +153,51 @@ static void evaluated(const Type *t, const number *given, const number *unknowns
             row[2 * n + place] = times(W, c) + curved * (times(a, y) - times(b, x));
         }
     }
+}
+
+/* The same on a line of members. The unknowns are those of a member and s, the parameters weights[unknowns] and c: the
+   last equation is sum of weights times tangents of half angles (of slides lengths) and s = c. Closure is linear in the
+   quaternions to close to, in which alone members of the line differ: its derivative by s is that at the direction. */
+static void slice_evaluated(const Type *t, const number *given, const number *unknowns, number *residual,
+                            number *jacobian, Work *w)
+{
+    int64_t n = t->unknowns, joints = t->joints;
+    number s = unknowns[joints], sum = times(given[joints], s) - given[n], *inner = jacobian ? w->inner : NULL;
+    for (int64_t i = 0; i < t->members; i++) w->member[i] = t->base[i] + times(s, t->direction[i]);
+    loops_evaluated(t, w->member, unknowns, residual, inner, w);
+    for (int64_t i = 0; jacobian && i < joints; i++)
+        memcpy(jacobian + i * n, inner + i * joints, joints * sizeof *jacobian);
+    for (int64_t a = 0; a < t->axes; a++) { /* joints of several axes are taken once, by their last */
+        int64_t place = t->column[t->kind[2 * a]];
+        if (place < 0) continue;
+        w->inner[place] = t->kind[2 * a + 1] == SLIDE ? 1.0 : 0.0;
+    }
+    for (int64_t i = 0; i < joints; i++) {
+        number value = unknowns[i], slope = 1.0;
+        if (w->inner[i] == 0.0) {
+            number sine, cosine;
+            sine_cosine(0.5 * value, &sine, &cosine);
+            value = sine / cosine, slope = 0.5 + 0.5 * times(value, value);
+        }
+        sum += times(given[i], value);
+        if (jacobian) jacobian[joints * n + i] = times(given[i], slope);
+    }
+    residual[joints] = sum;
+    if (!jacobian) return;
+    jacobian[joints * n + joints] = given[joints];
+    for (int64_t i = 0; i < t->members; i++) w->member[i] = t->direction[i];
+    for (int64_t i = 0; i < t->members - 4 * t->loops; i++) w->member[i] = t->base[i];
+    loops_evaluated(t, w->member, unknowns, w->inner, NULL, w);
+    for (int64_t i = 0; i < joints; i++) jacobian[i * n + joints] = w->inner[i];
+}
+
+static void evaluated(const Type *t, const number *given, const number *unknowns, number *residual, number *jacobian,
+                      Work *w)
+{
+    if (t->base)
+        slice_evaluated(t, given, unknowns, residual, jacobian, w);
+    else
+        loops_evaluated(t, given, unknowns, residual, jacobian, w);
 }
 
 /* Solve a square system, pivots chosen by column; the solution takes the place of the right side. */
@@ -198,7 +254,7 @@ static double corrected(const Type *t, const number *given, number *unknowns, in
     }
     evaluated(t, given, unknowns, w->residual, NULL, w);
     double error = 0.0;
-    for (int64_t i = 0; i < 3 * t->loops; i++) {
+    for (int64_t i = 0; i < n; i++) {
         double size = size_of(w->residual[i]);
         if (!(size <= error)) error = size;
     }
@@ -277,22 +333,26 @@ static int followed(const Type *t, const Curve *curve, number *unknowns, double 
     return STOPPED;
 }
 
-/* Sizes are loops, longest, axes, unknowns, parameters. */
+/* Sizes are loops, longest, axes, unknown joints, parameters of a member. */
 static Type type_of(const int64_t *sizes, const int64_t *loop, const double *sign, const int64_t *kind,
                     const int64_t *column)
 {
-    Type t = {sizes[0], sizes[1], sizes[2], sizes[3], sizes[4], loop, kind, column, sign};
+    Type t = {sizes[0], sizes[1], sizes[2], sizes[3], sizes[4], loop, kind, column, sign, NULL, NULL, sizes[3], sizes[4]};
     return t;
 }
 
 /* Follow solutions values[paths, unknowns] along curves, each along its own, in place; ends[paths]: what became of
-   them. Curves are arrays [paths, parameters]. Returns 0 without memory. */
+   them. Curves are arrays [paths, parameters]. With a line of members, base and direction, values are [paths, unknowns
+   + 1] and parameters those of hyperplanes; else these are NULL. Returns 0 without memory. */
 EXPORTED int all_followed(const int64_t *sizes, const int64_t *loop, const double *sign, const int64_t *kind,
                           const int64_t *column, int64_t paths, const number *start, const number *end,
-                          const number *bend, number *values, double small, double closed, int64_t *ends)
+                          const number *bend, number *values, double small, double closed, int64_t *ends,
+                          const number *base, const number *direction)
 {
     Type t = type_of(sizes, loop, sign, kind, column);
     Work w;
+    t.base = base, t.direction = direction;
+    if (base) t.unknowns = t.joints + 1, t.parameters = t.joints + 2;
     if (!work_new(&t, &w)) return 0;
     for (int64_t p = 0; p < paths; p++) {
         int64_t at = p * t.parameters;

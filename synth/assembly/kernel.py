@@ -1,8 +1,8 @@
 """Compiled: closure equations with complex unknowns, and solutions followed along parameters.
 
-A loop closes if the product of the quaternions of its joints is 1 or -1: its vector part is zero. About a finite
-centre these are the quaternions of rotations; a plane is a sphere without curvature. Theory:
-docs/theory/positions.md.
+A loop closes if the product of the quaternions of its joints, times the conjugate of the one that it has to close to,
+is a number: its vector part is zero. About a finite centre these are the quaternions of rotations; a plane is a sphere
+without curvature. Theory: docs/theory/positions.md.
 """
 
 import numpy as np
@@ -19,13 +19,18 @@ Type = tuple[Places, Signs, Places, Places]
 (-1); the joint of each axis, and how its parameters give it, int[A, 2]; the place of each joint among the
 unknowns, or of a driven one -1 - (its place among the driven)."""
 
+Line = tuple[Complexes, Complexes]
+"""Members base + s direction, complex[parameters] each, that differ in what loops close to alone; empty for none. Then
+s is the last unknown, the parameters are weights[unknowns] and c, and the last equation says that the sum of weights
+times tangents of half angles (of slides lengths) and s is c."""
+
 DIRECTION, POINT, SLIDE = 0, 1, 2
 """How two parameters give an axis: tilt and turn of a direction, a point of the plane, the heading of a slide."""
 
 STOPPED, ARRIVED, FAR = 0, 1, 2
 """What became of a path: it could not go on, is at its end, or went to infinity."""
 
-_FIRST, _LARGEST, _LEAST = 0.05, 0.25, 1e-8
+_FIRST, _LARGEST, _LEAST = 0.05, 0.25, 1e-12
 _NUDGE = 1e-6
 _CORRECTIONS = 3
 CLOSED = 100.0 * DOUBLE.closed
@@ -64,6 +69,7 @@ def evaluated(kind: Type, parameters: Complexes, unknowns: Complexes, residual: 
     """Write the closure residual, complex[3 L], and its derivatives by the unknowns, complex[3 L, U]."""
     loops, signs, axes_of, column = kind
     axes, quaternions = placed_axes(kind, parameters, unknowns)
+    cuts = parameters[len(parameters) - 4 * len(loops) :]
     jacobian[:] = 0.0
     for loop in range(len(loops)):
         # in a plane x and y are measured in a very large radius: products of two of them vanish
@@ -89,6 +95,13 @@ def evaluated(kind: Type, parameters: Complexes, unknowns: Complexes, residual: 
                 w * r - x * s + y * p + z * q,
                 w * s + curved * (x * r - y * q) + z * p,
             )
+        p, q, r, s = cuts[4 * loop], -cuts[4 * loop + 1], -cuts[4 * loop + 2], -cuts[4 * loop + 3]
+        w, x, y, z = (
+            w * p - curved * (x * q + y * r) - z * s,
+            w * q + x * p + y * s - z * r,
+            w * r - x * s + y * p + z * q,
+            w * s + curved * (x * r - y * q) + z * p,
+        )
         residual[3 * loop], residual[3 * loop + 1], residual[3 * loop + 2] = x, y, z
         for i in range(loops.shape[1]):
             j = loops[loop, i]
@@ -100,6 +113,40 @@ def evaluated(kind: Type, parameters: Complexes, unknowns: Complexes, residual: 
                 jacobian[3 * loop, place] = w * a + b * z - c * y
                 jacobian[3 * loop + 1, place] = w * b + c * x - a * z
                 jacobian[3 * loop + 2, place] = w * c + curved * (a * y - b * x)
+
+
+@compiled
+def equations(
+    kind: Type, line: Line, parameters: Complexes, unknowns: Complexes, residual: Complexes, jacobian: Complexes
+) -> None:
+    """Write the residual and its derivatives, square: of a member, or where a hyperplane meets a line of them."""
+    base, direction = line
+    if len(base) == 0:
+        evaluated(kind, parameters, unknowns, residual, jacobian)
+        return
+    loops, _, axes_of, column = kind
+    n, s = len(unknowns) - 1, unknowns[-1]
+    evaluated(kind, base + s * direction, unknowns[:n], residual[:n], jacobian[:n, :n])
+    turning = np.ones(n, np.bool_)
+    for i in range(len(axes_of)):
+        place = column[axes_of[i, 0]]
+        if place >= 0:
+            turning[place] = axes_of[i, 1] != SLIDE
+    residual[n] = parameters[n] * s - parameters[n + 1]
+    for i in range(n):
+        value, slope = unknowns[i], 1.0 + 0.0j
+        if turning[i]:
+            value = np.sin(0.5 * unknowns[i]) / np.cos(0.5 * unknowns[i])
+            slope = 0.5 + 0.5 * value * value
+        residual[n] += parameters[i] * value
+        jacobian[n, i] = parameters[i] * slope
+    jacobian[n, n] = parameters[n]
+    # closure is linear in what loops close to: its derivative by s is that at the direction
+    away, unused, begin = base.copy(), np.empty((n, n), np.complex128), len(base) - 4 * len(loops)
+    away[begin:] = direction[begin:]
+    by_s = np.empty(n, np.complex128)
+    evaluated(kind, away, unknowns[:n], by_s, unused)
+    jacobian[:n, n] = by_s
 
 
 @compiled
@@ -130,13 +177,13 @@ def solved(matrix: Complexes, right: Complexes) -> bool:
 
 
 @compiled
-def corrected(kind: Type, parameters: Complexes, unknowns: Complexes, steps: int) -> tuple[float, float]:
+def corrected(kind: Type, line: Line, parameters: Complexes, unknowns: Complexes, steps: int) -> tuple[float, float]:
     """Correct unknowns in place; return the length of the first step and the closure residual."""
     n = len(unknowns)
     residual, jacobian = np.empty(n, np.complex128), np.empty((n, n), np.complex128)
     first = 0.0
     for step in range(steps):
-        evaluated(kind, parameters, unknowns, residual, jacobian)
+        equations(kind, line, parameters, unknowns, residual, jacobian)
         if not solved(jacobian, residual):
             return np.inf, np.inf
         length = 0.0
@@ -147,7 +194,7 @@ def corrected(kind: Type, parameters: Complexes, unknowns: Complexes, steps: int
             first = length
         if not np.isfinite(length):
             return np.inf, np.inf
-    evaluated(kind, parameters, unknowns, residual, jacobian)
+    equations(kind, line, parameters, unknowns, residual, jacobian)
     error = 0.0
     for i in range(n):
         error = max(error, abs(residual[i]))
@@ -163,13 +210,18 @@ def parameters_at(curve: tuple[Complexes, Complexes, Complexes], s: float) -> Co
 
 @compiled
 def tangent(
-    kind: Type, curve: tuple[Complexes, Complexes, Complexes], s: float, unknowns: Complexes, rates: Complexes
+    kind: Type,
+    line: Line,
+    curve: tuple[Complexes, Complexes, Complexes],
+    s: float,
+    unknowns: Complexes,
+    rates: Complexes,
 ) -> bool:
     """Write the derivatives of the unknowns along a curve; False if these are not determined."""
     n = len(unknowns)
     beside, jacobian = np.empty(n, np.complex128), np.empty((n, n), np.complex128)
-    evaluated(kind, parameters_at(curve, s + _NUDGE), unknowns, beside, jacobian)
-    evaluated(kind, parameters_at(curve, s), unknowns, rates, jacobian)
+    equations(kind, line, parameters_at(curve, s + _NUDGE), unknowns, beside, jacobian)
+    equations(kind, line, parameters_at(curve, s), unknowns, rates, jacobian)
     for i in range(n):
         rates[i] = (rates[i] - beside[i]) / _NUDGE
     return solved(jacobian, rates)
@@ -190,7 +242,9 @@ def gone_far(kind: Type, unknowns: Complexes) -> bool:
 
 
 @compiled
-def followed(kind: Type, curve: tuple[Complexes, Complexes, Complexes], unknowns: Complexes, small: float) -> int:
+def followed(
+    kind: Type, line: Line, curve: tuple[Complexes, Complexes, Complexes], unknowns: Complexes, small: float
+) -> int:
     """Follow a solution along a curve, in place; return STOPPED, ARRIVED or FAR.
 
     A step is halved where the first correction is not ``small``, radians.
@@ -201,17 +255,17 @@ def followed(kind: Type, curve: tuple[Complexes, Complexes, Complexes], unknowns
     for _ in range(_MOST):
         length = min(step, 1.0 - s)
         # predictor: Runge and Kutta's method of fourth order on the tangents
-        good = tangent(kind, curve, s, unknowns, rates[0])
+        good = tangent(kind, line, curve, s, unknowns, rates[0])
         for stage in range(1, 4):
             part = length if stage == 3 else 0.5 * length
             tried[:] = unknowns + part * rates[stage - 1]
-            good = good and tangent(kind, curve, s + part, tried, rates[stage])
+            good = good and tangent(kind, line, curve, s + part, tried, rates[stage])
         if good:
             change = rates[0] + 2.0 * rates[1] + 2.0 * rates[2] + rates[3]
             tried[:] = unknowns + length / 6.0 * change
             onwards = 1.0 if length >= 1.0 - s else s + length
             # corrector: a first correction that is not small may lead to another path
-            first, error = corrected(kind, parameters_at(curve, onwards), tried, _CORRECTIONS)
+            first, error = corrected(kind, line, parameters_at(curve, onwards), tried, _CORRECTIONS)
             if first <= small and error <= CLOSED:
                 unknowns[:] = tried
                 if gone_far(kind, unknowns):
@@ -227,19 +281,21 @@ def followed(kind: Type, curve: tuple[Complexes, Complexes, Complexes], unknowns
 
 
 @compiled
-def followed_all(kind: Type, curves: tuple[Complexes, Complexes, Complexes], values: Complexes, small: float) -> Places:
+def followed_all(
+    kind: Type, line: Line, curves: tuple[Complexes, Complexes, Complexes], values: Complexes, small: float
+) -> Places:
     """Follow solutions along curves, each along its own, in place; return STOPPED, ARRIVED or FAR: int[P]."""
     ends = np.empty(len(values), np.int64)
     for path in range(len(values)):
         curve = (curves[0][path], curves[1][path], curves[2][path])
-        ends[path] = followed(kind, curve, values[path], small)
+        ends[path] = followed(kind, line, curve, values[path], small)
     return ends
 
 
 @compiled
 def corrected_all(kind: Type, parameters: Complexes, values: Complexes, steps: int) -> Signs:
     """Correct solutions, in place; return their closure residuals: float[P]."""
-    errors = np.empty(len(values))
+    errors, empty = np.empty(len(values)), np.empty(0, np.complex128)
     for path in range(len(values)):
-        errors[path] = corrected(kind, parameters[path], values[path], steps)[1]
+        errors[path] = corrected(kind, (empty, empty), parameters[path], values[path], steps)[1]
     return errors

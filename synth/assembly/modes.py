@@ -8,15 +8,21 @@ from bisect import bisect_right
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import degrees
-from typing import Any, NamedTuple, overload
+from typing import Any, Literal, NamedTuple, overload
 
 import numpy as np
 
 from graphs.errors import InvariantError, SynthedraError, check_argument, numbered, shown
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.tolerances import DOUBLE, canonical_order
-from graphs.types import Flags, Floats, Ints, JointId
-from synth.assembly.family import Family, GeneralPositions, Solutions, family_of, kept_positions, solutions_of_many
+from graphs.types import Flags, Floats, Ints, JointId, LinkId
+from synth.assembly.cutting import with_own_joints
+from synth.assembly.ends import Solutions, solutions_of_many, with_given
+from synth.assembly.family import Family, family_of
+from synth.assembly.general import GeneralPositions, kept_positions
+from synth.assembly.kernel import Complexes
+from synth.assembly.precise import certified
+from synth.assembly.redundant import Loosened, loosened
 from synth.motion.configuration import Configuration
 from synth.motion.linkage import PosedLinkage
 from synth.motion.path import circuit_through
@@ -24,6 +30,11 @@ from synth.motion.walk.events import TurningPoint
 from synth.motion.walk.step import Step
 from synth.motion.walk.walking import Event, Walk
 from synth.moving.made import Movable, configuration_of
+
+Evidence = Literal["proved", "numerical (trace test)"]
+PROVED: Evidence = "proved"
+TRACED: Evidence = "numerical (trace test)"
+"""Why a list is complete: as many certified positions as a theorem allows; a trace test, and no path lost."""
 
 OTHER_QUESTION = "positions finds all configurations at given angles of driven joints, on all branches"
 
@@ -49,16 +60,18 @@ class PositionTable(Printed):
         How many a generic realisation has, real or not.
     imaginary, far, singular, lost : int[F]
         The others at each input, as of `PositionSet`.
+    evidence : tuple of str or None
+        Why the modes at each input are all: "proved", "numerical (trace test)", or None where there may be more.
     curves : int
-        Closed curves that were walked to count those of a generic realisation.
+        Closed curves that were walked to find those of a generic realisation.
 
     Examples
     --------
     >>> from synth.assembly import positions
     >>> from synth.patterns import generate
     >>> table = positions(generate("four-bar").mechanism, drive={0: [0.0, 0.5, 1.0]})
-    >>> table.count.tolist(), table.angles.shape, bool(table.exhaustive.all())
-    ([2, 2, 2], (3, 2, 4), True)
+    >>> table.count.tolist(), table.angles.shape, table.evidence[0]
+    ([2, 2, 2], (3, 2, 4), 'proved')
     """
 
     configuration: Configuration
@@ -73,12 +86,13 @@ class PositionTable(Printed):
     far: Ints
     singular: Ints
     lost: Ints
+    evidence: tuple[Evidence | None, ...]
     curves: int
 
     @property
     def exhaustive(self) -> Flags:
-        """At which inputs each position of the general member was followed to one that is listed, or to infinity."""
-        return np.asarray((self.lost == 0) & (self.singular == 0))
+        """At which inputs these are all: bool[F]."""
+        return np.array([evidence is not None for evidence in self.evidence], dtype=bool)
 
     def __len__(self) -> int:
         return len(self.inputs)
@@ -91,11 +105,11 @@ class PositionTable(Printed):
         joints = ", ".join(map(plain, self.driven))
         numbers, inputs = np.unique(self.count, return_counts=True)
         rows = [(str(modes), str(many)) for modes, many in zip(numbers.tolist(), inputs.tolist(), strict=True)]
-        found = int(self.exhaustive.sum())
+        known = [f"{evidence} at {self.evidence.count(evidence)}" for evidence in (PROVED, TRACED)]
         return [
             f"assembly modes at {numbered(len(self), 'input')} of joint {joints}",
             TableBlock(("assembly modes", "inputs"), rows, ["assembly modes", "inputs"]),
-            f"a generic realisation has {self.general}; all solutions tracked at {found} of {len(self)} inputs",
+            f"a generic realisation has {self.general}; these are all: {', '.join(known)} of {len(self)} inputs",
         ]
 
     def to_json(self) -> dict[str, Any]:
@@ -111,7 +125,7 @@ class PositionTable(Printed):
             "regular": rigid,
             "general": self.general,
             **{name: getattr(self, name).tolist() for name in ("imaginary", "far", "singular", "lost")},
-            "exhaustive": self.exhaustive.tolist(),
+            "exhaustive": list(self.evidence),
             "curves": self.curves,
         }
 
@@ -157,8 +171,15 @@ class PositionSet(Printed):
         Those of this one that are not real; at infinity, since its proportions are special; at singular
         configurations, where the linkage moves though its driven joints are held, or where positions coincide;
         lost in tracking.
+    evidence : str or None
+        Why these are all: "proved", "numerical (trace test)", or None where there may be more.
     curves : int
-        Closed curves of members that were walked to count those of a general member.
+        Closed curves of members that were walked to find those of a general member.
+    redundant : tuple of link ids
+        Bars that repeat what the rest implies. They are given an elbow; the modes are those, among `general`, in
+        which it is as in the linkage.
+    misfits : int
+        Those in which an elbow is bent.
     notes : tuple of str
 
     Examples
@@ -177,13 +198,16 @@ class PositionSet(Printed):
     far: int
     singular: int
     lost: int
+    evidence: Evidence | None
     curves: int
+    redundant: tuple[LinkId, ...] = ()
+    misfits: int = 0
     notes: tuple[str, ...] = ()
 
     @property
     def exhaustive(self) -> bool:
-        """Whether each position of the general member was followed to one that is listed, or to infinity."""
-        return not self.lost and not self.singular
+        """Whether these are all."""
+        return self.evidence is not None
 
     @property
     def slides(self) -> frozenset[JointId]:
@@ -209,8 +233,10 @@ class PositionSet(Printed):
             "at_infinity": self.far,
             "singular": self.singular,
             "lost": self.lost,
-            "exhaustive": self.exhaustive,
+            "exhaustive": self.evidence,
             "curves": self.curves,
+            "redundant": list(self.redundant),
+            "misfits": self.misfits,
             "notes": list(self.notes),
         }
 
@@ -229,7 +255,7 @@ class PositionSet(Printed):
             else f"joint {plain(joint)} at {degrees(value):g}°"
             for joint, value in self.driven.items()
         )
-        count = numbered(len(self.positions), "assembly mode")
+        count = f"{'' if self.exhaustive else 'at least '}{numbered(len(self.positions), 'assembly mode')}"
         blocks: list[Block] = [f"{count} with {inputs}" if inputs else count]
         if self.positions:
             all_rigid = all(mode.regular for mode in self.positions)
@@ -259,9 +285,17 @@ class PositionSet(Printed):
             )
         if self.lost:
             parts.append(f"{self.lost} lost in tracking")
-        counted = f"a generic realisation has {self.general}, counted over {numbered(self.curves, 'closed curve')}"
-        tracked = "all solutions tracked" if self.exhaustive else "not all solutions tracked"
-        return f"{tracked}: {counted}; here {', '.join(parts)}"
+        if self.misfits:
+            parts.append(f"{self.misfits} with an elbow bent")
+        links = ", ".join(map(plain, self.redundant))
+        bent = f" with an elbow in the redundant {'link' if len(self.redundant) == 1 else 'links'} {links}"
+        elbows = bent if links else ""
+        proof = {
+            PROVED: "all assembly modes, proved",
+            TRACED: "all assembly modes, numerical (trace test)",
+            None: "there may be more",
+        }[self.evidence]
+        return f"{proof}: a generic realisation{elbows} has {self.general}; here {', '.join(parts)}"
 
     def __repr__(self) -> str:
         return f"<PositionSet: {len(self.positions)} of {self.general}>"
@@ -349,33 +383,65 @@ def positions(
     inputs, several = _inputs(drive)
     if several and circuits:
         raise InvariantError("circuits", "circuits of many inputs", "one input")
-    family, axes = family_of(linkage, list(drive))
-    general = kept_positions(family, seed)
+    loose = loosened(linkage, list(drive), at.tolerances)
+    opened = with_own_joints(loose.linkage, at.tolerances)
+    family, axes = family_of(opened, list(drive), at.tolerances)
     names = list(linkage.graph.joints)
     places = [names.index(joint) for joint in drive]
     units = _units(linkage)
     turned = inputs / units[places] - linkage.angles[places]
-    members = np.concatenate([np.broadcast_to(axes, (len(turned), len(axes))), turned], axis=1)
-    modes = [
-        _real(linkage, family, member, ends, units)
-        for member, ends in zip(members, solutions_of_many(family, general, members, seed), strict=True)
-    ]
+    members = np.array([family.member(axes, row) for row in turned])
+    general = kept_positions(family, seed)
+    ends = _ends(family, general, members, seed)
+    proofs = [_is_proved(loose, family, general, *one) for one in zip(members, ends, strict=True)]
+    if not all(proofs) and not general.traced:
+        found, general = len(general.values), kept_positions(family, seed, trace=True)
+        if len(general.values) != found:
+            ends = _ends(family, general, members, seed)
+    evidence = tuple(map(_evidence, [general] * len(ends), ends, proofs))
+    straight = max(DOUBLE.same_configuration, at.tolerances.zero)
+    modes = [_real(loose, family, *one, units, straight) for one in zip(members, ends, strict=True)]
     if several:
-        return _table(at, tuple(drive), inputs, general, modes)
-    (found,) = modes
+        return _table(at, tuple(drive), inputs, general, modes, evidence)
+    (found_modes,) = modes
     answer = PositionSet(
         at,
         tuple(names),
         dict(zip(drive, inputs[0].tolist(), strict=True)),
-        tuple(AssemblyMode(*mode) for mode in zip(found.angles, found.regular.tolist(), strict=True)),
+        tuple(AssemblyMode(*mode) for mode in zip(found_modes.angles, found_modes.regular.tolist(), strict=True)),
         len(general.values),
-        found.imaginary,
-        found.ends.far,
-        found.ends.singular,
-        found.ends.lost,
+        found_modes.imaginary,
+        ends[0].far,
+        ends[0].singular,
+        ends[0].lost,
+        evidence[0],
         general.curves,
+        loose.bars,
+        found_modes.misfits,
     )
     return _with_circuits(answer) if circuits is not False and len(drive) == 1 else answer
+
+
+def _ends(family: Family, general: GeneralPositions, members: Complexes, seed: int) -> list[Solutions]:
+    followed = solutions_of_many(family, general, members, seed)
+    return [with_given(family, *one) for one in zip(members, followed, strict=True)]
+
+
+def _is_proved(loose: Loosened, family: Family, general: GeneralPositions, member: Complexes, ends: Solutions) -> bool:
+    """Whether there are as many certified positions as are possible.
+
+    Then there are no others, not even where the linkage moves: solutions of all members together are irreducible, so
+    that near such a place general members would have one more. That redundant bars fit no computation proves.
+    """
+    if loose.bars or general.bound is None or len(ends.values) != general.bound:
+        return False
+    return bool(ends.regular.all()) and bool(certified(family, member, ends.values).all())
+
+
+def _evidence(general: GeneralPositions, ends: Solutions, is_proved: bool) -> Evidence | None:
+    if is_proved:
+        return PROVED
+    return TRACED if general.traced and not ends.lost and not ends.singular else None
 
 
 def _inputs(drive: Mapping[JointId, Any]) -> tuple[Floats, bool]:
@@ -400,15 +466,24 @@ class _RealModes(NamedTuple):
     angles: Floats
     regular: Flags
     imaginary: int
+    misfits: int
     ends: Solutions
 
 
-def _real(linkage: PosedLinkage, family: Family, member: Floats, ends: Solutions, units: Floats) -> _RealModes:
-    real = np.abs(ends.values.imag).max(axis=1, initial=0.0) <= DOUBLE.same_configuration
-    angles = [_angles(linkage, family, member, unknowns) for unknowns in ends.values.real[real]]
+def _real(
+    loose: Loosened, family: Family, member: Complexes, ends: Solutions, units: Floats, straight: float
+) -> _RealModes:
+    linkage, joints = loose.linkage, len(units)
+    elbows = [family.column[place] for place in range(len(family.joints)) if family.joints[place] in loose.elbows]
+    turns = ends.values[:, elbows]
+    off = np.abs(turns - 2 * np.pi * np.rint(turns.real / (2 * np.pi))).max(axis=1, initial=0.0)
+    fits = off <= straight
+    real = fits & (np.abs(ends.values.imag).max(axis=1, initial=0.0) <= DOUBLE.same_configuration)
+    angles = [_angles(linkage, family, member, unknowns)[:joints] for unknowns in ends.values.real[real]]
     order = canonical_order(angles)
-    listed = np.array([angles[place] * units for place in order]).reshape(-1, len(units))
-    return _RealModes(listed, ends.regular[real][list(order)], int((~real).sum()), ends)
+    listed = np.array([angles[place] * units for place in order]).reshape(-1, joints)
+    imaginary = int((fits & ~real).sum())
+    return _RealModes(listed, ends.regular[real][list(order)], imaginary, int((~fits).sum()), ends)
 
 
 def _table(
@@ -417,6 +492,7 @@ def _table(
     inputs: Floats,
     general: GeneralPositions,
     modes: Sequence[_RealModes],
+    evidence: tuple[Evidence | None, ...],
 ) -> PositionTable:
     most, joints = max((len(one.angles) for one in modes), default=0), tuple(at.linkage.graph.joints)
     angles = np.full((len(modes), most, len(joints)), np.nan)
@@ -436,18 +512,18 @@ def _table(
     count, imaginary, far, singular, lost = counts
     return PositionTable(
         at, joints, driven, inputs, angles, regular, count, len(general.values), imaginary, far, singular, lost,
-        general.curves,
+        evidence, general.curves,
     )  # fmt: skip
 
 
-def _angles(linkage: PosedLinkage, family: Family, member: Floats, unknowns: Floats) -> Floats:
+def _angles(linkage: PosedLinkage, family: Family, member: Complexes, unknowns: Floats) -> Floats:
     """Return the angles of all joints, above -180 and up to 180 degrees; joints in no loop stay as they are.
 
     Joints that slide have lengths, in units of the extent.
     """
     names = list(linkage.graph.joints)
     whole = linkage.angles.copy()
-    inputs = member[2 * len(family.axes) :]
+    inputs = member[2 * len(family.axes) :].real
     for joint, column in zip(family.joints, family.column.tolist(), strict=True):
         whole[names.index(joint)] += unknowns[column] if column >= 0 else inputs[-1 - column]
     half_turn = np.pi + DOUBLE.parallel  # 180 degrees but for rounding, and not -180

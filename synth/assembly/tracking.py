@@ -14,12 +14,12 @@ import numpy.typing as npt
 from graphs.compiled import library
 from graphs.types import Floats, Ints
 from synth.assembly import kernel
-from synth.assembly.kernel import CLOSED, Complexes, Type
+from synth.assembly.kernel import CLOSED, Complexes, Line, Type
 
 SOURCE = Path(__file__).with_name("kernel.c")
 _P = c_void_p
 _FUNCTIONS: dict[str, tuple[Any, ...]] = {
-    "all_followed": (*[_P] * 5, c_int64, *[_P] * 4, c_double, c_double, _P),
+    "all_followed": (*[_P] * 5, c_int64, *[_P] * 4, c_double, c_double, *[_P] * 3),
     "all_corrected": (*[_P] * 5, c_int64, *[_P] * 2, c_int64, _P),
     "all_evaluated": (*[_P] * 5, *[_P] * 4),
 }
@@ -35,14 +35,26 @@ def _library() -> ctypes.CDLL | None:
     return found
 
 
-def followed_all(kind: Type, curves: tuple[Complexes, Complexes, Complexes], values: Complexes, small: float) -> Ints:
-    """Follow solutions along curves, each along its own, in place; return STOPPED, ARRIVED or FAR: int[P]."""
+def followed_all(
+    kind: Type,
+    curves: tuple[Complexes, Complexes, Complexes],
+    values: Complexes,
+    small: float,
+    line: Line | None = None,
+) -> Ints:
+    """Follow solutions along curves, each along its own, in place; return STOPPED, ARRIVED or FAR: int[P].
+
+    With a line of members the curves are of hyperplanes, and solutions have one unknown more: see `kernel.Line`.
+    """
     found = _library()
     if found is None:
-        return kernel.followed_all(kind, curves, values, small)
+        empty = np.empty(0, dtype=complex)
+        return kernel.followed_all(kind, line or (empty, empty), curves, values, small)
     ends = np.empty(len(values), np.int64)
     whole = [np.ascontiguousarray(curve, dtype=complex) for curve in curves]
-    _called(found.all_followed, kind, whole[0].shape[1], len(values), *whole, values, small, CLOSED, ends)
+    members = whole[0].shape[1] if line is None else len(line[0])
+    along = (None, None) if line is None else [np.ascontiguousarray(each, dtype=complex) for each in line]
+    _called(found.all_followed, kind, members, len(values), *whole, values, small, CLOSED, ends, *along)
     return ends
 
 
@@ -66,7 +78,7 @@ def evaluated(kind: Type, parameters: Complexes, unknowns: Complexes, residual: 
     _called(found.all_evaluated, kind, len(parameters), *given, residual, jacobian)
 
 
-def _called(function: Any, kind: Type, parameters: int, *arguments: npt.NDArray[Any] | float) -> None:
+def _called(function: Any, kind: Type, parameters: int, *arguments: npt.NDArray[Any] | float | None) -> None:
     """Call a function of the library, arrays by their places; those that it writes are contiguous."""
     loops, signs, axes, column = kind
     unknowns = int((column >= 0).sum())

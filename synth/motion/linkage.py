@@ -168,6 +168,22 @@ def linkage_of_sheet(
     return _posed(dual.sc, corners[edges].mean(axis=1), directions, angles, corners)
 
 
+def centre_of(linkage: PosedLinkage, loop: PosedLoop, tolerances: Tolerances = DOUBLE) -> Centre:
+    """Return the centre of a loop: where it is not declared, by its axes, which meet or are parallel as drawn."""
+    if loop.centre is not Centre.NONE:
+        return loop.centre
+    turning = [joint for joint in loop.joints if joint not in linkage.slides]
+    sliding = [joint for joint in loop.joints if joint in linkage.slides]
+    axes, along = linkage.directions[turning], linkage.directions[sliding]
+    if len(axes):  # parallel axes, and slides across them
+        off = max(np.abs(np.cross(axes, axes[0])).max(), np.abs(along @ axes[0]).max(initial=0.0))
+        if off <= tolerances.meant:
+            return Centre.INFINITE
+    if not sliding and float(lines_meet(linkage.points[turning], axes).off.max()) <= tolerances.meant:
+        return Centre.FINITE
+    return Centre.NONE
+
+
 def axis_lengths(linkage: PosedLinkage) -> Floats:
     """Return the lengths, in extents, by which axes are known: of creases from their vertex, of others 1."""
     lengths = np.ones(len(linkage.angles))

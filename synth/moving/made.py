@@ -17,6 +17,7 @@ from graphs.errors import InvariantError, UnsolvableError, numbered, shown
 from graphs.files.accepted import MechanismLike
 from graphs.files.formats import read
 from graphs.geometry import frame_about, lines_meet, unit
+from graphs.joints.centres import centred_by_axes
 from graphs.joints.linkage import JointedLinkage, JointKind
 from graphs.joints.revolutes import revolutes_of
 from graphs.loops.loop import Centre, Loop
@@ -250,23 +251,25 @@ def configuration_of(
     if frame:
         raise InvariantError("frames", f"{mechanism!r} has no frames", "a .fold file")
     if slides and isinstance(mechanism, JointedLinkage) and set(mechanism.kinds.values()) <= _OF_ONE_FREEDOM:
-        linkage, written = _with_slides(mechanism)
+        linkage, written = _with_slides(mechanism, precision)
     else:
-        linkage, written = _made(mechanism, orientations)
+        linkage, written = _made(mechanism, orientations, precision)
     if precision is not None:
         written = Precision(WrittenPrecision(precision, "stated").length / linkage.extent, "stated")
     given = mechanism if isinstance(mechanism, Mechanism) else None
     return Configuration(linkage, written, written.size <= EXACT, given)
 
 
-def _made(mechanism: Movable, orientations: Orientations | None) -> tuple[PosedLinkage, Precision]:
+def _made(
+    mechanism: Movable, orientations: Orientations | None, length: float | None
+) -> tuple[PosedLinkage, Precision]:
     """Return the linkage that a mechanism without panels is, and how precise its coordinates are."""
     if isinstance(mechanism, PolyhedronModel):
         return linkage_of_rods(mechanism), precision_of(list(mechanism.coordinates.values()))
     if isinstance(mechanism, JointedLinkage) and mechanism.places:
         mechanism = revolutes_of(mechanism)
     if isinstance(mechanism, HingedSolids):
-        return _with_centres(linkage_of_axes(mechanism.chain, mechanism.axes)), _precision_of_axes(mechanism.axes)
+        return _of_axes(mechanism.chain, mechanism.axes, length)
     if isinstance(mechanism, OnSurface):
         return posed_on_surface(mechanism), _EXACTLY
     if isinstance(mechanism, SurfaceLinkage):
@@ -297,13 +300,25 @@ def _precision_of_axes(axes: Mapping[JointId, Axis]) -> Precision:
     return max(both, key=lambda precision: precision.size)
 
 
-def _with_slides(mechanism: JointedLinkage) -> tuple[PosedLinkage, Precision]:
+def _with_slides(mechanism: JointedLinkage, length: float | None) -> tuple[PosedLinkage, Precision]:
     """Return a linkage of revolute and prismatic joints, and how precise its coordinates are."""
     axes = {joint: (place.point, place.axes[0]) for joint, place in mechanism.places.items()}
     if not axes:
         raise without_coordinates(mechanism)
     slides = [joint for joint, kind in mechanism.kinds.items() if kind is JointKind.PRISMATIC]
-    return _with_centres(linkage_of_axes(mechanism.chain, axes, slides=slides)), _precision_of_axes(axes)
+    return _of_axes(mechanism.chain, axes, length, slides)
+
+
+def _of_axes(
+    chain: SCGraph, axes: Mapping[JointId, Axis], length: float | None, slides: Sequence[JointId] = ()
+) -> tuple[PosedLinkage, Precision]:
+    """Return a linkage by its axes, its loops spherical or planar where these say so within their precision."""
+    written = _precision_of_axes(axes)
+    given = linkage_of_axes(chain, axes, slides=slides)
+    size = written.size if length is None else length / given.extent
+    centred = centred_by_axes(chain, axes, size, slides)
+    linkage = given if centred is chain else linkage_of_axes(centred, axes, slides=slides)
+    return _with_centres(linkage, len(chain.centred_loops) if linkage is not given else len(linkage.loops)), written
 
 
 def sheet_of(mechanism: Mechanism) -> Sheet | None:
@@ -369,9 +384,9 @@ def _with_one_centre(chain: SCGraph, points: Floats, directions: Floats, centre:
     return linkage_of_axes(about_it, dict(lines))
 
 
-def _with_centres(linkage: PosedLinkage) -> PosedLinkage:
-    """Refuse loops whose axes do not meet as their centre says: three equations would not close them."""
-    for loop in linkage.loops:
+def _with_centres(linkage: PosedLinkage, declared: int) -> PosedLinkage:
+    """Refuse declared loops whose axes do not meet as their centre says: three equations would not close them."""
+    for loop in linkage.loops[:declared]:
         points, axes = linkage.points[list(loop.joints)], linkage.directions[list(loop.joints)]
         if loop.centre is Centre.INFINITE:
             off = _off_plane(axes, [joint in linkage.slides for joint in loop.joints])

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from graphs.answer.jointed import chain_with_planar_loops
+from graphs.answer.jointed import chain_with_centres
 from graphs.joints.linkage import JointedLinkage
 from graphs.mechanism.solids import HingedSolids
 from graphs.types import JointId
@@ -43,5 +43,5 @@ def linkage_as_counted(at: Configuration) -> CountedLinkage:
         return CountedLinkage(serial.linkage, serial.joint_of)
     linkage = at.linkage
     if isinstance(given, HingedSolids):
-        linkage = linkage_of_axes(chain_with_planar_loops(given), given.axes)
+        linkage = linkage_of_axes(chain_with_centres(given), given.axes)
     return CountedLinkage(linkage, {joint: joint for joint in linkage.graph.joints})

@@ -6,8 +6,9 @@ from spherical import FOUR_BAR, STEPHENSON, spherical
 
 from enumerate.machine_code import folders
 from graphs.joints.linkage import JointedLinkage, JointPlace
-from synth.assembly import family as module, tracking
-from synth.assembly.family import Family, family_of, general_positions
+from synth.assembly import general as module, tracking
+from synth.assembly.family import Family, family_of
+from synth.assembly.general import general_positions
 from synth.moving.made import configuration_of
 
 needs_library = pytest.mark.skipif(tracking._library() is None, reason="there is no library: no compiler was at hand")
@@ -37,7 +38,7 @@ def by_both(monkeypatch, call):
 @pytest.mark.parametrize(("family", "seed"), families())
 def test_equations_and_paths_are_those_of_the_kernels(family: Family, seed, monkeypatch):
     random = np.random.default_rng(seed)
-    count = 2 * len(family.axes) + len(family.joints) - family.unknowns
+    count = 2 * len(family.axes) + family.driven + 4 * len(family.loops)
 
     def complexes(*shape):
         return random.normal(size=shape) + 1j * random.normal(size=shape)
@@ -45,18 +46,25 @@ def test_equations_and_paths_are_those_of_the_kernels(family: Family, seed, monk
     member, unknowns = complexes(count), complexes(family.unknowns)
     for one, other in zip(*by_both(monkeypatch, lambda: family.at(member, unknowns)), strict=True):
         np.testing.assert_allclose(one, other, rtol=1e-13, atol=1e-13)
-    starts, members = complexes(40, family.unknowns), np.tile(complexes(count), (40, 1))
+    general = general_positions(family)
+    near = np.resize(general.values, (40, family.unknowns))
+    starts, members = near + 0.1 * complexes(40, family.unknowns), np.tile(general.parameters, (40, 1))
     fast, slow = by_both(monkeypatch, lambda: family.corrected(members, starts, 25))
     closed = (fast[1] <= 1e-10) & (slow[1] <= 1e-10)
     assert closed.any()
     np.testing.assert_allclose(fast[0][closed], slow[0][closed], atol=1e-9)
     # paths from the positions of a general member to another member
-    general = general_positions(family)
     curves = tuple(np.tile(each, (len(general.values), 1)) for each in (general.parameters, member, complexes(count)))
     fast, slow = by_both(monkeypatch, lambda: family.followed(curves, general.values))
     assert fast.arrived.tolist() == slow.arrived.tolist()
     assert fast.arrived.any()
     np.testing.assert_allclose(fast.values[fast.arrived], slow.values[fast.arrived], atol=1e-8)
+    # and from hyperplane to hyperplane, on a line of members
+    section = module._Section(family, general.parameters, random)
+    points = section.points_of(general.values)
+    fast, slow = by_both(monkeypatch, lambda: section.moved(section.member, section.first, points, bent=False))
+    assert len(fast) > 0
+    np.testing.assert_allclose(fast, slow, atol=1e-8)
 
 
 def test_general_positions_are_kept(tmp_path, monkeypatch):
