@@ -9,19 +9,17 @@ the sign of all rates together; farther off, two of them may be one curve. Theor
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
-from math import degrees, inf, pi
-from typing import Any, Literal
+from math import inf
 
-import networkx as nx
 import numpy as np
 
-from graphs.geometry import lines_meet, sectors, unit
-from graphs.loops.loop import Centre
 from graphs.rank.singular_values import inertia, rank_of, spectrum
-from graphs.tolerances import DOUBLE, MARGIN, canonical_basis, canonical_order, signed
-from graphs.types import Floats, Ints, JointId
+from graphs.tolerances import DOUBLE, canonical_basis, canonical_order, signed
+from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import PosedLinkage, PosedLoop
+from synth.motion.flat_vertices import FlatVertices
+from synth.motion.germ import Branch, Branches, Certainty, Method, Part, product_of, signs_of
+from synth.motion.linkage import PosedLinkage, parts_of
 from synth.motion.singular import second_order
 from synth.motion.singular.joint_order import in_order, joint_order
 from synth.motion.singular.nearest import spaces_near
@@ -35,98 +33,6 @@ from synth.motion.singular.sampling import (
     same_part,
 )
 from synth.motion.walk.step import Allowance
-
-
-class FlatVertices:
-    """The loops of a linkage that are flat vertices of four creases, each with two modes.
-
-    In either mode one pair of opposite creases folds the same way and the other does not. `linear` says that in
-    all loops opposite sectors make 180 degrees, and all creases are flat: tan(fold / 2) are in proportion in each
-    mode.
-    """
-
-    def __init__(self, linkage: PosedLinkage) -> None:
-        self._loops = linkage.loops
-        self._ways: list[Floats | None] = []
-        flat = [np.abs(linkage.angles).max(initial=0.0) <= DOUBLE.parallel]
-        for loop in linkage.loops:
-            outward, folds = _outward(linkage, loop), None
-            if outward is not None:  # 1 for creases that fold one way at a positive angle, -1 for others
-                folds = np.sign((outward * linkage.directions[list(loop.joints)]).sum(axis=1)) * loop.signs
-            # opposite sectors make 180 degrees
-            flat.append(outward is not None and abs(sectors(outward)[::2].sum() - pi) <= DOUBLE.parallel)
-            self._ways.append(folds)
-        self.linear = bool(all(flat))
-
-    def modes(self, rates: Floats) -> tuple[tuple[int, int] | None, ...]:
-        """Return the opposite creases (places) that fold alike at each vertex, by general rates; else None."""
-        return tuple(_mode(loop, ways, rates) for loop, ways in zip(self._loops, self._ways, strict=True))
-
-
-def _mode(loop: PosedLoop, ways: Floats | None, rates: Floats) -> tuple[int, int] | None:
-    if ways is None:
-        return None
-    folds = rates[list(loop.joints)] * ways
-    alike = folds[:2] * folds[2:]
-    same = int(alike[1] > alike[0] + MARGIN * abs(float(alike[0])))
-    first, second = sorted(loop.joints[same::2])
-    return (first, second) if alike[same] > DOUBLE.zero_rate**2 else None
-
-
-def _outward(linkage: PosedLinkage, loop: PosedLoop) -> Floats | None:
-    """Return the directions of four creases away from a flat vertex: float[4, 3]; None of other loops."""
-    joints = list(loop.joints)
-    if loop.centre is not Centre.FINITE or len(joints) != 4:
-        return None
-    points = linkage.points[joints]
-    away = points - lines_meet(points, linkage.directions[joints]).point
-    if np.linalg.norm(away, axis=1).min() <= DOUBLE.same_point:  # no crease, but an axis through that point
-        return None
-    outward = unit(away)
-    return outward if abs(sectors(outward).sum() - 2 * pi) <= DOUBLE.parallel else None
-
-
-def straight_folds(linkage: PosedLinkage) -> tuple[Ints, ...]:
-    """Return for each family of parallel lines along which a flat sheet folds straight the line of each joint, int[J].
-
-    It is -1 for joints that are on none. A line is of creases that go on straight at every vertex, and beyond holes;
-    all its creases fold alike. Parallel lines meet at no vertex, so their angles are free. Whether loops round holes
-    close then is left to the caller.
-    """
-    size = len(linkage.angles)
-    next_to, ends = nx.Graph(), np.zeros(size, dtype=bool)
-    next_to.add_nodes_from(range(size))
-    by_size: dict[int, list[tuple[int, ...]]] = {}
-    for loop in linkage.loops:
-        by_size.setdefault(len(loop.joints), []).append(loop.joints)
-    for joints in map(np.array, by_size.values()):
-        along, at = linkage.directions[joints][:, :, None], linkage.points[joints]
-        turned = np.abs(np.cross(along, along.transpose(0, 2, 1, 3))).max(axis=3)
-        beside = np.abs(np.cross(along, at[:, :, None] - at[:, None])).max(axis=3)
-        same = (turned <= DOUBLE.parallel) & (beside <= DOUBLE.same_point)
-        ends[joints[same.sum(axis=2) == 1]] = True  # of itself alone: the line does not go on
-        loops, one, other = np.nonzero(np.triu(same, 1))
-        next_to.add_edges_from(zip(joints[loops, one].tolist(), joints[loops, other].tolist(), strict=True))
-    whole = [sorted(line) for line in nx.connected_components(next_to) if not ends[list(line)].any()]
-    families: list[tuple[Floats, list[list[int]]]] = []
-    for line in sorted(whole):
-        along = linkage.directions[line[0]]
-        near = (lines for first, lines in families if np.abs(np.cross(first, along)).max() <= DOUBLE.parallel)
-        family = next(near, None)
-        if family is None:
-            families.append((along, family := []))
-        family.append(line)
-    numbers = []
-    for _, family in families:
-        number = np.full(size, -1)
-        for place, line in enumerate(family):
-            number[line] = place
-        numbers.append(number)
-    return tuple(numbers)
-
-
-Certainty = Literal["proved", "numerical", "not known"]
-Method = Literal["regular pose", "all modes", "second order", "random starts"]
 
 MOST_JOINTS, MOST_SPARSE = 600, 10_000
 """Of linkages with more joints than the first branches are looked for only if they have few rates, and are listed only
@@ -144,6 +50,7 @@ _FOLLOWED = 2500
 """Joints of all branches that are followed, together: a few seconds. A number, so that answers do not depend on
 how fast a machine is."""
 
+_LEAST_FOLLOWED = 4
 _DEAD_ENDS = 20
 """After so many choices that leave nothing the space near to wanted rates is given up."""
 _START = 2e5
@@ -189,127 +96,7 @@ def search_for(joints: int, towards: Floats | None, *, more: bool = False) -> Se
     """Return how far branches of so many joints are looked for: a few seconds, or a hundred times more."""
     if more:
         return Search(_MORE * MOST_BRANCHES, _MORE * MOST_WORK, towards=towards, steps=_MORE * _STEPS)
-    return Search(MOST_BRANCHES, MOST_WORK, follow=max(4, _FOLLOWED // max(joints, 1)), towards=towards)
-
-
-@dataclass(frozen=True, slots=True)
-class Branch:
-    """One motion branch from a configuration.
-
-    Attributes
-    ----------
-    freedoms : int or None
-        At a general configuration of the branch, to second order. None where no motion was found, or second order
-        does not decide.
-    certainty : {"proved", "numerical", "not known"}
-        Proved: the configuration is regular, the branch is linear in tan(fold / 2), or all that second order adds
-        is one equation that is not degenerate. Numerical: followed with closed loops. Not known: no motion was
-        found.
-    space : RateSpace
-        The rates at which it can begin.
-    rates : float[J]
-        Initial rates of one motion along the branch; the largest is 1 or -1.
-    still : tuple of int
-        Places of the joints that are immobile on it.
-    modes : tuple of (int, int) or None
-        For each loop that is a moving flat vertex of four creases the places of the opposite ones that fold alike.
-    sample : float[J]
-        Joint angles of a configuration on it, radians.
-    error : float
-        Loop-closure residual there.
-    followed : float
-        How far the joint that moves most has moved there, radians.
-    begun : bool
-        Whether it was followed, or proved; False if the search had nothing left for it.
-
-    Examples
-    --------
-    >>> import synth
-    >>> synth.move(synth.generate("miura", rows=2, columns=2).mechanism).branches.branches
-    (<Branch: +---, freedoms 1, proved>, <Branch: +00+, freedoms 1, proved>)
-    """
-
-    freedoms: int | None
-    certainty: Certainty
-    space: second_order.RateSpace
-    rates: Floats
-    still: tuple[int, ...]
-    modes: tuple[tuple[int, int] | None, ...]
-    sample: Floats
-    error: float
-    followed: float
-    begun: bool = True
-
-    @property
-    def signs(self) -> str:
-        """How each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all."""
-        return signs_of(self.rates)
-
-    def has_signs(self, signs: str) -> bool:
-        """Tell whether it has these signs, or all of them turned."""
-        return self.signs in (signs, signs.translate(str.maketrans("+-", "-+")))
-
-    def __repr__(self) -> str:
-        return f"<Branch: {self.signs}, freedoms {self.freedoms}, {self.certainty}>"
-
-    def to_json(self, joints: Sequence[JointId]) -> dict[str, Any]:
-        """Return plain data, joints by their ids: those of the linkage, in order."""
-        return {
-            "signs": self.signs,
-            "freedoms": self.freedoms,
-            "certainty": self.certainty,
-            "still": len(self.still),
-            "modes": [None if pair is None else [joints[place] for place in pair] for pair in self.modes],
-            "followed_deg": degrees(self.followed),
-            "closure": self.error,
-        }
-
-
-@dataclass(frozen=True, slots=True)
-class Branches:
-    """All branches that were found from a configuration.
-
-    Attributes
-    ----------
-    branches : tuple of Branch
-        Those on which most joints move first; of these, those with most rates; then by their signs in the order of
-        the joints.
-    exhaustive : bool
-        Whether there are no others: every choice of modes was tried, and rates that agree to second order are all
-        there are; the configuration is regular, and the one branch has as many freedoms as there are rates; all
-        that second order adds is one equation that is not degenerate; or nothing moves, and that is proved.
-    regular : bool
-        Whether the configuration is regular, with one branch.
-    complete : bool
-        Whether the search came to its end.
-    method : {"regular pose", "all modes", "second order", "random starts"}
-        How they were found: by every combination of modes of vertices that are linear in tan(fold / 2); by all
-        rates that agree to second order, each continued; random starts where several equations are left on these
-        that are no products.
-    rigidity : Rigidity or None
-        Without branches: whether it is proved that nothing moves.
-    order : tuple of int
-        Places of the joints in an order that does not depend on the file.
-    """
-
-    branches: tuple[Branch, ...]
-    exhaustive: bool
-    regular: bool
-    complete: bool
-    method: Method
-    rigidity: second_order.Rigidity | None = None
-    order: tuple[int, ...] = ()
-
-    @property
-    def no_motion(self) -> Certainty | None:
-        """Whether it is proved that nothing moves, or not known; None where something does."""
-        if any(branch.certainty != "not known" for branch in self.branches):
-            return None
-        return "not known" if self.rigidity is None else self.rigidity.certainty
-
-    def number_of(self, signs: str) -> int | None:
-        """Return the number of the first branch with these signs, or all of them turned; None without one."""
-        return next((number for number, branch in enumerate(self.branches) if branch.has_signs(signs)), None)
+    return Search(MOST_BRANCHES, MOST_WORK, follow=max(_LEAST_FOLLOWED, _FOLLOWED // max(joints, 1)), towards=towards)
 
 
 def branches_of(
@@ -334,7 +121,26 @@ def branches_of(
     >>> len(branches.branches), branches.exhaustive
     (2, True)
     """
-    branch_search = _BranchSearch(linkage, closure, search or Search())
+    search = search or Search()
+    parts = parts_of(linkage)
+    if len(parts) > 1:
+        joint_searches = (_search_of_part(search, part.joints, len(parts)) for part in parts)
+        own = (_branches_of_one(part.linkage, None, each) for part, each in zip(parts, joint_searches, strict=True))
+        return product_of([Part(*part, branches) for part, branches in zip(parts, own, strict=True)])
+    return _branches_of_one(linkage, closure, search)
+
+
+def _search_of_part(search: Search, joints: Ints, parts: int) -> Search:
+    """Return the search for the branches of one of several parts: they share the work, and what is followed."""
+    towards = None if search.towards is None else search.towards[joints]
+    follow = None if search.follow is None else max(_LEAST_FOLLOWED, search.follow // parts)
+    steps, work = max(_AT_LEAST, search.steps // parts), search.work / parts
+    return replace(search, towards=towards, follow=follow, steps=steps, work=work)
+
+
+def _branches_of_one(linkage: PosedLinkage, closure: ClosureEquations | None, search: Search) -> Branches:
+    """Return the motion branches of a linkage whose closure equations are of one part."""
+    branch_search = _BranchSearch(linkage, closure, search)
     spaces, order = branch_search.spaces(), branch_search.order
     if not spaces and branch_search.complete:
         refuted = branch_search.search.all_or_none  # of many joints in an order in which cases end early
@@ -350,9 +156,18 @@ def branches_of(
     agrees = regular and branches[0].freedoms == spaces[0].basis.shape[1]
     exhaustive = agrees or cone or (branch_search.vertices.linear and not any(space.left for space in spaces))
     method: Method = "regular pose" if regular else branch_search.method(spaces)
-    return Branches(
-        branches, exhaustive and branch_search.complete, regular, branch_search.complete, method, order=order
-    )
+    complete = branch_search.complete
+    counted = complete and all(map(_is_whole_part, branches))
+    return Branches(branches, exhaustive and complete, regular, complete, method, order=order, counted=counted)
+
+
+def _is_whole_part(branch: Branch) -> bool:
+    """Tell whether a branch has all rates that second order leaves where it begins, and is alone there.
+
+    One quadric of three squares or more is irreducible; of several equations that is not known.
+    """
+    moves = branch.certainty != "not known"
+    return moves and len(branch.space.left) < 2 and branch.freedoms == most_freedoms(branch.space, branch.rates)
 
 
 def all_branches_of_many(linkage: PosedLinkage, closure: ClosureEquations, towards: Floats | None) -> Branches | None:
@@ -583,11 +398,6 @@ class _BranchSearch:
             freedoms, certainty = space.basis.shape[1] - len(space.left), "proved"
         modes, begun = self.vertices.modes(rates), not late or linear
         return Branch(freedoms, certainty, space, rates, still, modes, end.sample, end.error, end.far, begun)
-
-
-def signs_of(rates: Floats) -> str:
-    """Return how each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all."""
-    return "".join("0" if abs(rate) <= DOUBLE.zero_rate else "+-"[int(rate < 0)] for rate in rates)
 
 
 def _rank_of(space: second_order.RateSpace, rates: Floats) -> Floats:

@@ -15,7 +15,7 @@ from graphs.files.formats import read, write
 from graphs.mechanism.sheet import Sheet
 from graphs.rank.dissection import number_below
 from synth.motion import configuration as configurations
-from synth.motion.branches import straight_folds
+from synth.motion.flat_vertices import straight_folds
 from synth.motion.singular.sampling import closes_along_general_rates
 from synth.moving.made import configuration_of
 from synth.patterns.creases import fan, miura
@@ -29,6 +29,9 @@ KEYS = {
     "certainty",
     "branches",
     "exhaustive",
+    "count",
+    "at_least",
+    "proved",
     "not_followed",
     "bounds",
     "stiff_joints",
