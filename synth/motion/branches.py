@@ -6,8 +6,11 @@ Each branch is followed to a fold of ten degrees; its degrees of freedom are tho
 the sign of all rates together; farther off, two of them may be one curve. Theory: docs/theory/folding.md.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import islice
 from math import inf
 
@@ -19,8 +22,10 @@ from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations
 from synth.motion.flat_vertices import FlatVertices
 from synth.motion.germ import Branch, Branches, Certainty, Method, Part, product_of, signs_of
-from synth.motion.linkage import PosedLinkage, parts_of
+from synth.motion.linkage import LinkagePart, PosedLinkage, part_of, parts_of
 from synth.motion.singular import second_order
+from synth.motion.singular.complete import has_points_only, line_of, point_rates
+from synth.motion.singular.immobile import immobile_joints, without
 from synth.motion.singular.joint_order import in_order, joint_order
 from synth.motion.singular.nearest import spaces_near
 from synth.motion.singular.sampling import (
@@ -57,6 +62,8 @@ _START = 2e5
 """Work of a start of Newton's method, in products of numbers."""
 _STEPS, _AT_LEAST = 400, 20
 """All branches together may be followed so many steps, and each so many: ten degrees take nearly all 5 to 15."""
+_SAME = 1e-4
+"""Rates, as unit vectors, that differ by less are one point: one of multiplicity is known so far."""
 _MORE = 100
 """Factor on the limits of a search with --more."""
 
@@ -124,10 +131,32 @@ def branches_of(
     search = search or Search()
     parts = parts_of(linkage)
     if len(parts) > 1:
-        joint_searches = (_search_of_part(search, part.joints, len(parts)) for part in parts)
-        own = (_branches_of_one(part.linkage, None, each) for part, each in zip(parts, joint_searches, strict=True))
-        return product_of([Part(*part, branches) for part, branches in zip(parts, own, strict=True)])
-    return _branches_of_one(linkage, closure, search)
+        return _branches_of_parts(parts, search)
+    branch_search = _BranchSearch(linkage, closure, search)
+    if any(map(has_points_only, branch_search.spaces)) and (held := immobile_joints(linkage, search.zero)):
+        return _branches_beside(linkage, held, search)
+    return _branches_of_one(branch_search, linkage, closure)
+
+
+def _branches_of_parts(parts: Sequence[LinkagePart], search: Search) -> Branches:
+    """Return the branches of a linkage by those of its parts."""
+    searches = (_search_of_part(search, part.joints, len(parts)) for part in parts)
+    own = (branches_of(part.linkage, None, each) for part, each in zip(parts, searches, strict=True))
+    return product_of([Part(*part, branches) for part, branches in zip(parts, own, strict=True)])
+
+
+def _branches_beside(linkage: PosedLinkage, held: Sequence[int], search: Search) -> Branches:
+    """Return the branches of a linkage in which some joints are proved to be immobile: those of the others."""
+    rest = without(linkage, set(held))
+    numbers = set(range(len(linkage.loops))) - (set() if rest is None else set(rest.loops))
+    rigid = part_of(linkage, held, sorted(numbers))
+    proof = second_order.Rigidity("cases", 0, None, None, ())
+    order = tuple(range(len(held)))
+    still = Part(*rigid, Branches((), True, False, True, "second order", proof, order))
+    if rest is None:
+        return still.branches
+    others = branches_of(rest.linkage, None, _search_of_part(search, rest.joints, 1))
+    return product_of([still, Part(*rest, others)])
 
 
 def _search_of_part(search: Search, joints: Ints, parts: int) -> Search:
@@ -138,10 +167,9 @@ def _search_of_part(search: Search, joints: Ints, parts: int) -> Search:
     return replace(search, towards=towards, follow=follow, steps=steps, work=work)
 
 
-def _branches_of_one(linkage: PosedLinkage, closure: ClosureEquations | None, search: Search) -> Branches:
+def _branches_of_one(branch_search: _BranchSearch, linkage: PosedLinkage, closure: ClosureEquations | None) -> Branches:
     """Return the motion branches of a linkage whose closure equations are of one part."""
-    branch_search = _BranchSearch(linkage, closure, search)
-    spaces, order = branch_search.spaces(), branch_search.order
+    spaces, order = branch_search.spaces, branch_search.order
     if not spaces and branch_search.complete:
         refuted = branch_search.search.all_or_none  # of many joints in an order in which cases end early
         rigidity = second_order.rigidity_of(linkage, closure, branch_search.search.zero, refuted=refuted)
@@ -153,11 +181,14 @@ def _branches_of_one(linkage: PosedLinkage, closure: ClosureEquations | None, se
     regular = branch_search.is_regular(spaces)
     cone = branch_search.is_cone()
     branches = branch_search.branches(spaces, proved=cone or (regular and branch_search.full_row_rank()))
+    if not branches:
+        return Branches((), False, False, branch_search.complete, branch_search.method(spaces), order=order)
     agrees = regular and branches[0].freedoms == spaces[0].basis.shape[1]
     exhaustive = agrees or cone or (branch_search.vertices.linear and not any(space.left for space in spaces))
+    exhaustive = exhaustive or branch_search.all_regular(branches)
     method: Method = "regular pose" if regular else branch_search.method(spaces)
     complete = branch_search.complete
-    counted = complete and all(map(_is_whole_part, branches))
+    counted = complete and branch_search.all_rates and all(map(_is_whole_part, branches))
     return Branches(branches, exhaustive and complete, regular, complete, method, order=order, counted=counted)
 
 
@@ -213,13 +244,22 @@ def first_branch(
     '+---'
     """
     branch_search = _BranchSearch(linkage, None, search or Search())
-    for space, part_rates in branch_search.parts(branch_search.spaces()):
-        rates = branch_search.ahead(part_rates)
-        if admitted(branch_search.as_filed(rates)):
-            branch = branch_search.branch(space, rates, proved=False, late=False)
+    for part in branch_search.parts(branch_search.spaces):
+        ahead = replace(part, rates=branch_search.ahead(part.rates))
+        if admitted(branch_search.as_filed(ahead.rates)):
+            branch = branch_search.branch(ahead, proved=False, late=False)
             if branch.certainty != "not known":
                 return branch_search.branch_as_filed(branch)
     return None
+
+
+@dataclass(frozen=True, slots=True)
+class _Beginning:
+    """General rates of a part of the rates that agree to second order; whether they are certified to be regular."""
+
+    space: second_order.RateSpace
+    rates: Floats
+    certified: bool = False
 
 
 class _BranchSearch:
@@ -232,7 +272,7 @@ class _BranchSearch:
         self.closure = ClosureEquations(self.linkage)
         towards = None if search.towards is None else search.towards[self._order]
         self.search = replace(search, towards=towards)
-        self.complete = self.all_spaces = True
+        self.complete = self.all_spaces = self.all_rates = True
         self.vertices = FlatVertices(self.linkage)
         joints_of = [frozenset(self._order[list(loop.joints)].tolist()) for loop in self.linkage.loops]
         place_of_loop = {joints: place for place, joints in enumerate(joints_of)}
@@ -267,6 +307,7 @@ class _BranchSearch:
             sample=self.as_filed(branch.sample),
         )
 
+    @cached_property
     def spaces(self) -> list[second_order.RateSpace]:
         """Return the spaces of rates that agree to second order, as far as the search goes."""
         spaces: list[second_order.RateSpace] = []
@@ -307,7 +348,7 @@ class _BranchSearch:
     def method(self, spaces: list[second_order.RateSpace]) -> Method:
         """Return how branches are found at a singular pose."""
         if any(len(space.left) > 1 for space in spaces):
-            return "random starts"
+            return "all solutions" if self.all_rates else "random starts"
         return "all modes" if self.vertices.linear else "second order"
 
     def full_row_rank(self) -> bool:
@@ -317,15 +358,37 @@ class _BranchSearch:
         _, jacobian = self.closure.at(self.linkage.angles)
         return spectrum(jacobian.toarray(), DOUBLE.derivative).rank == self.closure.rows
 
-    def parts(self, spaces: list[second_order.RateSpace]) -> list[tuple[second_order.RateSpace, Floats]]:
+    def parts(self, spaces: list[second_order.RateSpace]) -> list[_Beginning]:
         """Return general rates of each part of all spaces, with the space, in the order of branches."""
-        parts: list[tuple[second_order.RateSpace, Floats]] = []
-        search, work = self.search, self._work
+        parts: list[_Beginning] = []
         for space in spaces:
-            here, whole = general_rates(space, search.most, search.towards, lambda: not work.take(_START))
-            self.complete = self.complete and whole
-            parts += [(space, rates) for rates in here]
-        return [parts[place] for place in canonical_order([_rank_of(*part) for part in parts])]
+            points = point_rates(space) if has_points_only(space) else None
+            self.all_rates = self.all_rates and (points is not None or len(space.left) < 2)
+            if points is None:
+                parts += self._general(space)
+                continue
+            for rates in points.rates:
+                if not any(_is_on(rates, part.space) for part in parts):
+                    beginning = _Beginning(line_of(rates), rates / np.abs(rates).max(), points.evidence == "proved")
+                    parts.append(beginning)
+        return [parts[place] for place in canonical_order([_rank_of(part.space, part.rates) for part in parts])]
+
+    def _general(self, space: second_order.RateSpace) -> list[_Beginning]:
+        """Return general rates of each part of a space; where points are left, as far as random starts find them."""
+        search, work = self.search, self._work
+        here, whole = general_rates(space, search.most, search.towards, lambda: not work.take(_START))
+        self.complete = self.complete and whole
+        line = space.basis.shape[1] == 1 and not space.left
+        return [_Beginning(space, rates, line) for rates in here]
+
+    def all_regular(self, branches: Sequence[Branch]) -> bool:
+        """Tell whether branches are all there are: they begin at all rates that agree to second order, all regular.
+
+        Motions begin at these rates, and beside regular ones there is one curve (`_freedoms_beside`).
+        """
+        lines = all(branch.space.basis.shape[1] == 1 and not branch.space.left for branch in branches)
+        proved = all(branch.certainty == "proved" for branch in branches)
+        return self.all_spaces and self.all_rates and lines and proved
 
     def branches(self, spaces: list[second_order.RateSpace], *, proved: bool) -> tuple[Branch, ...]:
         """Return the branches of all spaces in the order of the file, those that were not followed last."""
@@ -339,25 +402,26 @@ class _BranchSearch:
         parts = self.parts(spaces)
         nearest = self._nearest(parts)
         begun, follow = 0, self.search.follow
-        for number, (space, rates) in enumerate(parts):
+        for number, part in enumerate(parts):
             late = number != nearest and (self._work.used_up if follow is None else begun >= follow)
             begun += not late
-            self.complete = self.complete and not late
-            yield self.branch(space, self.ahead(rates), proved=proved, late=late)
+            branch = self.branch(replace(part, rates=self.ahead(part.rates)), proved=proved, late=late)
+            self.complete = self.complete and branch.begun
+            yield branch
 
     def ahead(self, rates: Floats) -> Floats:
         """Return rates or their negatives: those whose first is positive, in the order of the file."""
         return np.asarray(signed(self.as_filed(rates))[self._order])
 
-    def _nearest(self, parts: Sequence[tuple[second_order.RateSpace, Floats]]) -> int:
+    def _nearest(self, parts: Sequence[_Beginning]) -> int:
         """Return the number of the part on which most joints go as is wanted."""
         towards = self.search.towards
         if towards is None or len(parts) < 2:
             return 0
         agree = []
-        for space, rates in parts:
-            near = rates_towards(space, towards)
-            there = near if near.any() and same_part(space, near, rates) else rates
+        for part in parts:
+            near = rates_towards(part.space, towards)
+            there = near if near.any() and same_part(part.space, near, part.rates) else part.rates
             agree.append(abs(float(np.sign(np.where(np.abs(there) > DOUBLE.zero_rate, there, 0.0)) @ towards)))
         return int(np.argmax(agree))
 
@@ -377,8 +441,9 @@ class _BranchSearch:
         independent = rank_of(slopes, DOUBLE.clear, scale=1.0) == self._stresses
         return int(slopes.shape[1] - self._stresses) if independent else None
 
-    def branch(self, space: second_order.RateSpace, rates: Floats, *, proved: bool, late: bool) -> Branch:
+    def branch(self, part: _Beginning, *, proved: bool, late: bool) -> Branch:
         """Return a branch that begins at some rates, followed unless it is late."""
+        space, rates = part.space, part.rates
         still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= DOUBLE.zero_rate).tolist())
         linear = self.vertices.linear and not space.left
         beside = None if linear or proved else self._freedoms_beside(rates)
@@ -396,8 +461,19 @@ class _BranchSearch:
             freedoms = None  # where it was traced to it meets a branch with more; no larger space has its rates
         if linear or proved:
             freedoms, certainty = space.basis.shape[1] - len(space.left), "proved"
-        modes, begun = self.vertices.modes(rates), not late or linear
+        elif part.certified and beside == 1:
+            freedoms, certainty = 1, "proved"
+        modes, begun = self.vertices.modes(rates), not late or certainty == "proved"
         return Branch(freedoms, certainty, space, rates, still, modes, end.sample, end.error, end.far, begun)
+
+
+def _is_on(rates: Floats, space: second_order.RateSpace) -> bool:
+    """Tell whether rates, a unit vector, are among those of a space that its equations leave."""
+    within = space.basis.T @ rates
+    if np.linalg.norm(rates - space.basis @ within) > _SAME:
+        return False
+    forms = second_order.local_forms(space.basis, space.left)
+    return bool(np.abs(forms @ within @ within).max(initial=0.0) <= _SAME)
 
 
 def _rank_of(space: second_order.RateSpace, rates: Floats) -> Floats:

@@ -22,9 +22,9 @@ from synth.motion.linkage import PosedLinkage
 from synth.motion.singular.second_order import Quadric, RateSpace, Rigidity
 
 Certainty = Literal["proved", "numerical", "not known"]
-Method = Literal["regular pose", "all modes", "second order", "random starts"]
+Method = Literal["regular pose", "all modes", "all solutions", "second order", "random starts"]
 _WEAKEST: tuple[Certainty, ...] = ("not known", "numerical", "proved")
-_METHODS: tuple[Method, ...] = ("random starts", "second order", "all modes", "regular pose")
+_METHODS: tuple[Method, ...] = ("random starts", "second order", "all solutions", "all modes", "regular pose")
 
 MOST_LISTED = 256
 """So many branches of separate parts together are listed, the first by their numbers: a table that can be read."""
@@ -141,10 +141,10 @@ class Branches:
         Whether the configuration is regular, with one branch.
     complete : bool
         Whether the search came to its end.
-    method : {"regular pose", "all modes", "second order", "random starts"}
+    method : {"regular pose", "all modes", "all solutions", "second order", "random starts"}
         How they were found: by every combination of modes of vertices that are linear in tan(fold / 2); by all
-        rates that agree to second order, each continued; random starts where several equations are left on these
-        that are no products.
+        rates that agree to second order, each continued, which are all solutions of several equations that are no
+        products, where these have points only; random starts where such equations leave more.
     rigidity : Rigidity or None
         Without branches: whether it is proved that nothing moves.
     order : tuple of int

@@ -211,10 +211,11 @@ def parts_of(linkage: PosedLinkage) -> list[LinkagePart]:
         loops_of[number[loop.joints[0]]].append(place)
     if loose:
         groups, loops_of = [*groups, loose], [*loops_of, []]
-    return [_part(linkage, group, loops) for group, loops in zip(groups, loops_of, strict=True)]
+    return [part_of(linkage, group, loops) for group, loops in zip(groups, loops_of, strict=True)]
 
 
-def _part(linkage: PosedLinkage, group: Sequence[int], loops: Sequence[int]) -> LinkagePart:
+def part_of(linkage: PosedLinkage, group: Sequence[int], loops: Sequence[int]) -> LinkagePart:
+    """Return some joints with some loops that pass no others, by their places, as a linkage of its own."""
     joints, names = np.array(group), list(linkage.graph.joints)
     place = {joint: own for own, joint in enumerate(group)}
     of_loops = [linkage.loops[loop] for loop in loops]

@@ -29,6 +29,7 @@ _LISTED = 12
 _SEARCHES: dict[Method, str] = {
     "regular pose": "regular configuration",
     "all modes": "all combinations of modes",
+    "all solutions": "all solutions of the second-order equations",
     "second order": "second-order search",
     "random starts": "search from random starts",
 }
