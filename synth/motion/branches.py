@@ -133,7 +133,7 @@ def branches_of(
     if len(parts) > 1:
         return _branches_of_parts(parts, search)
     branch_search = _BranchSearch(linkage, closure, search)
-    if any(map(has_points_only, branch_search.spaces)) and (held := immobile_joints(linkage, search.zero)):
+    if branch_search.may_be_degenerate and (held := immobile_joints(linkage, search.zero)):
         return _branches_beside(linkage, held, search)
     return _branches_of_one(branch_search, linkage, closure)
 
@@ -330,6 +330,13 @@ class _BranchSearch:
         near = wanted if rates is None else rates
         spaces = spaces_near(self._tangent, self._quadrics, near, self.search.zero)
         return [space for space in islice(spaces, _DEAD_ENDS) if space is not None][:1]
+
+    @property
+    def may_be_degenerate(self) -> bool:
+        """Whether joints that a few loops make immobile may hide that all else is regular: their forms are squares."""
+        spaces = self.spaces
+        settled = not spaces or self.vertices.linear or self.is_regular(spaces) or self.is_cone()
+        return not (settled or self.search.all_or_none)
 
     def is_regular(self, spaces: list[second_order.RateSpace]) -> bool:
         """Tell whether all rates that agree to first order agree to second."""
