@@ -27,6 +27,7 @@ from synth.motion.singular import second_order
 from synth.motion.singular.complete import has_points_only, line_of, point_rates
 from synth.motion.singular.immobile import immobile_joints, without
 from synth.motion.singular.joint_order import in_order, joint_order
+from synth.motion.singular.mode_count import count_of_modes
 from synth.motion.singular.nearest import spaces_near
 from synth.motion.singular.sampling import (
     TracedBranch,
@@ -189,7 +190,11 @@ def _branches_of_one(branch_search: _BranchSearch, linkage: PosedLinkage, closur
     method: Method = "regular pose" if regular else branch_search.method(spaces)
     complete = branch_search.complete
     counted = complete and branch_search.all_rates and all(map(_is_whole_part, branches))
-    return Branches(branches, exhaustive and complete, regular, complete, method, order=order, counted=counted)
+    answer = Branches(branches, exhaustive and complete, regular, complete, method, order=order, counted=counted)
+    modes = count_of_modes(branch_search.linkage) if branch_search.vertices.linear and not complete else None
+    if modes is None or modes.kinds.total() < answer.count:
+        return answer
+    return replace(answer, total=modes.kinds, counted=modes.all)
 
 
 def _is_whole_part(branch: Branch) -> bool:

@@ -154,6 +154,8 @@ class Branches:
         was followed along each.
     parts : tuple of Part
         Parts whose closure equations share no joint, if they are several.
+    total : Counter or None
+        How many branches have how many freedoms, counted without a list, where that ended before.
 
     Examples
     --------
@@ -172,6 +174,7 @@ class Branches:
     order: tuple[int, ...] = ()
     counted: bool = False
     parts: tuple[Part, ...] = ()
+    total: Counter[int | None] | None = None
 
     @property
     def no_motion(self) -> Certainty | None:
@@ -217,6 +220,8 @@ class Branches:
     @cached_property
     def kinds(self) -> Counter[int | None]:
         """How many branches have how many freedoms, exactly; None where these are unknown."""
+        if self.total is not None:
+            return self.total
         if not self.parts:
             return Counter(branch.freedoms for branch in self.branches if branch.certainty != "not known")
         total: Counter[int | None] = Counter({0: 1})

@@ -26,9 +26,10 @@ from synth.folding.configuration import SheetConfiguration
 from synth.layering.summary import FlatFoldability, flat_foldability
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT, Configuration
-from synth.motion.flat_vertices import straight_folds
+from synth.motion.flat_vertices import FlatVertices, straight_folds
 from synth.motion.germ import Branch, Branches, Certainty, signs_of
 from synth.motion.marked import Marked
+from synth.motion.singular.mode_count import count_of_modes
 from synth.motion.singular.sampling import closes_along_general_rates, walked
 from synth.motion.walk.events import number_of_free_rates
 from synth.moving.made import configuration_of, with_precision
@@ -128,10 +129,28 @@ def _of_one_motion(configuration: Configuration, generic: int | None) -> Verdict
     branch = MotionBranch(signs_of(rates), freedoms, "numerical", still, far, misfit, from_folded)
     immobile = still if freedoms == 1 and not configuration.flat else ()
     marked = _as_marked(configuration.marks, rates)
-    findings = MotionFindings(
-        configuration, (branch,), branch, freedoms, "numerical", False, generic, immobile, marked, bounds=bounds
-    )
+    count = _counted_by_modes(configuration, bounds)
+    known = count is not None and not count.at_least
+    if count is not None and known and marked != "has":
+        freedoms = max(freedoms or 0, *(more or 0 for more in count.kinds))
+    evidence = (known, generic, immobile, marked, None, bounds, count)
+    findings = MotionFindings(configuration, (branch,), branch, freedoms, "numerical", *evidence)
     return _worded(findings, "motion")
+
+
+_MOST_COUNTED = 2500
+"""Modes of so many vertices are counted: a sheet of 50 x 50 panels takes two seconds."""
+
+
+def _counted_by_modes(configuration: Configuration, bounds: FreedomBounds) -> BranchCount | None:
+    """Return how many branches a large flat sheet of degree-4 vertices has; None for others."""
+    linkage = configuration.linkage
+    if not configuration.flat or len(linkage.loops) > _MOST_COUNTED or not FlatVertices(linkage).linear:
+        return None
+    modes = count_of_modes(linkage)
+    if modes is None or modes.kinds.total() < bounds.branches:
+        return None
+    return BranchCount(modes.kinds, not modes.all, False)
 
 
 def _bounds_of_one(configuration: Configuration, end: Floats, moving: Ints) -> FreedomBounds:
@@ -238,10 +257,11 @@ def _of_branches(configuration: Configuration, search: Branches, generic: int | 
         still = still.intersection(*(branch.stiff_joints for branch in elsewhere))
         immobile = tuple(joint for joint in configuration.joints if joint in still)
     written = _as_written(configuration)
-    bounds = None if search.complete or stated is None else _bounds_of_search(configuration, kinds, stated)
+    counted = search.complete or not search.at_least
+    bounds = None if counted or stated is None else _bounds_of_search(configuration, kinds, stated)
     proved = search.proved and not elsewhere and not configuration.unsettled
     count = BranchCount(kinds, search.at_least and bool(branches), proved)
-    evidence = (certainty, search.complete, generic, immobile, marked, written, bounds, count)
+    evidence = (certainty, counted, generic, immobile, marked, written, bounds, count)
     findings = MotionFindings(configuration, branches, stated, freedoms, *evidence)
     exhaustive = search.exhaustive and not configuration.unsettled
     basis: Basis = "pose" if search.regular and certainty == "proved" else "motion"

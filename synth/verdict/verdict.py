@@ -407,7 +407,8 @@ def _branches(findings: MotionFindings) -> list[str]:
 def _bounds(findings: MotionFindings) -> list[str]:
     """Return the sentence on the branches that were not searched for: how many at least, how free at most."""
     bounds = findings.bounds
-    if bounds is None or bounds.settled:
+    counted = findings.count is not None and not findings.count.at_least
+    if bounds is None or bounds.settled or counted:
         return []
     kind = "folding branch" if findings.at.flat else "motion branch"
     freest = _between(*bounds.freest)
