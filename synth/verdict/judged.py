@@ -120,7 +120,10 @@ def _of_one_motion(configuration: Configuration, generic: int | None) -> Verdict
     if rates is None or far <= DOUBLE.moved:
         return _of_no_motion(configuration, generic, rigid=begun.rigid)
     moving = np.flatnonzero((np.abs(rates) > DOUBLE.zero_rate) | (np.abs(end - linkage.angles) > DOUBLE.immobile))
-    bounds = _bounds_of_one(configuration, end, moving)
+    # near the flat state singular values fall with the fold angle: freedoms are read where the motion is folded most
+    folded = begun.folded
+    place = folded.folded if folded is not None and folded.found_at > far else end
+    bounds = _bounds_of_one(configuration, place, moving)
     least, most = bounds.stated
     freedoms = most if least == most else None
     turning = set(moving.tolist())
@@ -154,9 +157,9 @@ def _counted_by_modes(configuration: Configuration, bounds: FreedomBounds) -> Br
 
 
 def _bounds_of_one(configuration: Configuration, end: Floats, moving: Ints) -> FreedomBounds:
-    """Return bounds of freedoms and of the number of branches, by one that was traced to an end, float[J].
+    """Return bounds of freedoms and of the number of branches, by one that leads to a folded state, float[J].
 
-    At the end, the freedoms of joints that move, int[n], are at most their infinitesimal ones. They are as many if
+    There, the freedoms of joints that move, int[n], are at most their infinitesimal ones. They are as many if
     general rates close; otherwise at least as many as there are more joints than equations, and one. Straight folds
     are other branches if nothing else begins where they are folded, or one of them has more freedoms than there are
     rates at the end.
