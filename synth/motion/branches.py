@@ -28,6 +28,7 @@ from synth.motion.singular.complete import has_points_only, line_of, point_rates
 from synth.motion.singular.immobile import immobile_joints, without
 from synth.motion.singular.joint_order import in_order, joint_order
 from synth.motion.singular.mode_count import count_of_modes
+from synth.motion.singular.monodromy import is_irreducible
 from synth.motion.singular.nearest import spaces_near
 from synth.motion.singular.sampling import (
     TracedBranch,
@@ -189,21 +190,12 @@ def _branches_of_one(branch_search: _BranchSearch, linkage: PosedLinkage, closur
     exhaustive = exhaustive or branch_search.all_regular(branches)
     method: Method = "regular pose" if regular else branch_search.method(spaces)
     complete = branch_search.complete
-    counted = complete and branch_search.all_rates and all(map(_is_whole_part, branches))
+    counted = complete and branch_search.all_rates and all(map(branch_search.is_whole, branches))
     answer = Branches(branches, exhaustive and complete, regular, complete, method, order=order, counted=counted)
     modes = count_of_modes(branch_search.linkage) if branch_search.vertices.linear and not complete else None
     if modes is None or modes.kinds.total() < answer.count:
         return answer
     return replace(answer, total=modes.kinds, counted=modes.all)
-
-
-def _is_whole_part(branch: Branch) -> bool:
-    """Tell whether a branch has all rates that second order leaves where it begins, and is alone there.
-
-    One quadric of three squares or more is irreducible; of several equations that is not known.
-    """
-    moves = branch.certainty != "not known"
-    return moves and len(branch.space.left) < 2 and branch.freedoms == most_freedoms(branch.space, branch.rates)
 
 
 def all_branches_of_many(linkage: PosedLinkage, closure: ClosureEquations, towards: Floats | None) -> Branches | None:
@@ -265,6 +257,7 @@ class _Beginning:
     space: second_order.RateSpace
     rates: Floats
     certified: bool = False
+    component: int | None = None
 
 
 class _BranchSearch:
@@ -278,6 +271,7 @@ class _BranchSearch:
         towards = None if search.towards is None else search.towards[self._order]
         self.search = replace(search, towards=towards)
         self.complete = self.all_spaces = self.all_rates = True
+        self._of_one_component: set[int] = set()
         self.vertices = FlatVertices(self.linkage)
         joints_of = [frozenset(self._order[list(loop.joints)].tolist()) for loop in self.linkage.loops]
         place_of_loop = {joints: place for place, joints in enumerate(joints_of)}
@@ -322,9 +316,20 @@ class _BranchSearch:
                 break
             spaces.append(space)
         self.complete = self.all_spaces = self.complete and not self._work.used_up
+        if not self.complete and (lines := self._all_points()):
+            self.complete = self.all_spaces = True
+            return lines
         if not self.complete:
             spaces = [*self._towards(), *spaces]
         return second_order.largest_only(spaces, self.search.zero)
+
+    def _all_points(self) -> list[second_order.RateSpace]:
+        """Return all rates that agree to second order where these are certified points, more than cases were listed."""
+        whole = second_order.RateSpace(self._tangent, tuple(self._quadrics))
+        if self.vertices.linear or self._stresses != len(self._quadrics) or not has_points_only(whole):
+            return []
+        points = point_rates(whole)
+        return [line_of(rates) for rates in points.rates] if points and points.evidence == "proved" else []
 
     def _towards(self) -> list[second_order.RateSpace]:
         """Return the space near to the rates that are wanted, if any are."""
@@ -360,7 +365,7 @@ class _BranchSearch:
     def method(self, spaces: list[second_order.RateSpace]) -> Method:
         """Return how branches are found at a singular pose."""
         if any(len(space.left) > 1 for space in spaces):
-            return "all solutions" if self.all_rates else "random starts"
+            return "all solutions" if self.all_rates and not self._of_one_component else "random starts"
         return "all modes" if self.vertices.linear else "second order"
 
     def full_row_rank(self) -> bool:
@@ -373,11 +378,10 @@ class _BranchSearch:
     def parts(self, spaces: list[second_order.RateSpace]) -> list[_Beginning]:
         """Return general rates of each part of all spaces, with the space, in the order of branches."""
         parts: list[_Beginning] = []
-        for space in spaces:
+        for number, space in enumerate(spaces):
             points = point_rates(space) if has_points_only(space) else None
-            self.all_rates = self.all_rates and (points is not None or len(space.left) < 2)
             if points is None:
-                parts += self._general(space)
+                parts += self._general(space, number)
                 continue
             for rates in points.rates:
                 if not any(_is_on(rates, part.space) for part in parts):
@@ -385,13 +389,20 @@ class _BranchSearch:
                     parts.append(beginning)
         return [parts[place] for place in canonical_order([_rank_of(part.space, part.rates) for part in parts])]
 
-    def _general(self, space: second_order.RateSpace) -> list[_Beginning]:
-        """Return general rates of each part of a space; where points are left, as far as random starts find them."""
+    def _general(self, space: second_order.RateSpace, number: int) -> list[_Beginning]:
+        """Return general rates of each part of a space; of several equations, as far as random starts find them.
+
+        If what these leave is irreducible all parts are ways to begin one branch.
+        """
+        several = len(space.left) > 1
+        if several and is_irreducible(second_order.local_forms(space.basis, space.left)):
+            self._of_one_component.add(number)
+        self.all_rates = self.all_rates and (not several or number in self._of_one_component)
         search, work = self.search, self._work
         here, whole = general_rates(space, search.most, search.towards, lambda: not work.take(_START))
         self.complete = self.complete and whole
         line = space.basis.shape[1] == 1 and not space.left
-        return [_Beginning(space, rates, line) for rates in here]
+        return [_Beginning(space, rates, line, number if several else None) for rates in here]
 
     def all_regular(self, branches: Sequence[Branch]) -> bool:
         """Tell whether branches are all there are: they begin at all rates that agree to second order, all regular.
@@ -476,7 +487,17 @@ class _BranchSearch:
         elif part.certified and beside == 1:
             freedoms, certainty = 1, "proved"
         modes, begun = self.vertices.modes(rates), not late or certainty == "proved"
-        return Branch(freedoms, certainty, space, rates, still, modes, end.sample, end.error, end.far, begun)
+        followed_to = (end.sample, end.error, end.far, begun, part.component)
+        return Branch(freedoms, certainty, space, rates, still, modes, *followed_to)
+
+    def is_whole(self, branch: Branch) -> bool:
+        """Tell whether a branch has all rates that second order leaves where it begins, and is alone there.
+
+        One quadric of three squares or more is irreducible; of several that is shown by monodromy.
+        """
+        moves = branch.certainty != "not known"
+        alone = len(branch.space.left) < 2 or branch.component in self._of_one_component
+        return moves and alone and branch.freedoms == most_freedoms(branch.space, branch.rates)
 
 
 def _is_on(rates: Floats, space: second_order.RateSpace) -> bool:

@@ -64,6 +64,9 @@ class Branch:
         How far the joint that moves most has moved there, radians.
     begun : bool
         Whether it was followed, or proved; False if the search had nothing left for it.
+    component : int or None
+        Of equations that leave one space of rates with more than points: the number of that space. Ways to begin
+        with one number, such as with vertices popped up or down, are counted as one branch.
 
     Examples
     --------
@@ -82,6 +85,7 @@ class Branch:
     error: float
     followed: float
     begun: bool = True
+    component: int | None = None
 
     @property
     def signs(self) -> str:
@@ -223,7 +227,10 @@ class Branches:
         if self.total is not None:
             return self.total
         if not self.parts:
-            return Counter(branch.freedoms for branch in self.branches if branch.certainty != "not known")
+            known = [branch for branch in self.branches if branch.certainty != "not known"]
+            alone = Counter(branch.freedoms for branch in known if branch.component is None)
+            together = {branch.component: branch.freedoms for branch in known if branch.component is not None}
+            return alone + Counter(together.values())
         total: Counter[int | None] = Counter({0: 1})
         for part in self.parts:
             sums: Counter[int | None] = Counter()

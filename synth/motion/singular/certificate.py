@@ -13,7 +13,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import flint
 import numpy as np
 import numpy.typing as npt
 
@@ -43,6 +42,12 @@ class CertifiedPoint:
     real: bool
 
 
+def _flint() -> Any:
+    import flint  # motions that need no certificate go without it
+
+    return flint
+
+
 class FormBalls:
     """Quadratic forms in balls: each entry is uncertain by a part of the largest of all."""
 
@@ -50,7 +55,7 @@ class FormBalls:
         self._forms = forms / np.abs(forms).max()
         self._count, self._size = forms.shape[:2]
         rows = self._forms.reshape(-1, self._size).tolist()
-        self._real = flint.arb_mat([[flint.arb(entry, error) for entry in row] for row in rows])
+        self._real = _flint().arb_mat([[_flint().arb(entry, error) for entry in row] for row in rows])
         self._complex: Any = None
 
     def certified(self, point: npt.NDArray[np.complex128]) -> CertifiedPoint | None:
@@ -78,7 +83,7 @@ class FormBalls:
         *,
         real: bool,
     ) -> CertifiedPoint | None:
-        made = (flint.arb_mat, _arb) if real else (flint.acb_mat, _acb)
+        made = (_flint().arb_mat, _arb) if real else (_flint().acb_mat, _acb)
         about = self._box(middle, chart, 0.0, real=real)
         values = self._slopes(about, real=real) * about
         nearly = made[0](inverse.tolist())
@@ -101,25 +106,25 @@ class FormBalls:
         ball: Any = _arb if real else _acb
         entries: list[Any] = (middle.real if real else middle).tolist()
         balls = [[ball(entry, 0.0 if place == chart else width)] for place, entry in enumerate(entries)]
-        return (flint.arb_mat if real else flint.acb_mat)(balls)
+        return (_flint().arb_mat if real else _flint().acb_mat)(balls)
 
     def _slopes(self, box: Any, *, real: bool) -> Any:
         """Return half the derivatives of all forms over a box, a matrix of balls."""
         if not real and self._complex is None:
-            self._complex = flint.acb_mat(self._real)
+            self._complex = _flint().acb_mat(self._real)
         products = (self._real if real else self._complex) * box
         entries = products.entries()
-        made = flint.arb_mat if real else flint.acb_mat
+        made = _flint().arb_mat if real else _flint().acb_mat
         return made(self._count, self._size, entries)
 
 
 def _arb(entry: float, width: float) -> Any:
-    return flint.arb(entry, width)
+    return _flint().arb(entry, width)
 
 
 def _acb(entry: complex, width: float) -> Any:
     entry = complex(entry)
-    return flint.acb(flint.arb(entry.real, width), flint.arb(entry.imag, width))
+    return _flint().acb(_flint().arb(entry.real, width), _flint().arb(entry.imag, width))
 
 
 def _reach(ball: Any, *, real: bool) -> float:

@@ -87,7 +87,7 @@ FOLLOWED = radians(10.0)
 """How far each branch is followed, radians of the joint that moves most."""
 _STARTS = 60
 """Starts of the search for rates on which equations are left, for each pattern of signs."""
-_IDLE = 24
+_IDLE = 16
 """After so many starts that lead to nothing new, as many again for each part that was found, the search ends."""
 _NEWTON, _ROUNDED = 30, 1e-14
 _BESIDE, _ASIDE = 8, 0.3
