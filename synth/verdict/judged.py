@@ -134,7 +134,7 @@ def _of_one_motion(configuration: Configuration, generic: int | None) -> Verdict
     marked = _as_marked(configuration.marks, rates)
     count = _counted_by_modes(configuration, bounds)
     known = count is not None and not count.at_least
-    if count is not None and known and marked != "has":
+    if count is not None and marked != "has":
         freedoms = max(freedoms or 0, *(more or 0 for more in count.kinds))
     evidence = (known, generic, immobile, marked, None, bounds, count)
     findings = MotionFindings(configuration, (branch,), branch, freedoms, "numerical", *evidence)

@@ -22,7 +22,7 @@ from graphs.types import Floats, Ints
 
 Complexes = npt.NDArray[np.complex128]
 
-_FIRST, _LEAST, _MOST = 0.02, 1e-7, 0.1
+_FIRST, _LEAST, _MOST = 0.02, 1e-9, 0.1
 """Steps of the parameter from 1 to 0: at the beginning, where a path is given up, and at most."""
 _NEAR, _ALIKE, _ROUNDED = 1e-4, 1e-9, 1e-14
 """A predicted point may be off by the first; Newton's method has to come as near as the second in three corrections,
