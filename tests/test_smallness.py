@@ -78,6 +78,8 @@ EXEMPT = {
     ("synth/motion/singular/homotopy.py", "_LEAST"): "length of a step at which a path is given up",
     ("synth/motion/singular/homotopy.py", "_NEAR"): "error of a step",
     ("synth/motion/singular/homotopy.py", "_ROUNDED"): "end of an iteration",
+    ("synth/motion/singular/mode_count.py", "_AGREE"): "how well proportions agree that are known to 1e-9 each",
+    ("synth/motion/singular/monodromy.py", "_SAME"): "how well two points of a plane agree",
     ("synth/motion/singular/immobile.py", "_FIGURES"): "which shares make a candidate, which is proved then",
     ("synth/folding/mending/fitting.py", "_HELD"): "weight of a held joint",
     ("synth/folding/mending/fitting.py", "_LEAST_VALUE"): "regularisation of a step",

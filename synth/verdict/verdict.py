@@ -277,7 +277,7 @@ _ASSIGNMENT = {
     "none has": ", but not with the given assignment (proved)",
     "none found": ", but no branch with the given assignment was found",
 }
-_TO_GO_ON = "The search for branches ended at its work limit; try --more."
+_TO_GO_ON = "The search for branches ended at its work limit; try synth mobility --more."
 
 
 @dataclass(frozen=True, slots=True)
