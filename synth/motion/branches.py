@@ -24,7 +24,7 @@ from synth.motion.flat_vertices import FlatVertices
 from synth.motion.germ import Branch, Branches, Certainty, Method, Part, product_of, signs_of
 from synth.motion.linkage import LinkagePart, PosedLinkage, part_of, parts_of
 from synth.motion.singular import second_order
-from synth.motion.singular.complete import has_points_only, line_of, point_rates
+from synth.motion.singular.complete import has_points_only, line_of, point_rates, work_of
 from synth.motion.singular.immobile import immobile_joints, without
 from synth.motion.singular.joint_order import in_order, joint_order
 from synth.motion.singular.mode_count import count_of_modes
@@ -64,6 +64,9 @@ _START = 2e5
 """Work of a start of Newton's method, in products of numbers."""
 _STEPS, _AT_LEAST = 400, 20
 """All branches together may be followed so many steps, and each so many: ten degrees take nearly all 5 to 15."""
+_MOST_EXCHANGED = 64
+"""Of so many points on planes, of all spaces together, it is asked whether they are exchanged: a second or two. Unless
+all spaces are irreducible the number of branches is "at least" anyway."""
 _SAME = 1e-4
 """Rates, as unit vectors, that differ by less are one point: one of multiplicity is known so far."""
 _MORE = 100
@@ -379,7 +382,8 @@ class _BranchSearch:
         """Return general rates of each part of all spaces, with the space, in the order of branches."""
         parts: list[_Beginning] = []
         for number, space in enumerate(spaces):
-            points = point_rates(space) if has_points_only(space) else None
+            tried = has_points_only(space) and self._work.take(work_of(space))
+            points = point_rates(space) if tried else None
             if points is None:
                 parts += self._general(space, number)
                 continue
@@ -395,7 +399,8 @@ class _BranchSearch:
         If what these leave is irreducible all parts are ways to begin one branch.
         """
         several = len(space.left) > 1
-        if several and is_irreducible(second_order.local_forms(space.basis, space.left)):
+        few = sum(2 ** len(other.left) for other in self.spaces if len(other.left) > 1) <= _MOST_EXCHANGED
+        if several and few and is_irreducible(second_order.local_forms(space.basis, space.left)):
             self._of_one_component.add(number)
         self.all_rates = self.all_rates and (not several or number in self._of_one_component)
         search, work = self.search, self._work

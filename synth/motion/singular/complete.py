@@ -19,8 +19,10 @@ from synth.motion.singular.elimination import real_points
 from synth.motion.singular.homotopy import path_ends
 from synth.motion.singular.second_order import RateSpace, local_forms
 
-MOST_FORMS = 12
-"""Of more forms 2^m paths are too many to follow: 4096 take half a minute."""
+MOST_FORMS = 10
+"""Of more forms 2^m paths are too many to follow: 1024 take two seconds."""
+_EVALUATIONS = 2000.0
+"""How often forms are evaluated along a path, with what is solved there, in products of numbers for each entry."""
 _TRIES, _FEW_LOST = 3, 0.9
 """Where paths jumped to a neighbour, or a few are lost, all are followed again with another start system, so many
 times; where more than a tenth are lost the points are no regular ones."""
@@ -40,6 +42,12 @@ class PointRates:
 def has_points_only(space: RateSpace) -> bool:
     """Tell whether the equations left on a space may leave points only: they are at least its dimensions less one."""
     return len(space.left) > 1 and len(space.left) >= space.basis.shape[1] - 1
+
+
+def work_of(space: RateSpace) -> float:
+    """Return the work of finding all points of a space by paths, in products of numbers."""
+    count, size = len(space.left), space.basis.shape[1]
+    return float(_EVALUATIONS * 2 ** min(size - 1, MOST_FORMS) * count * size**2)
 
 
 def point_rates(space: RateSpace) -> PointRates | None:
