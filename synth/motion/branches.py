@@ -24,7 +24,7 @@ from synth.motion.flat_vertices import FlatVertices
 from synth.motion.germ import Branch, Branches, Certainty, Method, Part, product_of, signs_of
 from synth.motion.linkage import LinkagePart, PosedLinkage, part_of, parts_of
 from synth.motion.singular import second_order
-from synth.motion.singular.complete import has_points_only, line_of, point_rates, work_of
+from synth.motion.singular.complete import PointRates, has_points_only, line_of, point_rates, work_of
 from synth.motion.singular.immobile import immobile_joints, without
 from synth.motion.singular.joint_order import in_order, joint_order
 from synth.motion.singular.mode_count import count_of_modes
@@ -273,7 +273,7 @@ class _BranchSearch:
         self.closure = ClosureEquations(self.linkage)
         towards = None if search.towards is None else search.towards[self._order]
         self.search = replace(search, towards=towards)
-        self.complete = self.all_spaces = self.all_rates = True
+        self.complete = self.all_spaces = self.all_rates = self._all_proved = True
         self._of_one_component: set[int] = set()
         self.vertices = FlatVertices(self.linkage)
         joints_of = [frozenset(self._order[list(loop.joints)].tolist()) for loop in self.linkage.loops]
@@ -381,12 +381,16 @@ class _BranchSearch:
     def parts(self, spaces: list[second_order.RateSpace]) -> list[_Beginning]:
         """Return general rates of each part of all spaces, with the space, in the order of branches."""
         parts: list[_Beginning] = []
+        solved: list[PointRates] = []
         for number, space in enumerate(spaces):
             tried = has_points_only(space) and self._work.take(work_of(space))
             points = point_rates(space) if tried else None
             if points is None:
                 parts += self._general(space, number)
-                continue
+            else:
+                solved.append(points)
+        self._all_proved = all(points.evidence == "proved" for points in solved)
+        for points in solved:  # last: a point on a larger space is no part of its own
             for rates in points.rates:
                 if not any(_is_on(rates, part.space) for part in parts):
                     beginning = _Beginning(line_of(rates), rates / np.abs(rates).max(), points.evidence == "proved")
@@ -416,7 +420,7 @@ class _BranchSearch:
         """
         lines = all(branch.space.basis.shape[1] == 1 and not branch.space.left for branch in branches)
         proved = all(branch.certainty == "proved" for branch in branches)
-        return self.all_spaces and self.all_rates and lines and proved
+        return self.all_spaces and self.all_rates and self._all_proved and lines and proved
 
     def branches(self, spaces: list[second_order.RateSpace], *, proved: bool) -> tuple[Branch, ...]:
         """Return the branches of all spaces in the order of the file, those that were not followed last."""
