@@ -269,6 +269,11 @@ def _rates_with(basis: Floats, marks: Floats) -> Floats | None:
     marked = marks != 0.0
     if not basis.shape[1]:
         return None
+    if basis.shape[1] == 1:  # one ray or its opposite: no programme is needed
+        along = marks[marked] * basis[marked, 0]
+        least = float(np.abs(along).min()) if (along > 0.0).all() or (along < 0.0).all() else 0.0
+        clear = least > DOUBLE.zero_rate * float(np.abs(basis).max())
+        return np.asarray(np.sign(along[0]) * basis[:, 0] / least) if clear else None
     rows = -marks[marked, None] * basis[marked]
     inside = _cheapest(-rows.sum(axis=0), rows, -np.ones(len(rows)), (None, None))
     return np.asarray(basis @ inside.x) if inside.status == 0 else None
