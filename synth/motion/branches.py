@@ -404,7 +404,7 @@ class _BranchSearch:
         """
         several = len(space.left) > 1
         few = sum(2 ** len(other.left) for other in self.spaces if len(other.left) > 1) <= _MOST_EXCHANGED
-        if several and few and is_irreducible(second_order.local_forms(space.basis, space.left)):
+        if several and few and self.all_spaces and is_irreducible(second_order.local_forms(space.basis, space.left)):
             self._of_one_component.add(number)
         self.all_rates = self.all_rates and (not several or number in self._of_one_component)
         search, work = self.search, self._work
