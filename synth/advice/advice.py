@@ -28,9 +28,9 @@ from synth.advice.diagonals import (
 )
 from synth.advice.locks import Cost, GeneralPose, cheapest_sets, general_pose, held
 from synth.folding.configuration import SheetConfiguration
-from synth.motion.branches import Branch
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
+from synth.motion.germ import Branch
 from synth.motion.walk.step import Allowance
 from synth.moving.made import Movable, configuration_of
 

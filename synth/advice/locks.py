@@ -93,7 +93,7 @@ def general_pose(configuration: Configuration, branch: int | str | None = None) 
         rates = rates_at(configuration.closure, linkage.angles)
         return GeneralPose(linkage, rates, None, here[0], here[1], rigid=True)
     number, _ = beginning(configuration, BranchChoice(branch))
-    chosen = branches.branches[number or 0]
+    chosen = branches.branch(number or 0)
     angles, rates = _regular(configuration, linkage.angles if number is None else chosen.sample, chosen.freedoms)
     if number is None:
         return GeneralPose(linkage, rates, None, *here)

@@ -22,8 +22,9 @@ from graphs.rank.exact import independent_cycles
 from graphs.rank.singular_values import null_space, rank_of, spectrum
 from graphs.tolerances import DOUBLE, pivots
 from graphs.types import Floats, Ints, JointId, LinkId
-from synth.motion.branches import MOST_JOINTS, Certainty, branches_of, search_for
+from synth.motion.branches import MOST_JOINTS, branches_of, search_for
 from synth.motion.closure import ClosureEquations
+from synth.motion.germ import Certainty
 from synth.motion.linkage import PosedLinkage, PosedLoop
 
 

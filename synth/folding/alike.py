@@ -337,7 +337,7 @@ def _followed(start: _Start, driver: int, angle: float, frames: int, *, straight
     limited = np.ones(len(joints), dtype=bool)
     still, allowance = tuple[int, ...](), Allowance(_STEPS)
     if start.branch is not None and pattern.branches is not None:
-        still = pattern.branches.branches[start.branch].still
+        still = pattern.branches.branch(start.branch).still
     options = PathOptions(start.rates, limited, straight, names=joints, allowance=allowance, locked=still)
     goals = [[goal * (number + 1) / frames] for number in range(frames)]
     path = driven_path(start.closure, pattern.linkage.angles, [driver], goals, options=options)

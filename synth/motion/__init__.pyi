@@ -1,10 +1,4 @@
-from synth.motion.branches import (
-    Branch as Branch,
-    Branches as Branches,
-    Search as Search,
-    branches_of as branches_of,
-    first_branch as first_branch,
-)
+from synth.motion.branches import Search as Search, branches_of as branches_of, first_branch as first_branch
 from synth.motion.closure import ClosureEquations as ClosureEquations
 from synth.motion.derivatives import (
     AxisChange as AxisChange,
@@ -15,6 +9,7 @@ from synth.motion.derivatives import (
     derivatives_by_parameters as derivatives_by_parameters,
     spatial as spatial,
 )
+from synth.motion.germ import Branch as Branch, Branches as Branches
 from synth.motion.linkage import (
     PosedLinkage as PosedLinkage,
     link_motions as link_motions,

@@ -6,24 +6,29 @@ Each branch is followed to a fold of ten degrees; its degrees of freedom are tho
 the sign of all rates together; farther off, two of them may be one curve. Theory: docs/theory/folding.md.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import islice
-from math import degrees, inf, pi
-from typing import Any, Literal
+from math import inf
 
-import networkx as nx
 import numpy as np
 
-from graphs.geometry import lines_meet, sectors, unit
-from graphs.loops.loop import Centre
 from graphs.rank.singular_values import inertia, rank_of, spectrum
-from graphs.tolerances import DOUBLE, MARGIN, canonical_basis, canonical_order, signed
-from graphs.types import Floats, Ints, JointId
+from graphs.tolerances import DOUBLE, canonical_basis, canonical_order, signed
+from graphs.types import Floats, Ints
 from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import PosedLinkage, PosedLoop
+from synth.motion.flat_vertices import FlatVertices
+from synth.motion.germ import Branch, Branches, Certainty, Method, Part, product_of, signs_of
+from synth.motion.linkage import LinkagePart, PosedLinkage, part_of, parts_of
 from synth.motion.singular import second_order
+from synth.motion.singular.complete import PointRates, has_points_only, line_of, point_rates, work_of
+from synth.motion.singular.immobile import immobile_joints, without
 from synth.motion.singular.joint_order import in_order, joint_order
+from synth.motion.singular.mode_count import count_of_modes
+from synth.motion.singular.monodromy import is_irreducible
 from synth.motion.singular.nearest import spaces_near
 from synth.motion.singular.sampling import (
     TracedBranch,
@@ -35,98 +40,6 @@ from synth.motion.singular.sampling import (
     same_part,
 )
 from synth.motion.walk.step import Allowance
-
-
-class FlatVertices:
-    """The loops of a linkage that are flat vertices of four creases, each with two modes.
-
-    In either mode one pair of opposite creases folds the same way and the other does not. `linear` says that in
-    all loops opposite sectors make 180 degrees, and all creases are flat: tan(fold / 2) are in proportion in each
-    mode.
-    """
-
-    def __init__(self, linkage: PosedLinkage) -> None:
-        self._loops = linkage.loops
-        self._ways: list[Floats | None] = []
-        flat = [np.abs(linkage.angles).max(initial=0.0) <= DOUBLE.parallel]
-        for loop in linkage.loops:
-            outward, folds = _outward(linkage, loop), None
-            if outward is not None:  # 1 for creases that fold one way at a positive angle, -1 for others
-                folds = np.sign((outward * linkage.directions[list(loop.joints)]).sum(axis=1)) * loop.signs
-            # opposite sectors make 180 degrees
-            flat.append(outward is not None and abs(sectors(outward)[::2].sum() - pi) <= DOUBLE.parallel)
-            self._ways.append(folds)
-        self.linear = bool(all(flat))
-
-    def modes(self, rates: Floats) -> tuple[tuple[int, int] | None, ...]:
-        """Return the opposite creases (places) that fold alike at each vertex, by general rates; else None."""
-        return tuple(_mode(loop, ways, rates) for loop, ways in zip(self._loops, self._ways, strict=True))
-
-
-def _mode(loop: PosedLoop, ways: Floats | None, rates: Floats) -> tuple[int, int] | None:
-    if ways is None:
-        return None
-    folds = rates[list(loop.joints)] * ways
-    alike = folds[:2] * folds[2:]
-    same = int(alike[1] > alike[0] + MARGIN * abs(float(alike[0])))
-    first, second = sorted(loop.joints[same::2])
-    return (first, second) if alike[same] > DOUBLE.zero_rate**2 else None
-
-
-def _outward(linkage: PosedLinkage, loop: PosedLoop) -> Floats | None:
-    """Return the directions of four creases away from a flat vertex: float[4, 3]; None of other loops."""
-    joints = list(loop.joints)
-    if loop.centre is not Centre.FINITE or len(joints) != 4:
-        return None
-    points = linkage.points[joints]
-    away = points - lines_meet(points, linkage.directions[joints]).point
-    if np.linalg.norm(away, axis=1).min() <= DOUBLE.same_point:  # no crease, but an axis through that point
-        return None
-    outward = unit(away)
-    return outward if abs(sectors(outward).sum() - 2 * pi) <= DOUBLE.parallel else None
-
-
-def straight_folds(linkage: PosedLinkage) -> tuple[Ints, ...]:
-    """Return for each family of parallel lines along which a flat sheet folds straight the line of each joint, int[J].
-
-    It is -1 for joints that are on none. A line is of creases that go on straight at every vertex, and beyond holes;
-    all its creases fold alike. Parallel lines meet at no vertex, so their angles are free. Whether loops round holes
-    close then is left to the caller.
-    """
-    size = len(linkage.angles)
-    next_to, ends = nx.Graph(), np.zeros(size, dtype=bool)
-    next_to.add_nodes_from(range(size))
-    by_size: dict[int, list[tuple[int, ...]]] = {}
-    for loop in linkage.loops:
-        by_size.setdefault(len(loop.joints), []).append(loop.joints)
-    for joints in map(np.array, by_size.values()):
-        along, at = linkage.directions[joints][:, :, None], linkage.points[joints]
-        turned = np.abs(np.cross(along, along.transpose(0, 2, 1, 3))).max(axis=3)
-        beside = np.abs(np.cross(along, at[:, :, None] - at[:, None])).max(axis=3)
-        same = (turned <= DOUBLE.parallel) & (beside <= DOUBLE.same_point)
-        ends[joints[same.sum(axis=2) == 1]] = True  # of itself alone: the line does not go on
-        loops, one, other = np.nonzero(np.triu(same, 1))
-        next_to.add_edges_from(zip(joints[loops, one].tolist(), joints[loops, other].tolist(), strict=True))
-    whole = [sorted(line) for line in nx.connected_components(next_to) if not ends[list(line)].any()]
-    families: list[tuple[Floats, list[list[int]]]] = []
-    for line in sorted(whole):
-        along = linkage.directions[line[0]]
-        near = (lines for first, lines in families if np.abs(np.cross(first, along)).max() <= DOUBLE.parallel)
-        family = next(near, None)
-        if family is None:
-            families.append((along, family := []))
-        family.append(line)
-    numbers = []
-    for _, family in families:
-        number = np.full(size, -1)
-        for place, line in enumerate(family):
-            number[line] = place
-        numbers.append(number)
-    return tuple(numbers)
-
-
-Certainty = Literal["proved", "numerical", "not known"]
-Method = Literal["regular pose", "all modes", "second order", "random starts"]
 
 MOST_JOINTS, MOST_SPARSE = 600, 10_000
 """Of linkages with more joints than the first branches are looked for only if they have few rates, and are listed only
@@ -144,12 +57,18 @@ _FOLLOWED = 2500
 """Joints of all branches that are followed, together: a few seconds. A number, so that answers do not depend on
 how fast a machine is."""
 
+_LEAST_FOLLOWED = 4
 _DEAD_ENDS = 20
 """After so many choices that leave nothing the space near to wanted rates is given up."""
 _START = 2e5
 """Work of a start of Newton's method, in products of numbers."""
 _STEPS, _AT_LEAST = 400, 20
 """All branches together may be followed so many steps, and each so many: ten degrees take nearly all 5 to 15."""
+_MOST_EXCHANGED = 64
+"""Of so many points on planes, of all spaces together, it is asked whether they are exchanged: a second or two. Unless
+all spaces are irreducible the number of branches is "at least" anyway."""
+_SAME = 1e-4
+"""Rates, as unit vectors, that differ by less are one point: one of multiplicity is known so far."""
 _MORE = 100
 """Factor on the limits of a search with --more."""
 
@@ -189,127 +108,7 @@ def search_for(joints: int, towards: Floats | None, *, more: bool = False) -> Se
     """Return how far branches of so many joints are looked for: a few seconds, or a hundred times more."""
     if more:
         return Search(_MORE * MOST_BRANCHES, _MORE * MOST_WORK, towards=towards, steps=_MORE * _STEPS)
-    return Search(MOST_BRANCHES, MOST_WORK, follow=max(4, _FOLLOWED // max(joints, 1)), towards=towards)
-
-
-@dataclass(frozen=True, slots=True)
-class Branch:
-    """One motion branch from a configuration.
-
-    Attributes
-    ----------
-    freedoms : int or None
-        At a general configuration of the branch, to second order. None where no motion was found, or second order
-        does not decide.
-    certainty : {"proved", "numerical", "not known"}
-        Proved: the configuration is regular, the branch is linear in tan(fold / 2), or all that second order adds
-        is one equation that is not degenerate. Numerical: followed with closed loops. Not known: no motion was
-        found.
-    space : RateSpace
-        The rates at which it can begin.
-    rates : float[J]
-        Initial rates of one motion along the branch; the largest is 1 or -1.
-    still : tuple of int
-        Places of the joints that are immobile on it.
-    modes : tuple of (int, int) or None
-        For each loop that is a moving flat vertex of four creases the places of the opposite ones that fold alike.
-    sample : float[J]
-        Joint angles of a configuration on it, radians.
-    error : float
-        Loop-closure residual there.
-    followed : float
-        How far the joint that moves most has moved there, radians.
-    begun : bool
-        Whether it was followed, or proved; False if the search had nothing left for it.
-
-    Examples
-    --------
-    >>> import synth
-    >>> synth.move(synth.generate("miura", rows=2, columns=2).mechanism).branches.branches
-    (<Branch: +---, freedoms 1, proved>, <Branch: +00+, freedoms 1, proved>)
-    """
-
-    freedoms: int | None
-    certainty: Certainty
-    space: second_order.RateSpace
-    rates: Floats
-    still: tuple[int, ...]
-    modes: tuple[tuple[int, int] | None, ...]
-    sample: Floats
-    error: float
-    followed: float
-    begun: bool = True
-
-    @property
-    def signs(self) -> str:
-        """How each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all."""
-        return signs_of(self.rates)
-
-    def has_signs(self, signs: str) -> bool:
-        """Tell whether it has these signs, or all of them turned."""
-        return self.signs in (signs, signs.translate(str.maketrans("+-", "-+")))
-
-    def __repr__(self) -> str:
-        return f"<Branch: {self.signs}, freedoms {self.freedoms}, {self.certainty}>"
-
-    def to_json(self, joints: Sequence[JointId]) -> dict[str, Any]:
-        """Return plain data, joints by their ids: those of the linkage, in order."""
-        return {
-            "signs": self.signs,
-            "freedoms": self.freedoms,
-            "certainty": self.certainty,
-            "still": len(self.still),
-            "modes": [None if pair is None else [joints[place] for place in pair] for pair in self.modes],
-            "followed_deg": degrees(self.followed),
-            "closure": self.error,
-        }
-
-
-@dataclass(frozen=True, slots=True)
-class Branches:
-    """All branches that were found from a configuration.
-
-    Attributes
-    ----------
-    branches : tuple of Branch
-        Those on which most joints move first; of these, those with most rates; then by their signs in the order of
-        the joints.
-    exhaustive : bool
-        Whether there are no others: every choice of modes was tried, and rates that agree to second order are all
-        there are; the configuration is regular, and the one branch has as many freedoms as there are rates; all
-        that second order adds is one equation that is not degenerate; or nothing moves, and that is proved.
-    regular : bool
-        Whether the configuration is regular, with one branch.
-    complete : bool
-        Whether the search came to its end.
-    method : {"regular pose", "all modes", "second order", "random starts"}
-        How they were found: by every combination of modes of vertices that are linear in tan(fold / 2); by all
-        rates that agree to second order, each continued; random starts where several equations are left on these
-        that are no products.
-    rigidity : Rigidity or None
-        Without branches: whether it is proved that nothing moves.
-    order : tuple of int
-        Places of the joints in an order that does not depend on the file.
-    """
-
-    branches: tuple[Branch, ...]
-    exhaustive: bool
-    regular: bool
-    complete: bool
-    method: Method
-    rigidity: second_order.Rigidity | None = None
-    order: tuple[int, ...] = ()
-
-    @property
-    def no_motion(self) -> Certainty | None:
-        """Whether it is proved that nothing moves, or not known; None where something does."""
-        if any(branch.certainty != "not known" for branch in self.branches):
-            return None
-        return "not known" if self.rigidity is None else self.rigidity.certainty
-
-    def number_of(self, signs: str) -> int | None:
-        """Return the number of the first branch with these signs, or all of them turned; None without one."""
-        return next((number for number, branch in enumerate(self.branches) if branch.has_signs(signs)), None)
+    return Search(MOST_BRANCHES, MOST_WORK, follow=max(_LEAST_FOLLOWED, _FOLLOWED // max(joints, 1)), towards=towards)
 
 
 def branches_of(
@@ -334,8 +133,48 @@ def branches_of(
     >>> len(branches.branches), branches.exhaustive
     (2, True)
     """
-    branch_search = _BranchSearch(linkage, closure, search or Search())
-    spaces, order = branch_search.spaces(), branch_search.order
+    search = search or Search()
+    parts = parts_of(linkage)
+    if len(parts) > 1:
+        return _branches_of_parts(parts, search)
+    branch_search = _BranchSearch(linkage, closure, search)
+    if branch_search.may_be_degenerate and (held := immobile_joints(linkage, search.zero)):
+        return _branches_beside(linkage, held, search)
+    return _branches_of_one(branch_search, linkage, closure)
+
+
+def _branches_of_parts(parts: Sequence[LinkagePart], search: Search) -> Branches:
+    """Return the branches of a linkage by those of its parts."""
+    searches = (_search_of_part(search, part.joints, len(parts)) for part in parts)
+    own = (branches_of(part.linkage, None, each) for part, each in zip(parts, searches, strict=True))
+    return product_of([Part(*part, branches) for part, branches in zip(parts, own, strict=True)])
+
+
+def _branches_beside(linkage: PosedLinkage, held: Sequence[int], search: Search) -> Branches:
+    """Return the branches of a linkage in which some joints are proved to be immobile: those of the others."""
+    rest = without(linkage, set(held))
+    numbers = set(range(len(linkage.loops))) - (set() if rest is None else set(rest.loops))
+    rigid = part_of(linkage, held, sorted(numbers))
+    proof = second_order.Rigidity("cases", 0, None, None, ())
+    order = tuple(range(len(held)))
+    still = Part(*rigid, Branches((), True, False, True, "second order", proof, order))
+    if rest is None:
+        return still.branches
+    others = branches_of(rest.linkage, None, _search_of_part(search, rest.joints, 1))
+    return product_of([still, Part(*rest, others)])
+
+
+def _search_of_part(search: Search, joints: Ints, parts: int) -> Search:
+    """Return the search for the branches of one of several parts: they share the work, and what is followed."""
+    towards = None if search.towards is None else search.towards[joints]
+    follow = None if search.follow is None else max(_LEAST_FOLLOWED, search.follow // parts)
+    steps, work = max(_AT_LEAST, search.steps // parts), search.work / parts
+    return replace(search, towards=towards, follow=follow, steps=steps, work=work)
+
+
+def _branches_of_one(branch_search: _BranchSearch, linkage: PosedLinkage, closure: ClosureEquations | None) -> Branches:
+    """Return the motion branches of a linkage whose closure equations are of one part."""
+    spaces, order = branch_search.spaces, branch_search.order
     if not spaces and branch_search.complete:
         refuted = branch_search.search.all_or_none  # of many joints in an order in which cases end early
         rigidity = second_order.rigidity_of(linkage, closure, branch_search.search.zero, refuted=refuted)
@@ -347,12 +186,19 @@ def branches_of(
     regular = branch_search.is_regular(spaces)
     cone = branch_search.is_cone()
     branches = branch_search.branches(spaces, proved=cone or (regular and branch_search.full_row_rank()))
+    if not branches:
+        return Branches((), False, False, branch_search.complete, branch_search.method(spaces), order=order)
     agrees = regular and branches[0].freedoms == spaces[0].basis.shape[1]
     exhaustive = agrees or cone or (branch_search.vertices.linear and not any(space.left for space in spaces))
+    exhaustive = exhaustive or branch_search.all_regular(branches)
     method: Method = "regular pose" if regular else branch_search.method(spaces)
-    return Branches(
-        branches, exhaustive and branch_search.complete, regular, branch_search.complete, method, order=order
-    )
+    complete = branch_search.complete
+    counted = complete and branch_search.all_rates and all(map(branch_search.is_whole, branches))
+    answer = Branches(branches, exhaustive and complete, regular, complete, method, order=order, counted=counted)
+    modes = count_of_modes(branch_search.linkage) if branch_search.vertices.linear and not complete else None
+    if modes is None or modes.kinds.total() < answer.count:
+        return answer
+    return replace(answer, total=modes.kinds, counted=modes.all)
 
 
 def all_branches_of_many(linkage: PosedLinkage, closure: ClosureEquations, towards: Floats | None) -> Branches | None:
@@ -398,13 +244,23 @@ def first_branch(
     '+---'
     """
     branch_search = _BranchSearch(linkage, None, search or Search())
-    for space, part_rates in branch_search.parts(branch_search.spaces()):
-        rates = branch_search.ahead(part_rates)
-        if admitted(branch_search.as_filed(rates)):
-            branch = branch_search.branch(space, rates, proved=False, late=False)
+    for part in branch_search.parts(branch_search.spaces):
+        ahead = replace(part, rates=branch_search.ahead(part.rates))
+        if admitted(branch_search.as_filed(ahead.rates)):
+            branch = branch_search.branch(ahead, proved=False, late=False)
             if branch.certainty != "not known":
                 return branch_search.branch_as_filed(branch)
     return None
+
+
+@dataclass(frozen=True, slots=True)
+class _Beginning:
+    """General rates of a part of the rates that agree to second order; whether they are certified to be regular."""
+
+    space: second_order.RateSpace
+    rates: Floats
+    certified: bool = False
+    component: int | None = None
 
 
 class _BranchSearch:
@@ -417,7 +273,8 @@ class _BranchSearch:
         self.closure = ClosureEquations(self.linkage)
         towards = None if search.towards is None else search.towards[self._order]
         self.search = replace(search, towards=towards)
-        self.complete = self.all_spaces = True
+        self.complete = self.all_spaces = self.all_rates = self._all_proved = True
+        self._of_one_component: set[int] = set()
         self.vertices = FlatVertices(self.linkage)
         joints_of = [frozenset(self._order[list(loop.joints)].tolist()) for loop in self.linkage.loops]
         place_of_loop = {joints: place for place, joints in enumerate(joints_of)}
@@ -452,6 +309,7 @@ class _BranchSearch:
             sample=self.as_filed(branch.sample),
         )
 
+    @cached_property
     def spaces(self) -> list[second_order.RateSpace]:
         """Return the spaces of rates that agree to second order, as far as the search goes."""
         spaces: list[second_order.RateSpace] = []
@@ -461,9 +319,20 @@ class _BranchSearch:
                 break
             spaces.append(space)
         self.complete = self.all_spaces = self.complete and not self._work.used_up
+        if not self.complete and (lines := self._all_points()):
+            self.complete = self.all_spaces = True
+            return lines
         if not self.complete:
             spaces = [*self._towards(), *spaces]
         return second_order.largest_only(spaces, self.search.zero)
+
+    def _all_points(self) -> list[second_order.RateSpace]:
+        """Return all rates that agree to second order where these are certified points, more than cases were listed."""
+        whole = second_order.RateSpace(self._tangent, tuple(self._quadrics))
+        if self.vertices.linear or self._stresses != len(self._quadrics) or not has_points_only(whole):
+            return []
+        points = point_rates(whole)
+        return [line_of(rates) for rates in points.rates] if points and points.evidence == "proved" else []
 
     def _towards(self) -> list[second_order.RateSpace]:
         """Return the space near to the rates that are wanted, if any are."""
@@ -474,6 +343,13 @@ class _BranchSearch:
         near = wanted if rates is None else rates
         spaces = spaces_near(self._tangent, self._quadrics, near, self.search.zero)
         return [space for space in islice(spaces, _DEAD_ENDS) if space is not None][:1]
+
+    @property
+    def may_be_degenerate(self) -> bool:
+        """Whether joints that a few loops make immobile may hide that all else is regular: their forms are squares."""
+        spaces = self.spaces
+        settled = not spaces or self.vertices.linear or self.is_regular(spaces) or self.is_cone()
+        return not (settled or self.search.all_or_none)
 
     def is_regular(self, spaces: list[second_order.RateSpace]) -> bool:
         """Tell whether all rates that agree to first order agree to second."""
@@ -492,7 +368,7 @@ class _BranchSearch:
     def method(self, spaces: list[second_order.RateSpace]) -> Method:
         """Return how branches are found at a singular pose."""
         if any(len(space.left) > 1 for space in spaces):
-            return "random starts"
+            return "all solutions" if self.all_rates and not self._of_one_component else "random starts"
         return "all modes" if self.vertices.linear else "second order"
 
     def full_row_rank(self) -> bool:
@@ -502,15 +378,49 @@ class _BranchSearch:
         _, jacobian = self.closure.at(self.linkage.angles)
         return spectrum(jacobian.toarray(), DOUBLE.derivative).rank == self.closure.rows
 
-    def parts(self, spaces: list[second_order.RateSpace]) -> list[tuple[second_order.RateSpace, Floats]]:
+    def parts(self, spaces: list[second_order.RateSpace]) -> list[_Beginning]:
         """Return general rates of each part of all spaces, with the space, in the order of branches."""
-        parts: list[tuple[second_order.RateSpace, Floats]] = []
+        parts: list[_Beginning] = []
+        solved: list[PointRates] = []
+        for number, space in enumerate(spaces):
+            tried = has_points_only(space) and self._work.take(work_of(space))
+            points = point_rates(space) if tried else None
+            if points is None:
+                parts += self._general(space, number)
+            else:
+                solved.append(points)
+        self._all_proved = all(points.evidence == "proved" for points in solved)
+        for points in solved:  # last: a point on a larger space is no part of its own
+            for rates in points.rates:
+                if not any(_is_on(rates, part.space) for part in parts):
+                    beginning = _Beginning(line_of(rates), rates / np.abs(rates).max(), points.evidence == "proved")
+                    parts.append(beginning)
+        return [parts[place] for place in canonical_order([_rank_of(part.space, part.rates) for part in parts])]
+
+    def _general(self, space: second_order.RateSpace, number: int) -> list[_Beginning]:
+        """Return general rates of each part of a space; of several equations, as far as random starts find them.
+
+        If what these leave is irreducible all parts are ways to begin one branch.
+        """
+        several = len(space.left) > 1
+        few = sum(2 ** len(other.left) for other in self.spaces if len(other.left) > 1) <= _MOST_EXCHANGED
+        if several and few and self.all_spaces and is_irreducible(second_order.local_forms(space.basis, space.left)):
+            self._of_one_component.add(number)
+        self.all_rates = self.all_rates and (not several or number in self._of_one_component)
         search, work = self.search, self._work
-        for space in spaces:
-            here, whole = general_rates(space, search.most, search.towards, lambda: not work.take(_START))
-            self.complete = self.complete and whole
-            parts += [(space, rates) for rates in here]
-        return [parts[place] for place in canonical_order([_rank_of(*part) for part in parts])]
+        here, whole = general_rates(space, search.most, search.towards, lambda: not work.take(_START))
+        self.complete = self.complete and whole
+        line = space.basis.shape[1] == 1 and not space.left
+        return [_Beginning(space, rates, line, number if several else None) for rates in here]
+
+    def all_regular(self, branches: Sequence[Branch]) -> bool:
+        """Tell whether branches are all there are: they begin at all rates that agree to second order, all regular.
+
+        Motions begin at these rates, and beside regular ones there is one curve (`_freedoms_beside`).
+        """
+        lines = all(branch.space.basis.shape[1] == 1 and not branch.space.left for branch in branches)
+        proved = all(branch.certainty == "proved" for branch in branches)
+        return self.all_spaces and self.all_rates and self._all_proved and lines and proved
 
     def branches(self, spaces: list[second_order.RateSpace], *, proved: bool) -> tuple[Branch, ...]:
         """Return the branches of all spaces in the order of the file, those that were not followed last."""
@@ -524,25 +434,26 @@ class _BranchSearch:
         parts = self.parts(spaces)
         nearest = self._nearest(parts)
         begun, follow = 0, self.search.follow
-        for number, (space, rates) in enumerate(parts):
+        for number, part in enumerate(parts):
             late = number != nearest and (self._work.used_up if follow is None else begun >= follow)
             begun += not late
-            self.complete = self.complete and not late
-            yield self.branch(space, self.ahead(rates), proved=proved, late=late)
+            branch = self.branch(replace(part, rates=self.ahead(part.rates)), proved=proved, late=late)
+            self.complete = self.complete and branch.begun
+            yield branch
 
     def ahead(self, rates: Floats) -> Floats:
         """Return rates or their negatives: those whose first is positive, in the order of the file."""
         return np.asarray(signed(self.as_filed(rates))[self._order])
 
-    def _nearest(self, parts: Sequence[tuple[second_order.RateSpace, Floats]]) -> int:
+    def _nearest(self, parts: Sequence[_Beginning]) -> int:
         """Return the number of the part on which most joints go as is wanted."""
         towards = self.search.towards
         if towards is None or len(parts) < 2:
             return 0
         agree = []
-        for space, rates in parts:
-            near = rates_towards(space, towards)
-            there = near if near.any() and same_part(space, near, rates) else rates
+        for part in parts:
+            near = rates_towards(part.space, towards)
+            there = near if near.any() and same_part(part.space, near, part.rates) else part.rates
             agree.append(abs(float(np.sign(np.where(np.abs(there) > DOUBLE.zero_rate, there, 0.0)) @ towards)))
         return int(np.argmax(agree))
 
@@ -562,8 +473,9 @@ class _BranchSearch:
         independent = rank_of(slopes, DOUBLE.clear, scale=1.0) == self._stresses
         return int(slopes.shape[1] - self._stresses) if independent else None
 
-    def branch(self, space: second_order.RateSpace, rates: Floats, *, proved: bool, late: bool) -> Branch:
+    def branch(self, part: _Beginning, *, proved: bool, late: bool) -> Branch:
         """Return a branch that begins at some rates, followed unless it is late."""
+        space, rates = part.space, part.rates
         still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= DOUBLE.zero_rate).tolist())
         linear = self.vertices.linear and not space.left
         beside = None if linear or proved else self._freedoms_beside(rates)
@@ -581,13 +493,29 @@ class _BranchSearch:
             freedoms = None  # where it was traced to it meets a branch with more; no larger space has its rates
         if linear or proved:
             freedoms, certainty = space.basis.shape[1] - len(space.left), "proved"
-        modes, begun = self.vertices.modes(rates), not late or linear
-        return Branch(freedoms, certainty, space, rates, still, modes, end.sample, end.error, end.far, begun)
+        elif part.certified and beside == 1:
+            freedoms, certainty = 1, "proved"
+        modes, begun = self.vertices.modes(rates), not late or certainty == "proved"
+        followed_to = (end.sample, end.error, end.far, begun, part.component)
+        return Branch(freedoms, certainty, space, rates, still, modes, *followed_to)
+
+    def is_whole(self, branch: Branch) -> bool:
+        """Tell whether a branch has all rates that second order leaves where it begins, and is alone there.
+
+        One quadric of three squares or more is irreducible; of several that is shown by monodromy.
+        """
+        moves = branch.certainty != "not known"
+        alone = len(branch.space.left) < 2 or branch.component in self._of_one_component
+        return moves and alone and branch.freedoms == most_freedoms(branch.space, branch.rates)
 
 
-def signs_of(rates: Floats) -> str:
-    """Return how each joint begins: ``+`` valley, ``-`` mountain, ``0`` not at all."""
-    return "".join("0" if abs(rate) <= DOUBLE.zero_rate else "+-"[int(rate < 0)] for rate in rates)
+def _is_on(rates: Floats, space: second_order.RateSpace) -> bool:
+    """Tell whether rates, a unit vector, are among those of a space that its equations leave."""
+    within = space.basis.T @ rates
+    if np.linalg.norm(rates - space.basis @ within) > _SAME:
+        return False
+    forms = second_order.local_forms(space.basis, space.left)
+    return bool(np.abs(forms @ within @ within).max(initial=0.0) <= _SAME)
 
 
 def _rank_of(space: second_order.RateSpace, rates: Floats) -> Floats:

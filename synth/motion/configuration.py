@@ -23,9 +23,10 @@ from graphs.mechanism.sheet import Reading, Sheet
 from graphs.mechanism.solids import HingedSolids
 from graphs.tolerances import DOUBLE, EPSILON, Tolerances
 from graphs.types import Floats, JointId
-from synth.motion.branches import MOST_JOINTS, Branch, Branches, all_branches_of_many, branches_of, search_for
+from synth.motion.branches import MOST_JOINTS, all_branches_of_many, branches_of, search_for
 from synth.motion.closure import ClosureEquations
-from synth.motion.linkage import PosedLinkage, moved
+from synth.motion.germ import Branch, Branches
+from synth.motion.linkage import PosedLinkage, moved, parts_of
 from synth.motion.marked import AssignedBranch, Disagreement, agreeing_best, assigned_branch, nearest_branch
 from synth.motion.path import PassedPanels, Path
 from synth.motion.singular.nearest import InitialMotion, begun_near
@@ -170,7 +171,7 @@ class Configuration:
 
     def of_branch(self, branch: int | str | None) -> tuple[Configuration, int | str | None]:
         """Return the configuration that has a branch, by number or signs, and its number or signs there."""
-        own = 0 if self.branches is None else len(self.branches.branches)
+        own = 0 if self.branches is None else self.branches.numbered
         if isinstance(branch, int) and own <= branch < own + len(self.elsewhere):
             return self.elsewhere[branch - own]
         if isinstance(branch, str) and self.branches is not None and self.branches.number_of(branch) is None:
@@ -210,11 +211,12 @@ class Configuration:
     @cached_property
     def branches(self) -> Branches | None:
         """The motion branches from here; None for a linkage that is too large to look for all."""
-        joints = len(self.linkage.angles)
-        if joints > MOST_JOINTS:
+        parts = [part.linkage for part in parts_of(self.linkage)]
+        if any(len(part.angles) > MOST_JOINTS for part in parts):
             return all_branches_of_many(self.linkage, self.closure, self.wanted)
-        if (joints > _MOST_FLEXES and self._many_flexes()) or self._one_way_enough():
+        if any(map(_has_many_flexes, parts)) or any(map(self._one_way_enough, parts)):
             return None
+        joints = max(len(part.angles) for part in parts)
         return branches_of(self.linkage, self.closure, search_for(joints, self.wanted, more=self.more))
 
     @cached_property
@@ -295,12 +297,7 @@ class Configuration:
         """Return a branch by its number; of a regular configuration there is one."""
         if number is None or self.branches is None or not self.branches.branches:
             return None
-        return self.branches.branches[number]
-
-    def _many_flexes(self) -> bool:
-        """Tell whether the equations of second order between its rates are too large."""
-        flexes = rates_at(self.closure, self.linkage.angles).shape[1]
-        return bool(flexes > _MOST_FLEXES and len(self.linkage.angles) - flexes < self.closure.rows)
+        return self.branches.branch(number)
 
     @cached_property
     def one_way(self) -> bool:
@@ -311,10 +308,10 @@ class Configuration:
         known = branches.exhaustive or any(branch.certainty != "not known" for branch in branches.branches)
         return not known and self.flat and self.begun.folded is not None
 
-    def _one_way_enough(self) -> bool:
-        """Tell whether the branches are too many to list, and a folded state leads to one with the assignment."""
-        loops = sum(loop.centre is Centre.FINITE and len(loop.joints) > 4 for loop in self.linkage.loops)
-        if not (self.flat and len(self.joints) > _ONE_WAY and loops > _HALVES and self.marks.any()):
+    def _one_way_enough(self, part: PosedLinkage) -> bool:
+        """Tell whether branches of a part are too many to list, and a folded state leads to one with the assignment."""
+        loops = sum(loop.centre is Centre.FINITE and len(loop.joints) > 4 for loop in part.loops)
+        if not (self.flat and len(part.angles) > _ONE_WAY and loops > _HALVES and self.marks.any()):
             return False
         folded = self.begun.folded
         return folded is not None and folded.agree == np.count_nonzero(self.marks)
@@ -351,7 +348,7 @@ class Configuration:
             "flat": self.flat,
             "branches": None
             if branches is None
-            else {"number": len(branches.branches), "exhaustive": branches.exhaustive},
+            else {"number": branches.numbered, "exhaustive": branches.exhaustive, **branches.count_to_json()},
             "branch": None if branch is None else branch.signs,
             "freedoms": freedoms,
             "immobile_joints": None if still is None else [str(self.joints[place]) for place in still],
@@ -360,6 +357,16 @@ class Configuration:
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}: {self.linkage!r}>"
+
+
+def _has_many_flexes(linkage: PosedLinkage) -> bool:
+    """Tell whether the equations of second order between the rates of a linkage are too large."""
+    joints = len(linkage.angles)
+    if joints <= _MOST_FLEXES:
+        return False
+    closure = ClosureEquations(linkage)
+    flexes = rates_at(closure, linkage.angles).shape[1]
+    return bool(flexes > _MOST_FLEXES and joints - flexes < closure.rows)
 
 
 def listed(joints: Sequence[JointId]) -> str:

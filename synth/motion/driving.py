@@ -14,10 +14,11 @@ from graphs.errors import InvariantError, UnsolvableError, shown
 from graphs.limits import LEAST, MOST, in_reach
 from graphs.rank.singular_values import null_space
 from graphs.tolerances import DOUBLE, MARGIN, canonical_basis, leading
-from graphs.types import Floats, JointId
-from synth.motion.branches import MOST_JOINTS, Branch, Branches
+from graphs.types import Flags, Floats, JointId
+from synth.motion.branches import MOST_JOINTS
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
+from synth.motion.germ import Branch, Branches
 from synth.motion.marked import marked_rates, rates_as_marked
 from synth.motion.path import Path, PathOptions, driven_path
 from synth.motion.singular.nearest import begun_near
@@ -74,7 +75,7 @@ def beginning(configuration: Configuration, choice: BranchChoice) -> tuple[int |
     marked = configuration.marked.rates
     if marked is not None and choice.branch is None and len(choice.driven) < 2 and not choice.along:
         return None if branches.regular else number, marked
-    rates = _rates(branches.branches[number], choice, towards, configuration.marks)
+    rates = _rates(branches.branch(number), choice, towards, configuration.marks)
     return None if branches.regular else number, rates
 
 
@@ -92,29 +93,40 @@ def _no_motion(branches: Branches) -> str:
 
 
 def _chosen(configuration: Configuration, branches: Branches, choice: BranchChoice) -> int:
-    every, name = branches.branches, choice.branch
+    name, most = choice.branch, branches.numbered
     if isinstance(name, int):
-        if not 0 <= name < len(every):
-            label = str(name) if abs(name) < _LARGE else "of so large a number"
-            raise InvariantError("branch", f"there is no branch {label}", f"one from 0 to {len(every) - 1}")
+        if not 0 <= name < most:
+            label = str(name) if abs(name) < max(_LARGE, _LARGE * most) else "of so large a number"
+            raise InvariantError("branch", f"there is no branch {label}", f"one from 0 to {most - 1}")
         return name
     if isinstance(name, str):
         number = branches.number_of(name)
         if number is None:
-            signs = known([branch.signs for branch in every], name)
+            signs = known([branch.signs for branch in branches.branches], name)
             raise InvariantError("branch", f"no branch has the signs {shown(name)}", signs)
         return number
     if not choice.along:
         return configuration.chosen or 0
-    towards = choice.towards(configuration)
-    return max(range(len(every)), key=lambda number: (_cosine(every[number], choice, towards), -number))
+    return _pointing_best(
+        branches, choice.towards(configuration), np.isin(range(len(configuration.joints)), choice.driven)
+    )
 
 
-def _cosine(branch: Branch, choice: BranchChoice, towards: Floats) -> float:
-    """Return the cosine between wanted rates and the nearest ones of a branch, of the joints that have any."""
-    begun = rates_towards(branch.space, towards)[list(choice.driven)]
-    sizes = float(np.linalg.norm(begun) * np.linalg.norm(choice.turns))
-    return round(float(begun @ choice.turns) / sizes, _DIGITS) if sizes else -1.0
+def _pointing_best(branches: Branches, towards: Floats, driven: Flags) -> int:
+    """Return the number of the branch with rates that point along wanted ones best; of each part its own."""
+    if branches.parts:
+        parts = [(part, part.joints) for part in branches.parts]
+        best = [_pointing_best(part.branches, towards[own], driven[own]) if part.choices else 0 for part, own in parts]
+        return branches.number_of_choice(best)
+    every = branches.branches
+    return max(range(len(every)), key=lambda number: (_cosine(every[number], towards, driven), -number))
+
+
+def _cosine(branch: Branch, towards: Floats, driven: Flags) -> float:
+    """Return the cosine between wanted rates and the nearest ones of a branch, of the driven joints."""
+    begun, turns = rates_towards(branch.space, towards)[driven], towards[driven]
+    sizes = float(np.linalg.norm(begun) * np.linalg.norm(turns))
+    return round(float(begun @ turns) / sizes, _DIGITS) if sizes else -1.0
 
 
 def _rates(branch: Branch, choice: BranchChoice, towards: Floats, marks: Floats) -> Floats:
@@ -205,7 +217,7 @@ def driven_from(configuration: Configuration, options: MotionOptions) -> DrivenM
     by_least_rates = branches is not None and branches.regular and len(options.drive) == 1
     direction = None if by_least_rates else rates  # any others might soon turn the driven joint back
     allowance = Allowance(_STEPS + _STEPS_OF_FRAME * options.frames)
-    still = () if number is None or branches is None else branches.branches[number].still
+    still = () if number is None or branches is None else branches.branch(number).still
     signs = _signs(configuration, rates, places) if configuration.limited else None
     straight, report, events = bool(options.along), options.report, options.events
     on_path = PathOptions(direction, limited, straight, report, joints, allowance, still, events, signs)

@@ -8,6 +8,8 @@ Theory: docs/theory/folding.md.
 from collections import deque
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import NamedTuple
 
 import networkx as nx
 import numpy as np
@@ -182,6 +184,70 @@ def centre_of(linkage: PosedLinkage, loop: PosedLoop, tolerances: Tolerances = D
     if not sliding and float(lines_meet(linkage.points[turning], axes).off.max()) <= tolerances.meant:
         return Centre.FINITE
     return Centre.NONE
+
+
+class LinkagePart(NamedTuple):
+    """A part of a linkage: places of its joints, int[n], and of its loops, and these alone as a linkage."""
+
+    joints: Ints
+    loops: tuple[int, ...]
+    linkage: PosedLinkage
+
+
+def parts_of(linkage: PosedLinkage) -> list[LinkagePart]:
+    """Return the parts of a linkage whose loops share no joint, and last the joints in no loop, if there are several.
+
+    Loops that share a link alone do not constrain each other: closure equations are about joints. One part is
+    returned where all loops are connected; joints in no loop belong to it then.
+
+    Parameters
+    ----------
+    linkage : PosedLinkage
+
+    Examples
+    --------
+    Two four-bars that hang on one link:
+
+    >>> graph = SCGraph(7, [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (4, 5), (5, 6), (6, 0)])
+    >>> axes = {joint: ((joint % 4 // 2, joint % 4 in (1, 2), joint // 4), (0, 0, 1)) for joint in range(8)}
+    >>> [part.joints.tolist() for part in parts_of(linkage_of_axes(graph, axes))]
+    [[0, 1, 2, 3], [4, 5, 6, 7]]
+    """
+    joints = nx.Graph()
+    joints.add_nodes_from(joint for loop in linkage.loops for joint in loop.joints)
+    joints.add_edges_from(pair for loop in linkage.loops for pair in pairwise(loop.joints))
+    groups = sorted(map(sorted, nx.connected_components(joints)))
+    whole = np.arange(len(linkage.angles))
+    if len(groups) < 2:
+        return [LinkagePart(whole, tuple(range(len(linkage.loops))), linkage)]
+    loose = np.setdiff1d(whole, [joint for group in groups for joint in group]).tolist()
+    number = {joint: place for place, group in enumerate(groups) for joint in group}
+    loops_of: list[list[int]] = [[] for _ in groups]
+    for place, loop in enumerate(linkage.loops):
+        loops_of[number[loop.joints[0]]].append(place)
+    if loose:
+        groups, loops_of = [*groups, loose], [*loops_of, []]
+    return [part_of(linkage, group, loops) for group, loops in zip(groups, loops_of, strict=True)]
+
+
+def part_of(linkage: PosedLinkage, group: Sequence[int], loops: Sequence[int]) -> LinkagePart:
+    """Return some joints with some loops that pass no others, by their places, as a linkage of its own."""
+    joints, names = np.array(group), list(linkage.graph.joints)
+    place = {joint: own for own, joint in enumerate(group)}
+    of_loops = [linkage.loops[loop] for loop in loops]
+    posed = tuple(replace(loop, joints=tuple(map(place.__getitem__, loop.joints))) for loop in of_loops)
+    pairs = {names[joint]: linkage.graph.joints[names[joint]] for joint in group}
+    moving = {link for pair in pairs.values() for link in pair}
+    alone = replace(
+        linkage,
+        graph=SCGraph([link for link in linkage.graph if link in moving], pairs),
+        points=linkage.points[joints],
+        directions=linkage.directions[joints],
+        angles=linkage.angles[joints],
+        loops=posed,
+        slides=tuple(place[joint] for joint in linkage.slides if joint in place),
+    )
+    return LinkagePart(joints, tuple(loops), alone)
 
 
 def axis_lengths(linkage: PosedLinkage) -> Floats:

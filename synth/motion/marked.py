@@ -10,8 +10,8 @@ import numpy as np
 
 from graphs.tolerances import DOUBLE, signed
 from graphs.types import Floats
-from synth.motion.branches import Branch, Branches
 from synth.motion.closure import ClosureEquations
+from synth.motion.germ import Branch, Branches
 from synth.motion.linkage import PosedLinkage
 from synth.motion.singular.sampling import rates_towards, same_part
 from synth.motion.singular.second_order import RateSpace, rates_at
@@ -66,6 +66,8 @@ def assigned_branch(
     """
     if not marks.any() or not branches.branches:
         return AssignedBranch(None, None)
+    if branches.parts:
+        return _assigned_of_parts(branches, marks, first)
     spaces = {id(branch.space): branch.space for branch in branches.branches}
     starts = min(_STARTS, max(_LEAST, _TOGETHER // len(spaces)))
     order = np.array(branches.order, dtype=np.int64)
@@ -87,6 +89,31 @@ def assigned_branch(
     return AssignedBranch(None, "none has" if sure else "none found")
 
 
+def _assigned_of_parts(branches: Branches, marks: Floats, first: Floats | None) -> AssignedBranch:
+    """Return the branch of several parts that begins as assigned: each part may turn over without the others."""
+    places, rates, known = [], np.zeros(len(marks)), list[Marked]()
+    for part in branches.parts:
+        own = marks[part.joints]
+        begin = None if first is None else first[part.joints]
+        way = assigned_branch(part.branches, part.linkage, own, begin)
+        if own.any():
+            none: Marked = "none has" if part.branches.no_motion == "proved" else "none found"
+            known.append(way.marked or none)
+        choices = part.choices
+        number = _freest(choices) if way.number is None or way.number >= len(choices) else way.number
+        places.append(number)
+        if choices:
+            rates[part.joints] = choices[number].rates if way.rates is None else way.rates
+    if all(marked == "has" for marked in known):
+        return AssignedBranch(branches.number_of_choice(places), "has", rates)
+    return AssignedBranch(None, "none has" if "none has" in known else "none found")
+
+
+def _freest(choices: Sequence[Branch]) -> int:
+    """Return the number of the branch with most freedoms, the first of several; 0 of none."""
+    return max(range(len(choices)), key=lambda number: (choices[number].freedoms or 0, -number), default=0)
+
+
 def rates_as_marked(branch: Branch, marks: Floats) -> Floats:
     """Return rates near to the marks, on the part of the space that the branch is."""
     rates = rates_towards(branch.space, marks)
@@ -97,6 +124,10 @@ def rates_as_marked(branch: Branch, marks: Floats) -> Floats:
 
 def agreeing_best(branches: Branches, marks: Floats) -> int:
     """Return the number of the branch on which most joints begin as they are assigned, less those that do not."""
+    if branches.parts:
+        parts = [(part, marks[part.joints]) for part in branches.parts]
+        places = [agreeing_best(part.branches, own) if part.choices else 0 for part, own in parts]
+        return branches.number_of_choice(places)
 
     def agreement(branch: Branch) -> int:
         rates = rates_as_marked(branch, marks)
@@ -113,6 +144,8 @@ def nearest_branch(branches: Branches, marks: Floats) -> Disagreement:
     of the best branches none can be left out; where equations are left, they are those of the rates nearest to the
     marks.
     """
+    if branches.parts:
+        return _nearest_of_parts(branches, marks)
     near = [disagreement_with(number, branch, marks) for number, branch in enumerate(branches.branches)]
 
     def order(one: Disagreement) -> tuple[int, int, int, int]:
@@ -120,6 +153,27 @@ def nearest_branch(branches: Branches, marks: Floats) -> Disagreement:
 
     best = sorted(near, key=order)[:_REFINED]
     return min((_fewer(one, branches.branches[one.number].space, marks) for one in best), key=order)
+
+
+def _nearest_of_parts(branches: Branches, marks: Floats) -> Disagreement:
+    """Return how the assignment differs from the nearest branch of several parts: from that of each."""
+    places, rates = list[int](), np.zeros(len(marks))
+    opposite, immobile = list[int](), list[int]()
+    for part in branches.parts:
+        own, joints = marks[part.joints], part.joints
+        if part.choices and own.any():
+            near = nearest_branch(part.branches, own)
+            turned = -1.0 if (near.rates * own)[own != 0.0].sum() < 0.0 else 1.0
+            near = near._replace(rates=turned * near.rates)
+        else:
+            number = _freest(part.choices)
+            at = part.choices[number].rates if part.choices else np.zeros(len(joints))
+            near = Disagreement(number, (), () if part.choices else tuple(np.flatnonzero(own).tolist()), at)
+        places.append(near.number)
+        opposite += joints[list(near.opposite)].tolist()
+        immobile += joints[list(near.immobile)].tolist()
+        rates[joints] = near.rates
+    return Disagreement(branches.number_of_choice(places), tuple(sorted(opposite)), tuple(sorted(immobile)), rates)
 
 
 def disagreement_with(number: int, branch: Branch, marks: Floats) -> Disagreement:
@@ -215,6 +269,11 @@ def _rates_with(basis: Floats, marks: Floats) -> Floats | None:
     marked = marks != 0.0
     if not basis.shape[1]:
         return None
+    if basis.shape[1] == 1:  # one ray or its opposite: no programme is needed
+        along = marks[marked] * basis[marked, 0]
+        least = float(np.abs(along).min()) if (along > 0.0).all() or (along < 0.0).all() else 0.0
+        clear = least > DOUBLE.zero_rate * float(np.abs(basis).max())
+        return np.asarray(np.sign(along[0]) * basis[:, 0] / least) if clear else None
     rows = -marks[marked, None] * basis[marked]
     inside = _cheapest(-rows.sum(axis=0), rows, -np.ones(len(rows)), (None, None))
     return np.asarray(basis @ inside.x) if inside.status == 0 else None

@@ -15,10 +15,10 @@ from graphs.mechanism.sheet import Sheet
 from graphs.printing import Block, Printed, TableBlock
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats, JointId, LinkId
-from synth.motion.branches import Branch, Branches, Method
 from synth.motion.closure import corrected
 from synth.motion.configuration import Configuration, listed
 from synth.motion.driving import DrivenMotion, MotionOptions, driven_from
+from synth.motion.germ import Branch, Branches, Method
 from synth.motion.linkage import PosedLinkage, link_motions, moved
 from synth.motion.path import Path, RestingPanels
 
@@ -29,6 +29,7 @@ _LISTED = 12
 _SEARCHES: dict[Method, str] = {
     "regular pose": "regular configuration",
     "all modes": "all combinations of modes",
+    "all solutions": "all solutions of the second-order equations",
     "second order": "second-order search",
     "random starts": "search from random starts",
 }
@@ -191,6 +192,7 @@ class Motion(Printed):
             "certainty": None if taken is None else taken.certainty,
             "branches": None if branches is None else [one.to_json(self.joints) for one in branches.branches],
             "exhaustive": None if branches is None else branches.exhaustive,
+            **(dict.fromkeys(("count", "at_least", "proved")) if branches is None else branches.count_to_json()),
             "search": None if branches is None else branches.method,
             "branch": self.branch,
             "driven": {str(joint): degrees(angle) for joint, angle in self.driven.items()},
@@ -320,8 +322,9 @@ class Motion(Printed):
             kind, start = ("folding branch", "the flat state") if flat else ("motion branch", "this configuration")
             all_found = "all there are" if branches.exhaustive else "not proved exhaustive"
             more = "" if branches.complete else "; there may be many more"
-            count = numbered(len(branches.branches), kind, f"{kind}es")
-            lines.append(f"{count} from {start} ({_SEARCHES[branches.method]}; {all_found}{more})")
+            count = ("at least " if branches.at_least else "") + numbered(branches.count, kind, f"{kind}es")
+            apart = f"; {len(branches.parts)} separate parts" if branches.parts else ""
+            lines.append(f"{count} from {start} ({_SEARCHES[branches.method]}{apart}; {all_found}{more})")
         if self.configuration.disagreeing:
             lines.append(self.configuration.disagreeing)
         return lines

@@ -3,7 +3,8 @@
 Theory: docs/theory/verdict.md.
 """
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
@@ -23,10 +24,12 @@ from graphs.tolerances import DOUBLE
 from graphs.types import Floats, Ints, JointId
 from synth.folding.configuration import SheetConfiguration
 from synth.layering.summary import FlatFoldability, flat_foldability
-from synth.motion.branches import Branch, Branches, Certainty, signs_of, straight_folds
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT, Configuration
+from synth.motion.flat_vertices import FlatVertices, straight_folds
+from synth.motion.germ import Branch, Branches, Certainty, signs_of
 from synth.motion.marked import Marked
+from synth.motion.singular.mode_count import count_of_modes
 from synth.motion.singular.sampling import closes_along_general_rates, walked
 from synth.motion.walk.events import number_of_free_rates
 from synth.moving.made import configuration_of, with_precision
@@ -34,6 +37,7 @@ from synth.overconstraint.herve import HerveClass, herve_class
 from synth.verdict.verdict import (
     AsWritten,
     Basis,
+    BranchCount,
     FreedomBounds,
     MotionBranch,
     MotionFindings,
@@ -98,6 +102,7 @@ def _worded(findings: MotionFindings, basis: Basis, *, exhaustive: bool = False,
         as_written=findings.written,
         further=further,
         bounds=findings.bounds,
+        count=findings.count,
     )
 
 
@@ -116,7 +121,10 @@ def _of_one_motion(configuration: Configuration, generic: int | None) -> Verdict
     if rates is None or far <= DOUBLE.moved:
         return _of_no_motion(configuration, generic, rigid=begun.rigid)
     moving = np.flatnonzero((np.abs(rates) > DOUBLE.zero_rate) | (np.abs(end - linkage.angles) > DOUBLE.immobile))
-    bounds = _bounds_of_one(configuration, end, moving)
+    # near the flat state singular values fall with the fold angle: freedoms are read where the motion is folded most
+    folded = begun.folded
+    place = folded.folded if folded is not None and folded.found_at > far else end
+    bounds = _bounds_of_one(configuration, place, moving)
     least, most = bounds.stated
     freedoms = most if least == most else None
     turning = set(moving.tolist())
@@ -125,16 +133,34 @@ def _of_one_motion(configuration: Configuration, generic: int | None) -> Verdict
     branch = MotionBranch(signs_of(rates), freedoms, "numerical", still, far, misfit, from_folded)
     immobile = still if freedoms == 1 and not configuration.flat else ()
     marked = _as_marked(configuration.marks, rates)
-    findings = MotionFindings(
-        configuration, (branch,), branch, freedoms, "numerical", False, generic, immobile, marked, bounds=bounds
-    )
+    count = _counted_by_modes(configuration, bounds)
+    known = count is not None and not count.at_least
+    if count is not None and marked != "has":
+        freedoms = max(freedoms or 0, *(more or 0 for more in count.kinds))
+    evidence = (known, generic, immobile, marked, None, bounds, count)
+    findings = MotionFindings(configuration, (branch,), branch, freedoms, "numerical", *evidence)
     return _worded(findings, "motion")
 
 
-def _bounds_of_one(configuration: Configuration, end: Floats, moving: Ints) -> FreedomBounds:
-    """Return bounds of freedoms and of the number of branches, by one that was traced to an end, float[J].
+_MOST_COUNTED = 2500
+"""Modes of so many vertices are counted: a sheet of 50 x 50 panels takes two seconds."""
 
-    At the end, the freedoms of joints that move, int[n], are at most their infinitesimal ones. They are as many if
+
+def _counted_by_modes(configuration: Configuration, bounds: FreedomBounds) -> BranchCount | None:
+    """Return how many branches a large flat sheet of degree-4 vertices has; None for others."""
+    linkage = configuration.linkage
+    if not configuration.flat or len(linkage.loops) > _MOST_COUNTED or not FlatVertices(linkage).linear:
+        return None
+    modes = count_of_modes(linkage)
+    if modes is None or modes.kinds.total() < bounds.branches:
+        return None
+    return BranchCount(modes.kinds, not modes.all, False)
+
+
+def _bounds_of_one(configuration: Configuration, end: Floats, moving: Ints) -> FreedomBounds:
+    """Return bounds of freedoms and of the number of branches, by one that leads to a folded state, float[J].
+
+    There, the freedoms of joints that move, int[n], are at most their infinitesimal ones. They are as many if
     general rates close; otherwise at least as many as there are more joints than equations, and one. Straight folds
     are other branches if nothing else begins where they are folded, or one of them has more freedoms than there are
     rates at the end.
@@ -212,7 +238,7 @@ def _as_written(configuration: Configuration) -> AsWritten | None:
     written = configuration.written
     branches = configuration.branches if written is None else written.branches
     if written is not None and branches is not None:
-        branch = _stated(_branches_of(written, branches), written.marked.number)
+        branch = _stated(written, _branches_of(written, branches), written.marked.number)
         if branch is not None:
             return AsWritten(branch.freedoms, branch.certainty)
     if branches is not None and branches.no_motion == "proved":
@@ -221,39 +247,60 @@ def _as_written(configuration: Configuration) -> AsWritten | None:
 
 
 def _of_branches(configuration: Configuration, search: Branches, generic: int | None) -> Verdict:
-    branches = _branches_of(configuration, search)
-    further = None if search.complete else len(search.branches) - len(branches)
-    number, marked = _marked(configuration, len(branches))
-    for other, place in configuration.elsewhere:
-        branch = other.branch(place)
-        assert branch is not None
-        branches += (_branch(other, branch),)
-    known = search.complete and all(branch.freedoms is not None for branch in branches)
-    stated = _stated(branches, number)
+    own = _branches_of(configuration, search)
+    further = None if search.complete else search.numbered - len(own)
+    number, marked = _marked(configuration)
+    elsewhere = tuple(_branch(other, branch) for other, branch in _branches_elsewhere(configuration))
+    branches, kinds = own + elsewhere, search.kinds + Counter(branch.freedoms for branch in elsewhere)
+    known = search.complete and all(branch.freedoms is not None for branch in branches) and None not in kinds
+    stated = _stated(configuration, branches, number)
     freedoms, certainty = _unmoved(configuration, search) if stated is None else (stated.freedoms, stated.certainty)
     immobile: tuple[JointId, ...] = ()
-    if known and (branches or freedoms is not None):  # those that are immobile on every branch
-        still = [set(branch.stiff_joints) for branch in branches]
-        immobile = tuple(joint for joint in configuration.joints if all(joint in joints for joints in still))
+    if known and (branches or freedoms is not None):
+        still = _immobile_on_all(configuration, search) if own else set(configuration.joints)
+        still = still.intersection(*(branch.stiff_joints for branch in elsewhere))
+        immobile = tuple(joint for joint in configuration.joints if joint in still)
     written = _as_written(configuration)
-    bounds = None if search.complete or stated is None else _bounds_of_search(configuration, branches, stated)
-    evidence = (certainty, search.complete, generic, immobile, marked, written, bounds)
+    counted = search.complete or not search.at_least
+    bounds = None if counted or stated is None else _bounds_of_search(configuration, kinds, stated)
+    proved = search.proved and not elsewhere and not configuration.unsettled
+    count = BranchCount(kinds, search.at_least and bool(branches), proved)
+    evidence = (certainty, counted, generic, immobile, marked, written, bounds, count)
     findings = MotionFindings(configuration, branches, stated, freedoms, *evidence)
     exhaustive = search.exhaustive and not configuration.unsettled
     basis: Basis = "pose" if search.regular and certainty == "proved" else "motion"
     return _worded(findings, basis, exhaustive=exhaustive, further=further)
 
 
-def _bounds_of_search(
-    configuration: Configuration, branches: Sequence[MotionBranch], stated: MotionBranch
-) -> FreedomBounds:
+def _branches_elsewhere(configuration: Configuration) -> Iterator[tuple[Configuration, Branch]]:
+    """Yield the branches of other mechanisms within the precision, each with its configuration."""
+    for other, place in configuration.elsewhere:
+        branch = other.branch(place)
+        assert branch is not None
+        yield other, branch
+
+
+def _immobile_on_all(configuration: Configuration, search: Branches) -> set[JointId]:
+    """Return the joints that are immobile on every branch, also of those that are not listed."""
+    if not search.parts:
+        branches = [branch for branch in search.branches if branch.begun or configuration.more]
+        each = [_still(branch, configuration.linkage.angles) for branch in branches]
+        return {configuration.joints[place] for place in set(range(len(configuration.joints))).intersection(*each)}
+    immobile = set[JointId]()
+    for part in search.parts:
+        each = [_still(branch, part.linkage.angles) for branch in part.choices]
+        still = set(range(len(part.joints))).intersection(*each)
+        immobile |= {configuration.joints[part.joints[place]] for place in still}
+    return immobile
+
+
+def _bounds_of_search(configuration: Configuration, kinds: Counter[int | None], stated: MotionBranch) -> FreedomBounds:
     """Return the same where a search for branches ended early: those that were traced have their freedoms."""
     here = number_below(configuration.closure.at(configuration.linkage.angles)[1], DOUBLE.singular)
-    traced = [branch for branch in branches if branch.certainty != "not known"]
     least = 1 if stated.freedoms is None else stated.freedoms
     most = here if stated.freedoms is None else stated.freedoms
-    freest = max([least, *(branch.freedoms or 0 for branch in traced)])
-    return FreedomBounds(max(len(traced), 1), (least, most), (freest, max(here, freest)))
+    freest = max([least, *(freedoms or 0 for freedoms in kinds)])
+    return FreedomBounds(max(kinds.total(), 1), (least, most), (freest, max(here, freest)))
 
 
 def _unmoved(configuration: Configuration, branches: Branches) -> tuple[int | None, Certainty]:
@@ -270,9 +317,10 @@ def _unmoved(configuration: Configuration, branches: Branches) -> tuple[int | No
     return 0, "numerical" if configuration.nearly or doubtful else "proved"
 
 
-def _marked(configuration: Configuration, own: int) -> tuple[int | None, Marked | None]:
+def _marked(configuration: Configuration) -> tuple[int | None, Marked | None]:
     """Return the number of the branch that the assignment chooses, of all mechanisms, and whether one has it."""
     chosen = configuration.marked
+    own = 0 if configuration.branches is None else configuration.branches.numbered
     if chosen.marked not in (None, "has"):
         for place, (other, number) in enumerate(configuration.elsewhere):
             if other.marked.number == number:
@@ -286,17 +334,25 @@ def _branches_of(configuration: Configuration, branches: Branches) -> tuple[Moti
     return tuple(_branch(configuration, branch) for branch in followed)
 
 
+def _still(branch: Branch, angles: Floats) -> list[int]:
+    """Return the places of the joints that have not moved where a branch was followed to."""
+    apart = np.abs(branch.sample - angles) > DOUBLE.immobile
+    return [place for place in branch.still if not apart[place]]
+
+
 def _branch(configuration: Configuration, branch: Branch) -> MotionBranch:
-    apart = np.abs(branch.sample - configuration.linkage.angles) > DOUBLE.immobile
-    still = tuple(configuration.joints[place] for place in branch.still if not apart[place])
+    still = tuple(configuration.joints[place] for place in _still(branch, configuration.linkage.angles))
     freedoms, certainty, misfit = branch.freedoms, branch.certainty, configuration.misfit
     return MotionBranch(branch.signs, freedoms, certainty, still, branch.followed, misfit)
 
 
-def _stated(branches: Sequence[MotionBranch], chosen: int | None) -> MotionBranch | None:
+def _stated(configuration: Configuration, branches: Sequence[MotionBranch], chosen: int | None) -> MotionBranch | None:
     """Return the branch whose freedoms are stated: the assigned one, or the freest; None if there is none."""
-    if chosen is not None and chosen < len(branches):
-        return branches[chosen]
+    if chosen is not None:
+        at, number = configuration.of_branch(chosen)
+        branch = at.branch(number) if isinstance(number, int) else None
+        if branch is not None and branch.begun:
+            return _branch(at, branch)
     return max(branches, key=lambda one: (one.certainty != "not known", one.freedoms or 0), default=None)
 
 

@@ -16,8 +16,8 @@ from graphs.errors import numbered
 from graphs.mechanism.sc import SCGraph
 from graphs.tolerances import DOUBLE
 from graphs.types import JointId, LinkId
-from synth.motion.branches import Certainty
 from synth.motion.configuration import Configuration, at_most, listed
+from synth.motion.germ import Certainty
 from synth.motion.marked import Marked
 
 Basis = Literal["motion", "pose", "generic", "count"]
@@ -129,6 +129,39 @@ class FreedomBounds:
 
 
 @dataclass(frozen=True, slots=True)
+class BranchCount:
+    """How many motion branches there are, listed or not.
+
+    Attributes
+    ----------
+    kinds : Counter
+        How many of them have how many freedoms; None where these are unknown.
+    at_least : bool
+        Whether there may be more: neither a proof nor a second method shows that there are not.
+    proved : bool
+        Whether the number is proved.
+
+    Examples
+    --------
+    >>> BranchCount(Counter({1: 3, 2: 1}), False, True).to_json()
+    {'count': 4, 'at_least': False, 'proved': True}
+    """
+
+    kinds: Counter[int | None]
+    at_least: bool
+    proved: bool
+
+    @property
+    def count(self) -> int:
+        """Their number."""
+        return self.kinds.total()
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data."""
+        return {"count": self.count, "at_least": self.at_least, "proved": self.proved}
+
+
+@dataclass(frozen=True, slots=True)
 class Verdict:
     """Whether a mechanism moves, in a sentence and in numbers.
 
@@ -161,6 +194,9 @@ class Verdict:
         may be more. None if it came to its end.
     bounds : FreedomBounds or None
         Where not all branches were searched for, or one motion stands for all.
+    count : BranchCount or None
+        How many branches there are, of which only so many as can be read are listed; None where one motion stands
+        for all.
 
     Examples
     --------
@@ -183,6 +219,7 @@ class Verdict:
     within_precision: WithinPrecision | None = None
     further: int | None = None
     bounds: FreedomBounds | None = None
+    count: BranchCount | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on (docs/command-json.md)."""
@@ -193,6 +230,7 @@ class Verdict:
             "certainty": self.certainty,
             "branches": [branch.to_json() for branch in self.branches],
             "exhaustive": self.exhaustive,
+            **self._count_to_json(),
             "not_followed": self.further,
             "bounds": None if self.bounds is None else self.bounds.to_json(),
             "stiff_joints": list(self.stiff_joints),
@@ -202,6 +240,15 @@ class Verdict:
             "within_precision": None if self.within_precision is None else asdict(self.within_precision),
             "text": self.text,
         }
+
+    def _count_to_json(self) -> dict[str, Any]:
+        """Return how many branches there are, whether at least so many, and whether that is proved."""
+        if self.count is not None:
+            return self.count.to_json()
+        if self.bounds is None:
+            number = len(self.branches) if self.basis in ("motion", "pose") else None
+            return {"count": number, "at_least": not self.exhaustive, "proved": self.exhaustive}
+        return {"count": self.bounds.branches, "at_least": not self.bounds.settled, "proved": False}
 
     def __str__(self) -> str:
         return self.text
@@ -230,7 +277,7 @@ _ASSIGNMENT = {
     "none has": ", but not with the given assignment (proved)",
     "none found": ", but no branch with the given assignment was found",
 }
-_TO_GO_ON = "The search for branches ended at its work limit; try --more."
+_TO_GO_ON = "The search for branches ended at its work limit; try synth mobility --more."
 
 
 @dataclass(frozen=True, slots=True)
@@ -240,7 +287,8 @@ class MotionFindings:
     The verdict states the degrees of freedom of the branch `stated`; `complete` says whether the search for
     branches came to its end; `generic` is the mobility of the type; `immobile` are the joints that are so on every
     branch; `marked` says whether a branch begins with the given mountain-valley assignment; `written` is what
-    holds exactly as written, if that differs; `bounds` are given where not all branches were searched for.
+    holds exactly as written, if that differs; `bounds` are given where not all branches were searched for; `count`
+    where they were.
     """
 
     at: Configuration
@@ -254,6 +302,12 @@ class MotionFindings:
     marked: Marked | None = None
     written: AsWritten | None = None
     bounds: FreedomBounds | None = None
+    count: BranchCount | None = None
+
+    @property
+    def kinds(self) -> Counter[int | None]:
+        """How many branches have how many freedoms."""
+        return Counter(branch.freedoms for branch in self.branches) if self.count is None else self.count.kinds
 
 
 def flaps_of(graph: SCGraph) -> list[JointId]:
@@ -312,8 +366,8 @@ def _answer(findings: MotionFindings) -> str:
         count = _between(*findings.bounds.stated)
     if freedoms is not None:
         count = in_words(freedoms)
-        if findings.marked != "has" and any(branch.freedoms != freedoms for branch in findings.branches):
-            most = findings.complete and all(branch.freedoms is not None for branch in findings.branches)
+        if findings.marked != "has" and any(other != freedoms for other in findings.kinds):
+            most = findings.complete and None not in findings.kinds
             count = f"up to {count}" if most else f"{count} on the freest branch found"
     assignment = "" if findings.marked is None else _ASSIGNMENT[findings.marked]
     if findings.marked == "has":
@@ -338,11 +392,11 @@ def _as_written(written: AsWritten | None) -> str:
 
 def _branches(findings: MotionFindings) -> list[str]:
     """Return the sentence that counts the branches, where there are several."""
-    branches, kind = findings.branches, "folding branch" if findings.at.flat else "motion branch"
-    if len(branches) < 2:
+    kinds, kind = findings.kinds, "folding branch" if findings.at.flat else "motion branch"
+    certain = findings.complete and (findings.count is None or not findings.count.at_least)
+    if kinds.total() < 2:
         return []
-    kinds = Counter(branch.freedoms for branch in branches)
-    count = ("" if findings.complete else "At least ") + numbered(len(branches), kind, f"{kind}es")
+    count = ("" if certain else "At least ") + numbered(kinds.total(), kind, f"{kind}es")
     if len(kinds) == 1:
         return [f"{count}."]
     most_first = sorted(kinds.items(), key=lambda item: -(item[0] or 0))
@@ -353,11 +407,12 @@ def _branches(findings: MotionFindings) -> list[str]:
 def _bounds(findings: MotionFindings) -> list[str]:
     """Return the sentence on the branches that were not searched for: how many at least, how free at most."""
     bounds = findings.bounds
-    if bounds is None or bounds.settled:
+    counted = findings.count is not None and not findings.count.at_least
+    if bounds is None or bounds.settled or counted:
         return []
     kind = "folding branch" if findings.at.flat else "motion branch"
     freest = _between(*bounds.freest)
-    if len(findings.branches) > 1:
+    if findings.kinds.total() > 1:
         return [f"The freest {kind} has {freest}."]
     there = "is at least 1" if bounds.branches == 1 else f"are at least {bounds.branches}"
     return [f"Not all {kind}es were searched for: there {there}, and the freest has {freest}."]

@@ -27,10 +27,10 @@ from synth.drawing.scene.writing import svg_text
 from synth.folding.configuration import SheetConfiguration
 from synth.folding.derivatives import largest_panel
 from synth.layering.summary import FlatFoldability, flat_foldability
-from synth.motion.branches import Branch
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import Configuration
 from synth.motion.driving import BranchChoice, beginning
+from synth.motion.germ import Branch
 from synth.motion.linkage import PosedLinkage
 from synth.motion.singular.sampling import walked
 from synth.motion.walk.events import free_rates, independent_joints
@@ -62,6 +62,8 @@ _LAYER_VARIABLES = 120
 """Pairs of panels that depend on each other up to which layer orders are counted: all pairs of a map of 4 x 4."""
 _MOST_FRAMES = 200
 """Frames of a file up to which the flat one is looked for."""
+_MOST_WAYS = 256
+"""Branches that a page lists, at most, and the one that the assignment chooses."""
 _MOST_DRIVERS = 40
 """Joints with a slider of their own, at most; others can be dragged."""
 
@@ -121,11 +123,13 @@ def ways_of(configuration: Configuration) -> Ways:
         return Ways((nearest,), singular=True, taken=0)
     if number is None:
         return Ways((_start_of_branch(0, branches.branches[0], rates, closure),), singular=False, taken=0)
+    listed = list(enumerate(branches.branches[:_MOST_WAYS]))
+    if number >= len(listed):  # one of so many that not all are listed
+        listed.append((number, branches.branch(number)))
     starts = [
-        _start_of_branch(index, branch, rates if index == number else branch.rates, closure)
-        for index, branch in enumerate(branches.branches)
+        _start_of_branch(index, branch, rates if index == number else branch.rates, closure) for index, branch in listed
     ]
-    return Ways(tuple(starts), singular=True, taken=number)
+    return Ways(tuple(starts), singular=True, taken=[index for index, _ in listed].index(number))
 
 
 def _start_of_branch(number: int, branch: Branch, rates: Floats, closure: ClosureEquations) -> Beginning:

@@ -45,8 +45,8 @@ from synth.drawing.scene.shapes import (
 from synth.drawing.scene.writing import Scene
 from synth.drawing.space.panels import sheet_and_mechanism
 from synth.folding.configuration import SheetConfiguration
-from synth.motion.branches import Branch
 from synth.motion.driving import BranchChoice, beginning
+from synth.motion.germ import Branch
 from synth.motion.marked import disagreement_with
 from synth.moving.made import configuration_of
 from synth.verdict.judged import verdict_of_motion
@@ -366,7 +366,7 @@ def motions_on_branch(sheet: Sheet | SheetConfiguration, branch: int | str | Non
     pattern = configuration_of(sheet)
     branches = pattern.branches
     number, rates = beginning(pattern, BranchChoice(branch))
-    chosen = branches.branches[number or 0] if branches is not None else None
+    chosen = branches.branch(number or 0) if branches is not None else None
     immobile = set(chosen.still) if chosen is not None else set()
     of: dict[JointId, Doing] = {}
     for index, (joint, rate) in enumerate(zip(pattern.linkage.graph.joints, rates / np.abs(rates).max(), strict=True)):
@@ -376,7 +376,7 @@ def motions_on_branch(sheet: Sheet | SheetConfiguration, branch: int | str | Non
             of[joint] = "still" if index in immobile else "later"
     which = "one way to move"
     if branches is not None and chosen is not None:
-        which = f"way {number or 0} of {len(branches.branches)} ({_freedoms_of(chosen)}, {chosen.certainty})"
+        which = f"way {number or 0} of {branches.count} ({_freedoms_of(chosen)}, {chosen.certainty})"
     looks = {"mountain": "red", "valley": "blue, dashed", "later": "purple", "still": "grey, dotted"}
     legend = [f"{doing} {look}" for doing, look in looks.items() if doing in of.values()]
     return Motions(of, (), f"{which}: {', '.join(legend)}")

@@ -20,9 +20,10 @@ from graphs.mechanism.sheet import Sheet
 from graphs.tolerances import DOUBLE, MARGIN, Tolerances
 from graphs.types import Floats
 from synth.folding.mending.fitting import FARTHEST_PATTERN, Fitting, MeantAngles, VertexPlaces
-from synth.motion.branches import MOST_BRANCHES, FlatVertices
+from synth.motion.branches import MOST_BRANCHES
 from synth.motion.closure import ClosureEquations
 from synth.motion.configuration import EXACT
+from synth.motion.flat_vertices import FlatVertices
 from synth.motion.linkage import PosedLinkage, linkage_of_sheet
 from synth.motion.singular.sampling import followed, rates_towards
 from synth.motion.singular.second_order import RateSpace, largest_only, quadrics_of, rates_at, rates_near, spaces_within

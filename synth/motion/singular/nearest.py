@@ -43,13 +43,15 @@ class FoldedStart:
     """A motion that was found at a folded state and followed back towards the flat one.
 
     `rates`, float[J], are the fold angles at the end of the way back, the largest 1 or -1; `agree` joints turn as
-    wanted there. The largest fold angles are `found_at`, and `back_to` at the end of the way back, radians.
+    wanted there. The largest fold angles are `found_at`, and `back_to` at the end of the way back, radians; `folded`,
+    float[J], are those at the folded state.
     """
 
     rates: Floats
     agree: int
     found_at: float
     back_to: float
+    folded: Floats
 
 
 def folded_start(closure: ClosureEquations, wanted: Floats) -> FoldedStart | None:
@@ -64,7 +66,8 @@ def folded_start(closure: ClosureEquations, wanted: Floats) -> FoldedStart | Non
         if back is None:
             continue
         small, largest = back, float(np.abs(back).max())
-        motion = FoldedStart(small / largest, _agreement(small, wanted), float(np.abs(angles).max()), largest)
+        found_at = float(np.abs(angles).max())
+        motion = FoldedStart(small / largest, _agreement(small, wanted), found_at, largest, angles)
         if best is None or motion.agree > best.agree:
             best = motion
         if best.agree == goal:

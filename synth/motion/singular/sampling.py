@@ -87,6 +87,8 @@ FOLLOWED = radians(10.0)
 """How far each branch is followed, radians of the joint that moves most."""
 _STARTS = 60
 """Starts of the search for rates on which equations are left, for each pattern of signs."""
+_IDLE = 16
+"""After so many starts that lead to nothing new, as many again for each part that was found, the search ends."""
 _NEWTON, _ROUNDED = 30, 1e-14
 _BESIDE, _ASIDE = 8, 0.3
 """Number of starts beside wanted rates, and their distance as part of the size of these."""
@@ -271,8 +273,11 @@ def general_rates(
     halves = _halves(space)
     parts = 2 ** max(len(halves) - 1, 0)
     found: dict[tuple[int, ...], Floats] = {}
-    highest = 0
+    highest = idle = 0
     for number in range(_STARTS * 2 ** min(len(halves), 6)):
+        idle += 1
+        if idle > _IDLE * (1 + len(found)):
+            break
         chance = np.random.default_rng((*space.basis.shape, number))
         x = _on_equations(forms, np.asarray(chance.normal(size=size)))
         if x is None or (rank := _slopes(forms, x)) < highest:
@@ -281,7 +286,9 @@ def general_rates(
             found, highest = {}, rank
         rates = signed(_scaled(space.basis @ x))
         signs = _side(halves, rates)
-        found.setdefault(max(signs, tuple(-one for one in signs)), rates)
+        key = max(signs, tuple(-one for one in signs))
+        idle = idle if key in found else 0
+        found.setdefault(key, rates)
         if len(found) == parts or len(found) == most or late():
             break
     others = [found[signs] for signs in sorted(found, reverse=True)]

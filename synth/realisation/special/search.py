@@ -24,8 +24,9 @@ from graphs.printing import Block, Printed
 from graphs.rank.exact import exact_mobility, independent_cycles
 from graphs.tolerances import DOUBLE
 from graphs.types import Floats
-from synth.motion.branches import Branch, first_branch, search_for
+from synth.motion.branches import first_branch, search_for
 from synth.motion.configuration import Configuration
+from synth.motion.germ import Branch
 from synth.motion.linkage import moved
 from synth.motion.walk.step import Allowance
 from synth.moving.made import configuration_of
