@@ -57,6 +57,17 @@ def folding() -> Scene:
     return said(beside(*columns, gap=4.0), words)
 
 
+def branches() -> Scene:
+    """The four branches of a triangulated square with two inner vertices, each vertex popped up or down."""
+    corners = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.35, 0.4), (0.65, 0.62))
+    sheet = Sheet(6, (), "", ((0, 1, 4), (1, 5, 4), (1, 2, 5), (2, 3, 5), (3, 4, 5), (3, 0, 4)), corners)
+    found = configuration_of_sheet(sheet).branches
+    assert found is not None
+    columns = [_branch(sheet, number, branch.freedoms) for number, branch in enumerate(found.branches)]
+    words = "creases as each branch begins: mountains red, valleys blue and dashed"
+    return said(beside(*columns, gap=4.0), words)
+
+
 def _branch(sheet: Sheet, number: int, freedoms: int | None) -> Scene:
     """Return a pattern by what its creases do on one branch, above a pose on it."""
     followed = synth.fold(sheet, branch=number, frames=6)
@@ -246,6 +257,7 @@ def layer_orders() -> Scene:
 
 
 DRAWINGS: dict[str, Callable[[], Scene]] = {
+    "branches": branches,
     "folding": folding,
     "moving": moving,
     "positions": positions,

@@ -27,7 +27,7 @@ def only_scd_graph(mechanism: SCGraph, max_degree: int) -> SCDGraph:
     >>> from graphs.loops.loop import Loop
     >>> fan = SCGraph("abcd", [("a", "b"), ("b", "c"), ("c", "d"), ("d", "a")], [Loop((0, 1, 2, 3))])
     >>> only_scd_graph(fan, 3).rotation["a"]
-    (3, 0, None)
+    (0, 3, None)
     """
     number = total_of(scd_count_job(mechanism_of(mechanism, max_degree)))  # without making them
     command = f"`synth enumerate scd --of FILE --max-degree {max_degree}`"

@@ -34,6 +34,7 @@ class Identity(Printed):
 
     Examples
     --------
+    >>> import networkx as nx
     >>> identify(nx.cycle_graph(4)).to_json()
     {'chain': 'k1:Cr', 'drawing': None}
     """
@@ -62,6 +63,7 @@ def identify(mechanism: MechanismLike) -> Identity:
 
     Examples
     --------
+    >>> import networkx as nx
     >>> identify(nx.cycle_graph(4)).chain
     'k1:Cr'
     """
@@ -91,6 +93,7 @@ class TypeClasses(Printed):
 
     Examples
     --------
+    >>> import networkx as nx
     >>> classes = types_of(["k1:Cr", nx.cycle_graph(4), nx.cycle_graph(5)])
     >>> classes.to_json()["classes"]
     [{'id': 'k1:Cr', 'members': ['k1:Cr', '2']}, {'id': 'k1:DqK', 'members': ['3']}]
@@ -133,6 +136,7 @@ def types_of(mechanisms: Iterable[MechanismLike], *, by: By | None = None) -> Ty
 
     Examples
     --------
+    >>> import networkx as nx
     >>> types_of([nx.path_graph(3), nx.star_graph(2)]).repeated
     1
     """

@@ -39,7 +39,7 @@ _OF_MODELS = ("density", "drive", "branch", "stiffness", "rest", "moment")
 )  # fmt: skip
 @options.number(
     "--max-degree", "D",
-    "Where the sides of the links are not known: take the SCD graph whose links have up to D sides, if it is the only "
+    "If the sides of the links are not known, take the SCD graph whose links have up to D sides, if it is the only "
     "one; with --to scd, polyhedron or sheet.", 3,
 )  # fmt: skip
 @options.choice(

@@ -35,7 +35,7 @@ _ORIENTATIONS = options.value(
 @options.value("--axis", "X,Y,Z", "Direction of the fixed axis G of the dyad, of any length.", type=options.AXIS)
 @options.repeated(
     "--position positions", "X,Y,DEGREES",
-    "In the plane, in place of --orientations: where the origin of the body is, and how far the body is turned; three "
+    "Positions in the plane, in place of --orientations: the origin of the body, and how far it is turned; three "
     "times or more. Requires --pivot.",
     type=options.NUMBERS,
 )  # fmt: skip

@@ -36,7 +36,7 @@ DOCUMENTS = {
     "too many links": (SC | {"links": 10**12}, "links: 1000000000000; expected at most 250000 (SYNTHEDRA_MOST=nodes=1000000000000 allows more)"),
     "link of odd type": (SC | {"links": [0, 1, 2, None]}, "links[3]: null; expected a name"),
     "link twice": (SC | {"links": [0, 1, 2, 2]}, "links: link 2 occurs twice"),
-    "dangling link": (SC | {"joints": [[0, 1], [1, 2], [2, 3], [3, 9]]}, "joints[3]: joint 3 ends at 9; expected a"),
+    "dangling link": (SC | {"joints": [[0, 1], [1, 2], [2, 3], [3, 9]]}, "joints[3][1]: link 9 of 4 links; expected a link from 0 to 3: links count from 0"),
     "self-joint": (SC | {"joints": [[0, 1], [1, 2], [2, 2], [3, 0]]}, "joints[2]: joint 2 joins link 2 to itself"),
     "three links": (SC | {"joints": [[0, 1, 2]]}, "joints[0]: a list of 3; expected two links"),
     "joint of odd type": (SC | {"joints": [[0, [1]]]}, "joints[0][1]: a list; expected a link"),

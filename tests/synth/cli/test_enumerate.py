@@ -72,7 +72,7 @@ def test_enumerate_chains(tmp_path):
     assert re.search(r"k1:\S+ +4,4 +\d +\d+ +\d ", printed)
     many = run("enumerate", "chains", "--links", 12, "--dof", 1).stdout.splitlines()
     assert len(many) == 6857
-    assert many[0].startswith("code\tlinks\tjoints")
+    assert many[0].startswith("code\tname\tlinks\tjoints")
     files = {name: tmp_path / name for name in ("c.g6", "c.csv", "c.jsonl", "c.sqlite", "c.parquet", "folder")}
     for file in files.values():
         assert run(*base, "-o", file).output == f"16 rows\nwritten: {file}\n"
@@ -111,7 +111,6 @@ def test_enumerate_inversions_and_inputs(tmp_path):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        ("--links 8", "Missing option '--dof'"),
         ("--links 3 --dof 1", "3 is not in the range x>=4"),
         ("--links 8 --dof 1 --assortment 4;4", "is not a list of numbers such as 4,2"),
         ("--links 8 --dof 1 --symmetry 4...", "neither a number nor a range such as 2..4"),
@@ -213,7 +212,7 @@ def test_enumerate_addenda(tmp_path, data):
         (["sc", "--links", 8, "--dof", 1, "--count", "--method", "burnside", "--centres", 2], "Burnside's lemma cannot count"),
         (["sc", "--links", 22, "--dof", 1], "9 at most"),
         (["sc", "--links", 8, "--dof", 1, "--per-chain", "--count"], "synth enumerate chains --planar"),
-        (["scd", "--max-degree", 4], "--links and --dof, or --of FILE, are required"),
+        (["scd", "--max-degree", 4], "one of --links and --of FILE is required"),
         (["scd", "--max-degree", 2, "--links", 4, "--dof", 1], "2 is not in the range"),
         (["scd", "--max-degree", 4, "--of", "nowhere.json"], "nowhere.json"),
         (["scd", "--max-degree", 4, "--of", "nowhere.json", "--links", 4], "--of excludes --links"),

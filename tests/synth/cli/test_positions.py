@@ -9,7 +9,7 @@ def test_positions_of_a_vertex(data):
     vertex = data / "patterns" / "four-bar-vertex.fold"
     printed = run("positions", vertex, "--drive", "2=90", "--no-circuits").stdout
     assert printed.startswith("2 assembly modes with joint 2 at 90°")
-    assert "all solutions tracked: a generic realisation has 2" in printed
+    assert "all assembly modes, proved: a generic realisation has 2" in printed
     told = json.loads(run("positions", vertex, "--drive", "2=90", "--no-circuits", "--json").stdout)
     assert [one["circuit"] for one in told["positions"]] == [None, None]
     assert sorted(round(one["angles_deg"]["0"], 4) for one in told["positions"]) == [-137.7883, -16.0831]
