@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import Any
 
+from graphs.count.applicability import equation_titles
 from graphs.count.equations import overconstraint
 from graphs.count.report import MobilityReport
 from graphs.errors import numbered
@@ -14,21 +15,6 @@ from graphs.printing import Block, Printed, TableBlock, html_of, plain
 from graphs.rank.exact import ExactMobility
 from graphs.rank.pose import PoseMobility
 from graphs.tolerances import DOUBLE
-
-_TITLES = {
-    "traditional_cgk": "C-G-K (Wiener Eq. 1)",
-    "modified_cgk": "modified C-G-K (Wiener Eq. 2)",
-    "spherical_system": "spherical system (Wiener Eq. 3)",
-    "polyhedron": "polyhedron (Wiener Eq. 4)",
-    "loop_form": "loop form",
-    "closed_surface": "closed surface",
-    "wampler_eq5": "Wampler Eq. 5, rods",
-    "wampler_eq6": "Wampler Eq. 6, points",
-    "wampler_eq7": "Wampler Eq. 7, S+3",
-    "wampler_eq8": "Wampler Eq. 8, S+k",
-    "wampler_eq9": "Wampler Eq. 9, scissors",
-    "wampler_eq10": "Wampler Eq. 10, no ground",
-}
 
 _COUNTS = {
     "vertices": "vertices V",
@@ -129,8 +115,9 @@ class MobilityAnswer(MobilityReport, Printed):
         blocks.append(f"by count: mobility M = {plain(self.mobility)}   ({kind})")
         blocks.append(_equations_line(self, hint=not verbose))
         if verbose:
+            titles = equation_titles()
             rows = [
-                (_TITLES[name], plain(equation.value), "yes" if equation.applies else "no", equation.why)
+                (titles[name], plain(equation.value), "yes" if equation.applies else "no", equation.why)
                 for name, equation in self.equations.items()
             ]
             blocks.append(TableBlock(("equation", "M", "applies", "why"), rows, ["M"]))
@@ -172,11 +159,11 @@ def _pose_line(answer: MobilityAnswer) -> str:
 
 def _equations_line(answer: MobilityAnswer, *, hint: bool) -> str:
     """Return the line that names the equations of mobility which apply; with its value where that is not M."""
-    names = []
+    names, titles = [], equation_titles()
     for name, equation in answer.equations.items():
         if equation.applies and equation.value is not None:
             value = "" if equation.value == answer.mobility else f": {equation.value}"
-            names.append(f"{_TITLES[name]}{value}")
+            names.append(f"{titles[name]}{value}")
     every = f"   (--verbose: all {len(answer.equations)} equations)" if hint else ""
     return f"equations that apply: {'; '.join(names) or 'none'}{every}"
 
