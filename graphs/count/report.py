@@ -15,6 +15,7 @@ from graphs.errors import numbered, shown
 from graphs.mechanism.polyhedron import PolyhedronModel
 from graphs.mechanism.sc import Arrangement, SCGraph, arrangement_of
 from graphs.mechanism.scd import SCDGraph
+from graphs.plain_data import plain_data
 
 _MANY = 3
 
@@ -74,10 +75,7 @@ class MobilityReport:
             "centres": self.centres,
             "arrangement": self.arrangement,
             "mobility": self.mobility,
-            "equations": {
-                name: {"value": one.value, "applies": one.applies, "why": one.why}
-                for name, one in self.equations.items()
-            },
+            "equations": plain_data(self.equations),
             "counts": dict(self.counts),
             "repairs": list(self.repairs),
             "warnings": list(self.warnings),

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from itertools import islice
 from math import inf, isfinite
 from typing import Any, overload
@@ -13,6 +13,7 @@ from graphs.edit.named import known
 from graphs.errors import InvariantError, NumericalError, UnsolvableError, check_argument, numbered, shown
 from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.sheet import Sheet
+from graphs.plain_data import fields_to_json
 from graphs.printing import Block, Printed, TableBlock
 from graphs.rank.singular_values import spectrum, split
 from graphs.tolerances import DOUBLE
@@ -69,7 +70,7 @@ class Locked:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
-        return {name: list(value) if isinstance(value, tuple) else value for name, value in asdict(self).items()}
+        return fields_to_json(self)
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,20 +139,9 @@ class Advice(Printed):
 
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
-        return {
-            "configuration": self.configuration.to_json(self.taken),
-            "freedoms": self.freedoms,
-            "wanted": self.wanted,
-            "branch": self.branch,
-            "flaps": list(self.flaps),
-            "locks": [one.to_json() for one in self.locks],
-            "creases": [one.to_json() for one in self.creases],
-            "more": self.more,
-            "used_up": self.used_up,
-            "searched": self.searched,
-            "refused": self.refused,
-            "mended": list(self.configuration.mended),
-        }
+        at = self.configuration
+        fields = fields_to_json(self, without=["configuration"])
+        return {"configuration": at.to_json(self.taken), **fields, "mended": list(at.mended)}
 
     def blocks(self) -> list[Block]:
         """Return the lines and the table that are printed."""

@@ -37,6 +37,7 @@ from graphs.mechanism.precision import in_space
 from graphs.mechanism.sc import SCGraph
 from graphs.mechanism.sheet import Sheet
 from graphs.mechanism.solids import HingedSolids
+from graphs.plain_data import fields_to_json
 from graphs.printing import Block, Printed, TableBlock, plain
 from graphs.types import Floats, JointId, LinkId
 from synth.atlas.axis_fit import AxisFit
@@ -110,10 +111,7 @@ class MotionTable(Printed):
 
     def to_json(self) -> dict[str, Any]:
         """Return the keys that scripts rely on."""
-        return {
-            "chains": list(self.chains), "members": self.members, "motions": self.motions, "paths": self.paths,
-            "megabytes": round(self.megabytes, 2),
-        }  # fmt: skip
+        return fields_to_json(self, megabytes=round(self.megabytes, 2))
 
     def blocks(self) -> list[Block]:
         """Return the line that is printed."""

@@ -14,6 +14,7 @@ import networkx as nx
 
 from graphs.errors import numbered
 from graphs.mechanism.sc import SCGraph
+from graphs.plain_data import fields_to_json
 from graphs.tolerances import DOUBLE
 from graphs.types import JointId, LinkId
 from synth.motion.branches import Certainty
@@ -55,15 +56,12 @@ class MotionBranch:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data."""
-        return {
-            "signs": self.signs,
-            "freedoms": self.freedoms,
-            "certainty": self.certainty,
-            "stiff_joints": list(self.stiff_joints),
-            "followed_deg": degrees(self.followed),
-            "misfit": self.misfit,
-            "from_folded_deg": None if self.from_folded is None else list(map(degrees, self.from_folded)),
-        }
+        return fields_to_json(
+            self,
+            keys={"followed": "followed_deg", "from_folded": "from_folded_deg"},
+            followed=degrees(self.followed),
+            from_folded=None if self.from_folded is None else tuple(map(degrees, self.from_folded)),
+        )
 
 
 @dataclass(frozen=True, slots=True)

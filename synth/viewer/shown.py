@@ -17,6 +17,7 @@ from graphs.mechanism.precision import lies_flat
 from graphs.mechanism.sheet import Sheet, with_all_edges
 from graphs.mechanism.solids import HingedSolids
 from graphs.mechanism.surfaces import SurfaceLinkage
+from graphs.plain_data import fields_to_json, plain_data
 from graphs.printing import plain
 from graphs.tolerances import DOUBLE, leading
 from graphs.types import Floats, Ints
@@ -45,7 +46,6 @@ from synth.viewer.linkage import (
     bodies_of_sheet,
     bodies_on_surface,
     centres_of,
-    page_data,
     solver_data,
 )
 
@@ -83,13 +83,7 @@ class Beginning:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data: `WayData` of web/src/page/types.js."""
-        return {
-            "told": self.label,
-            "rates": self.rates.tolist(),
-            "drivers": list(self.drivers),
-            "still": list(self.still),
-            "freedoms": self.freedoms,
-        }
+        return fields_to_json(self, keys={"label": "told"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,8 +161,8 @@ class MovingLinkage:
         return {
             "solver": solver_data(self.linkage, limited=self.limited, ground=list(graph.nodes)[self.ground]),
             "bodies": self.bodies.to_json(),
-            "ways": page_data(self.ways),
-            "centres": page_data(self.centres),
+            "ways": plain_data(self.ways),
+            "centres": plain_data(self.centres),
             "joints": [plain(joint) for joint in graph.joints],
             "links": [plain(link) for link in graph.nodes],
             "between": [[number[first], number[second]] for first, second in graph.joints.values()],
@@ -239,7 +233,7 @@ class Shown:
         at, ways = self.configuration, None if self.moving is None else self.moving.ways
         configuration = None if at is None else at.to_json(at.branch(None if ways is None else ways.taken))
         return {
-            name: configuration if name == "configuration" else page_data(getattr(self, name))
+            name: configuration if name == "configuration" else plain_data(getattr(self, name))
             for name in self.__slots__
         }
 
