@@ -49,7 +49,7 @@ class Locked:
     joints : tuple of joint ids
     weight : float
         Sum of their weights.
-    flaps, still : tuple of joint ids
+    flaps, immobile : tuple of joint ids
         Those of them that are in no loop: they stop a flap, and nothing else; and other joints that are immobile
         then.
     play : float
@@ -63,7 +63,7 @@ class Locked:
     joints: tuple[JointId, ...]
     weight: float
     flaps: tuple[JointId, ...]
-    still: tuple[JointId, ...]
+    immobile: tuple[JointId, ...]
     play: float
     freedoms: int | None
     left_out: int | None = None
@@ -164,7 +164,7 @@ class Advice(Printed):
                 _names(one.joints),
                 f"{one.weight:g}",
                 _names(one.flaps),
-                _names(one.still),
+                _names(one.immobile),
                 f"> {_LOOSE:.0f}" if one.play > _LOOSE else f"{one.play:.3g}",
                 _number(one.freedoms),
                 _number(one.left_out),
@@ -592,7 +592,7 @@ def _locked(pose: GeneralPose, places: tuple[int, ...], costs: Sequence[Cost]) -
     every = list(pose.linkage.graph.joints)
     chosen = set(places)
     parts = split(pose.rates[list(places)])
-    still = np.abs(pose.rates @ parts.right[len(places) :].T).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
+    immobile = np.abs(pose.rates @ parts.right[len(places) :].T).max(axis=1, initial=0.0) <= DOUBLE.zero_rate
     flaps = set(pose.flaps)
     matrix: Floats = ClosureEquations(pose.linkage).at(pose.linkage.angles)[1].toarray()
     others = np.delete(matrix, list(places), axis=1)
@@ -601,7 +601,7 @@ def _locked(pose: GeneralPose, places: tuple[int, ...], costs: Sequence[Cost]) -
         tuple(every[place] for place in places),
         sum(costs[place][0] for place in places),
         tuple(every[place] for place in places if place in flaps),
-        tuple(joint for place, joint in enumerate(every) if place not in chosen and still[place]),
+        tuple(joint for place, joint in enumerate(every) if place not in chosen and immobile[place]),
         float(1.0 / parts.values[-1]) if parts.values[-1] else inf,
         None if rank is None else others.shape[1] - rank,
     )

@@ -209,7 +209,7 @@ class Branch:
         The rates at which it can begin.
     rates : float[J]
         Initial rates of one motion along the branch; the largest is 1 or -1.
-    still : tuple of int
+    immobile : tuple of int
         Places of the joints that are immobile on it.
     modes : tuple of (int, int) or None
         For each loop that is a moving flat vertex of four creases the places of the opposite ones that fold alike.
@@ -233,7 +233,7 @@ class Branch:
     certainty: Certainty
     space: second_order.RateSpace
     rates: Floats
-    still: tuple[int, ...]
+    immobile: tuple[int, ...]
     modes: tuple[tuple[int, int] | None, ...]
     sample: Floats
     error: float
@@ -258,7 +258,7 @@ class Branch:
             "signs": self.signs,
             "freedoms": self.freedoms,
             "certainty": self.certainty,
-            "still": len(self.still),
+            "immobile": len(self.immobile),
             "modes": [None if pair is None else [joints[place] for place in pair] for pair in self.modes],
             "followed_deg": degrees(self.followed),
             "closure": self.error,
@@ -447,7 +447,7 @@ class _BranchSearch:
             branch,
             space=branch.space.in_order(self._place),
             rates=self.as_filed(branch.rates),
-            still=tuple(sorted(order[list(branch.still)].tolist())),
+            immobile=tuple(sorted(order[list(branch.immobile)].tolist())),
             modes=tuple(None if pair is None else (pair[0], pair[1]) for pair in pairs),
             sample=self.as_filed(branch.sample),
         )
@@ -564,7 +564,7 @@ class _BranchSearch:
 
     def branch(self, space: second_order.RateSpace, rates: Floats, *, proved: bool, late: bool) -> Branch:
         """Return a branch that begins at some rates, followed unless it is late."""
-        still = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= DOUBLE.zero_rate).tolist())
+        immobile = tuple(np.flatnonzero(np.abs(space.basis).max(axis=1) <= DOUBLE.zero_rate).tolist())
         linear = self.vertices.linear and not space.left
         beside = None if linear or proved else self._freedoms_beside(rates)
         if linear:
@@ -574,7 +574,7 @@ class _BranchSearch:
         else:
             self._allowance.left = max(self._allowance.left, _AT_LEAST)
             counted = not (beside or proved)
-            end = followed(self.linkage, self.closure, rates, still, self._allowance, counted=counted)
+            end = followed(self.linkage, self.closure, rates, immobile, self._allowance, counted=counted)
         certainty: Certainty = "numerical" if end.far else "not known"
         freedoms = beside or end.freedoms if end.far else None
         if freedoms is not None and self.all_spaces and freedoms > most_freedoms(space, rates):
@@ -582,7 +582,7 @@ class _BranchSearch:
         if linear or proved:
             freedoms, certainty = space.basis.shape[1] - len(space.left), "proved"
         modes, begun = self.vertices.modes(rates), not late or linear
-        return Branch(freedoms, certainty, space, rates, still, modes, end.sample, end.error, end.far, begun)
+        return Branch(freedoms, certainty, space, rates, immobile, modes, end.sample, end.error, end.far, begun)
 
 
 def signs_of(rates: Floats) -> str:

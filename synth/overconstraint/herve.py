@@ -299,8 +299,8 @@ class _Relations:
         for slide, axis in self._across:
             if root.count(root[slide]) == 1:
                 directions[slide] = unit(np.cross(directions[axis], directions[slide]))
-        still = np.zeros(number)
-        return replace(self._linkage, points=points, directions=directions, angles=still)
+        zeros = np.zeros(number)
+        return replace(self._linkage, points=points, directions=directions, angles=zeros)
 
     def _flatten(
         self,

@@ -80,7 +80,7 @@ def verdict_of_motion(configuration: Configuration, generic: int | None = None) 
     size = configuration.precision.size
     searched = None if moves else configuration.searched
     within = WithinPrecision(verdict.freedoms, verdict.certainty, misfit if moves else None, size, searched)
-    return replace(verdict, within_precision=within, places=configuration.ends_of(verdict.stiff_joints))
+    return replace(verdict, within_precision=within, places=configuration.ends_of(verdict.immobile_joints))
 
 
 def _worded(findings: MotionFindings, basis: Basis, *, exhaustive: bool = False, further: int | None = None) -> Verdict:
@@ -120,10 +120,10 @@ def _of_one_motion(configuration: Configuration, generic: int | None) -> Verdict
     least, most = bounds.stated
     freedoms = most if least == most else None
     turning = set(moving.tolist())
-    still = tuple(joint for place, joint in enumerate(joints) if place not in turning)
+    unmoved = tuple(joint for place, joint in enumerate(joints) if place not in turning)
     from_folded = None if begun.folded is None else (begun.folded.found_at, begun.folded.back_to)
-    branch = MotionBranch(signs_of(rates), freedoms, "numerical", still, far, misfit, from_folded)
-    immobile = still if freedoms == 1 and not configuration.flat else ()
+    branch = MotionBranch(signs_of(rates), freedoms, "numerical", unmoved, far, misfit, from_folded)
+    immobile = unmoved if freedoms == 1 and not configuration.flat else ()
     marked = _as_marked(configuration.marks, rates)
     findings = MotionFindings(
         configuration, (branch,), branch, freedoms, "numerical", False, generic, immobile, marked, bounds=bounds
@@ -233,8 +233,8 @@ def _of_branches(configuration: Configuration, search: Branches, generic: int | 
     freedoms, certainty = _unmoved(configuration, search) if stated is None else (stated.freedoms, stated.certainty)
     immobile: tuple[JointId, ...] = ()
     if known and (branches or freedoms is not None):  # those that are immobile on every branch
-        still = [set(branch.stiff_joints) for branch in branches]
-        immobile = tuple(joint for joint in configuration.joints if all(joint in joints for joints in still))
+        of_branches = [set(branch.immobile_joints) for branch in branches]
+        immobile = tuple(joint for joint in configuration.joints if all(joint in joints for joints in of_branches))
     written = _as_written(configuration)
     bounds = None if search.complete or stated is None else _bounds_of_search(configuration, branches, stated)
     evidence = (certainty, search.complete, generic, immobile, marked, written, bounds)
@@ -288,9 +288,9 @@ def _branches_of(configuration: Configuration, branches: Branches) -> tuple[Moti
 
 def _branch(configuration: Configuration, branch: Branch) -> MotionBranch:
     apart = np.abs(branch.sample - configuration.linkage.angles) > DOUBLE.immobile
-    still = tuple(configuration.joints[place] for place in branch.still if not apart[place])
+    immobile = tuple(configuration.joints[place] for place in branch.immobile if not apart[place])
     freedoms, certainty, misfit = branch.freedoms, branch.certainty, configuration.misfit
-    return MotionBranch(branch.signs, freedoms, certainty, still, branch.followed, misfit)
+    return MotionBranch(branch.signs, freedoms, certainty, immobile, branch.followed, misfit)
 
 
 def _stated(branches: Sequence[MotionBranch], chosen: int | None) -> MotionBranch | None:
