@@ -79,11 +79,6 @@ class MobilityAnswer(MobilityReport, Printed):
             return None
         return overconstraint(self.pose.dof, self.mobility)
 
-    @property
-    def stated_overconstraint(self) -> int | None:
-        """The h that is printed with the degrees of freedom at the configuration; None if another is stated."""
-        return self.overconstraint
-
     def to_json(self) -> dict[str, Any]:
         """Return the answer as plain data, with the keys that scripts rely on (docs/command-json.md)."""
         counted = super(MobilityAnswer, self).to_json()
@@ -104,9 +99,9 @@ class MobilityAnswer(MobilityReport, Printed):
         """Return the line that says what was left out of a drawing, if anything was."""
         return [self.reading.warning] if self.reading is not None and self.reading.warning else []
 
-    def evidence(self, *, verbose: bool = False) -> list[Block]:
-        """Return ranks and counts as lines, strongest first; verbose adds the table of all equations."""
-        blocks: list[Block] = [] if self.pose is None else [_pose_line(self)]
+    def evidence(self, *, verbose: bool = False, with_h: bool = True) -> list[Block]:
+        """Return ranks and counts as lines, strongest first, with h; verbose adds the table of all equations."""
+        blocks: list[Block] = [] if self.pose is None else [_pose_line(self, with_h=with_h)]
         if self.exact is not None:
             rank = f"exact rank {self.exact.rank} modulo two primes"
             blocks.append(f"generic realisation: mobility {self.exact.mobility}   ({rank})")
@@ -143,7 +138,7 @@ class MobilityAnswer(MobilityReport, Printed):
         return f"<MobilityAnswer: M = {self.mobility}, {self.mechanism_class}>"
 
 
-def _pose_line(answer: MobilityAnswer) -> str:
+def _pose_line(answer: MobilityAnswer, *, with_h: bool) -> str:
     """Return the line on the infinitesimal degrees of freedom at the configuration."""
     pose = answer.pose
     assert pose is not None
@@ -152,7 +147,7 @@ def _pose_line(answer: MobilityAnswer) -> str:
     gap = pose.to_json()["gap"]
     evidence = "no zero singular value" if gap is None else f"singular-value gap {power_of_ten(gap)}"
     state = "flat state: fewer once folded; " if _is_only_flat(answer) else ""
-    over = "" if answer.stated_overconstraint is None else f"h = {answer.stated_overconstraint}, "
+    over = f"h = {answer.overconstraint}, " if with_h and answer.overconstraint is not None else ""
     freedoms = numbered(pose.dof, "infinitesimal degree of freedom", "infinitesimal degrees of freedom")
     return f"at this configuration: {freedoms}   ({state}{over}{evidence})"
 

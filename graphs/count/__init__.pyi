@@ -2,8 +2,6 @@ from graphs.count.applicability import (
     EQUATIONS as EQUATIONS,
     Equation as Equation,
     EquationResult as EquationResult,
-    equation_results as equation_results,
-    equation_titles as equation_titles,
     mechanism_class as mechanism_class,
 )
 from graphs.count.equations import (

@@ -278,7 +278,7 @@ def shown_of(
     report("finding the mobility", 2, _STEPS)
     answer = mobility(placed if at is None or on_request_only else at, motion=False if on_request_only else motion)
     if on_request_only and isinstance(placed, Sheet) and motion is None and answer.pose is not None:
-        answer = replace(answer, verdict=verdict_of_type(answer, on_request(placed)))
+        answer = replace(answer, verdict=verdict_of_type(answer.report, on_request(placed)))
     verdict = answer.verdict
     report("drawing", 3, _STEPS)
     pictures = _pictures(_flat_pattern(mechanism) or (placed if at is None else at), notes)
